@@ -30,7 +30,8 @@ class AliasedFmu:
     Attributes
     ----------
     variables : dict of str to ScalarVariable
-        By our names, in the order of the model description; the unit of those whose number changes is ours.
+        By our names, in the order of the model description; the unit of those whose number changes is ours. Derived
+        ones follow as outputs.
     table : dict of str to Variable
         The same with ranges and start values in our units.
     """
@@ -47,6 +48,11 @@ class AliasedFmu:
         self.table = {
             a.ours: _scaled(fmu.table[a.theirs], a) for a in self._alias.values() if a.theirs in fmu.table.names
         }
+        self._inputs, self._outputs = self.names("input"), self.names("output")
+        self._derivation = aliases.derivation((*self._inputs, *self._outputs))
+        self.variables |= {name: _derived(name) for name in self._derivation.names}
+        self._held = dict(zip(self._inputs, self.start_values(self._inputs).tolist(), strict=True))
+        self._time = 0.0
 
     def names(self, causality: str) -> list[str]:
         """See `Fmu.names`; ours."""
@@ -60,22 +66,27 @@ class AliasedFmu:
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
         """See `Fmu.initialise`; `start` is in our names and units."""
         self._fmu.initialise(self._aliases.values(start), start_time)
+        self._hold({name: float(x) for name, x in start.items() if name in self._held})
+        self._time = start_time
 
     def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
         """See `Fmu.setter`."""
         chosen = self._chosen(names)
         set_theirs = self._fmu.setter([a.theirs for a in chosen])
-        if all(map(_is_plain, chosen)):
+        if all(map(_is_plain, chosen)) and not self._derivation.names:
             return set_theirs
         scales = [(a.factor, a.offset) for a in chosen]
 
         def set_values(values: Sequence[float]) -> None:
             set_theirs([f * x + o for (f, o), x in zip(scales, values, strict=True)])
+            self._hold(dict(zip(names, values, strict=True)))
 
         return set_values
 
     def getter(self, names: Sequence[str]) -> Callable[[], list[float]]:
-        """See `Fmu.getter`."""
+        """See `Fmu.getter`; rates among derived variables are those of the last steps."""
+        if any(name in self._derivation.names for name in names):
+            return self._getter_of_derived(names)
         chosen = self._chosen(names)
         get_theirs = self._fmu.getter([a.theirs for a in chosen])
         if all(map(_is_plain, chosen)):
@@ -87,9 +98,25 @@ class AliasedFmu:
 
         return get_values
 
+    def _getter_of_derived(self, names: Sequence[str]) -> Callable[[], list[float]]:
+        get_outputs = self.getter(self._outputs)
+        there = (*self._inputs, *self._outputs, *self._derivation.names)
+        order = [there.index(n) for n in names]
+
+        def get_values() -> list[float]:
+            row = [*self._held.values(), *get_outputs()]
+            row += self._derivation.live(self._time, row).tolist()
+            return [row[k] for k in order]
+
+        return get_values
+
+    def _hold(self, values: Mapping[str, float]) -> None:
+        self._held |= {name: x for name, x in values.items() if name in self._held}
+
     def step(self, time: float, step: float) -> None:
         """See `Fmu.step`."""
         self._fmu.step(time, step)
+        self._time = time + step
 
     def restore_bytes(self, content: bytes) -> None:
         """See `Fmu.restore_bytes`."""
@@ -109,6 +136,13 @@ class AliasedFmu:
 
     def _chosen(self, names: Iterable[str]) -> list[Alias]:
         return [self._alias[n] for n in names]
+
+
+def _derived(name: str) -> ScalarVariable:
+    variable = ScalarVariable(name=name, valueReference=None)
+    variable.type, variable.causality, variable.variability = "Real", "output", "continuous"
+    variable.unit, variable.description = unit_of(name), "derived from other variables"
+    return variable
 
 
 def _is_plain(alias: Alias) -> bool:

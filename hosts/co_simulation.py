@@ -105,7 +105,7 @@ def run_with_bar(fmu: Fmu, manoeuvre: Manoeuvre, step: float, driver: Driver | N
         return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
 
 
-def driver_of(fmu: Fmu, manoeuvre: Manoeuvre) -> Driver | None:
+def driver_of(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre) -> Driver | None:
     """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
 
     Raises
@@ -119,7 +119,7 @@ def driver_of(fmu: Fmu, manoeuvre: Manoeuvre) -> Driver | None:
     return make_driver(manoeuvre.driver, fmu.constants())
 
 
-def _check_drivable(fmu: Fmu) -> None:
+def _check_drivable(fmu: Fmu | AliasedFmu) -> None:
     inputs, outputs = fmu.names("input"), fmu.names("output")
     missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
     if missing:
@@ -187,6 +187,7 @@ def run(
     driver: Pilot | None = None,
     progress: Callable[[int], None] = lambda done: None,
     until: Callable[[float, Mapping[str, float]], bool] | None = None,
+    every: int = 1,
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
@@ -203,6 +204,8 @@ def run(
         Called with the number of finished steps from time to time.
     until : callable, optional
         Of the time and the outputs; the run ends with the first step after which it is true.
+    every : int
+        Steps from one recorded row to the next.
 
     Returns
     -------
@@ -228,7 +231,7 @@ def run(
     used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
     set_inputs = _setter(fmu, used)
     steps = max(1, round(manoeuvre.stop_time / step))
-    values = np.empty((steps + 1, len(inputs) + len(outputs)))
+    values = np.empty((steps // every + 1, len(inputs) + len(outputs)))
     columns = [inputs.index(n) for n in used]
     held = fmu.start_values(inputs)
     for name, value in {**manoeuvre.start, **first}.items():
@@ -253,8 +256,9 @@ def run(
             break
         done = k + 1
         row = get_outputs()
-        values[done, : len(inputs)] = held
-        values[done, len(inputs) :] = row
+        if done % every == 0:
+            values[done // every, : len(inputs)] = held
+            values[done // every, len(inputs) :] = row
         if done % 50 == 0:
             progress(done)
         if until is not None and until(done * step, _Senses(zip(outputs, row, strict=True))):
@@ -265,8 +269,8 @@ def run(
     return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
-        step * np.arange(done + 1, dtype=np.float64),
-        values[: done + 1],
+        step * every * np.arange(done // every + 1, dtype=np.float64),
+        values[: done // every + 1],
         wall,
         done * step,
         failed,

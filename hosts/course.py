@@ -119,7 +119,37 @@ def iso_3888_1(vehicle_width: float, x_start: float = 15.0) -> Course:
     return Course("ISO 3888-1", tuple(gates))
 
 
-COURSES = {"iso_3888_1": iso_3888_1}
+def iso_3888_2(vehicle_width: float, x_start: float = 15.0) -> Course:
+    """Obstacle avoidance of ISO 3888-2: sections of 12, 13.5, 11, 12.5 and 12 m, 61 m in all.
+
+    Parameters
+    ----------
+    vehicle_width : float
+        Without mirrors, m; the lanes are 1.1 times as wide and 0.25 m, 1 m wider, and 1.3 times as wide and 0.25 m but
+        at least 3 m.
+    x_start : float
+        Where the first lane begins, m.
+
+    Returns
+    -------
+    Course
+        The second lane begins 1 m to the left of the first one; the right edges of the first and the last lane are in
+        one line. From public summaries of the standard, not from its text.
+    """
+    ends = x_start + np.cumsum([0.0, 12.0, 13.5, 11.0, 12.5, 12.0])
+    first = 1.1 * vehicle_width + 0.25
+    right, left = -0.5 * first, 0.5 * first
+    beside = left + 1.0
+    lanes = (
+        (0, right, left),
+        (2, beside, beside + vehicle_width + 1.0),
+        (4, right, right + max(1.3 * vehicle_width + 0.25, 3.0)),
+    )
+    gates = [Gate(float(ends[k]), float(ends[k + 1]), y_right, y_left) for k, y_right, y_left in lanes]
+    return Course("ISO 3888-2", tuple(gates))
+
+
+COURSES = {"iso_3888_1": iso_3888_1, "iso_3888_2": iso_3888_2}
 
 
 def course_of(name: str, vehicle_width: float) -> Course:

@@ -32,7 +32,7 @@ BLUE, ORANGE, GREEN, RED, PURPLE, SKY, BLACK = (
     "#222222",
 )
 COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, BLACK)
-_STYLE: dict[Any, Any] = {
+STYLE: dict[Any, Any] = {
     "font.size": 10,
     "font.family": "DejaVu Sans",
     "axes.spines.top": False,
@@ -69,7 +69,7 @@ def plot_page(
     course : Course, optional
         Gates drawn into the path.
     """
-    with plt.rc_context(_STYLE):
+    with plt.rc_context(STYLE):
         is_car = all(n in result for n in ("chassis.x", "chassis.y", "speed", "wheel_FL.Fz"))
         figure = _car_page(result, rows, course) if is_car else _plain_page(result, rows)
         figure.suptitle(title, x=0.012, y=0.988, ha="left", va="top", fontsize=15, fontweight="bold")

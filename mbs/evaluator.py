@@ -41,15 +41,23 @@ class Evaluator:
             return self._mass
         return self._mass_at(q)
 
-    def jacobian(self, q: Array) -> Array:
-        """Phi_q (nc, nq) of the stored rows at `q` (nq,)."""
-        return self._jacobian(self._evaluate(q, self.state.qd, self.state.y), len(q))
+    def jacobian(self, q: Array, t: float | None = None) -> Array:
+        """Phi_q (nc, nq) of the stored rows at `q` (nq,) and time `t`."""
+        return self._jacobian(self._evaluate(q, self.state.qd, self.state.y, t), len(q))
 
     def constraints(self, q: Array, qd: Array, t: float | None = None) -> tuple[Array, Array, Array]:
         """Phi (nc,), Phi_q (nc, nq) and the rate Phi_q qd + Phi_t (nc,) of the stored rows."""
         values = self._evaluate(q, qd, self.state.y, t)
         jacobian = self._jacobian(values, len(q))
         return np.array(values["phi"]), jacobian, jacobian @ qd + np.array(values["phi_t"])
+
+    def convective(self, q: Array, qd: Array, t: float | None = None) -> Array:
+        """Rate d(Phi_q)/dt qd + d(Phi_t)/dt (nc,) of the stored rows at constant `qd` (nq,)."""
+        return np.array(self._evaluate(q, qd, self.state.y, t)["gamma"])
+
+    def forces(self, q: Array, t: float | None = None) -> Array:
+        """Forces Q (nq,) at rest at `q` (nq,), the slots as they are."""
+        return np.array(self._evaluate(q, np.zeros(len(q)), self.state.y, t)["force"])
 
     def rates(self, q: Array, qd: Array, y: Array) -> Array:
         """Forces Q - M(q) qdd (nq,) and rates g of the states among the slots, in one vector."""

@@ -1,4 +1,4 @@
-"""What every test needs: the compiled kernel."""
+"""What every test needs: the compiled kernel, and commands as they are before the first."""
 
 from __future__ import annotations
 
@@ -14,3 +14,9 @@ def _kernel_library() -> None:
         binding.load_library()
     except OSError as error:
         pytest.fail(f"The kernel library cannot be loaded ({error}); first run: pip install -e .", pytrace=False)
+
+
+@pytest.fixture(autouse=True)
+def _typed_as_modules(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sentences name commands as the test calls them, whatever a test before has typed."""
+    monkeypatch.setattr("ali3.running._prefix", None)

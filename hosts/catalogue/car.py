@@ -73,6 +73,7 @@ class TestedCar:
         manoeuvre: Manoeuvre,
         pilot: Pilot | None = None,
         until: Callable[[float, Mapping[str, float]], bool] | None = None,
+        record_step: float | None = None,
     ) -> Result:
         """Drive a new instance of the FMU.
 
@@ -84,6 +85,8 @@ class TestedCar:
             Overrules the inputs it acts on.
         until : callable, optional
             Of the time and the outputs; the run ends with the first step after which it is true.
+        record_step : float, optional
+            Time from one row of the record to the next, s, rounded to whole steps; by default every step.
 
         Returns
         -------
@@ -100,7 +103,11 @@ class TestedCar:
             manoeuvre = with_names_of(manoeuvre, fmu.variables)
             start = {**manoeuvre.start, **{n: x for n, x in self.start.items() if n not in manoeuvre.start}}
             step = communication_step(fmu, manoeuvre, self.step)
-            return run(fmu, replace(manoeuvre, start=start), step, pilot, until=until)
+            every = 1 if record_step is None else max(1, round(record_step / step))
+            result = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
+            if self.aliases.derived:
+                self.aliases.with_central_rates(result.names, result.time, result.values, every > 1)
+            return result
 
     @cached_property
     def facts(self) -> CarFacts:

@@ -41,17 +41,25 @@ def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str
     return {name: float(given.get(name, s.value)) for name, s in known.items()}
 
 
-def missing_for(test: StandardTest, car: TestedCar) -> Reason | None:
+def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float]) -> Reason | None:
     """Why a test cannot be done with a car, from what its FMU tells; None if it can.
 
-    An entry ``a | b`` of what the test needs is there if one of its names is.
+    An entry ``a | b`` of what the test needs is there if one of its names is. A test whose needs depend on its settings
+    has a method ``why_not(car, settings)`` that gives a sentence or None.
     """
     there = {*car.inputs, *car.outputs, *car.parameters, *car.constants}
-    missing = [need for need in test.needs if not there & {name.strip() for name in need.split("|")}]
+    missing = [need for need in test.needs if not there & set(_names(need))]
     if not missing:
-        return None
-    words = " and no ".join(" or ".join(name.strip() for name in need.split("|")) for need in missing)
-    return f"The FMU {car.path.name} has no {words}; where it has another name, an alias file says which (--aliases)."
+        why_not = getattr(test, "why_not", None)
+        return None if why_not is None else why_not(car, settings)
+    words = " and no ".join(" or ".join(_names(need)) for need in missing)
+    told = [car.aliases.why_missing(name) for need in missing for name in _names(need)]
+    hint = "where it has another name, an alias file says which (--aliases)."
+    return f"The FMU {car.path.name} has no {words}; {' '.join(dict.fromkeys(filter(None, told))) or hint}"
+
+
+def _names(need: str) -> list[str]:
+    return [name.strip() for name in need.split("|")]
 
 
 def perform(
@@ -81,7 +89,7 @@ def perform(
         If a setting is wrong, or the car cannot do the test.
     """
     wanted = settings_of_test(test, settings or {})
-    missing = missing_for(test, car)
+    missing = missing_for(test, car, wanted)
     if missing is not None:
         raise HostError(missing)
     progress(0.0)

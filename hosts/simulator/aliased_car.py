@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from hosts.aliases import Aliases
 from hosts.numbers import Value
 from hosts.simulator.car import Car, Event, Moment
@@ -22,7 +24,7 @@ class AliasedCar:
     Attributes
     ----------
     names, inputs : tuple of str
-        Ours, where there are aliases.
+        Ours, where there are aliases; after those of the car, `names` has the derived ones.
     units : dict of str to str
         Of the names; "" where a factor or an offset changes the number.
     constants : dict of str to float
@@ -34,7 +36,9 @@ class AliasedCar:
     def __init__(self, car: Car, aliases: Aliases) -> None:
         self._car = car
         self._aliases = aliases
-        self.names = aliases.names(car.names)
+        ours = aliases.names(car.names)
+        self._derivation = aliases.derivation(ours)
+        self.names = (*ours, *self._derivation.names)
         self.inputs = aliases.names(car.inputs)
         self.step = car.step
         self._factors, self._offsets = aliases.scales(car.names)
@@ -42,8 +46,8 @@ class AliasedCar:
         scaled = (self._factors != 1.0) | (self._offsets != 0.0)
         self.units = {
             ours: "" if changed else car.units[theirs]
-            for ours, theirs, changed in zip(self.names, car.names, scaled, strict=True)
-        }
+            for ours, theirs, changed in zip(ours, car.names, scaled, strict=True)
+        } | dict.fromkeys(self._derivation.names, "")
         self.constants = {**car.constants, **aliases.constants}
 
     def want(self, values: Mapping[str, tuple[float, float]]) -> None:
@@ -61,7 +65,10 @@ class AliasedCar:
     def latest(self) -> Moment:
         """See `Car.latest`."""
         moment = self._car.latest()
-        return moment if self._plain else replace(moment, values=(moment.values - self._offsets) / self._factors)
+        values = moment.values if self._plain else (moment.values - self._offsets) / self._factors
+        if self._derivation.names:
+            values = np.append(values, self._derivation.live(moment.time, values))
+        return moment if values is moment.values else replace(moment, values=values)
 
     def events(self) -> list[Event]:
         """See `Car.events`."""

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
-import subprocess
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import ali3
 from ali3.cache import cache_folder
-from ali3.command import COMMANDS
-from ali3.running import module_command
+from hosts.built_fmu import build_fmu, forget_oldest, program_version
 from hosts.errors import HostError
 
 NAME = "PrototypeCar.fmu"
 DIST = Path("dist", NAME)
-_SUFFIXES = (".py", ".c", ".h", ".toml", ".csv", ".npz", ".json", ".road", ".xml", ".txt")
 _KEPT = 3
 
 
@@ -67,40 +62,15 @@ def find_fmu(given: Path | None, tell: Callable[[str], None]) -> FoundFmu:
     _build(kept.parent)
     built = time.monotonic() - begin
     tell(f"Built in {built:.1f} s; it is kept for the next time in {kept.parent}.")
-    _forget(room)
+    forget_oldest(room, _KEPT)
     return FoundFmu(kept, built)
 
 
 def _build(folder: Path) -> None:
-    options = ("--kind", "native", "--platforms", "this", "--poses", "all", "--out", str(folder))
-    done = subprocess.run(
-        module_command("ali3", "build", *options), capture_output=True, text=True, encoding="utf-8", check=False
-    )
-    if done.returncode != 0 or not (folder / NAME).is_file():
-        words = done.stderr.strip().splitlines()
-        why = words[-1].removeprefix("error: ") if words else "the build said nothing."
-        raise HostError(f"The FMU of the car cannot be built: {why}")
+    build_fmu("the car", ("--poses", "all"), folder)
+    if not (folder / NAME).is_file():
+        raise HostError(f"The FMU of the car cannot be built: the build left no {NAME}.")
 
 
 def _version() -> str:
-    """A name that changes with the program that builds: with the packages of all commands but those of hosts."""
-    packages = {command.module.partition(".")[0] for command in COMMANDS} - {"hosts"}
-    root = Path(ali3.__file__).parents[1]
-    digest = hashlib.sha256()
-    for file in sorted(f for name in packages for f in _files(root / name)):
-        state = file.stat()
-        digest.update(f"{file.relative_to(root).as_posix()} {state.st_size} {state.st_mtime_ns}\n".encode())
-    return digest.hexdigest()[:16]
-
-
-def _files(folder: Path) -> Iterator[Path]:
-    return (f for f in folder.rglob("*") if f.suffix in _SUFFIXES and f.is_file())
-
-
-def _forget(room: Path) -> None:
-    """Remove FMUs of older versions but the last few."""
-    import shutil
-
-    folders = sorted((f for f in room.iterdir() if f.is_dir()), key=lambda f: f.stat().st_mtime, reverse=True)
-    for folder in folders[_KEPT:]:
-        shutil.rmtree(folder, ignore_errors=True)
+    return program_version()

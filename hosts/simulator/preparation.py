@@ -12,7 +12,7 @@ from fmpy.model_description import ModelDescription
 
 from ali3.files import check_writable, make_folder
 from ali3.running import command_name
-from hosts.aliases import Aliases, read_aliases
+from hosts.aliases import Aliases, find_aliases
 from hosts.errors import HostError
 from hosts.fmu import described
 from hosts.geometry import scene_of
@@ -137,7 +137,7 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
         description = described(fmu.path)
         _check_kind(fmu.path, description)
         variables = Variables(description)
-        aliases = Aliases() if asked.aliases is None else read_aliases(asked.aliases, variables.names)
+        aliases = Aliases() if asked.aliases is None else find_aliases(asked.aliases, variables)
         drawing = pool.submit(scene_of, fmu.path)
         _check_road(asked, fmu.path, ROAD in aliases.names(variables.names))
         if ROAD not in aliases.names(variables.names):
@@ -161,7 +161,8 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
 
 def _names(variables: Variables, aliases: Aliases, causality: str) -> tuple[str, ...]:
     """Our names of the variables of a causality."""
-    return aliases.names([name for name in variables.names if variables[name].causality == causality])
+    names = aliases.names([name for name in variables.names if variables[name].causality == causality])
+    return (*names, *(d.ours for d in aliases.derived)) if causality == "output" else names
 
 
 def _check_kind(path: Path, description: ModelDescription) -> None:

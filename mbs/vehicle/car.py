@@ -289,7 +289,7 @@ class Car(Section):
         iterator of (Steered, dict of str to Spin)
             The steering and the spins of the wheels of each axle.
         """
-        steered = self.steering.build(b, self._rack_way())
+        steered = self.steering.build(b, self.rack_way)
         yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
 
@@ -362,7 +362,8 @@ class Car(Section):
         assert not isinstance(suspension, TwistBeam), "refused with the file"
         return suspension.steering_arm_inner
 
-    def _rack_way(self) -> float:
+    @property
+    def rack_way(self) -> float:
         """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
         suspension = self.front.suspension
         assert not isinstance(suspension, TwistBeam), "refused with the file"

@@ -10,7 +10,7 @@ from benchmarks import page_rate
 from viewer import browser, bundle
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 def test_the_rate_of_every_scene_is_printed_and_kept(tmp_path, capsys):
     try:
         browser.find_chromium()

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from hosts.course import iso_3888_1
+from hosts.course import iso_3888_1, iso_3888_2
 from hosts.driver import CONSTANTS, DriverSettings, make_driver
 from hosts.errors import HostError
 from hosts.manoeuvre import load_manoeuvre
@@ -129,3 +129,16 @@ def test_what_no_one_tells_of_the_car_is_asked_for(missing: str) -> None:
 def test_bad_settings_are_refused(settings: dict[str, str], message: str) -> None:
     with pytest.raises(HostError, match=message):
         make_driver(settings, CAR)
+
+
+def test_obstacle_avoidance_has_the_lengths_and_widths_of_public_summaries() -> None:
+    """61 m in all; the right edges of the first and last lane in a line, the second 1 m beside the first."""
+    for width, last in ((1.5, 3.0), (2.2, 1.3 * 2.2 + 0.25)):
+        first, second, third = iso_3888_2(width, x_start=0.0).gates
+        assert [(g.x_start, g.x_end) for g in (first, second, third)] == [(0.0, 12.0), (25.5, 36.5), (49.0, 61.0)]
+        assert first.y_left - first.y_right == pytest.approx(1.1 * width + 0.25)
+        assert second.y_left - second.y_right == pytest.approx(width + 1.0)
+        assert third.y_left - third.y_right == pytest.approx(last)
+        assert second.y_right - first.y_left == pytest.approx(1.0)
+        assert third.y_right == pytest.approx(first.y_right)
+        assert first.centre == 0.0

@@ -1,0 +1,103 @@
+"""The cars of a command: FMUs and parameter sets, side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from hosts.aliases import Aliases, find_aliases
+from hosts.catalogue.car import TestedCar
+from hosts.errors import HostError
+from hosts.fmu import Fmu
+from hosts.numbers import Value
+from hosts.options import Wishes
+from hosts.settings import settings_of
+
+AS_IS = "as-is"
+"""In place of a parameter set: the FMU as it is."""
+_OF_THE_TESTS = ("initial.speed", "initial.x", "initial.y", "initial.z", "initial.yaw")
+
+
+def cars_of(
+    fmus: Sequence[Path],
+    alias_files: Sequence[Path],
+    sets: Sequence[Path],
+    values: Sequence[tuple[str, str]],
+    step: float | None = None,
+) -> list[TestedCar]:
+    """Every FMU with every parameter set; each was loaded and asked what it has.
+
+    Parameters
+    ----------
+    fmus : sequence of Path
+    alias_files : sequence of Path
+        None, one for all FMUs, or one for each; or names of those that come with the package, such as ``chrono``.
+    sets : sequence of Path
+        SSV files; `AS_IS` is none. None at all: the FMUs as they are.
+    values : sequence of (str, str)
+        Set in all cars, in the FMU's names and units.
+    step : float, optional
+        Communication step of all cars, s.
+
+    Raises
+    ------
+    HostError
+        If an FMU cannot be used, or a name, value or unit is wrong.
+    """
+    if len(alias_files) not in (0, 1, len(fmus)):
+        raise HostError(
+            f"There are {len(fmus)} FMUs and {len(alias_files)} alias files; give one file for all FMUs, or one for "
+            "each in their order."
+        )
+    if step is not None and not 0.0 < step <= 0.1:
+        raise HostError(f"The step is {step:g} s; it must be positive and at most 0.1 s for these tests.")
+    cars = []
+    for k, fmu in enumerate(fmus):
+        file = None if not alias_files else alias_files[0 if len(alias_files) == 1 else k]
+        cars += _cars_of_one(fmu, file, sets or [Path(AS_IS)], values, step)
+    return _told_apart(cars)
+
+
+def _cars_of_one(
+    path: Path, alias_file: Path | None, sets: Sequence[Path], values: Sequence[tuple[str, str]], step: float | None
+) -> list[TestedCar]:
+    cars = []
+    with Fmu(path) as fmu:
+        aliases = Aliases() if alias_file is None else find_aliases(alias_file, fmu.table)
+        for one in sets:
+            wishes = Wishes([] if str(one) == AS_IS else [one], list(values))
+            start = settings_of(fmu.table, wishes).start
+            label = path.stem if str(one) == AS_IS else f"{path.stem}, {one.stem}"
+            cars.append(TestedCar(label, path, aliases, _ours(start, aliases, path), step))
+    for car in cars:
+        assert car.facts
+    return cars
+
+
+def _ours(start: Mapping[str, Value], aliases: Aliases, path: Path) -> dict[str, Value]:
+    """Start values under our names, in our units."""
+    names = list(start)
+    factors, offsets = aliases.scales(names)
+    made: dict[str, Value] = {}
+    for ours, value, factor, offset in zip(aliases.names(names), start.values(), factors, offsets, strict=True):
+        if ours in _OF_THE_TESTS:
+            raise HostError(
+                f"'{ours}' of {path.name} cannot be given: the tests themselves say where a car starts and how fast; "
+                "--test-setting sets what may be changed (--list shows it)."
+            )
+        plain = isinstance(value, (str, bool)) or (factor, offset) == (1.0, 0.0)
+        made[ours] = value if plain else (float(value) - float(offset)) / float(factor)
+    return made
+
+
+def _told_apart(cars: Sequence[TestedCar]) -> list[TestedCar]:
+    """The cars with labels of which none stands twice."""
+    from dataclasses import replace
+
+    seen: dict[str, int] = {}
+    told = []
+    for car in cars:
+        seen[car.label] = seen.get(car.label, 0) + 1
+        count = seen[car.label]
+        told.append(car if count == 1 else replace(car, label=f"{car.label} ({count})"))
+    return told

@@ -1,0 +1,198 @@
+"""Standard tests with cars side by side: ``ali3 catalogue FMU... [--tests NAME,...] [--out DIR]``.
+
+Cars are FMUs, each with each parameter set that is given. The folder gets measures.csv, measures.json, a table of each
+run and report.html. Exit code 1: a test could not be done, or a limit is not kept.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ali3.running import run_command
+from hosts.errors import HostError
+from hosts.numbers import assignment, name_and_text, number
+
+if TYPE_CHECKING:
+    from hosts.catalogue.car import TestedCar
+    from hosts.catalogue.record import StandardTest
+    from hosts.catalogue.task import Outcome, Task
+
+
+def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.catalogue") -> int:
+    """Run the command, which the user typed as `prog`."""
+    parser = argparse.ArgumentParser(
+        prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("fmus", nargs="*", type=Path, metavar="FMU", help="cars; several stand side by side")
+    parser.add_argument(
+        "--tests", action="append", default=[], metavar="NAME,...", help="only these tests; repeatable; default: all"
+    )
+    parser.add_argument("--list", action="store_true", help="print the tests with what they need and what can be set")
+    parser.add_argument(
+        "--aliases",
+        action="append",
+        default=[],
+        type=Path,
+        metavar="FILE",
+        help="our names for the variables of FMUs that have others: one file for all FMUs, or one for each in their "
+        "order; chrono, carmaker, carsim, osi and vehicle_interfaces come with the package",
+    )
+    parser.add_argument(
+        "--parameters",
+        action="append",
+        default=[],
+        type=Path,
+        metavar="SSV",
+        help="parameter set; each makes a car of its own of every FMU, 'as-is' stands for the FMU without one",
+    )
+    parser.add_argument(
+        "--set",
+        type=name_and_text,
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="start value in all cars, in the name and unit of the FMU; repeatable",
+    )
+    parser.add_argument(
+        "--test-setting",
+        type=assignment,
+        action="append",
+        default=[],
+        metavar="TEST.NAME=VALUE",
+        help="setting of a test; repeatable",
+    )
+    parser.add_argument("--step", type=number, metavar="H", help="communication step in s; default: that of the FMU")
+    parser.add_argument("--jobs", type=int, metavar="N", help="tests at a time; default: as the computer has cores")
+    parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")
+    parser.add_argument(
+        "--out", type=Path, default=Path("out", "catalogue"), metavar="DIR", help="default: out/catalogue"
+    )
+    options = parser.parse_args(arguments)
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    return run_command(lambda: _list() if options.list else _catalogue(options, [*prog.split(), *given]))
+
+
+def _list() -> int:
+    from hosts.catalogue.listing import print_tests
+
+    print_tests()
+    return 0
+
+
+def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
+    from ali3.files import check_writable
+    from hosts.catalogue.cars import cars_of
+    from hosts.catalogue.output import print_measures, write_measures
+    from hosts.catalogue.perform import missing_for, settings_of_test
+    from hosts.catalogue.registry import TESTS, standard_test
+    from hosts.catalogue.task import Task
+
+    if not options.fmus:
+        raise HostError("There is no FMU to be tested; give one or several. --list shows the tests.")
+    if options.jobs is not None and options.jobs < 1:
+        raise HostError(f"{options.jobs} tests at a time are asked for (--jobs); it must be at least 1.")
+    names = [name.strip() for part in options.tests for name in part.split(",") if name.strip()] or list(TESTS)
+    tests = [standard_test(name) for name in dict.fromkeys(names)]
+    given = _test_settings(options.test_setting, [test.name for test in tests])
+    settings = {test.name: settings_of_test(test, given.get(test.name, {})) for test in tests}
+    for file in ("measures.csv", "measures.json", "report.html"):
+        check_writable(options.out / file)
+    cars = cars_of(options.fmus, options.aliases, options.parameters, options.set, options.step)
+
+    outcomes: dict[str, dict[str, Outcome]] = {test.name: {} for test in tests}
+    tasks = []
+    for test in tests:
+        for car in cars:
+            reason = missing_for(test, car, settings[test.name])
+            if reason is not None:
+                outcomes[test.name][car.label] = reason
+            else:
+                folder = None if options.no_runs else options.out.absolute()
+                tasks.append(Task(test.name, car, settings[test.name], folder))
+    for _ in _done(tasks, options.jobs or os.cpu_count() or 1, outcomes):
+        # what is there survives whatever comes
+        write_measures(options.out, tests, cars, _ordered(outcomes, cars), settings)
+    outcomes = _ordered(outcomes, cars)
+    files = write_measures(options.out, tests, cars, outcomes, settings)
+    print_measures(tests, cars, outcomes)
+    files += _report(options.out / "report.html", tests, cars, outcomes, settings, command)
+    runs = "" if options.no_runs or not tasks else f", tables of the runs in {options.out / 'runs'}"
+    print(f"\nwritten: {', '.join(map(str, files))}{runs}")
+    return _verdict(outcomes)
+
+
+def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> dict[str, dict[str, float]]:
+    """Settings by test from ``TEST.NAME=VALUE``."""
+    settings: dict[str, dict[str, float]] = {}
+    for key, value in given:
+        test, dot, name = key.partition(".")
+        if not dot or test not in names:
+            raise HostError(
+                f"--test-setting {key}={value:g}: it must be TEST.NAME=VALUE with one of the tests that are done: "
+                f"{', '.join(names)}."
+            )
+        if settings.setdefault(test, {}).setdefault(name, value) != value:
+            raise HostError(f"--test-setting: {key} is given as {settings[test][name]:g} and as {value:g}.")
+    return settings
+
+
+def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcome]]) -> Iterator[None]:
+    """Do all tasks under a progress bar; after each its outcome is among the others."""
+    from tqdm import tqdm
+
+    from hosts.catalogue.pool import done_by
+
+    form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
+    parts = [0.0] * len(tasks)
+    with tqdm(total=float(len(tasks)), bar_format=form, delay=2.0, desc="catalogue") as bar:
+
+        def progress(place: int, part: float) -> None:
+            parts[place] = max(part, parts[place])
+            bar.set_description_str(f"{tasks[place].test}, {tasks[place].car.label}", refresh=False)
+            bar.update(sum(parts) - bar.n)
+
+        for place, outcome in done_by(tasks, jobs, progress):
+            progress(place, 1.0)
+            outcomes[tasks[place].test][tasks[place].car.label] = outcome
+            yield
+
+
+def _ordered(outcomes: Mapping[str, Mapping[str, Outcome]], cars: Sequence[TestedCar]) -> dict[str, dict[str, Outcome]]:
+    """The outcomes of each test in the order of the cars, in whatever order they came."""
+    labels = [car.label for car in cars]
+    return {test: {label: found[label] for label in labels if label in found} for test, found in outcomes.items()}
+
+
+def _report(
+    file: Path,
+    tests: Sequence[StandardTest],
+    cars: Sequence[TestedCar],
+    outcomes: Mapping[str, Mapping[str, Outcome]],
+    settings: Mapping[str, Mapping[str, float]],
+    command: Sequence[str],
+) -> list[Path]:
+    from hosts.catalogue.report import write_report
+
+    write_report(file, tests, cars, outcomes, settings, command)
+    return [file]
+
+
+def _verdict(outcomes: Mapping[str, Mapping[str, Outcome]]) -> int:
+    """Print what is not good; the exit code."""
+    found = [outcome for by_car in outcomes.values() for outcome in by_car.values()]
+    undone = sum(isinstance(outcome, str) for outcome in found)
+    broken = [m for o in found if not isinstance(o, str) for m in o.measures if m.is_kept is False]
+    if undone:
+        print(f"{undone} of {len(found)} tests could not be done, for the reasons above.")
+    if broken:
+        print(f"{len(broken)} measures do not keep their limit; they are marked (!).")
+    return 1 if undone or broken else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,41 @@
+"""When a run of a test is over before its time: the car stands, has spun, or lies on its side."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+SPUN = math.radians(90.0)
+ROLLED = math.radians(60.0)
+
+
+class Ends:
+    """Ends a run, and tells why.
+
+    Parameters
+    ----------
+    stands : float
+        A car slower than this after `not_before` stands, m/s; 0: it does not end the run.
+    not_before : float
+        s.
+
+    Attributes
+    ----------
+    reason : str
+        ``stands``, ``spun`` or ``rolled``; empty while the run goes on.
+    """
+
+    def __init__(self, stands: float = 0.0, not_before: float = 0.0) -> None:
+        self.stands = stands
+        self.not_before = not_before
+        self.reason = ""
+
+    def __call__(self, time: float, outputs: Mapping[str, float]) -> bool:
+        """Whether the run is over; outputs that the car does not have are not looked at."""
+        if abs(outputs.get("chassis.roll", 0.0)) > ROLLED:
+            self.reason = "rolled"
+        elif outputs["speed"] > 1.0 and abs(outputs.get("sideslip", 0.0)) > SPUN:
+            self.reason = "spun"
+        elif time >= self.not_before and outputs["speed"] < self.stands:
+            self.reason = "stands"
+        return bool(self.reason)

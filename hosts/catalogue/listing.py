@@ -1,0 +1,41 @@
+"""What tests there are, for a person."""
+
+from __future__ import annotations
+
+import math
+
+from hosts.catalogue.record import Setting, Standard, StandardTest
+from hosts.catalogue.registry import TESTS, standard_test
+
+
+def print_tests() -> None:
+    """Print all tests with their standards, needs and settings."""
+    for name in TESTS:
+        print("\n".join(_lines(standard_test(name))))
+
+
+def _lines(test: StandardTest) -> list[str]:
+    lines = [f"{test.name}: {test.title}"]
+    lines += [f"  after {_standard(standard)}" for standard in test.standards]
+    lines.append(f"  needs {', '.join(need.replace(' | ', ' or ') for need in test.needs) or 'nothing'}")
+    lines += [f"  --test-setting {test.name}.{_setting(setting)}" for setting in test.settings]
+    return lines
+
+
+def _standard(standard: Standard) -> str:
+    checked = sum(clause.checked for clause in standard.clauses)
+    if not standard.clauses or not checked:
+        source = "from public summaries"
+    elif checked == len(standard.clauses):
+        source = "checked against its text"
+    else:
+        source = f"{checked} of {len(standard.clauses)} clauses checked against its text, the others from summaries"
+    return f"{standard.name}, {standard.title} ({source})"
+
+
+def _setting(setting: Setting) -> str:
+    unit = "" if setting.unit == "1" else f" {setting.unit}"
+    limits = [f"from {setting.lowest:g}"] if math.isfinite(setting.lowest) else []
+    limits += [f"to {setting.highest:g}"] if math.isfinite(setting.highest) else []
+    words = f" ({' '.join(limits)})" if limits else ""
+    return f"{setting.name}={setting.value:g}{unit}{words}: {setting.text}"

@@ -1,0 +1,159 @@
+"""The measures of tests as files, and as a table on the terminal."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ali3.files import write_text
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.record import StandardTest, TestRecord
+from hosts.catalogue.task import Outcome, run_file
+from hosts.measures.measure import Measure
+
+_COLUMNS = ("test", "car", "measure", "value", "unit", "lowest", "highest", "kept", "limit", "note", "text")
+
+
+def measures_csv(tests: Sequence[StandardTest], outcomes: Mapping[str, Mapping[str, Outcome]]) -> str:
+    """A row for each measure, and for each test that was not done one without a measure, whose note says why.
+
+    Parameters
+    ----------
+    tests : sequence of StandardTest
+    outcomes : mapping of str to mapping of str to Outcome
+        By name of the test and label of the car.
+    """
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    for test in tests:
+        for label, outcome in outcomes.get(test.name, {}).items():
+            if isinstance(outcome, str):
+                writer.writerow([test.name, label, "", "", "", "", "", "", "", outcome, ""])
+                continue
+            for m in outcome.measures:
+                low, high, source = (m.limit.lowest, m.limit.highest, m.limit.source) if m.limit else ("", "", "")
+                kept = "" if m.is_kept is None else str(m.is_kept).lower()
+                number = repr(float(m.value))
+                writer.writerow([test.name, label, m.name, number, m.unit, low, high, kept, source, m.note, m.text])
+    return stream.getvalue()
+
+
+def measures_record(
+    tests: Sequence[StandardTest],
+    cars: Sequence[TestedCar],
+    outcomes: Mapping[str, Mapping[str, Outcome]],
+    settings: Mapping[str, Mapping[str, float]],
+) -> dict[str, Any]:
+    """All that was measured and how, for JSON; numbers that there are not are null."""
+    return {
+        "cars": [
+            {
+                "label": car.label,
+                "fmu": str(car.path),
+                "step_s": car.facts.step,
+                "set": dict(car.start),
+            }
+            for car in cars
+        ],
+        "tests": [
+            {
+                "name": test.name,
+                "title": test.title,
+                "standards": [s.name for s in test.standards],
+                "settings": dict(settings[test.name]),
+                "cars": {label: _of_car(test.name, label, o) for label, o in outcomes.get(test.name, {}).items()},
+            }
+            for test in tests
+        ],
+    }
+
+
+def _of_car(test: str, label: str, outcome: Outcome) -> dict[str, Any]:
+    if isinstance(outcome, str):
+        return {"done": False, "reason": outcome}
+    return {
+        "done": True,
+        "measures": {m.name: _of_measure(m) for m in outcome.measures},
+        "runs": {name: run_file(test, label, name).as_posix() for name in outcome.runs},
+        "notes": list(outcome.notes),
+    }
+
+
+def _of_measure(m: Measure) -> dict[str, Any]:
+    made: dict[str, Any] = {"value": _number(m.value), "unit": m.unit, "text": m.text}
+    if m.limit is not None:
+        limit = {"lowest": _number(m.limit.lowest), "highest": _number(m.limit.highest), "source": m.limit.source}
+        made |= {"limit": limit, "kept": m.is_kept}
+    return made | ({"note": m.note} if m.note else {})
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def write_measures(
+    out: Path,
+    tests: Sequence[StandardTest],
+    cars: Sequence[TestedCar],
+    outcomes: Mapping[str, Mapping[str, Outcome]],
+    settings: Mapping[str, Mapping[str, float]],
+) -> list[Path]:
+    """Write ``measures.csv`` and ``measures.json`` into a folder.
+
+    Returns
+    -------
+    list of Path
+        The files.
+    """
+    table, record = out / "measures.csv", out / "measures.json"
+    write_text(table, measures_csv(tests, outcomes))
+    content = measures_record(tests, cars, outcomes, settings)
+    write_text(record, json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
+    return [table, record]
+
+
+def print_measures(
+    tests: Sequence[StandardTest], cars: Sequence[TestedCar], outcomes: Mapping[str, Mapping[str, Outcome]]
+) -> None:
+    """Print a table for each test: measures in rows, cars in columns."""
+    labels = [car.label for car in cars]
+    for test in tests:
+        found = outcomes.get(test.name, {})
+        print(f"\n{test.title} ({test.name}; {', '.join(s.name for s in test.standards) or 'no standard'})")
+        records = {label: o for label, o in found.items() if isinstance(o, TestRecord)}
+        rows = [["measure", "unit", *labels]] if records else []
+        for name in dict.fromkeys(m.name for o in records.values() for m in o.measures):
+            by_car = {label: m for label, o in records.items() for m in o.measures if m.name == name}
+            unit = next(iter(by_car.values())).unit
+            rows.append([name, "" if unit == "1" else unit, *(_cell(by_car.get(label)) for label in labels)])
+        _print_rows(rows)
+        for label, outcome in found.items():
+            for sentence in (outcome,) if isinstance(outcome, str) else _sentences(outcome):
+                print(f"  {label}: {sentence}" if len(labels) > 1 else f"  {sentence}")
+
+
+def _sentences(record: TestRecord) -> list[str]:
+    said = [f"{m.name}: {m.note}" for m in record.measures if m.note and not math.isfinite(m.value)]
+    return list(dict.fromkeys([*record.notes, *said]))
+
+
+def _cell(measure: Measure | None) -> str:
+    if measure is None:
+        return "-"
+    return f"{measure.value:.4g}{'' if measure.is_kept is not False else ' (!)'}"
+
+
+def _print_rows(rows: Sequence[Sequence[str]]) -> None:
+    if not rows:
+        return
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    for row in rows:
+        cells = [f"{row[0]:<{widths[0]}}", f"{row[1]:<{widths[1]}}"]
+        cells += [f"{cell:>{width}}" for cell, width in zip(row[2:], widths[2:], strict=True)]
+        print("  " + "  ".join(cells).rstrip())

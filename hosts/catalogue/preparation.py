@@ -1,0 +1,71 @@
+"""What tests set up alike: a step that is fine enough, inputs that are held, words on a run that ended early."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from hosts.catalogue.car import TestedCar
+from hosts.co_simulation import Result
+from hosts.fmu import described
+from hosts.manoeuvre import Manoeuvre
+from hosts.numbers import Value
+
+
+def with_step_up_to(car: TestedCar, longest: float, why: str) -> tuple[TestedCar, tuple[str, ...]]:
+    """The car with a communication step that resolves what is measured.
+
+    Parameters
+    ----------
+    car : TestedCar
+        A step that was asked for is kept.
+    longest : float
+        s.
+    why : str
+        What a longer step would not show, for the note.
+
+    Returns
+    -------
+    car : TestedCar
+    notes : tuple of str
+        A sentence where the step is longer and cannot be changed.
+    """
+    step = car.facts.step
+    if step <= longest * (1.0 + 1e-9):
+        return car, ()
+    cosimulation = described(car.path).coSimulation
+    can_vary = bool(getattr(cosimulation, "canHandleVariableCommunicationStepSize", False))
+    if car.step is None and can_vary:
+        return replace(car, step=longest), ()
+    whose = "of the FMU, which takes no other" if car.step is None else "that was asked for"
+    return car, (f"The step {whose} is {step:g} s; {why} needs {longest:g} s or less.",)
+
+
+def held(
+    car: TestedCar, name: str, stop_time: float, inputs: Mapping[str, float], start: Mapping[str, Value]
+) -> Manoeuvre:
+    """A manoeuvre with inputs that do not change.
+
+    Parameters
+    ----------
+    car : TestedCar
+    name : str
+    stop_time : float
+        s.
+    inputs : mapping of str to float
+        Those that the car does not have are left out.
+    start : mapping of str to float
+        Start values.
+    """
+    values = {n: np.full(2, x) for n, x in inputs.items() if n in car.facts.inputs}
+    return Manoeuvre(name, np.array([0.0, stop_time]), values, stop_time, dict(start))
+
+
+def early_end(run: str, result: Result) -> tuple[str, ...]:
+    """A sentence where the FMU refused a step."""
+    if not result.failed_steps:
+        return ()
+    reason = f": {result.messages[-1]}" if result.messages else "."
+    return (f"{run}: the FMU refused the step at {result.time[-1]:g} s; what comes later is not measured{reason}",)

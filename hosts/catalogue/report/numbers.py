@@ -1,0 +1,60 @@
+"""Numbers and units for people."""
+
+from __future__ import annotations
+
+import math
+
+_POWERS = {"2": "²", "3": "³", "-1": "⁻¹", "-2": "⁻²"}
+NONE = "–"
+"""Where there is no number."""
+
+
+def shown(value: float) -> str:
+    """Four digits, without an exponent where it reads well; `NONE` for what is no number."""
+    if not math.isfinite(value):
+        return NONE if math.isnan(value) else ("∞" if value > 0.0 else "-∞")
+    return f"{value:.4g}".replace("e+0", "e+").replace("e-0", "e-")
+
+
+def unit_shown(unit: str) -> str:
+    """A unit of FMI as it is printed; empty where there is none."""
+    if unit in ("1", ""):
+        return ""
+    text = unit.replace(".", "·")
+    for digits, small in _POWERS.items():
+        for letter in ("m", "s", "rad", "deg"):
+            text = text.replace(f"{letter}{digits}", f"{letter}{small}")
+    return text
+
+
+def with_unit(value: float, unit: str) -> str:
+    """A number and its unit."""
+    text, tail = shown(value), unit_shown(unit)
+    return f"{text} {tail}" if tail and text != NONE else text
+
+
+def difference(value: float, first: float) -> str:
+    """Difference to the first car's number with a sign, and in per cent of it where that means something."""
+    change = value - first
+    if not math.isfinite(change):
+        return ""
+    if change == 0.0:
+        return "same"
+    sign = "+" if change > 0.0 else "−"
+    text = f"{sign}{shown(abs(change))}"
+    if first != 0.0 and abs(change / first) < 10.0:
+        text += f" ({sign}{100.0 * abs(change / first):.3g} %)"
+    return text
+
+
+def bounds(lowest: float, highest: float, unit: str) -> str:
+    """What a limit allows, in words."""
+    tail = unit_shown(unit)
+    end = f" {tail}" if tail else ""
+    if math.isinf(lowest) and math.isinf(highest):
+        return "no limit"
+    if math.isinf(lowest):
+        return f"at most {shown(highest)}{end}"
+    if math.isinf(highest):
+        return f"at least {shown(lowest)}{end}"
+    return f"{shown(lowest)} to {shown(highest)}{end}"

@@ -1,0 +1,190 @@
+"""The beginning of the report: cars, and all tests and measures side by side."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping, Sequence
+from datetime import datetime, timezone
+from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING
+
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.record import StandardTest, TestRecord
+from hosts.catalogue.report.elements import Content, element, table
+from hosts.catalogue.report.numbers import NONE, bounds, difference, shown, unit_shown, with_unit
+from hosts.errors import HostError
+from hosts.fmu import described
+from hosts.measures.measure import Measure
+from hosts.numbers import Value
+from hosts.variables import Variables
+
+if TYPE_CHECKING:
+    from lxml.html import HtmlElement
+
+
+def head(cars: Sequence[TestedCar]) -> list[HtmlElement]:
+    """Date, versions and the table of cars."""
+    try:
+        program = version("ali3")
+    except PackageNotFoundError:
+        program = "without a version"
+    now = datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
+    facts = [_facts(car) for car in cars]
+    rows: list[list[Content]] = [[name, *(f[name] for f in facts)] for name in facts[0]]
+    parts = [
+        element("p", f"{now}, by ALi3 {program} on Python {platform.python_version()}, {platform.platform()}."),
+        table("Cars", ["", *(car.label for car in cars)], rows),
+    ]
+    changed = _changed(cars)
+    if changed:
+        caption = "Parameters that are not as built"
+        parts.append(table(caption, ["parameter", *(car.label for car in cars)], changed))
+    else:
+        parts.append(element("p", "All parameters are as built."))
+    return parts
+
+
+def _facts(car: TestedCar) -> dict[str, Content]:
+    try:
+        told = described(car.path)
+    except HostError as error:
+        told = None
+        model, guid, tool, step = str(error), NONE, NONE, NONE
+    if told is not None:
+        experiment = told.defaultExperiment
+        default = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+        model, guid = told.modelName or NONE, told.guid or NONE
+        tool = ", ".join(filter(None, (told.generationTool, told.generationDateAndTime))) or NONE
+        step = f"{with_unit(default if car.step is None else car.step, 's')}"
+    names = len(car.aliases.aliases) + len(car.aliases.derived)
+    return {
+        "file": car.path.name,
+        "model": model,
+        "GUID": element("code", guid),
+        "made by": tool,
+        "communication step": step,
+        "names": f"{names} by an alias file" if names else "its own",
+    }
+
+
+def _changed(cars: Sequence[TestedCar]) -> list[list[Content]]:
+    """A row for each parameter that a car has not as built, in the FMU's units."""
+    by_car: list[dict[str, tuple[str, str]]] = []
+    for car in cars:
+        try:
+            variables = Variables(described(car.path))
+        except HostError:
+            by_car.append({})
+            continue
+        texts = {}
+        for ours, value in car.start.items():
+            theirs, number = next(iter(car.aliases.values({ours: value}).items()))
+            texts[ours] = _as_set(variables, theirs, number)
+        by_car.append(texts)
+    names = list(dict.fromkeys(n for texts in by_car for n in texts))
+    rows: list[list[Content]] = []
+    for name in names:
+        told = [texts.get(name, ("as built", "")) for texts in by_car]
+        if any(text != built and text != "as built" for text, built in told):
+            cells = [
+                element("td", text, element("small", f"as built {b}") if b and b != text else "") for text, b in told
+            ]
+            rows.append([element("code", name), *cells])
+    return rows
+
+
+def _as_set(variables: Variables, name: str, value: Value) -> tuple[str, str]:
+    """A value with its unit, and that as built."""
+    if name not in variables.names:
+        return str(value), ""
+    variable = variables[name]
+    return variable.with_unit(value), variable.with_unit(variable.start)
+
+
+def overview(
+    tests: Sequence[StandardTest],
+    labels: Sequence[str],
+    records: Mapping[str, Mapping[str, TestRecord | str]],
+) -> list[HtmlElement]:
+    """What was done and kept, then every measure of every car."""
+    done: list[list[Content]] = [
+        [
+            element("a", test.title, href=f"#{test.name}"),
+            *(_outcome(records.get(test.name, {}).get(label)) for label in labels),
+        ]
+        for test in tests
+    ]
+    rows: list[list[Content]] = []
+    groups = {}
+    for test in tests:
+        found = [_measures(records.get(test.name, {}).get(label)) for label in labels]
+        names = list(dict.fromkeys(name for measures in found for name in measures))
+        if names:
+            groups[len(rows)] = test.title
+        for name in names:
+            rows.append(_row(name, [measures.get(name) for measures in found]))
+    parts = [table("Tests", ["test", *labels], done)]
+    if rows:
+        more = f"; differences to {labels[0]}" if len(labels) > 1 else ""
+        parts.append(table(f"Measures{more}", ["measure", *labels, "limit"], rows, groups))
+    return parts
+
+
+def _measures(record: TestRecord | str | None) -> dict[str, Measure]:
+    return {m.name: m for m in record.measures} if isinstance(record, TestRecord) else {}
+
+
+def _outcome(record: TestRecord | str | None) -> HtmlElement:
+    if record is None:
+        return element("td", "not asked for")
+    if isinstance(record, str):
+        return element("td", "not done", element("small", record))
+    limited = [m for m in record.measures if m.is_kept is not None]
+    notes = f"{len(record.notes)} note{'s' if len(record.notes) > 1 else ''}" if record.notes else ""
+    more: list[Content] = [element("small", notes)] if notes else []
+    if not limited:
+        return element("td", "done", *more)
+    kept = sum(m.is_kept is True for m in limited)
+    if kept == len(limited):
+        text = "limit kept" if kept == 1 else f"{kept} limits kept"
+        return element("td", element("span", text, class_="kept"), *more)
+    text = "limit not kept" if len(limited) == 1 else f"{len(limited) - kept} of {len(limited)} limits not kept"
+    return element("td", element("span", text, class_="broken"), *more)
+
+
+def _row(name: str, found: Sequence[Measure | None]) -> list[Content]:
+    """A measure of all cars, the first of which is what others are held against."""
+    known = next(m for m in found if m is not None)
+    tail = unit_shown(known.unit)
+    what: Content = element(
+        "span", known.text or name, element("small", f" {name}{f', {tail}' if tail else ''}", class_="faint")
+    )
+    cells: list[Content] = [what]
+    for k, measure in enumerate(found):
+        cells.append(element("td", NONE) if measure is None else value_cell(measure, found[0] if k else None))
+    limit = known.limit
+    cells.append("" if limit is None else bounds(limit.lowest, limit.highest, known.unit))
+    return cells
+
+
+def value_cell(measure: Measure, first: Measure | None) -> HtmlElement:
+    """A value, whether its limit is kept, and its difference to that of another car."""
+    parts: list[Content] = [with_unit(measure.value, measure.unit)]
+    if measure.is_kept is not None:
+        word, kind = ("kept", "kept") if measure.is_kept else ("not kept", "broken")
+        parts += [" ", element("span", word, class_=kind)]
+    if first is not None:
+        if first.unit == measure.unit:
+            text = difference(measure.value, first.value)
+        else:
+            text = f"in {measure.unit}, the first in {first.unit}"
+        if text:
+            parts.append(element("small", text))
+    if measure.note:
+        parts.append(element("small", measure.note))
+    return element(
+        "td",
+        *parts,
+        class_="value",
+        title=f"{shown(measure.value)}" if measure.value == 0 else repr(float(measure.value)),
+    )

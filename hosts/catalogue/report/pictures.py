@@ -1,0 +1,147 @@
+"""Plots of a test as SVG, lines of several cars in one."""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
+
+from hosts.catalogue.record import Line, Plot
+from hosts.catalogue.report.numbers import shown
+from hosts.catalogue.report.thinning import thinned
+from hosts.result_plots import COLOURS, STYLE
+
+_DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (6, 2, 1, 2)), (0, (9, 3)), (0, (3, 1, 1, 1, 1, 1)))
+_WIDTHS = (1.5, 1.9, 2.2, 1.7, 1.3, 1.7)
+_MARKERS = ("", "o", "s", "^", "D", "v", "P")
+_MARKS = 9
+"""Markers on a line that is one of several of its car."""
+# Inches; the height is that of the axes.
+_WIDTH, _HEIGHT, _LEFT, _RIGHT, _ABOVE, _BELOW, _LEGEND_ROW = 5.6, 2.9, 0.85, 0.15, 0.32, 0.55, 0.21
+_FEW = 40
+"""Points that may be measured ones: each is marked."""
+_SETTINGS: Mapping[Any, Any] = {**STYLE, "svg.fonttype": "path", "svg.hashsalt": "report", "axes.titlesize": 10.5}
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A drawn plot.
+
+    Parameters
+    ----------
+    title : str
+    source : str
+        As a ``data:`` address.
+    words : str
+        For who cannot see it.
+    """
+
+    title: str
+    source: str
+    words: str
+
+
+def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> list[Picture]:
+    """All plots of a test.
+
+    Parameters
+    ----------
+    plots_by_car : mapping of str to sequence of Plot
+        By label of the car, in the order of the cars; plots of the same title are one picture.
+    """
+    by_title: dict[str, dict[int, tuple[str, Plot]]] = {}
+    for k, (label, plots) in enumerate(plots_by_car.items()):
+        for plot in plots:
+            by_title.setdefault(plot.title, {})[k] = (label, plot)
+    with matplotlib.rc_context(dict(_SETTINGS)):
+        return [_picture(title, found, len(plots_by_car) > 1) for title, found in by_title.items()]
+
+
+def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> Picture:
+    first = next(iter(found.values()))[1]
+    names = [_name(label, line, plot, many) for label, plot in found.values() for line in plot.lines]
+    columns = 1 if max(map(len, names), default=0) > 30 else 2
+    rows = -(-len(names) // columns) if len(names) > 1 else 0
+    below = _BELOW + _LEGEND_ROW * rows
+    height = _ABOVE + _HEIGHT * (1.3 if first.equal else 1.0) + below
+    figure = Figure(figsize=(_WIDTH, height))
+    # Fixed margins: a layout that is computed takes longer than the drawing.
+    figure.subplots_adjust(_LEFT / _WIDTH, below / height, 1.0 - _RIGHT / _WIDTH, 1.0 - _ABOVE / height)
+    axes = figure.add_subplot()
+    words = []
+    for k, (label, plot) in found.items():
+        for j, line in enumerate(plot.lines):
+            name = _name(label, line, plot, many)
+            _draw(axes, line, name, *((k, j) if many else (j, 0)))
+            words.append(f"{name or 'the line'}: {_range(line, plot)}")
+    for log, axis, set_scale in (
+        (first.log_x, axes.xaxis, axes.set_xscale),
+        (first.log_y, axes.yaxis, axes.set_yscale),
+    ):
+        if log:
+            set_scale("log")
+            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+            axis.set_minor_formatter(FuncFormatter(_two_or_five))
+    if first.equal:
+        axes.set_aspect("equal", adjustable="datalim")
+    texts = [axes.set_xlabel(first.x), axes.set_ylabel(first.y), axes.set_title(title)]
+    if rows:
+        legend = figure.legend(
+            loc="lower left", bbox_to_anchor=(0.05 / _WIDTH, 0.0), borderaxespad=0.2, ncols=columns, handlelength=3.4
+        )
+        texts += legend.get_texts()
+    for text in texts:
+        text.set_parse_math(False)
+    content = io.BytesIO()
+    figure.savefig(content, format="svg", metadata={"Date": None, "Creator": None})
+    source = f"data:image/svg+xml;base64,{base64.b64encode(content.getvalue()).decode()}"
+    return Picture(title, source, f"{title}: {first.y} over {first.x}. {'; '.join(words) or 'No lines'}.")
+
+
+def _two_or_five(value: float, _: object) -> str:
+    return f"{value:g}" if f"{value:e}"[0] in "25" else ""
+
+
+def _name(label: str, line: Line, plot: Plot, many: bool) -> str:
+    if not many:
+        return line.label
+    return label if len(plot.lines) == 1 or not line.label or line.label == label else f"{label}, {line.label}"
+
+
+def _draw(axes: Axes, line: Line, name: str, style: int, mark: int) -> None:
+    """`style` is told by colour and dashes, which differ in grey too; `mark` by markers."""
+    x, y = (np.atleast_1d(np.asarray(v, np.float64)) for v in (line.x, line.y))
+    kept = thinned(x, y)
+    x, y = x[kept], y[kept]
+    marker = _MARKERS[mark % len(_MARKERS)] or ("." if 0 < len(x) <= _FEW else "")
+    axes.plot(
+        x,
+        y,
+        color=COLOURS[style % len(COLOURS)],
+        linestyle=_DASHES[style % len(_DASHES)],
+        linewidth=_WIDTHS[style % len(_WIDTHS)],
+        marker=marker or None,
+        markersize=4.5,
+        markevery=max(1, len(x) // _MARKS) if len(x) > _FEW else 1,
+        label=name or None,
+    )
+
+
+def _range(line: Line, plot: Plot) -> str:
+    there = np.isfinite(line.x) & np.isfinite(line.y)
+    if not there.any():
+        return "no points"
+    x, y = np.asarray(line.x)[there], np.asarray(line.y)[there]
+    top, low = int(np.argmax(y)), int(np.argmin(y))
+    return (
+        f"from {shown(y[0])} at {shown(x[0])} to {shown(y[-1])} at {shown(x[-1])}, largest {shown(y[top])} at "
+        f"{shown(x[top])}, smallest {shown(y[low])} at {shown(x[low])}"
+    )

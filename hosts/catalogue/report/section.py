@@ -1,0 +1,142 @@
+"""A test in the report."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from hosts.catalogue.record import Standard, StandardTest, TestRecord
+from hosts.catalogue.report.elements import Content, element, table
+from hosts.catalogue.report.numbers import NONE, bounds, unit_shown, with_unit
+from hosts.catalogue.report.pictures import Picture, pictures_of
+from hosts.measures.measure import Measure
+
+if TYPE_CHECKING:
+    from lxml.html import HtmlElement
+
+CHECKED, FROM_SUMMARIES = "text checked", "from public summaries"
+_OF_TESTS, _OF_SETTINGS = "--tests", "--test-setting"
+
+
+def section(
+    test: StandardTest,
+    records: Mapping[str, TestRecord | str],
+    settings: Mapping[str, float],
+    command: Sequence[str],
+) -> HtmlElement:
+    """All of a test.
+
+    Parameters
+    ----------
+    test : StandardTest
+    records : mapping of str to TestRecord or str
+        By label of the car, in the order of the cars.
+    settings : mapping of str to float
+        Those used.
+    command : sequence of str
+        That makes the whole report; empty where nobody knows it.
+    """
+    done = {label: r for label, r in records.items() if isinstance(r, TestRecord)}
+    parts: list[Content] = [element("h2", test.title), *(_standard(s) for s in test.standards)]
+    if not test.standards:
+        parts.append(element("p", "After no standard.", class_="faint"))
+    for label, record in records.items():
+        if isinstance(record, str):
+            parts.append(element("p", element("strong", f"{label}: not done. "), record, class_="note"))
+        else:
+            parts += [element("p", element("strong", f"{label}: "), note, class_="note") for note in record.notes]
+    drawn = pictures_of({label: r.plots for label, r in done.items()})
+    if drawn:
+        parts.append(element("div", *map(_figure, drawn), class_="plots"))
+    parts += [_measures(label, record.measures) for label, record in done.items() if record.measures]
+    if test.settings:
+        parts.append(_settings(test, settings))
+    if command:
+        text = shlex.join(command_of(command, test.name))
+        parts.append(element("p", "This test again:"))
+        parts.append(element("pre", element("code", text)))
+    return element("section", *parts, id=test.name, aria_label=test.title)
+
+
+def command_of(command: Sequence[str], test: str) -> list[str]:
+    """The command for one test: without the list of tests and without settings of others."""
+    made: list[str] = []
+    words = iter(command)
+    for word in words:
+        name, equals, value = word.partition("=")
+        if name not in (_OF_TESTS, _OF_SETTINGS):
+            made.append(word)
+            continue
+        value = value if equals else next(words, "")
+        if name == _OF_SETTINGS and value.startswith(f"{test}."):
+            made += [_OF_SETTINGS, value]
+    return [*made, _OF_TESTS, test]
+
+
+def _standard(standard: Standard) -> HtmlElement:
+    if not standard.clauses:
+        words = f" ({FROM_SUMMARIES})"
+        return element("p", element("strong", standard.name), f", {standard.title}{words}")
+    clauses = [
+        element(
+            "li",
+            f"{clause.number}: " if clause.number else "",
+            clause.text,
+            " ",
+            element("em", f"({CHECKED if clause.checked else FROM_SUMMARIES})"),
+        )
+        for clause in standard.clauses
+    ]
+    return element(
+        "div", element("p", element("strong", standard.name), f", {standard.title}"), element("ul", *clauses)
+    )
+
+
+def _figure(picture: Picture) -> HtmlElement:
+    return element("figure", element("img", src=picture.source, alt=picture.words, loading="lazy"), class_="plot")
+
+
+def _settings(test: StandardTest, settings: Mapping[str, float]) -> HtmlElement:
+    rows: list[list[Content]] = [
+        [
+            element("code", s.name),
+            element(
+                "td",
+                with_unit(settings.get(s.name, s.value), s.unit),
+                element("small", f"by default {with_unit(s.value, s.unit)}")
+                if settings.get(s.name, s.value) != s.value
+                else "",
+            ),
+            s.text,
+        ]
+        for s in test.settings
+    ]
+    return element(
+        "details",
+        element("summary", "Settings"),
+        table(f"Settings of {test.title}", ["setting", "value", "what"], rows),
+    )
+
+
+def _measures(label: str, measures: Sequence[Measure]) -> HtmlElement:
+    rows: list[list[Content]] = []
+    for m in measures:
+        state: Content = NONE
+        if m.limit is not None:
+            word, kind = ("kept", "kept") if m.is_kept else ("not kept", "broken")
+            state = element(
+                "td",
+                element("span", word, class_=kind),
+                element("small", f"{bounds(m.limit.lowest, m.limit.highest, m.unit)}; {m.limit.source}"),
+            )
+        value = NONE if m.value != m.value else f"{m.value:.10g}"
+        rows.append(
+            [element("code", m.name), element("td", value, class_="value"), unit_shown(m.unit), state, m.text, m.note]
+        )
+    head: list[Content] = ["measure", "value", "unit", "limit", "what", "note"]
+    return element(
+        "details",
+        element("summary", f"Measures of {label} ({len(measures)})"),
+        table(f"Measures of {label}", head, rows),
+    )

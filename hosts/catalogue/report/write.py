@@ -1,0 +1,78 @@
+"""Writes the report."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
+from pathlib import Path
+
+from lxml import html
+
+from ali3.files import write_text
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.record import StandardTest, TestRecord
+from hosts.catalogue.report.elements import element
+from hosts.catalogue.report.overview import head, overview
+from hosts.catalogue.report.section import section
+
+_NOTHING: Mapping[str, Mapping[str, float]] = {}
+
+
+def write_report(
+    file: Path,
+    tests: Sequence[StandardTest],
+    cars: Sequence[TestedCar],
+    records: Mapping[str, Mapping[str, TestRecord | str]],
+    settings: Mapping[str, Mapping[str, float]] = _NOTHING,
+    command: Sequence[str] = (),
+) -> None:
+    """Write one HTML file that needs no other.
+
+    Parameters
+    ----------
+    file : Path
+        It is there whole or not at all.
+    tests : sequence of StandardTest
+        In the order of the report.
+    cars : sequence of TestedCar
+        One or more, of different labels; the first is what the others are held against.
+    records : mapping of str to mapping of str to TestRecord or str
+        By name of the test and label of the car; a str is the reason why a test could not be done.
+    settings : mapping of str to mapping of str to float
+        By name of the test; what is missing is by default.
+    command : sequence of str
+        That made it, such as ``["ali3", "catalogue", "car.fmu"]``.
+
+    Raises
+    ------
+    ali3.errors.FileError
+        The file cannot be written.
+    """
+    labels = [car.label for car in cars]
+    title = f"Standard tests of {', '.join(labels)}"
+    links = [element("li", element("a", test.title, href=f"#{test.name}")) for test in tests]
+    by_car = {
+        test.name: {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None} for test in tests
+    }
+    body = element(
+        "main",
+        element("h1", title),
+        *head(cars),
+        element("nav", element("ul", *links), aria_label="Tests"),
+        element("h2", "Overview"),
+        *overview(tests, labels, records),
+        *(section(test, by_car[test.name], settings.get(test.name, {}), command) for test in tests),
+    )
+    page = element(
+        "html",
+        element(
+            "head",
+            element("meta", charset="utf-8"),
+            element("title", title),
+            element("meta", name="viewport", content="width=device-width, initial-scale=1"),
+            element("style", files(__package__).joinpath("page.css").read_text("utf-8")),
+        ),
+        element("body", body),
+        lang="en",
+    )
+    write_text(file, html.tostring(page, encoding="unicode", doctype="<!DOCTYPE html>", method="html") + "\n")

@@ -1,0 +1,162 @@
+"""One period of sinusoidal steering, to both sides, after ISO 7401."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
+from hosts.catalogue.steady_map import map_at_reachable_speed
+from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
+from hosts.catalogue.steering import NEED, SteeringInput
+from hosts.catalogue.two_sides import asymmetry, mean_of_sides
+from hosts.measures.measure import Measure
+from hosts.measures.one_period import NOTHING, OnePeriod, one_period
+
+_AFTER = 2.0
+_POINTS = 400
+
+
+class SineSteer:
+    """The test; see `hosts.catalogue.record.StandardTest`."""
+
+    name = "sine_steer"
+    title = "One period of sinusoidal steering"
+    standards = (
+        Standard(
+            "ISO 7401:2011",
+            "Road vehicles: lateral transient response test methods, open-loop test methods",
+            (
+                Clause(
+                    "11", "One period of a sine of 0.5 Hz from straight driving, first to one side, then to the other."
+                ),
+                Clause("11", "Speed of 100 km/h; the pedals are held as they are."),
+                Clause("11", "Amplitude: that of a steady lateral acceleration of 4 m/s² at this speed."),
+                Clause("11", "Lags and ratios of the first and of the second peak."),
+            ),
+        ),
+    )
+    settings = (
+        Setting("speed", 100.0, "km/h", "at the begin; 80 km/h for a car that cannot hold it", 20.0, 300.0),
+        Setting("frequency", 0.5, "Hz", "of the steering", 0.1, 4.0),
+        Setting("lateral_acceleration", 4.0, "m/s2", "steady, that belongs to the amplitude", 0.2, 20.0),
+    )
+    needs = ("chassis.wz", "chassis.ay", "speed", "throttle", NEED)
+
+    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+        """See `hosts.catalogue.record.StandardTest.perform`."""
+        given = SteeringInput.of(car.facts)
+        speed, wanted = settings["speed"] / 3.6, settings["lateral_acceleration"]
+        ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), wanted)
+        progress(0.4)
+        amplitude = ramp.need_angle_at(wanted)
+        period = 1.0 / settings["frequency"]
+        t = np.linspace(0.0, period, _POINTS + 1)
+        sine = np.append(np.sin(2.0 * math.pi * t / period), 0.0)
+        sides: list[SteeredRun] = []
+        for n, side in enumerate((1.0, -1.0)):
+            name = f"sine {'left' if side > 0.0 else 'right'}"
+            time = np.append(t, period + _AFTER)
+            sides.append(steer(car, name, ramp.speed, time, side * amplitude * sine, Pedals.FIXED))
+            progress(0.4 + 0.3 * (n + 1))
+        notes = [*ramp.notes, *filter(None, [given.note])]
+        for run, side_name in zip(sides, ("left", "right"), strict=True):
+            if not run.whole:
+                notes.append(f"The run that begins to the {side_name} ended early; what needs all of it is missing.")
+        angle_unit = "rad" if given.is_angle else "1"
+        measures = [
+            Measure("speed", 3.6 * ramp.speed, "km/h", "speed at the begin"),
+            Measure("steering_wheel_angle", amplitude, angle_unit, f"amplitude, for steady {wanted:g} m/s²"),
+        ]
+        measures += _measures(
+            "yaw_rate", "yaw rate", sides, lambda r: r.yaw_rate, "1/s" if given.is_angle else "rad/s", period
+        )
+        measures += _measures(
+            "lateral_acceleration",
+            "lateral acceleration",
+            sides,
+            lambda r: r.acceleration,
+            "m/(s2.rad)" if given.is_angle else "m/s2",
+            period,
+        )
+        runs = {"ramp_left": ramp.run.thinned(), "sine_left": sides[0].thinned(), "sine_right": sides[1].thinned()}
+        return TestRecord(measures, _plots(sides[0]), runs, notes)
+
+
+TEST = SineSteer()
+
+
+def _relative(
+    run: SteeredRun, values: NDArray[np.float64], period: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Time, steering and a signal from the begin to when the car runs straight again, less their values before."""
+    before, kept = run.time < 0.0, (run.time >= 0.0) & (run.time <= period + _AFTER)
+
+    def part(x: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(x[kept] - (x[before].mean() if before.any() else x[0]))
+
+    return run.time[kept], part(run.steering), part(values)
+
+
+def _measures(
+    name: str,
+    word: str,
+    sides: list[SteeredRun],
+    of: Callable[[SteeredRun], NDArray[np.float64]],
+    unit: str,
+    period: float,
+) -> list[Measure]:
+    left, right = (
+        one_period(*_relative(run, of(run), period), longest=0.45 * period) if run.whole else NOTHING for run in sides
+    )
+
+    def made(end: str, value: Callable[[OnePeriod], float], unit: str, text: str) -> Measure:
+        return mean_of_sides(f"{name}.{end}", value(left), value(right), unit, text)
+
+    return [
+        made("lag", lambda p: p.correlation_lag, "s", f"of the {word} behind the steering, by cross-correlation"),
+        made("correlation", lambda p: p.correlation, "1", "coefficient of correlation at that lag"),
+        made("first_lag", lambda p: p.first_lag, "s", f"from the first peak of the steering to that of the {word}"),
+        made("second_lag", lambda p: p.second_lag, "s", "from the second peak to the second"),
+        made("first_ratio", lambda p: p.first_ratio, unit, f"first peak of the {word} over that of the steering"),
+        made("second_ratio", lambda p: p.second_ratio, unit, "second peak over the second"),
+        made(
+            "hysteresis", lambda p: p.hysteresis, "1", f"area of the loop of {word} over steering; pure lag: its sine"
+        ),
+        asymmetry(f"{name}.asymmetry", [(left.first_ratio, right.first_ratio)], "of the first ratio, left and right"),
+    ]
+
+
+def _plots(left: SteeredRun) -> list[Plot]:
+    """The run that begins to the left."""
+    if not len(left.time):
+        return []
+    angle = np.degrees(left.steering)
+    return [
+        Plot("Steering wheel, one period", "time, s", "angle, °", [Line("steering wheel", left.time, angle)]),
+        Plot(
+            "Yaw rate, one period", "time, s", "yaw rate, °/s", [Line("yaw rate", left.time, np.degrees(left.yaw_rate))]
+        ),
+        Plot(
+            "Lateral acceleration, one period",
+            "time, s",
+            "lateral acceleration, m/s²",
+            [Line("lateral acceleration", left.time, left.acceleration)],
+        ),
+        Plot(
+            "Yaw rate over steering",
+            "angle of the steering wheel, °",
+            "yaw rate, °/s",
+            [Line("yaw rate", angle, np.degrees(left.yaw_rate))],
+        ),
+        Plot(
+            "Lateral acceleration over steering",
+            "angle of the steering wheel, °",
+            "lateral acceleration, m/s²",
+            [Line("lateral acceleration", angle, left.acceleration)],
+        ),
+    ]

@@ -1,0 +1,154 @@
+"""Steering wheel angle over steady lateral acceleration, from a slow ramp of the steering at a held speed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
+from hosts.catalogue.steering import SteeringInput
+from hosts.errors import HostError
+from hosts.measures.filters import phaseless_low_pass
+
+_SLOW = math.radians(2.0)
+_FAST = math.radians(13.5)
+_SLOW_UNTIL = math.radians(60.0)
+_LARGEST = math.radians(540.0)
+_RATE_OF_INPUT = 0.005
+
+
+@dataclass(frozen=True)
+class SteadyMap:
+    """The map of one side.
+
+    Parameters
+    ----------
+    speed : float
+        m/s.
+    angle, acceleration : ndarray of shape (n,)
+        Sizes, rad and m/s²; filtered, up to the largest acceleration.
+    run : SteeredRun
+    notes : tuple of str
+    """
+
+    speed: float
+    angle: NDArray[np.float64]
+    acceleration: NDArray[np.float64]
+    run: SteeredRun
+    notes: tuple[str, ...] = ()
+
+    @property
+    def largest(self) -> float:
+        """Lateral acceleration that was reached, m/s²."""
+        return float(self.acceleration.max()) if len(self.acceleration) else 0.0
+
+    def angle_at(self, acceleration: float) -> float:
+        """Angle for a lateral acceleration, rad; NaN if it was not reached."""
+        if self.largest < acceleration:
+            return math.nan
+        return float(np.interp(acceleration, np.maximum.accumulate(self.acceleration), self.angle))
+
+    def need_angle_at(self, acceleration: float) -> float:
+        """The same of the setting `lateral_acceleration`.
+
+        Raises
+        ------
+        HostError
+            If it was not reached.
+        """
+        angle = self.angle_at(acceleration)
+        if math.isnan(angle):
+            raise HostError(
+                f"At {3.6 * self.speed:g} km/h the car reaches {self.largest:.3g} m/s² in a slow ramp of the steering, "
+                f"not the {acceleration:g} m/s² of lateral_acceleration; choose less."
+            )
+        return angle
+
+
+def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 1.0) -> SteadyMap:
+    """Drive the ramp.
+
+    Parameters
+    ----------
+    car : TestedCar
+    speed : float
+        m/s.
+    acceleration : float
+        Up to which the map is wanted, m/s².
+    side : float
+        1 to the left, -1 to the right.
+
+    Returns
+    -------
+    SteadyMap
+        Empty if the car does not come to the speed.
+
+    Notes
+    -----
+    The steering wheel turns by 2 °/s up to 60°, then by 13.5 °/s. The car is late by some tenths of a second; the
+    angles are too large by as much as it turns in this time, below 1° as long as it turns slowly.
+    """
+    given = SteeringInput.of(car.facts)
+    if given.is_angle:
+        largest = min(_LARGEST, given.largest)
+        slow = min(_SLOW_UNTIL, largest)
+        time = np.array([0.0, slow / _SLOW, slow / _SLOW + (largest - slow) / _FAST])
+        angle = np.array([0.0, slow, largest])
+    else:
+        time, angle = np.array([0.0, given.largest / _RATE_OF_INPUT]), np.array([0.0, given.largest])
+    run = steer(
+        car,
+        f"ramp {'left' if side > 0.0 else 'right'}",
+        speed,
+        time,
+        side * angle,
+        Pedals.HOLD_SPEED,
+        1.1 * acceleration,
+    )
+    if len(run.time) < 20:
+        return SteadyMap(speed, np.zeros(0), np.zeros(0), run)
+    # one filter for both, so that neither is late against the other
+    frequency = min(6.0, 0.2 / run.interval)
+    turned, lateral = (side * phaseless_low_pass(x, run.interval, frequency) for x in (run.steering, run.acceleration))
+    zero = run.time < 0.0
+    if zero.any():
+        turned, lateral = turned - turned[zero].mean(), lateral - lateral[zero].mean()
+    kept = run.time >= 0.0
+    turned, lateral = turned[kept], lateral[kept]
+    top = int(np.argmax(lateral)) + 1
+    return SteadyMap(speed, turned[:top], lateral[:top], run)
+
+
+def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, acceleration: float) -> SteadyMap:
+    """The map at a speed or, for a car that does not reach it, at a lower one.
+
+    Parameters
+    ----------
+    car : TestedCar
+    speed, lower : float
+        m/s.
+    acceleration : float
+        Up to which the map is wanted, m/s².
+
+    Raises
+    ------
+    HostError
+        If the car reaches neither.
+    """
+    found = steady_map(car, speed, acceleration)
+    if len(found.angle):
+        return found
+    if lower < speed:
+        second = steady_map(car, lower, acceleration)
+        if len(second.angle):
+            note = f"The car does not hold {3.6 * speed:g} km/h; the test is done at {3.6 * lower:g} km/h."
+            return SteadyMap(lower, second.angle, second.acceleration, second.run, (note,))
+    fastest = 3.6 * float(np.max(found.run.result["speed"]))
+    raise HostError(
+        f"The car does not hold {3.6 * min(speed, lower):g} km/h on a straight line; its fastest was {fastest:.3g}. "
+        "Choose a lower speed (--test-setting TEST.speed=...)."
+    )

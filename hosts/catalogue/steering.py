@@ -1,0 +1,108 @@
+"""How a car takes the angle of its steering wheel, and how the angle is read back."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.catalogue.car import CarFacts
+from hosts.co_simulation import Result
+from hosts.errors import HostError
+
+ANGLE = "steering_wheel_angle"
+DEMAND = "steering_wheel_angle_demand"
+LARGEST = "vehicle.steering_wheel_angle_max"
+NEED = f"{DEMAND} | {ANGLE} | steering"
+"""What a car needs to be steered: one of these inputs."""
+
+
+@dataclass(frozen=True)
+class SteeringInput:
+    """The input by which a car is steered.
+
+    Parameters
+    ----------
+    name : str
+        By our names.
+    per_radian : float
+        Of the input, per radian of the steering wheel.
+    largest : float
+        Angle of the steering wheel at full lock, rad; infinite where the car does not tell it.
+    is_angle : bool
+        Whether angles are angles; else they are in units of the input, and `note` says so.
+    note : str
+        Empty where all is known.
+    """
+
+    name: str
+    per_radian: float
+    largest: float
+    is_angle: bool = True
+    note: str = ""
+
+    @classmethod
+    def of(cls, facts: CarFacts) -> SteeringInput:
+        """The best of the inputs of a car.
+
+        Parameters
+        ----------
+        facts : CarFacts
+
+        Raises
+        ------
+        HostError
+            If the car has no input to steer it.
+        """
+        full = abs(facts.constants.get(LARGEST, math.nan))
+        limit = full if full > 0.0 else math.inf
+        for name in (DEMAND, ANGLE):
+            if name in facts.inputs:
+                return cls(name, 1.0, limit)
+        if "steering" not in facts.inputs:
+            raise HostError(
+                f"The car cannot be steered: it has none of the inputs {NEED.replace(' | ', ', ')}; an alias file says "
+                "which of its inputs is one of them (--aliases)."
+            )
+        if full > 0.0:
+            return cls("steering", 1.0 / full, full)
+        note = (
+            f"The car tells no constant {LARGEST}: angles of the steering wheel are in units of the input 'steering', "
+            "-1 to 1. [constants] of an alias file can give it."
+        )
+        return cls("steering", 1.0, 1.0, False, note)
+
+    def measured(self, result: Result, step: float) -> NDArray[np.float64]:
+        """Angle of the steering wheel over a run: that of the car where it tells it, else what was asked for.
+
+        Parameters
+        ----------
+        result : Result
+            With n rows.
+        step : float
+            Communication step of the run, s.
+
+        Returns
+        -------
+        ndarray of shape (n,)
+            rad.
+        """
+        if self.is_angle and ANGLE in result:
+            return result[ANGLE]
+        held = result[self.name] / self.per_radian
+        if len(held) < 2:
+            return held
+        # a row has the input of the step that ends there, which stands for the middle of the step
+        ahead = 0.5 * step / float(result.time[1] - result.time[0])
+        return np.asarray(np.append(held[:-1] + ahead * np.diff(held), held[-1:]))
+
+    def why_no_angles(self, test: str) -> str | None:
+        """Why a test that demands angles of the steering wheel cannot be done; None if it can."""
+        if self.is_angle:
+            return None
+        return (
+            f"The test {test} demands angles of the steering wheel in degrees, but the car takes only 'steering' from "
+            f"-1 to 1; give {LARGEST} in rad in the table [constants] of an alias file (--aliases)."
+        )

@@ -1,0 +1,43 @@
+"""The steering ratio of a car about straight ahead, measured in a slow drive."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy import stats
+
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.steering import SteeringInput
+from hosts.manoeuvre import Manoeuvre
+from hosts.pilots.pilot import Together
+from hosts.pilots.speed_holder import SpeedHolder
+from hosts.pilots.steering import SteeringTable
+
+RATIO = "vehicle.steering_ratio"
+WHEELS = ("wheel_FL.steer", "wheel_FR.steer")
+_SPEED = 3.0
+_ANGLE = math.radians(30.0)
+
+
+def steering_ratio(car: TestedCar) -> float:
+    """Angle of the steering wheel over the mean angle of the front wheels.
+
+    Where the car tells the angles of its wheels, the slope of a regression while the steering wheel is turned to 30°
+    to both sides at 3 m/s; else the constant of the car; NaN where it has none.
+    """
+    if any(name not in car.outputs for name in WHEELS):
+        return car.constants.get(RATIO, math.nan)
+    steering = SteeringInput.of(car.facts)
+    if not steering.is_angle:
+        return car.constants.get(RATIO, math.nan)
+    start = {"initial.speed": _SPEED} if "initial.speed" in car.parameters else {}
+    times = np.array([0.0, 1.0, 3.0, 7.0])
+    table = steering.per_radian * _ANGLE * np.array([0.0, 0.0, 1.0, -1.0])
+    pilot = Together(SpeedHolder(_SPEED, brakes="brake" in car.inputs), SteeringTable(times, table, steering.name))
+    result = car.drive(Manoeuvre("steering ratio", np.zeros(0), {}, 7.0, dict(start)), pilot, record_step=0.02)
+    wheels = 0.5 * (result[WHEELS[0]] + result[WHEELS[1]])
+    rows = result.time > 1.0
+    if rows.sum() < 10 or not np.ptp(wheels[rows]) > 1e-3:
+        return car.constants.get(RATIO, math.nan)
+    return 1.0 / float(stats.linregress(steering.measured(result, car.facts.step)[rows], wheels[rows]).slope)

@@ -1,0 +1,92 @@
+"""One test of one car as work for a process: plain data in, a record out."""
+
+from __future__ import annotations
+
+import re
+import time
+import traceback
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeAlias
+
+from ali3.errors import UserError
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.perform import Reason, perform
+from hosts.catalogue.record import TestRecord
+from hosts.catalogue.registry import standard_test
+
+Outcome: TypeAlias = "TestRecord | Reason"
+"""What a test has yielded, or why it was not done."""
+_BETWEEN = 0.1  # s between two words on the progress
+
+
+@dataclass(frozen=True)
+class Task:
+    """A test of a car.
+
+    Parameters
+    ----------
+    test : str
+        Its name.
+    car : TestedCar
+    settings : mapping of str to float
+        Of the test.
+    folder : Path, optional
+        Where a table of each run is written; none without it.
+    """
+
+    test: str
+    car: TestedCar
+    settings: Mapping[str, float]
+    folder: Path | None = None
+
+
+def do(task: Task, progress: Callable[[float], None]) -> Outcome:
+    """Do a task; whatever goes wrong in it is its outcome.
+
+    Parameters
+    ----------
+    task : Task
+    progress : callable
+        Called with the part that is done, 0 to 1, a few times a second.
+    """
+    last = -1.0
+
+    def seldom(done: float) -> None:
+        nonlocal last
+        now = time.monotonic()
+        if now - last >= _BETWEEN:
+            last = now
+            progress(done)
+
+    try:
+        record = perform(standard_test(task.test), task.car, task.settings, seldom)
+    except UserError as error:
+        return str(error)
+    except MemoryError:
+        return "The memory was not enough."
+    except Exception as error:
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        return (
+            f"The test broke off, which it should not: {error!r} in {Path(place.filename).name}, line {place.lineno}."
+        )
+    if task.folder is not None:
+        _write_runs(task, task.folder, record)
+    return record
+
+
+def _write_runs(task: Task, folder: Path, record: TestRecord) -> None:
+    from hosts.result_files import write_csv
+
+    for name, result in record.runs.items():
+        write_csv(result, folder / run_file(task.test, task.car.label, name))
+
+
+def run_file(test: str, label: str, run: str) -> Path:
+    """The table of a run, relative to the folder of the results."""
+    return Path("runs", test, f"{_plain(label)}_{_plain(run)}.csv")
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[^\w.+-]+", "_", name).strip("_")

@@ -1,0 +1,51 @@
+"""A measure of both sides as one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+from hosts.measures.measure import Limit, Measure
+
+_SAME = 0.05
+T = TypeVar("T")
+
+
+def mean_of_sides(
+    name: str, left: float, right: float, unit: str, text: str, limit: Limit | None = None, why: str = ""
+) -> Measure:
+    """Mean of left and right; the note says so where they differ by more than 5 %, or one is missing.
+
+    Parameters
+    ----------
+    name : str
+    left, right : float
+        NaN where a run does not yield it.
+    unit, text : str
+    limit : Limit, optional
+    why : str
+        Note where both are missing.
+    """
+    known = [x for x in (left, right) if math.isfinite(x)]
+    if not known:
+        return Measure(name, math.nan, unit, text, limit, why or "The runs do not show it.")
+    mean = sum(known) / len(known)
+    note = ""
+    if len(known) == 1:
+        note = f"Of the turn to the {'left' if math.isfinite(left) else 'right'} alone: the other does not show it."
+    elif abs(left - right) > _SAME * abs(mean):
+        note = f"Left {left:.4g}, right {right:.4g}."
+    return Measure(name, mean, unit, text, limit, note)
+
+
+def asymmetry(name: str, pairs: Sequence[tuple[float, float]], text: str) -> Measure:
+    """Largest difference of left and right over their mean."""
+    known = [abs(a - b) / (0.5 * abs(a + b)) for a, b in pairs if math.isfinite(a + b) and a + b != 0.0]
+    note = "" if known else "There are no runs to both sides."
+    return Measure(name, max(known, default=math.nan), "1", text, None, note)
+
+
+def of_both(sides: Sequence[T], value: Callable[[T], float]) -> tuple[float, float]:
+    """A number of the left and the right run."""
+    return value(sides[0]), value(sides[1])

@@ -1,0 +1,111 @@
+"""Recorded signals on an even grid of time, and the phaseless low-pass of vehicle tests."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.signal import butter, sosfiltfilt
+
+
+def resample(
+    time: ArrayLike, values: ArrayLike, interval: float, first: float | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A signal at even times, linear in between.
+
+    Parameters
+    ----------
+    time : array_like, shape (n,)
+        s, increasing; need not be even.
+    values : array_like, shape (n,)
+    interval : float
+        Between the new samples, s; longer than that of the old ones it needs a low-pass before.
+    first : float, optional
+        Time of the first new sample, s; by default that of the first old one.
+
+    Returns
+    -------
+    time, values : ndarray of shape (m,)
+        From `first` to the last that is reached.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two samples, or time does not increase, or a value is not finite.
+    """
+    t, x = np.asarray(time, float), np.asarray(values, float)
+    if len(t) < 2 or len(t) != len(x) or not (np.diff(t) > 0.0).all():
+        raise ValueError(f"A signal needs two samples or more at increasing times; there are {len(t)}.")
+    if not interval > 0.0:
+        raise ValueError(f"The interval is {interval:g} s; it must be positive.")
+    if not np.isfinite(x).all():
+        raise ValueError(f"The signal is not finite at {t[~np.isfinite(x)][0]:g} s.")
+    # half a thousandth of an interval: the last sample must not be lost for rounding
+    begin = t[0] if first is None else first
+    even = begin + interval * np.arange(int((t[-1] - begin) / interval + 5e-4) + 1)
+    return np.asarray(even, float), np.asarray(np.interp(even, t, x), float)
+
+
+def phaseless_low_pass(values: ArrayLike, interval: float, frequency: float, poles: int = 12) -> NDArray[np.float64]:
+    """Butterworth filter forward and back, so that nothing is shifted in time.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,)
+        At even times.
+    interval : float
+        Between samples, s.
+    frequency : float
+        Cut-off of each direction, Hz: both together leave half of the amplitude there.
+    poles : int
+        Of both directions together, even; 12 as in 49 CFR 571.126.
+
+    Returns
+    -------
+    ndarray of shape (n,)
+        Ends are mirrored through the end point over three periods of the cut-off, as far as the signal is long enough.
+
+    Raises
+    ------
+    ValueError
+        If samples are too far apart for the cut-off, or poles are odd.
+
+    Notes
+    -----
+    A "12-pole phaseless" filter is read as six poles in each direction. Its square of six poles at the same frequency
+    leaves 1/2 of the amplitude (-6 dB) at the cut-off, not 1/sqrt(2).
+    """
+    if not 0.0 < frequency < 0.5 / interval:
+        raise ValueError(
+            f"A low-pass of {frequency:g} Hz needs samples closer than {0.5 / frequency:g} s, not {interval:g} s."
+        )
+    if poles < 2 or poles % 2:
+        raise ValueError(f"A phaseless filter has an even number of poles, not {poles}.")
+    x = np.asarray(values, float)
+    sections = butter(poles // 2, frequency, fs=1.0 / interval, output="sos")
+    mirrored = min(len(x) - 1, round(3.0 / (frequency * interval)))
+    return np.asarray(sosfiltfilt(sections, x, padtype="odd", padlen=mirrored))
+
+
+def crossing(time: NDArray[np.float64], values: NDArray[np.float64], level: float, after: float = -np.inf) -> float:
+    """When a signal first passes a level, by linear interpolation.
+
+    Parameters
+    ----------
+    time, values : ndarray of shape (n,)
+    level : float
+    after : float
+        Earlier passages do not count, s.
+
+    Returns
+    -------
+    float
+        s; NaN if it never does.
+    """
+    side = np.signbit(values - level)
+    passed = np.flatnonzero((side[1:] != side[:-1]) & (time[1:] > after))
+    for k in passed:
+        a, b = values[k] - level, values[k + 1] - level
+        t = float(time[k] - a * (time[k + 1] - time[k]) / (b - a))
+        if t >= after:
+            return t
+    return float("nan")

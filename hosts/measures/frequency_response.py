@@ -1,0 +1,112 @@
+"""Frequency response of one signal to another, with its coherence, by spectra that are averaged over bands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import csd
+
+
+@dataclass(frozen=True)
+class FrequencyResponse:
+    """Response over frequency.
+
+    Parameters
+    ----------
+    frequency : ndarray of shape (n,)
+        Hz, increasing.
+    response : ndarray of shape (n,), complex
+        Output over input.
+    coherence : ndarray of shape (n,)
+        Part of the output's power that follows linearly from the input, 0 to 1.
+    """
+
+    frequency: NDArray[np.float64]
+    response: NDArray[np.complex128]
+    coherence: NDArray[np.float64]
+
+    @property
+    def gain(self) -> NDArray[np.float64]:
+        """Magnitude, in units of output over input."""
+        return np.abs(self.response)
+
+    @property
+    def phase(self) -> NDArray[np.float64]:
+        """Phase without jumps, rad; negative: the output lags."""
+        phase = np.unwrap(np.angle(self.response))
+        # a response of the other sign begins near a half turn, whichever side of it the lag has put it on
+        return np.asarray(phase + (2.0 * np.pi if len(phase) and phase[0] < -0.5 * np.pi else 0.0))
+
+    def phase_at(self, frequency: float) -> float:
+        """Phase at a frequency in Hz, rad, linear in between; NaN outside."""
+        if not len(self.frequency):
+            return float("nan")
+        return float(np.interp(frequency, self.frequency, self.phase, left=np.nan, right=np.nan))
+
+
+def frequency_response(
+    given: NDArray[np.float64],
+    answer: NDArray[np.float64],
+    interval: float,
+    frequency: NDArray[np.float64],
+    relative_width: float = 0.03,
+) -> FrequencyResponse:
+    """Estimate the response of `answer` to `given` from one record that begins and ends at rest.
+
+    Parameters
+    ----------
+    given, answer : ndarray of shape (n,)
+        Input and output at even times, less their values at rest.
+    interval : float
+        Between samples, s.
+    frequency : ndarray of shape (m,)
+        At which the response is wanted, Hz, increasing; the input must have power there.
+    relative_width : float
+        Half of the width of the band over which spectra are averaged, over its frequency; at least six lines.
+
+    Returns
+    -------
+    FrequencyResponse
+
+    Raises
+    ------
+    ValueError
+        If the record has less than three periods of the lowest frequency, or the highest is not below half the sampling
+        frequency.
+
+    Notes
+    -----
+    H1 estimator: averaged cross-spectrum over averaged auto-spectrum, so that noise of the output does not bias it. The
+    spectra are those of the whole record without a window, which is exact for a linear system at rest at both ends;
+    segments with windows would cut the answer off from its cause. A coherence that is well below 1 says that the output
+    has noise, or that the system is not linear.
+    """
+    duration = len(given) * interval
+    if len(given) != len(answer) or duration * frequency[0] < 3.0:
+        raise ValueError(
+            f"A response at {frequency[0]:g} Hz needs a record of {3.0 / frequency[0]:.3g} s, not {duration:.3g} s."
+        )
+    if not 0.0 < frequency[0] <= frequency[-1] < 0.5 / interval:
+        raise ValueError(
+            f"Responses at {frequency[0]:g} to {frequency[-1]:g} Hz cannot be had from samples each {interval:g} s."
+        )
+    # zeros behind the record make its lines closer than the bands are wide
+    padded = 4 * len(given)
+
+    def spectrum(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.complexfloating]:
+        return np.asarray(csd(x, y, fs=1.0 / interval, window="boxcar", nperseg=len(x), nfft=padded, detrend=False)[1])
+
+    lines = np.fft.rfftfreq(padded, interval)
+    cross, power, other = spectrum(given, answer), spectrum(given, given), spectrum(answer, answer)
+    tiny = np.finfo(float).tiny
+    response, coherence = np.empty(len(frequency), complex), np.empty(len(frequency))
+    for k, f in enumerate(frequency):
+        width = max(relative_width * f, 3.0 / duration)
+        near = slice(*np.searchsorted(lines, (f - width, f + width)))
+        weight = 1.0 + np.cos(np.pi * (lines[near] - f) / width)
+        sxy, sxx, syy = (complex(weight @ x[near]) for x in (cross, power, other))
+        response[k] = sxy / max(sxx.real, tiny)
+        coherence[k] = min(abs(sxy) ** 2 / max(sxx.real * syy.real, tiny), 1.0)
+    return FrequencyResponse(np.asarray(frequency, float), response, coherence)

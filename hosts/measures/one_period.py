@@ -1,0 +1,103 @@
+"""One period of sinusoidal steering: how late, how much and with which hysteresis a quantity follows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import correlate, correlation_lags
+
+from hosts.measures.peak import top
+
+
+@dataclass(frozen=True)
+class OnePeriod:
+    """What is measured of one quantity.
+
+    Parameters
+    ----------
+    correlation_lag : float
+        Shift at which it correlates best with the steering, s; positive: later.
+    correlation : float
+        Coefficient of correlation at that shift, -1 to 1.
+    first_lag, second_lag : float
+        From the first peak of the steering to that of the quantity, and from the second to the second, s.
+    first_ratio, second_ratio : float
+        Peaks over peaks, in units of quantity over angle.
+    hysteresis : float
+        Area of the loop over the steering angle, over that of the ellipse in the same rectangle, pi times both
+        amplitudes; the sine of the lag in phase where both are sinusoidal.
+    """
+
+    correlation_lag: float
+    correlation: float
+    first_lag: float
+    second_lag: float
+    first_ratio: float
+    second_ratio: float
+    hysteresis: float
+
+
+NOTHING = OnePeriod(*7 * (math.nan,))
+
+
+def correlation_lag(
+    given: NDArray[np.float64], answer: NDArray[np.float64], interval: float, longest: float
+) -> tuple[float, float]:
+    """Shift at which two signals correlate best.
+
+    Parameters
+    ----------
+    given, answer : ndarray of shape (n,)
+        At even times; they are taken as zero outside.
+    interval : float
+        Between samples, s.
+    longest : float
+        Largest shift that is looked at, s.
+
+    Returns
+    -------
+    lag, correlation : float
+        How much later the answer comes, s, between samples by a parabola; and the coefficient there.
+    """
+    lags = correlation_lags(len(answer), len(given)) * interval
+    product = correlate(answer, given) / math.sqrt(float(np.dot(given, given) * np.dot(answer, answer)))
+    kept = np.abs(lags) <= longest + 1e-9
+    return top(lags[kept], product[kept])
+
+
+def one_period(
+    time: NDArray[np.float64], steering: NDArray[np.float64], values: NDArray[np.float64], longest: float = 0.9
+) -> OnePeriod:
+    """Measures of the response of one quantity to one period.
+
+    Parameters
+    ----------
+    time : ndarray of shape (n,)
+        Even, s.
+    steering, values : ndarray of shape (n,)
+        Less their values before the period; `values` has the sign of the steering in a steady state.
+    longest : float
+        Largest lag that is looked for, s; less than half of the period.
+
+    Returns
+    -------
+    OnePeriod
+        All NaN where a signal is zero or not finite.
+    """
+    if len(time) < 5 or not np.isfinite(values).all() or not values.any() or not steering.any():
+        return NOTHING
+    lag, correlation = correlation_lag(steering, values, float(time[1] - time[0]), longest)
+    side = math.copysign(1.0, float(steering[np.flatnonzero(np.abs(steering) > 0.5 * np.abs(steering).max())[0]]))
+    lags, ratios = [], []
+    for direction in (side, -side):
+        at, height = top(time, direction * steering)
+        near = (time >= at - 0.1 * longest) & (time <= at + longest)
+        when, answer = top(time[near], direction * values[near])
+        lags.append(when - at)
+        ratios.append(answer / height)
+    area = 0.5 * abs(float(np.sum(steering[:-1] * values[1:] - steering[1:] * values[:-1])))
+    ellipse = math.pi * 0.25 * float(np.ptp(steering) * np.ptp(values))
+    return OnePeriod(lag, correlation, lags[0], lags[1], ratios[0], ratios[1], area / ellipse)

@@ -1,0 +1,124 @@
+"""Response of a quantity to a step of the steering: times, overshoot, gain, as ISO 7401 has them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.measures.filters import crossing
+from hosts.measures.peak import top
+
+
+@dataclass(frozen=True)
+class StepResponse:
+    """What is measured of one quantity; NaN where the record does not show it.
+
+    Parameters
+    ----------
+    steady : float
+        Mean over the window of the steady state, less the mean before the step, in the unit of the quantity.
+    response_time : float
+        From the reference time to 90 % of `steady`, s.
+    peak : float
+        Largest value in the direction of `steady` after the step, in the unit of the quantity.
+    peak_response_time : float
+        From the reference time to it, s; NaN if the response does not overshoot.
+    overshoot : float
+        (`peak` - `steady`) / `steady`; 0 if the response does not overshoot.
+    unsteadiness : float
+        Standard deviation in the window of the steady state over the size of `steady`.
+    """
+
+    steady: float
+    response_time: float
+    peak: float
+    peak_response_time: float
+    overshoot: float
+    unsteadiness: float
+
+
+NOTHING = StepResponse(*6 * (float("nan"),))
+
+
+def mean_between(
+    time: NDArray[np.float64], values: NDArray[np.float64], begin: float, end: float
+) -> tuple[float, float]:
+    """Mean and standard deviation of a signal between two times; NaN if there is no sample."""
+    part = values[(time >= begin) & (time <= end)]
+    return (float(part.mean()), float(part.std())) if len(part) else (float("nan"), float("nan"))
+
+
+def reference_time(
+    time: NDArray[np.float64],
+    steering: NDArray[np.float64],
+    before: tuple[float, float],
+    steady: tuple[float, float],
+) -> float:
+    """When the steering has passed half of its step.
+
+    Parameters
+    ----------
+    time, steering : ndarray of shape (n,)
+        s and the angle of the steering wheel.
+    before, steady : tuple of float
+        Begin and end, s, of the windows over which the angles before and after the step are averaged.
+
+    Returns
+    -------
+    float
+        s; NaN if there is no step.
+    """
+    first, last = mean_between(time, steering, *before)[0], mean_between(time, steering, *steady)[0]
+    return crossing(time, steering, 0.5 * (first + last), before[1])
+
+
+def step_response(
+    time: NDArray[np.float64],
+    values: NDArray[np.float64],
+    reference: float,
+    before: tuple[float, float],
+    steady: tuple[float, float],
+) -> StepResponse:
+    """Measures of the response of one quantity.
+
+    Parameters
+    ----------
+    time, values : ndarray of shape (n,)
+    reference : float
+        Reference time, s.
+    before, steady : tuple of float
+        Begin and end of the windows before the step and of the steady state, s.
+
+    Returns
+    -------
+    StepResponse
+        All NaN where the record ends before the steady window, or the quantity does not change.
+
+    Notes
+    -----
+    The peak is the largest sample improved by a parabola through it and its neighbours, so that the step of the record
+    does not round its time. An excess below 1 % over the steady value is no overshoot but a rest of the settling, or of
+    the speed that the turn has taken.
+    """
+    if not np.isfinite(reference) or len(time) < 3 or time[-1] < steady[1] - 1e-6 or not np.isfinite(values).all():
+        return NOTHING
+    zero = mean_between(time, values, *before)[0]
+    mean, deviation = mean_between(time, values, *steady)
+    final = mean - zero
+    if not np.isfinite(final) or final == 0.0:
+        return NOTHING
+    relative = (values - zero) / final
+    response = crossing(time, relative, 0.9, before[1]) - reference
+    first = int(np.searchsorted(time, before[1]))
+    at, peak = top(time[first:], relative[first:])
+    over = peak > 1.01
+    return StepResponse(
+        final,
+        response,
+        final * peak if over else final,
+        at - reference if over else float("nan"),
+        peak - 1.0 if over else 0.0,
+        deviation / abs(final),
+    )

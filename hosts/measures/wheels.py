@@ -1,0 +1,58 @@
+"""Loads and slips of the four wheels from a recorded run."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.co_simulation import Result
+
+WHEELS = ("FL", "FR", "RL", "RR")
+LIFTED = 1.0
+"""A wheel with a load up to this has left the road, N: solvers leave a rest of rounding errors."""
+
+
+def at_wheels(result: Result, quantity: str) -> NDArray[np.float64] | None:
+    """One quantity of the four wheels.
+
+    Parameters
+    ----------
+    result : Result
+    quantity : str
+        Such as ``Fz`` of ``wheel_FL.Fz``.
+
+    Returns
+    -------
+    ndarray of shape (n, 4) or None
+        In the order of `WHEELS`; None where a wheel lacks it.
+    """
+    names = [f"wheel_{wheel}.{quantity}" for wheel in WHEELS]
+    return np.column_stack([result[name] for name in names]) if all(name in result for name in names) else None
+
+
+def lifted_wheels(loads: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Where wheels are off the road.
+
+    Parameters
+    ----------
+    loads : ndarray of shape (n, 4)
+        Normal forces, N.
+
+    Returns
+    -------
+    ndarray of shape (n, 4)
+    """
+    return np.asarray(loads <= LIFTED)
+
+
+def duration(time: NDArray[np.float64], state: NDArray[np.bool_]) -> float:
+    """How long something is so, s.
+
+    Parameters
+    ----------
+    time : ndarray of shape (n,)
+        s.
+    state : ndarray of shape (n,)
+        At the end of each step; a step counts whole if it ends so.
+    """
+    return float(np.diff(time)[state[1:]].sum())

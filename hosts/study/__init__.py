@@ -1,0 +1,1 @@
+"""Many runs of an FMU: points of its parameters times manoeuvres, on Dask, into tables that pandas and xarray open."""

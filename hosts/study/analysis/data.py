@@ -1,0 +1,168 @@
+"""Runs of a study as parameters and responses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+FAILED = "failed"
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What is varied.
+
+    Parameters
+    ----------
+    name, unit : str
+    log : bool
+        Whether its range is divided by the logarithm.
+    words : tuple of str
+        What the codes 0, 1, ... stand for where it is no number; else empty.
+    """
+
+    name: str
+    unit: str
+    log: bool = False
+    words: tuple[str, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """Name and unit for an axis."""
+        return with_unit(self.name, self.unit)
+
+
+@dataclass(frozen=True)
+class Response:
+    """A measure in the runs of one manoeuvre.
+
+    Parameters
+    ----------
+    measure : str
+        Its column.
+    manoeuvre : str
+    unit : str
+    rows : ndarray of int, shape (m,)
+        Positions in the frame of the runs that yield it.
+    values : ndarray of shape (m,)
+        Finite.
+    asked : int
+        Runs that were to yield it.
+    several : bool
+        Whether the study has more than one manoeuvre, so that the label names it.
+    """
+
+    measure: str
+    manoeuvre: str
+    unit: str
+    rows: NDArray[np.int64]
+    values: NDArray[np.float64]
+    asked: int
+    several: bool = False
+
+    @property
+    def label(self) -> str:
+        """For people."""
+        return f"{self.measure} ({self.manoeuvre})" if self.several else self.measure
+
+    @property
+    def title(self) -> str:
+        """Label and unit for an axis."""
+        return with_unit(self.label, self.unit)
+
+
+@dataclass(frozen=True)
+class StudyData:
+    """Runs that are there.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        One row a run; the index is that of the run.
+    parameters : tuple of Parameter
+    x : ndarray of shape (runs, parameters)
+        Values; codes where a parameter is no number.
+    responses : tuple of Response
+    failed : ndarray of bool, shape (runs,)
+    about : mapping
+        What is known of the study as a whole: the attrs of the frame.
+    """
+
+    frame: pd.DataFrame
+    parameters: tuple[Parameter, ...]
+    x: NDArray[np.float64]
+    responses: tuple[Response, ...]
+    failed: NDArray[np.bool_]
+    about: Mapping[str, Any]
+
+    @property
+    def method(self) -> str:
+        """How its points were chosen."""
+        return str(self.about["sampling"]["method"])
+
+    @property
+    def planned(self) -> int:
+        """Runs of the whole study."""
+        return int(self.about["runs"])
+
+    def points(self, response: Response) -> NDArray[np.int64]:
+        """Number in the plan of the point of each of its rows."""
+        return np.asarray(self.frame["point"].to_numpy(dtype=np.int64)[response.rows])
+
+
+def with_unit(name: str, unit: str) -> str:
+    """A name for an axis."""
+    return name if unit in ("", "1") else f"{name}, {unit}"
+
+
+def study_data(frame: pd.DataFrame) -> StudyData:
+    """Sort what `hosts.study.store.read_study` gives.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        With its attrs.
+    """
+    attrs, units = frame.attrs, dict(frame.attrs["units"])
+    parameters, columns = [], []
+    for name in attrs["parameters"]:
+        column, words = _numbers(frame[name])
+        log = bool(attrs["parameters"][name].get("log")) and bool((column > 0.0).all())
+        parameters.append(Parameter(name, units.get(name) or "1", log, words))
+        columns.append(column)
+    manoeuvres = frame["manoeuvre"].astype(str).to_numpy()
+    names = attrs["manoeuvres"]
+    responses = []
+    for measure in attrs["measures"]:
+        values = frame[measure].to_numpy(dtype=np.float64)
+        for manoeuvre in names:
+            mine = manoeuvres == manoeuvre
+            rows = np.flatnonzero(mine & np.isfinite(values))
+            # The measures of a test are in the rows of its own runs only.
+            if len(rows):
+                unit = units.get(measure) or "1"
+                several = len(names) > 1
+                responses.append(Response(measure, manoeuvre, unit, rows, values[rows], int(mine.sum()), several))
+    x = np.stack(columns, axis=1) if columns else np.empty((len(frame), 0))
+    failed = np.asarray(frame["status"].astype(str) == FAILED)
+    return StudyData(frame, tuple(parameters), x, tuple(responses), failed, attrs)
+
+
+def _numbers(column: pd.Series[Any]) -> tuple[NDArray[np.float64], tuple[str, ...]]:
+    """Values of a parameter, or codes and what they stand for."""
+    from pandas.api.types import is_bool_dtype, is_numeric_dtype
+
+    if is_bool_dtype(column):
+        return column.to_numpy(dtype=np.float64), ("false", "true")
+    if is_numeric_dtype(column):
+        return column.to_numpy(dtype=np.float64), ()
+    words = sorted({str(v) for v in column})
+    code = {word: k for k, word in enumerate(words)}
+    return np.array([code[str(v)] for v in column], dtype=np.float64), tuple(words)

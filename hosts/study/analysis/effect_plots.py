@@ -1,0 +1,97 @@
+"""Plots over each parameter: main effects, runs, and the share of failed runs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from scipy.stats import binomtest
+
+from hosts.result_plots import BLUE, RED
+from hosts.study.analysis.data import Parameter, Response, StudyData
+from hosts.study.analysis.main_effects import MainEffect, classes
+from hosts.study.analysis.panels import drawn, parameter_panels
+
+MOST_POINTS = 2000
+
+
+def plot_main_effects(parameters: Sequence[Parameter], response: Response, effects: Sequence[MainEffect]) -> Figure:
+    """Means with their intervals, on one scale."""
+    figure, axes = parameter_panels(parameters, f"mean of {response.title}", share_y=True)
+    for panel, parameter, effect in zip(axes, parameters, effects, strict=True):
+        panel.axhline(float(response.values.mean()), color="#888888", linewidth=0.8)
+        _with_interval(panel, parameter, (effect.at, effect.mean, effect.low, effect.high), BLUE)
+    return figure
+
+
+def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffect]) -> Figure:
+    """The measure of each run, its mean as a line, and failed runs as marks at the lower edge."""
+    figure, axes = parameter_panels(data.parameters, response.title, share_y=True)
+    shown = drawn(len(response.rows), MOST_POINTS)
+    failed = np.flatnonzero(data.failed & (data.frame["manoeuvre"].astype(str) == response.manoeuvre).to_numpy())
+    failed = failed[drawn(len(failed), MOST_POINTS)]
+    for k, (panel, effect) in enumerate(zip(axes, effects, strict=True)):
+        x = data.x[response.rows[shown], k]
+        panel.plot(x, response.values[shown], ".", color=BLUE, markersize=3, alpha=0.5, markeredgewidth=0)
+        mark = "_" if data.parameters[k].words else "-"
+        panel.plot(effect.at, effect.mean, mark, color="#222222", linewidth=1.2, markersize=14)
+        if len(failed):
+            panel.plot(
+                data.x[failed, k], np.full(len(failed), 0.02), "|", color=RED, transform=panel.get_xaxis_transform()
+            )
+    return figure
+
+
+def plot_failed(data: StudyData) -> Figure:
+    """The share of failed runs over each parameter with Wilson's interval of 95 %, and the runs as marks."""
+    figure, axes = parameter_panels(data.parameters, "failed runs, %", share_y=True)
+    for k, panel in enumerate(axes):
+        at, *shares = failed_share(data.x[:, k], data.failed)
+        share, low, high = (100.0 * part for part in shares)
+        _with_interval(panel, data.parameters[k], (at, share, low, high), RED)
+        rows = np.flatnonzero(data.failed)
+        rows = rows[drawn(len(rows), MOST_POINTS)]
+        panel.plot(data.x[rows, k], np.full(len(rows), 0.02), "|", color=RED, transform=panel.get_xaxis_transform())
+    axes[0].set_ylim(bottom=-5.0)
+    return figure
+
+
+def _with_interval(panel: Axes, parameter: Parameter, points: tuple[NDArray[np.float64], ...], colour: str) -> None:
+    """A line in its band; points with bars where the values of the parameter have no order."""
+    at, middle, low, high = points
+    if parameter.words:
+        panel.errorbar(at, middle, np.stack([middle - low, high - middle]), fmt="o", color=colour, markersize=4)
+        panel.margins(x=0.2)
+        return
+    panel.fill_between(at, low, high, color=colour, alpha=0.2, linewidth=0)
+    panel.plot(at, middle, "o-", color=colour, markersize=4)
+
+
+def failed_share(
+    x: NDArray[np.float64], failed: NDArray[np.bool_]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Share of failed runs in classes of a parameter.
+
+    Parameters
+    ----------
+    x : ndarray of shape (n,)
+    failed : ndarray of bool, shape (n,)
+
+    Returns
+    -------
+    at, share, low, high : ndarray of shape (b,)
+        Mean of the parameter in the class, share 0 to 1 and its interval.
+    """
+    codes, _ = classes(x)
+    groups = [np.flatnonzero(codes == k) for k in range(int(codes.max()) + 1)]
+    counts = [int(failed[g].sum()) for g in groups]
+    intervals = [binomtest(c, len(g)).proportion_ci(0.95, method="wilson") for c, g in zip(counts, groups, strict=True)]
+    return (
+        np.array([x[g].mean() for g in groups]),
+        np.array([c / len(g) for c, g in zip(counts, groups, strict=True)]),
+        np.array([float(i.low) for i in intervals]),
+        np.array([float(i.high) for i in intervals]),
+    )

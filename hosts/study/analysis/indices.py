@@ -1,0 +1,169 @@
+"""Which part of the variance of a measure a parameter makes: Sobol' indices."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+_FEWEST_BLOCKS = 16
+# Harmonics of RBD-FAST, and the fewest runs from which SALib's bootstrap (of half the runs) can tell them apart.
+_HARMONICS = 10
+_FEWEST_FOR_ESTIMATE = 64
+
+
+@dataclass(frozen=True)
+class Indices:
+    """Indices of the parameters, 0 to 1; NaN where there is none.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Parameters.
+    first, first_conf : ndarray of shape (d,)
+        Part of the variance that a parameter makes alone, and half its 95 % confidence interval.
+    total, total_conf : ndarray of shape (d,)
+        Part that it makes alone and together with the others.
+    second : ndarray of shape (d, d), optional
+        Part that two make together, above the diagonal.
+    how : str
+        A sentence: by which estimator, from how many runs.
+    """
+
+    names: tuple[str, ...]
+    first: NDArray[np.float64]
+    first_conf: NDArray[np.float64]
+    total: NDArray[np.float64]
+    total_conf: NDArray[np.float64]
+    how: str
+    second: NDArray[np.float64] | None = None
+
+
+def saltelli_indices(
+    names: Sequence[str], points: NDArray[np.int64], y: NDArray[np.float64], second_order: bool, seed: int = 1
+) -> Indices | str:
+    """First-order and total indices from a design of Saltelli's.
+
+    Parameters
+    ----------
+    names : sequence of str, length d
+    points : ndarray of int, shape (m,)
+        Number in the plan of each run; the plan is that of `SALib.sample.sobol.sample`.
+    y : ndarray of shape (m,)
+        Finite.
+    second_order : bool
+        As the plan was made.
+    seed : int
+        Of the bootstrap; not 0, which SALib takes for none.
+
+    Returns
+    -------
+    Indices or str
+        Why there are none.
+
+    Notes
+    -----
+    A. Saltelli et al., Computer Physics Communications 181, 2010, 259-270, by SALib. A block of the plan in which a
+    run is missing is left out as a whole, since the estimators compare the runs of a block.
+    """
+    from SALib.analyze import sobol
+
+    width = len(names) * (2 if second_order else 1) + 2
+    blocks = np.full((int(points.max()) // width + 1, width), np.nan)
+    blocks.flat[points] = y
+    whole = np.isfinite(blocks).all(axis=1)
+    if whole.sum() < _FEWEST_BLOCKS:
+        return (
+            f"Only {whole.sum()} blocks of {width} runs of the design are whole; from {_FEWEST_BLOCKS} on indices are "
+            "given."
+        )
+    used = blocks[whole].ravel()
+    if np.ptp(used) <= 1e-12 * np.abs(used).max():
+        return f"The measure is {used[0]:.6g} in all runs."
+    found = sobol.analyze(_problem(names), used, calc_second_order=second_order, seed=seed)
+    left_out = f"; blocks with a missing or failed run left out: {len(whole) - whole.sum()}" * (not whole.all())
+    how = (
+        f"Sobol' indices by Saltelli's estimators from {whole.sum()} blocks of {width} runs{left_out}. "
+        "Bars: bootstrap, 95 %."
+    )
+    second = np.asarray(found["S2"]) if second_order else None
+    s1, s1_conf, st, st_conf = (np.asarray(found[k], dtype=np.float64) for k in ("S1", "S1_conf", "ST", "ST_conf"))
+    return Indices(tuple(names), s1, s1_conf, st, st_conf, how, second)
+
+
+def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64]) -> Indices | str:
+    """Indices of a full grid whose levels are equally likely: exact, by sums of squares.
+
+    Parameters
+    ----------
+    names : sequence of str, length d
+    x : ndarray of shape (n, d)
+    y : ndarray of shape (n,)
+        Finite.
+
+    Returns
+    -------
+    Indices or str
+        Why there are none.
+    """
+    codes = [np.unique(column, return_inverse=True) for column in x.T]
+    shape = tuple(len(levels) for levels, _ in codes)
+    places = np.ravel_multi_index(tuple(code for _, code in codes), shape)
+    if len(y) != np.prod(shape) or len(np.unique(places)) != len(y):
+        return f"The grid is not full: {len(np.unique(places))} of {int(np.prod(shape))} points yield the measure."
+    table = np.empty(len(y))
+    table[places] = y
+    table = table.reshape(shape)
+    variance = table.var()
+    if np.ptp(y) <= 1e-12 * np.abs(y).max():
+        return f"The measure is {y[0]:.6g} in all runs."
+    axes = range(len(names))
+    first = [table.mean(axis=tuple(k for k in axes if k != i)).var() / variance for i in axes]
+    total = [table.var(axis=i).mean() / variance for i in axes]
+    none = np.full(len(names), np.nan)
+    how = f"Exact for the {' x '.join(map(str, shape))} points of the grid, each taken to be equally likely."
+    return Indices(tuple(names), np.array(first), none, np.array(total), none, how)
+
+
+def estimated_indices(
+    names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64], seed: int = 1
+) -> Indices | str:
+    """First-order indices of any design that fills its space, by RBD-FAST.
+
+    Parameters
+    ----------
+    names : sequence of str, length d
+    x : ndarray of shape (n, d)
+    y : ndarray of shape (n,)
+        Finite.
+    seed : int
+
+    Returns
+    -------
+    Indices or str
+        Why there are none.
+
+    Notes
+    -----
+    S. Tarantola, D. Gatelli, T. Mara, Reliability Engineering and System Safety 91, 2006, 717-727; with the correction
+    of bias of J.-Y. Tissot and C. Prieur, 2012; by SALib.
+    """
+    from SALib.analyze import rbd_fast
+
+    if len(y) < _FEWEST_FOR_ESTIMATE:
+        return f"{len(y)} runs yield the measure; from {_FEWEST_FOR_ESTIMATE} on indices are estimated."
+    if np.ptp(y) <= 1e-12 * np.abs(y).max():
+        return f"The measure is {y[0]:.6g} in all runs."
+    found = rbd_fast.analyze(_problem(names), x, y, M=_HARMONICS, seed=seed)
+    none = np.full(len(names), np.nan)
+    how = (
+        f"An estimate by RBD-FAST from {len(y)} runs, of the first order only: for total indices choose the sampling "
+        "method saltelli. Bars: bootstrap, 95 %."
+    )
+    return Indices(tuple(names), np.asarray(found["S1"]), np.asarray(found["S1_conf"]), none, none, how)
+
+
+def _problem(names: Sequence[str]) -> dict[str, object]:
+    return {"num_vars": len(names), "names": list(names), "bounds": [[0.0, 1.0]] * len(names)}

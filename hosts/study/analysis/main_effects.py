@@ -1,0 +1,100 @@
+"""Main effects: the mean of a measure over a parameter, whatever the others are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+CONFIDENCE = 0.95
+# So few different values are levels of a design; more are divided into classes.
+_MOST_LEVELS = 12
+_MOST_BINS = 10
+_FEWEST_IN_BIN = 5
+# The mean of so many values is normally distributed; below, the bootstrap needs no such assumption.
+_MANY = 500
+_RESAMPLES = 999
+
+
+@dataclass(frozen=True)
+class MainEffect:
+    """Means of a measure in classes of a parameter.
+
+    Parameters
+    ----------
+    at : ndarray of shape (b,)
+        Value of the parameter: its level, or its mean in the class.
+    mean, low, high : ndarray of shape (b,)
+        Mean of the measure and its confidence interval; NaN limits where a class has one run.
+    count : ndarray of int, shape (b,)
+    levels : bool
+        Whether `at` are the values of the design.
+    """
+
+    at: NDArray[np.float64]
+    mean: NDArray[np.float64]
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    count: NDArray[np.int64]
+    levels: bool
+
+    @property
+    def span(self) -> float:
+        """Largest less smallest mean, in the unit of the measure."""
+        return float(self.mean.max() - self.mean.min())
+
+
+def classes(x: NDArray[np.float64]) -> tuple[NDArray[np.int64], bool]:
+    """Class of each value: its level, or one of up to ten with equally many runs; and whether they are levels."""
+    levels, codes = np.unique(x, return_inverse=True)
+    if len(levels) <= _MOST_LEVELS:
+        return codes.astype(np.int64), True
+    bins = int(np.clip(len(x) // _FEWEST_IN_BIN, 1, _MOST_BINS))
+    ranks = stats.rankdata(x, method="min") - 1.0
+    codes = np.minimum(ranks * bins // len(x), bins - 1).astype(np.int64)
+    return np.unique(codes, return_inverse=True)[1].astype(np.int64), False
+
+
+def main_effect(x: NDArray[np.float64], y: NDArray[np.float64], seed: int = 0) -> MainEffect:
+    """The main effect of a parameter.
+
+    Parameters
+    ----------
+    x, y : ndarray of shape (n,)
+        Parameter and measure of each run; n is at least 1.
+    seed : int
+        Of the bootstrap.
+
+    Returns
+    -------
+    MainEffect
+        With intervals of 95 %: by the bootstrap (percentiles), by the normal distribution for more than 500 runs.
+    """
+    codes, levels = classes(x)
+    rng = np.random.default_rng(seed)
+    order = np.argsort(codes, kind="stable")
+    groups = np.split(order, np.cumsum(np.bincount(codes))[:-1])
+    intervals = np.array([_interval(y[g], rng) for g in groups])
+    return MainEffect(
+        np.array([x[g].mean() for g in groups]),
+        np.array([y[g].mean() for g in groups]),
+        intervals[:, 0],
+        intervals[:, 1],
+        np.array([len(g) for g in groups], dtype=np.int64),
+        levels,
+    )
+
+
+def _interval(y: NDArray[np.float64], rng: np.random.Generator) -> tuple[float, float]:
+    if len(y) == 1:
+        return float("nan"), float("nan")
+    if np.ptp(y) == 0.0:
+        return float(y[0]), float(y[0])
+    if len(y) > _MANY:
+        half = float(stats.norm.ppf(0.5 + 0.5 * CONFIDENCE)) * float(y.std(ddof=1)) / np.sqrt(len(y))
+        return float(y.mean() - half), float(y.mean() + half)
+    means = y[rng.integers(len(y), size=(_RESAMPLES, len(y)))].mean(axis=1)
+    low, high = np.quantile(means, [0.5 - 0.5 * CONFIDENCE, 0.5 + 0.5 * CONFIDENCE])
+    return float(low), float(high)

@@ -1,0 +1,121 @@
+"""The part of the report about one measure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from html import escape
+
+from hosts.study.analysis.data import Parameter, Response, StudyData
+from hosts.study.analysis.effect_plots import MOST_POINTS, plot_main_effects, plot_scatter
+from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
+from hosts.study.analysis.main_effects import MainEffect, main_effect
+from hosts.study.analysis.page import paragraph, table
+from hosts.study.analysis.parallel_plots import MOST_LINES, plot_parallel
+from hosts.study.analysis.pictures import Pictures
+from hosts.study.analysis.study_section import Commands, repeat_cell
+from hosts.study.analysis.summary_plots import plot_overview
+from hosts.study.analysis.tables import Row, extremes
+
+_WORST = 5
+
+
+def measure_section(
+    data: StudyData,
+    response: Response,
+    number: int,
+    pictures: Pictures,
+    commands: Commands,
+    numbers: list[dict[str, object]],
+) -> list[str]:
+    """Its distribution, indices, main effects, runs, and the highest and lowest of them with their commands.
+
+    Parameters
+    ----------
+    data : StudyData
+    response : Response
+    number : int
+        Of the response, for the names of its pictures.
+    pictures : Pictures
+    commands : callable
+    numbers : list of dict
+        To which the effects are added, a row a parameter.
+    """
+    effects = [main_effect(data.x[response.rows, k], response.values) for k in range(len(data.parameters))]
+    indices = _indices(data, response)
+    numbers += _numbers(response, data.parameters, effects, indices)
+    lost = bool(data.failed.any())
+    name, label = f"{number + 1:02d}_{response.label}", response.label
+    body = [f"<h2>{escape(response.title)}</h2>"]
+    body.append(pictures.add(plot_overview(response, indices), f"{name}_overview", f"Distribution of {label}"))
+    body.append(paragraph(indices if isinstance(indices, str) else indices.how, "note"))
+    if data.parameters:
+        body.append("<h3>Main effects</h3>")
+        figure = plot_main_effects(data.parameters, response, effects)
+        body.append(pictures.add(figure, f"{name}_effects", f"Main effects on {label}"))
+        of_blocks = " (about: runs of a block of the design share values)" * (data.method == "saltelli")
+        words = f"Mean over all runs of a class of the parameter, with its interval of 95 %{of_blocks}."
+        body.append(paragraph(words, "note"))
+        body.append("<h3>Runs</h3>")
+        figure = plot_scatter(data, response, effects)
+        body.append(pictures.add(figure, f"{name}_runs", f"{label} over each parameter"))
+        body.append(_drawn("run", len(response.rows), MOST_POINTS, "; red marks below are failed runs" * lost))
+        body.append(pictures.add(plot_parallel(data, response), f"{name}_parallel", f"Parallel coordinates of {label}"))
+        body.append(_drawn("line", len(response.rows), MOST_LINES, "; dotted red lines are failed runs" * lost))
+    highest, lowest = extremes(data, response, _WORST)
+    body.append("<h3>Highest and lowest</h3>")
+    body.append(_extremes(data, response, [*highest, *reversed(lowest)], commands))
+    return body
+
+
+def _drawn(what: str, count: int, most: int, more: str) -> str:
+    words = f"{most} of {count} {what}s, drawn by chance" if count > most else f"All {count} {what}s"
+    return paragraph(f"{words}{more}.", "note")
+
+
+def _extremes(data: StudyData, response: Response, rows: Sequence[Row], commands: Commands) -> str:
+    cells = []
+    for row in rows:
+        values = [
+            p.words[int(v)] if p.words else f"{v:.6g}"
+            for p, v in zip(data.parameters, data.x[row.position], strict=True)
+        ]
+        cells.append((str(row.index), f"{row.value:.6g}", *values, *repeat_cell(commands, row.index)))
+    head = ("run", response.title, *(p.title for p in data.parameters), "to repeat it")
+    return table(head, cells, (0, len(head) - 1))
+
+
+def _indices(data: StudyData, response: Response) -> Indices | str:
+    names = [p.name for p in data.parameters]
+    if not names:
+        return "The study has no parameters."
+    if data.method == "saltelli":
+        return saltelli_indices(
+            names, data.points(response), response.values, bool(data.about["sampling"].get("second_order"))
+        )
+    x = data.x[response.rows]
+    if data.method == "grid":
+        return grid_indices(names, x, response.values)
+    if data.method == "table":
+        return "No indices: they need a random design or a full grid; how the rows of a table were chosen is unknown."
+    ordered = [k for k, p in enumerate(data.parameters) if len(p.words) <= 2]
+    found = estimated_indices([names[k] for k in ordered], x[:, ordered], response.values)
+    unordered = [p.name for p in data.parameters if len(p.words) > 2]
+    if unordered and isinstance(found, Indices):
+        found = replace(found, how=f"{found.how} Without {', '.join(unordered)}, whose values have no order.")
+    return found
+
+
+def _numbers(
+    response: Response, parameters: Sequence[Parameter], effects: Sequence[MainEffect], indices: Indices | str
+) -> list[dict[str, object]]:
+    rows = []
+    for parameter, effect in zip(parameters, effects, strict=True):
+        row: dict[str, object] = {"measure": response.measure, "manoeuvre": response.manoeuvre, "unit": response.unit}
+        row |= {"parameter": parameter.name, "parameter_unit": parameter.unit, "main_effect_span": effect.span}
+        if isinstance(indices, Indices) and parameter.name in indices.names:
+            k = indices.names.index(parameter.name)
+            row |= {"first": indices.first[k], "first_conf": indices.first_conf[k]}
+            row |= {"total": indices.total[k], "total_conf": indices.total_conf[k]}
+        rows.append(row)
+    return rows

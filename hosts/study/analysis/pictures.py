@@ -1,0 +1,41 @@
+"""Pictures of a report."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from matplotlib.figure import Figure
+from PIL import Image
+
+from ali3.files import whole_file
+from hosts.result_plots import save_picture
+from hosts.study.analysis.page import picture
+
+
+class Pictures:
+    """PNG files of a folder, which stand in the report too.
+
+    Parameters
+    ----------
+    folder : Path
+
+    Attributes
+    ----------
+    files : list of Path
+        Written so far.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.files: list[Path] = []
+
+    def add(self, figure: Figure, name: str, what: str) -> str:
+        """Write a figure, and give its place in the page."""
+        file = self.folder / f"{re.sub(r'[^A-Za-z0-9]+', '_', name).strip('_')[:80]}.png"
+        save_picture(figure, file)
+        with Image.open(file) as drawn, whole_file(file) as made:
+            # A palette: lines in many colours take a third of the bytes, and look the same.
+            drawn.convert("RGB").quantize(256, Image.Quantize.FASTOCTREE).save(made, optimize=True)
+        self.files.append(file)
+        return picture(file.read_bytes(), what)

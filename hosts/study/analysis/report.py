@@ -1,0 +1,88 @@
+"""The report of a study: one HTML file, its pictures and its tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from matplotlib import pyplot as plt
+
+from ali3.files import make_folder, whole_file, write_text
+from hosts.errors import HostError
+from hosts.result_plots import STYLE
+from hosts.study.analysis.data import study_data
+from hosts.study.analysis.measure_section import measure_section
+from hosts.study.analysis.page import document, paragraph
+from hosts.study.analysis.pictures import Pictures
+from hosts.study.analysis.study_section import (
+    MOST_RESPONSES,
+    Commands,
+    failed_section,
+    head_section,
+    measures_section,
+)
+from hosts.study.analysis.summary_plots import plot_correlations
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def write_report(folder: Path) -> list[Path]:
+    """Write ``report.html``, and its pictures and tables into ``analysis``.
+
+    Parameters
+    ----------
+    folder : Path
+        Of a study, done or half done.
+
+    Returns
+    -------
+    list of Path
+        What was written, the report first.
+
+    Raises
+    ------
+    HostError
+        There is no study, or no run in it yet.
+    """
+    from hosts.study.repeat import repeat_command
+    from hosts.study.store import read_study
+
+    def commands(index: int) -> list[str]:
+        # Whole paths: the report is read from any folder.
+        repeat = repeat_command(folder.absolute(), index, write=True)
+        return [line for line in (repeat.drive, repeat.view) if line]
+
+    return report_of(read_study(folder), folder, commands)
+
+
+def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Path]:
+    """The report of a frame of runs; see `write_report`."""
+    if not len(frame):
+        raise HostError(f"{folder} has no run yet; there is nothing to report.")
+    from tqdm import tqdm
+
+    data = study_data(frame)
+    pictures = Pictures(make_folder(folder / "analysis"))
+    body = [*head_section(data), *measures_section(data), *failed_section(data, pictures, commands)]
+    shown = data.responses[:MOST_RESPONSES]
+    numbers: list[dict[str, object]] = []
+    with plt.rc_context({**STYLE, "font.size": 9, "axes.titlesize": 10}):
+        if shown and data.parameters:
+            body.append("<h2>Rank correlations</h2>")
+            body.append(paragraph("Spearman's: 1 or -1 where the measure only grows or only falls with it.", "note"))
+            body.append(pictures.add(plot_correlations(data, shown), "correlations", "Rank correlations"))
+        for k, response in enumerate(tqdm(shown, desc="report", unit="measure", delay=2.0)):
+            body += measure_section(data, response, k, pictures, commands, numbers)
+    file, rows = folder / "report.html", folder / "analysis" / "effects.csv"
+    write_text(file, document(f"Study {data.about['study']}", body))
+    _write_numbers(rows, numbers)
+    return [file, rows, *pictures.files]
+
+
+def _write_numbers(file: Path, rows: Sequence[dict[str, object]]) -> None:
+    import pandas as pd
+
+    with whole_file(file) as made:
+        pd.DataFrame(rows).to_csv(made, index=False)

@@ -1,0 +1,109 @@
+"""Plots of a whole measure: its distribution, its indices, and its correlation with the parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from scipy.stats import spearmanr
+
+from hosts.result_plots import BLUE, ORANGE, RED
+from hosts.study.analysis.data import Response, StudyData
+from hosts.study.analysis.indices import Indices
+from hosts.study.analysis.panels import WIDTH
+
+PERCENTILES = (5.0, 50.0, 95.0)
+_MOST_BINS = 60
+
+
+def plot_overview(response: Response, indices: Indices | str) -> Figure:
+    """Histogram with percentiles; beside it the indices, where there are some."""
+    if isinstance(indices, str):
+        figure, axes = plt.subplots(figsize=(0.55 * WIDTH, 2.9), layout="constrained")
+        _histogram(axes, response)
+        return figure
+    height = max(2.9, 0.9 + 0.42 * len(indices.names))
+    figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, height), layout="constrained")
+    _histogram(left, response)
+    _bars(right, indices)
+    return figure
+
+
+def _histogram(axes: Axes, response: Response) -> None:
+    y = response.values
+    edges = (
+        np.histogram_bin_edges(y, "auto") if np.ptp(y) > 1e-12 * np.abs(y).max() else np.linspace(-0.5, 0.5, 2) + y[0]
+    )
+    if len(edges) > _MOST_BINS + 1:
+        edges = np.linspace(y.min(), y.max(), _MOST_BINS + 1)
+    axes.hist(y, edges.tolist(), color=BLUE, alpha=0.75)
+    for percent, value in zip(PERCENTILES, np.percentile(y, PERCENTILES), strict=True):
+        axes.axvline(float(value), color=RED, linewidth=1.2, linestyle="-" if percent == 50.0 else "--")
+        axes.annotate(
+            f"{percent:g} %", (float(value), 1.0), xycoords=("data", "axes fraction"), xytext=(2, -2),
+            textcoords="offset points", va="top", fontsize=8, color=RED, rotation=90,
+        )  # fmt: skip
+    axes.set_xlabel(response.title)
+    axes.set_axisbelow(True)
+    axes.set_ylabel("runs")
+    axes.set_title("Distribution")
+
+
+def _bars(axes: Axes, indices: Indices) -> None:
+    order = np.argsort(np.where(np.isnan(indices.total), indices.first, indices.total))
+    at = np.arange(len(order), dtype=float)
+    both = bool(np.isfinite(indices.total).any())
+    for values, conf, label, colour, shift in (
+        (indices.first, indices.first_conf, "first order", BLUE, 0.2 if both else 0.0),
+        (indices.total, indices.total_conf, "total", ORANGE, -0.2),
+    ):
+        if np.isfinite(values).any():
+            error = np.nan_to_num(conf[order])
+            axes.barh(at + shift, values[order], 0.38, xerr=error, color=colour, label=label, ecolor="#444444")
+    axes.set_yticks(at, [indices.names[k] for k in order])
+    axes.grid(visible=False, axis="y")
+    axes.set_axisbelow(True)
+    axes.axvline(0.0, color="#888888", linewidth=0.8)
+    axes.set_xlim(min(0.0, axes.get_xlim()[0]), max(1.0, axes.get_xlim()[1]))
+    axes.set_xlabel("part of the variance")
+    axes.set_title("Sobol' indices" if both else "Sobol' indices, first order")
+    if both:
+        axes.legend(loc="lower right")
+
+
+def rank_correlations(data: StudyData, responses: Sequence[Response]) -> NDArray[np.float64]:
+    """Spearman's rank correlation of each measure with each parameter.
+
+    Returns
+    -------
+    ndarray of shape (responses, parameters)
+        -1 to 1; NaN where one of the two does not change, or the parameter has more than two words for values.
+    """
+    table = np.full((len(responses), len(data.parameters)), np.nan)
+    for i, response in enumerate(responses):
+        for j, parameter in enumerate(data.parameters):
+            x = data.x[response.rows, j]
+            if len(parameter.words) <= 2 and len(x) > 2 and np.ptp(x) > 0.0 and np.ptp(response.values) > 0.0:
+                table[i, j] = spearmanr(x, response.values).statistic
+    return table
+
+
+def plot_correlations(data: StudyData, responses: Sequence[Response]) -> Figure:
+    """A table in colours."""
+    table = rank_correlations(data, responses)
+    size = (min(WIDTH, 4.0 + 0.9 * table.shape[1]), 1.4 + 0.36 * table.shape[0])
+    figure, axes = plt.subplots(figsize=size, layout="constrained")
+    image = axes.imshow(table, vmin=-1.0, vmax=1.0, cmap="RdBu", aspect="auto")
+    axes.set_xticks(range(table.shape[1]), [p.name for p in data.parameters], rotation=30, ha="right")
+    axes.set_yticks(range(table.shape[0]), [r.label for r in responses])
+    axes.grid(visible=False)
+    for (i, j), value in np.ndenumerate(table):
+        if np.isfinite(value):
+            colour = "white" if abs(value) > 0.6 else "#222222"
+            axes.text(j, i, f"{value:.2f}", ha="center", va="center", fontsize=8, color=colour)
+    figure.colorbar(image, ax=axes, label="rank correlation", shrink=0.8)
+    return figure

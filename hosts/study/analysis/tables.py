@@ -1,0 +1,68 @@
+"""Numbers of the measures: percentiles, reasons of failed runs, worst cases."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from hosts.study.analysis.data import Response, StudyData
+
+_PERCENTILES = (0.0, 5.0, 50.0, 95.0, 100.0)
+_NUMBER = re.compile(r"(?<![A-Za-z_\d.\[])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w\]])")
+
+
+@dataclass(frozen=True)
+class Row:
+    """A run to be looked at: its index, and the value of the measure."""
+
+    index: int
+    position: int
+    value: float
+
+
+def statistics(response: Response) -> dict[str, float]:
+    """Count, mean, standard deviation and percentiles, in the unit of the measure."""
+    y = response.values
+    found = {
+        "runs": float(len(y)),
+        "mean": float(y.mean()),
+        "std": float(y.std(ddof=1)) if len(y) > 1 else float("nan"),
+    }
+    names = ("lowest", "5 %", "median", "95 %", "highest")
+    return found | {n: float(v) for n, v in zip(names, np.percentile(y, _PERCENTILES), strict=True)}
+
+
+def extremes(data: StudyData, response: Response, count: int) -> tuple[list[Row], list[Row]]:
+    """The highest and the lowest runs, of equal ones those with the lowest index first.
+
+    Parameters
+    ----------
+    data : StudyData
+    response : Response
+    count : int
+        Of each; fewer where there are not twice as many.
+    """
+    order = np.argsort(response.values, kind="stable")
+    up = np.argsort(-response.values, kind="stable")
+    count = min(count, (len(order) + 1) // 2)
+    index = data.frame.index.to_numpy()
+
+    def rows(of: np.ndarray) -> list[Row]:
+        return [Row(int(index[response.rows[k]]), int(response.rows[k]), float(response.values[k])) for k in of[:count]]
+
+    return rows(up), rows(order)
+
+
+def reasons(data: StudyData, status: str) -> list[tuple[str, list[int]]]:
+    """Reasons of the runs of a status and their indices, the most frequent first; they may differ in their numbers."""
+    found: dict[str, list[tuple[int, str]]] = {}
+    wanted = data.frame[data.frame["status"].astype(str) == status]
+    for index, text in zip(wanted.index, wanted["reason"].astype(str), strict=True):
+        found.setdefault(_NUMBER.sub("…", text), []).append((int(index), text))
+    groups = [
+        (runs[0][1] if len({text for _, text in runs}) == 1 else pattern, [index for index, _ in runs])
+        for pattern, runs in found.items()
+    ]
+    return sorted(groups, key=lambda group: -len(group[1]))

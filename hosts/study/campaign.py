@@ -1,0 +1,233 @@
+"""A study from its file to its last row."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time as clock
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.errors import FileError
+from hosts.errors import HostError
+from hosts.study.folder import begin_study, check_same, free_space, locked, read_record
+from hosts.study.plan import Plan, make_plan
+from hosts.study.progress import StudyProgress, duration
+from hosts.study.study_file import StudyFile, read_study_file
+from hosts.study.trial import Trial, bytes_of, try_out, with_columns
+
+_MARGIN = 50e6  # bytes of the disk that are left to others
+_CHUNK_BYTES = 20e6  # of signals that come from a worker at once
+
+
+@dataclass(frozen=True)
+class Ended:
+    """What a study has come to.
+
+    Parameters
+    ----------
+    folder : Path
+    complete : bool
+        Whether every run has a row.
+    failed : int
+        Of the runs that were made now.
+    """
+
+    folder: Path
+    complete: bool
+    failed: int
+
+
+def run_study(
+    file: Path, out: Path | None, scheduler: str | None, workers: int | None, dry: bool = False, again: bool = False
+) -> Ended | None:
+    """Check a study, make the runs that are missing, and write their rows.
+
+    Parameters
+    ----------
+    file : Path
+    out : Path, optional
+    scheduler : str, optional
+        Address.
+    workers : int, optional
+        Of this machine.
+    dry : bool
+        Only print the plan.
+    again : bool
+        Make failed runs again.
+
+    Returns
+    -------
+    Ended or None
+        None after a dry run.
+
+    Raises
+    ------
+    HostError, FileError
+    """
+    study, content = read_study_file(file)
+    folder = out_folder(out, study, file)
+    if folder.exists() and not folder.is_dir():
+        raise HostError(f"{folder} is a file; the results of a study are a folder.")
+    before = read_record(folder)
+    plan = make_plan(study, file, _fmu(study, file, folder, before))
+    for note in plan.notes:
+        print(f"note: {note}", file=sys.stderr)
+    if before is not None:
+        # columns of tests are known from the first half
+        plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
+        check_same(folder, before, plan.record)
+    trial = try_out(plan)
+    for note in trial.notes:
+        print(f"note: {note}", file=sys.stderr)
+    plan = with_columns(plan, trial.columns)
+    plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
+    workers_here = None if scheduler is not None else workers
+    _print_plan(plan, trial, folder, scheduler, workers_here)
+    if dry:
+        return None
+    with locked(folder):
+        return _run(plan, trial, folder, content, scheduler, workers, again)
+
+
+def out_folder(out: Path | None, study: StudyFile, file: Path) -> Path:
+    """Where the results go."""
+    return out if out is not None else Path("out", study.name or file.stem)
+
+
+def _fmu(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | None) -> Path:
+    """The FMU that is named, or that of the car; a car that is unchanged has that of the first half."""
+    if study.fmu is not None:
+        return file.parent / study.fmu
+    from hosts.built_fmu import fmu_of_car
+
+    assert study.car is not None
+    beside = file.parent / study.car
+    return fmu_of_car(str(beside) if beside.exists() else study.car, lambda line: print(line, file=sys.stderr))
+
+
+def _print_plan(plan: Plan, trial: Trial, folder: Path, scheduler: str | None, workers: int | None) -> None:
+    from hosts.study.cluster import available_cores
+
+    points, jobs = plan.points.count, plan.work.jobs
+    count = 1 if scheduler is not None else workers or available_cores()
+    print(f"study       {plan.name}: {points} points x {len(jobs)} = {plan.runs} runs, into {folder}")
+    print(f"FMU         {plan.fmu}, {plan.record['model']}, {plan.work.guid}")
+    print(f"manoeuvres  {', '.join(job.label for job in jobs)}")
+    print(f"parameters  {_some(plan.work.parameters)}")
+    print(f"measures    {_some(plan.work.columns) or 'none'}")
+    if plan.work.signals:
+        print(f"signals     {_some(plan.work.signals)}")
+    whole = plan.runs * trial.seconds
+    where = "on one worker" if scheduler is not None else f"with {count} workers"
+    print(
+        f"estimate    {trial.seconds:.3g} s a run, {duration(whole / count)} in all {where}; "
+        f"{_size(bytes_of(plan))} of results",
+        flush=True,
+    )
+
+
+def _some(names: tuple[str, ...], most: int = 8) -> str:
+    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
+
+
+def _size(count: float) -> str:
+    for unit in ("kB", "MB"):
+        count /= 1e3
+        if count < 1e3:
+            return f"{max(count, 0.1):.3g} {unit}"
+    return f"{count / 1e3:.3g} GB"
+
+
+def _run(
+    plan: Plan, trial: Trial, folder: Path, content: bytes, scheduler: str | None, workers: int | None, again: bool
+) -> Ended:
+    from hosts.study.parts import forget_failed, runs_done
+
+    record = read_record(folder)
+    if record is None:
+        _check_space(bytes_of(plan), folder)
+        record = json.loads(json.dumps(plan.record))
+        begin_study(folder, record, content, plan.fmu)
+    else:
+        check_same(folder, record, plan.record)
+    if again:
+        print(f"{forget_failed(folder)} failed runs are made again")
+    done = runs_done(folder, plan.runs)
+    before = int(np.count_nonzero(done))
+    if before:
+        print(f"{before} of {plan.runs} runs are there", flush=True)
+        _check_space(bytes_of(plan) * (plan.runs - before) / plan.runs, folder)
+    if before == plan.runs:
+        return Ended(folder, True, 0)
+    return _make(plan, trial, folder, record, done, scheduler, workers)
+
+
+def _check_space(needed: float, folder: Path) -> None:
+    free = free_space(folder)
+    if needed + _MARGIN > free:
+        raise HostError(
+            f"The results may need {_size(needed)} in {folder}, where {_size(free)} are free; make room, give another "
+            "--out, or keep fewer signals."
+        )
+
+
+def _make(
+    plan: Plan,
+    trial: Trial,
+    folder: Path,
+    record: dict[str, Any],
+    done: NDArray[np.bool_],
+    scheduler: str | None,
+    workers: int | None,
+) -> Ended:
+    from hosts.study.cluster import bring, connected, take_away
+    from hosts.study.execution import Execution, SchedulerLostError
+    from hosts.study.missing import ChunkSize, missing_runs
+    from hosts.study.parts import PartWriter
+    from hosts.study.signals import SignalWriter, make_store
+
+    signals = None
+    if plan.work.signals:
+        for job in plan.work.jobs:
+            if job.manoeuvre is not None:
+                make_store(folder, job, record)
+        signals = SignalWriter(folder, plan.work.jobs, plan.work.signals)
+    before, begin = int(np.count_nonzero(done)), clock.monotonic()
+    bytes_a_run = max(8 * job.samples * len(plan.work.signals) for job in plan.work.jobs) + 1
+    with connected(scheduler, workers) as client, StudyProgress(plan.runs, before) as progress:
+        bring(client, plan)
+        size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
+        execution = Execution(client, plan, size, PartWriter(folder, record), signals, progress)
+        lost = False
+        try:
+            execution.run(missing_runs(done, size))
+        except (SchedulerLostError, KeyboardInterrupt) as error:
+            execution.keep()
+            if isinstance(error, KeyboardInterrupt):
+                raise
+            lost = True
+        except FileError as error:
+            raise FileError(f"{error} {_kept(plan, folder)}") from None
+        else:
+            if scheduler is not None:
+                take_away(client, plan)
+    seconds = clock.monotonic() - begin
+    if lost:
+        print(f"The scheduler at {scheduler} has gone. {_kept(plan, folder)}", file=sys.stderr)
+        return Ended(folder, False, progress.failed)
+    rate = progress.made / seconds
+    words = f"{progress.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {progress.failed} failed"
+    print(f"{words}; written: {folder}")
+    return Ended(folder, True, progress.failed)
+
+
+def _kept(plan: Plan, folder: Path) -> str:
+    from hosts.study.parts import runs_done
+
+    count = int(np.count_nonzero(runs_done(folder, plan.runs)))
+    return f"{count} of {plan.runs} runs are written and stay; the same command makes the others."

@@ -1,0 +1,141 @@
+"""Workers of a study: a cluster of this machine, or one that is there."""
+
+from __future__ import annotations
+
+import logging
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import dask
+from distributed import Client, LocalCluster
+
+from ali3.cache import cache_folder
+from hosts.errors import HostError
+from hosts.study.plan import Plan
+from hosts.study.worker import StudyPlugin, why_wrong
+
+_PATIENCE = 20.0  # s for an answer of a scheduler
+_DEATHS = 1  # of workers by a chunk, until its runs are made in processes of their own
+
+
+@contextmanager
+def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
+    """A client of a scheduler, or of a local cluster that ends with the block.
+
+    Parameters
+    ----------
+    scheduler : str, optional
+        Address.
+    workers : int, optional
+        Of a local cluster, one process each; by default as many as cores this process may use.
+
+    Raises
+    ------
+    HostError
+        Nobody answers there.
+    """
+    if scheduler is not None:
+        with _client(scheduler) as client:
+            yield client
+        return
+    folder = _work_folder()
+    try:
+        with _local_cluster(workers or available_cores(), folder) as cluster, Client(cluster) as client:
+            yield client
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def available_cores() -> int:
+    """Cores that this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # not on this system
+        return os.cpu_count() or 1
+
+
+def _client(address: str) -> Client:
+    try:
+        return Client(address, timeout=_PATIENCE, set_as_default=False)
+    except (OSError, ValueError) as error:
+        words = " ".join(str(error).split())
+        raise HostError(f"No scheduler of Dask answers at {address}: {words[:200]}") from None
+
+
+def _work_folder() -> Path:
+    """A folder for what workers unpack; those of programs that were killed are removed."""
+    room = cache_folder("study")
+    for old in room.iterdir():
+        if not _is_alive(old.name.partition("-")[0]):
+            shutil.rmtree(old, ignore_errors=True)
+    return Path(tempfile.mkdtemp(prefix=f"{os.getpid()}-", dir=room))
+
+
+def _is_alive(number: str) -> bool:
+    import psutil
+
+    return number.isdigit() and psutil.pid_exists(int(number))
+
+
+@contextmanager
+def _local_cluster(workers: int, folder: Path) -> Iterator[LocalCluster]:
+    # This machine's own name may resolve to a network; nothing but it is to reach the workers.
+    settings: dict[str, Any] = {
+        "distributed.scheduler.allowed-failures": _DEATHS,
+        "distributed.worker.daemon": True,
+        "temporary-directory": str(folder),
+    }
+    places = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
+    with (
+        dask.config.set(settings),
+        LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            host="127.0.0.1",
+            dashboard_address=None,
+            worker_dashboard_address=None,
+            local_directory=str(folder),
+            silence_logs=logging.CRITICAL,
+            env=places | {"OMP_NUM_THREADS": "1"},
+        ) as cluster,
+    ):
+        yield cluster
+
+
+def bring(client: Client, plan: Plan) -> None:
+    """Give the study to all workers, also those to come, and check that they would make the same runs.
+
+    Parameters
+    ----------
+    client : Client
+    plan : Plan
+
+    Raises
+    ------
+    HostError
+        A worker has another version of ALi3, or cannot load it.
+    """
+    plugin = StudyPlugin(plan.key, plan.work, plan.seed, plan.fmu.read_bytes())
+    try:
+        client.register_plugin(plugin)
+        answers = client.run(why_wrong, plan.key)
+    except Exception as error:
+        words = str(error).strip().splitlines() or [type(error).__name__]
+        raise HostError(
+            f"A worker cannot take the study ({type(error).__name__}: {words[-1]}); it needs ALi3 of this version with "
+            'its extra: python -m pip install "ali3[study]".'
+        ) from None
+    for address, answer in answers.items():
+        if answer:
+            raise HostError(f"The worker {address} cannot be used: {answer}.")
+
+
+def take_away(client: Client, plan: Plan) -> None:
+    """Take the study from the workers of a cluster that stays."""
+    client.unregister_worker_plugin(f"ali3-study-{plan.key}")

@@ -1,0 +1,93 @@
+"""Runs many variants of a car or another FMU: ``ali3 study STUDY.toml [--scheduler ADDRESS] [--out DIR]``.
+
+The study file names an FMU or a car, manoeuvres, parameters and what is measured. Started again, the command makes the
+runs that are missing. A folder of results takes the place of the file to repeat a run or to write the report.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from ali3.running import NOT_GOOD, run_command
+from hosts.errors import HostError
+
+
+def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.study") -> int:
+    """Run the command, which the user typed as `prog`; 0 if every run that was asked for has a row."""
+    parser = argparse.ArgumentParser(
+        prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("study", type=Path, metavar="STUDY", help="a study file, or the folder of a study's results")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder of the results; default: out/ and the name")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="a scheduler of Dask; default: workers on this machine")
+    parser.add_argument("--workers", type=int, metavar="N", help="processes here; default: one for each core")
+    parser.add_argument("--dry-run", "--list", action="store_true", help="check all, print the plan and stop")
+    parser.add_argument("--again", action="store_true", help="make failed runs again")
+    parser.add_argument("--run", type=int, metavar="INDEX", help="print the commands that repeat a run of the results")
+    parser.add_argument("--report", action="store_true", help="only write the report of the results")
+    parser.add_argument("--no-report", action="store_true", help="write no report at the end")
+    options = parser.parse_args(arguments)
+    return run_command(lambda: _study(options, prog))
+
+
+def _study(options: argparse.Namespace, prog: str) -> int:
+    if options.workers is not None and options.workers < 1:
+        raise HostError(f"--workers is {options.workers}; at least one is needed.")
+    if options.workers is not None and options.scheduler is not None:
+        raise HostError("--workers are those of this machine, --scheduler has its own; give one of them.")
+    if options.run is not None:
+        return _repeat(options)
+    if options.report:
+        return _report(options.study if options.study.is_dir() else _out(options))
+    if options.study.is_dir():
+        raise HostError(_of_folder(options.study, prog))
+    from hosts.study.campaign import run_study
+
+    good = run_study(options.study, options.out, options.scheduler, options.workers, options.dry_run, options.again)
+    if good is None:
+        return 0
+    if not options.no_report:
+        _report(good.folder)
+    return 0 if good.complete else NOT_GOOD
+
+
+def _repeat(options: argparse.Namespace) -> int:
+    from hosts.study.repeat import repeat_command
+
+    repeat = repeat_command(options.study if options.study.is_dir() else _out(options), options.run)
+    print("\n".join(line for line in (repeat.drive, repeat.view) if line))
+    return 0
+
+
+def _out(options: argparse.Namespace) -> Path:
+    from hosts.study.campaign import out_folder
+    from hosts.study.study_file import read_study_file
+
+    return out_folder(options.out, read_study_file(options.study)[0], options.study)
+
+
+def _report(folder: Path) -> int:
+    import importlib
+
+    try:
+        report = importlib.import_module("hosts.study.analysis.report")
+    except ModuleNotFoundError as error:
+        if not (error.name or "").startswith("hosts.study"):
+            raise
+        return 0
+    print(f"written: {', '.join(str(file) for file in report.write_report(folder))}")
+    return 0
+
+
+def _of_folder(folder: Path, prog: str) -> str:
+    from hosts.study.folder import read_record
+
+    record = read_record(folder)
+    if record is None:
+        return f"{folder} is a folder; a study is a TOML file."
+    return (
+        f"{folder} holds the results of {record['file']}; to go on: {prog} {record['file']} --out {folder}; "
+        "else give --run or --report."
+    )

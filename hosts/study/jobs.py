@@ -1,0 +1,141 @@
+"""What is done at each point of a study: manoeuvres and tests of the catalogue, checked."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hosts.co_simulation import check_columns, communication_step, driver_of
+from hosts.driver import ACTS
+from hosts.errors import HostError
+from hosts.manoeuvre import Manoeuvre, load_manoeuvre, with_names_of
+from hosts.manoeuvres import manoeuvre_names
+from hosts.numbers import Value
+from hosts.study.study_file import ManoeuvreEntry, StudyFile
+from hosts.study.work import Job
+
+if TYPE_CHECKING:
+    from hosts.aliased_fmu import AliasedFmu
+    from hosts.fmu import Fmu
+
+
+def jobs_of(study: StudyFile, file: Path, fmu: Fmu | AliasedFmu, parameters: Sequence[str]) -> list[Job]:
+    """What is done at each point.
+
+    Parameters
+    ----------
+    study : StudyFile
+    file : Path
+    fmu : Fmu or AliasedFmu
+    parameters : sequence of str
+        That are varied.
+
+    Raises
+    ------
+    HostError
+        A manoeuvre cannot be driven with this FMU, or overwrites a parameter.
+    """
+    jobs: list[Job] = []
+    for number, entry in enumerate(study.manoeuvres, start=1):
+        where = f"{file}: manoeuvres[{number}]"
+        job = _test(entry, study, fmu, where) if entry.test is not None else _drive(entry, study, file, fmu, where)
+        for other in jobs:
+            if other.label == job.label:
+                raise HostError(f"{where}: another manoeuvre is called '{job.label}'; give one of them another name.")
+        if job.manoeuvre is not None:
+            _check_effect(job.manoeuvre, parameters, where)
+        twice = sorted(set(entry.start) & set(parameters))
+        if twice:
+            raise HostError(f"{where}.start sets '{twice[0]}', which is a parameter of the study; give it once.")
+        jobs.append(job)
+    if study.signals is not None and all(job.manoeuvre is None for job in jobs):
+        raise HostError(f"{file}: [signals] are of manoeuvres; this study has tests only, which keep none.")
+    return jobs
+
+
+def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: Fmu | AliasedFmu, where: str) -> Job:
+    if entry.manoeuvre is None:
+        assert entry.stop_time is not None
+        manoeuvre = Manoeuvre(entry.name or "run", np.zeros(0), {}, entry.stop_time)
+    else:
+        manoeuvre = load_manoeuvre(_place(entry.manoeuvre, file))
+        if entry.stop_time is not None:
+            manoeuvre = replace(manoeuvre, stop_time=entry.stop_time)
+    manoeuvre = with_names_of(manoeuvre, fmu.variables)
+    try:
+        check_columns(fmu, manoeuvre)
+        driver_of(fmu, manoeuvre)
+        step = communication_step(fmu, manoeuvre, study.step)
+    except HostError as error:
+        raise HostError(f"{where}: {error}") from None
+    start = {**manoeuvre.start, **_checked(study.start, fmu, ""), **_checked(entry.start, fmu, f"{where}.start")}
+    manoeuvre = replace(manoeuvre, name=entry.name or manoeuvre.name, start=start)
+    every, samples = _sampling(study, manoeuvre.stop_time, step, where)
+    return Job(manoeuvre.name, manoeuvre, step=step, every=every, samples=samples)
+
+
+def _test(entry: ManoeuvreEntry, study: StudyFile, fmu: Fmu | AliasedFmu, where: str) -> Job:
+    from hosts.catalogue.perform import settings_of_test
+    from hosts.catalogue.registry import standard_test
+
+    assert entry.test is not None
+    try:
+        test = standard_test(entry.test)
+        settings = settings_of_test(test, entry.settings)
+    except HostError as error:
+        raise HostError(f"{where}: {error}") from None
+    constants = set(fmu.constants())
+    for need in test.needs:
+        names = {name.strip() for name in need.split("|")}
+        if not names & ({*fmu.variables} | constants):
+            raise HostError(f"{where}: the test {test.name} needs {' or '.join(sorted(names))}, which the FMU has not.")
+    start = {**study.start, **_checked(entry.start, fmu, f"{where}.start")}
+    step = float("nan") if study.step is None else study.step
+    return Job(entry.name or test.name, None, test.name, settings, start, step)
+
+
+def _place(name: str, file: Path) -> str:
+    """A manoeuvre of the package by its name, else a file beside the study."""
+    if name in manoeuvre_names():
+        return name
+    if Path(name).suffix not in (".csv", ".ini") and not (file.parent / name).is_dir():
+        near = difflib.get_close_matches(name, manoeuvre_names(), 1)
+        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(manoeuvre_names())}, or a CSV file."
+        raise HostError(f"{file}: there is no manoeuvre '{name}'; {hint}")
+    return str(file.parent / name)
+
+
+def _checked(values: Mapping[str, Value], fmu: Fmu | AliasedFmu, where: str) -> dict[str, Value]:
+    for name in values:
+        if name not in fmu.variables:
+            near = difflib.get_close_matches(name, list(fmu.variables), 1)
+            raise HostError(f"{where}: the FMU has no '{name}'{f'; did you mean {near[0]}?' if near else '.'}")
+    return {name: fmu.table[name].check(value, where) for name, value in values.items()}
+
+
+def _check_effect(manoeuvre: Manoeuvre, parameters: Sequence[str], where: str) -> None:
+    for name in parameters:
+        if name in manoeuvre.inputs:
+            raise HostError(f"{where}: '{name}' is a parameter of the study and a column of the manoeuvre, which wins.")
+        if manoeuvre.driver and name in ACTS:
+            raise HostError(f"{where}: '{name}' is a parameter of the study; the driver of the manoeuvre acts on it.")
+
+
+def _sampling(study: StudyFile, stop: float, step: float, where: str) -> tuple[int, int]:
+    """Steps between kept values of signals, and how many there are."""
+    if study.signals is None:
+        return 0, 0
+    interval = study.signals.interval
+    every = round(interval / step)
+    if every < 1 or abs(every * step - interval) > 1e-6 * interval:
+        near = step * max(1, every)
+        raise HostError(
+            f"{where}: signals.interval is {interval:g} s, no whole multiple of the step of {step:g} s; take "
+            f"{near:g} s."
+        )
+    return every, max(1, round(stop / step)) // every + 1

@@ -1,0 +1,205 @@
+"""A function of the user's that makes numbers of a run."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import math
+import numbers
+import sys
+import traceback
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from ali3.files import reason
+from hosts.co_simulation import Result
+from hosts.errors import HostError
+from hosts.measures.measure import Measure
+from hosts.numbers import Value
+from hosts.study.measures.expression import near
+
+
+@dataclass(frozen=True)
+class UserFunction:
+    """A function in a file; made by `read_user_function`.
+
+    It carries its source, so that a worker on another machine needs no such file.
+
+    Parameters
+    ----------
+    name : str
+        Of its column, or what its columns begin with.
+    file : str
+    function : str
+    source : str
+        Of the file.
+    """
+
+    name: str
+    file: str
+    function: str
+    source: str
+
+    @property
+    def text(self) -> str:
+        """File and function."""
+        return f"{self.file}:{self.function}"
+
+    @property
+    def signals(self) -> frozenset[str]:
+        """Empty: all, maybe."""
+        return frozenset()
+
+    @property
+    def digest(self) -> str:
+        """Of the source."""
+        return hashlib.sha256(f"{self.function}\n{self.source}".encode()).hexdigest()
+
+    def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
+        """What it declares; see `StudyMeasure.columns`."""
+        declared = getattr(_load(self), "units", "1")
+        if isinstance(declared, str):
+            return {self.name: declared or "1"}
+        if (
+            not isinstance(declared, Mapping)
+            or not declared
+            or not all(isinstance(k, str) and k and isinstance(v, str) for k, v in declared.items())
+        ):
+            raise HostError(
+                f'{self.text}: {self.function}.units is {declared!r:.80}; it must be a unit such as "m/s2", or a '
+                f'mapping of the names of its numbers to their units: {self.function}.units = {{"peak": "m/s2"}}.'
+            )
+        return {f"{self.name}.{k}": v or "1" for k, v in declared.items()}
+
+    def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
+        """What it gives; see `StudyMeasure.evaluate`."""
+        columns = self.columns(result.units)
+        values, note = dict.fromkeys(columns, math.nan), ""
+        notes: dict[str, str] = {}
+        if result.failed_steps:
+            note = f"The FMU refused the step at {result.time[-1]:g} s."
+        else:
+            try:
+                found = self._named(self._call(result, dict(parameters or {})), columns)
+                values = {name: _number(value) for name, value in found.items()}
+                notes = {
+                    name: f"{self.text} gave {value!r:.60} for it, not a finite number."
+                    for name, value in found.items()
+                    if not math.isfinite(values[name])
+                }
+            except Exception as error:
+                note = str(error) if isinstance(error, HostError) else _words(self, error)
+        return [Measure(n, values[n], columns[n], self.text, note=notes.get(n, note)) for n in columns]
+
+    def _call(self, result: Result, parameters: dict[str, Value]) -> Any:
+        function = _load(self)
+        return function(result, parameters) if _takes_parameters(function) else function(result)
+
+    def _named(self, given: Any, columns: Mapping[str, str]) -> dict[str, Any]:
+        """What the function gave, by the names of the columns."""
+        single = list(columns) == [self.name]
+        if not isinstance(given, Mapping):
+            if single:
+                return {self.name: given}
+            raise HostError(f"{self.text} gave {given!r:.60}; {self.function}.units declares a mapping.")
+        if single:
+            raise HostError(
+                f"{self.text} gave a mapping; declare its names and units behind the function, such as "
+                f"{self.function}.units = {{{', '.join(f'{str(k)!r}: {chr(34)}1{chr(34)}' for k in list(given)[:3])}}}."
+            )
+        wanted = {name.removeprefix(f"{self.name}."): name for name in columns}
+        if set(given) != set(wanted):
+            raise HostError(
+                f"{self.text} gave {', '.join(map(str, given)) or 'nothing'}; {self.function}.units declares "
+                f"{', '.join(wanted)}."
+            )
+        return {wanted[k]: given[k] for k in wanted}
+
+
+def read_user_function(file: Path, function: str, name: str = "") -> UserFunction:
+    """Read the file and load it once, so that what is wrong is said before the first run.
+
+    Parameters
+    ----------
+    file : Path
+    function : str
+    name : str
+        By default that of the function.
+
+    Raises
+    ------
+    HostError
+        No file, no function, or the file cannot be run.
+    """
+    if not function.isidentifier():
+        raise HostError(f"'{file}:{function}' names no function; the form is file.py:function.")
+    try:
+        source = file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        words = reason(error) if isinstance(error, OSError) else "it is no text in UTF-8"
+        raise HostError(f"{file}, in which the function {function} is to be, cannot be read: {words}.") from None
+    made = UserFunction(name or function, str(file), function, source)
+    _load(made)
+    made.columns({})
+    return made
+
+
+@lru_cache(maxsize=100)
+def _load(wanted: UserFunction) -> Callable[..., Any]:
+    """Run the file in a module of its own, once in a process."""
+    module = ModuleType(f"study_function_{hashlib.sha256(wanted.source.encode()).hexdigest()[:16]}")
+    module.__file__ = wanted.file
+    # Data classes and pickling look there for the module of a class.
+    sys.modules[module.__name__] = module
+    neighbours = str(Path(wanted.file).resolve().parent)
+    sys.path.insert(0, neighbours)
+    try:
+        exec(compile(wanted.source, wanted.file, "exec"), module.__dict__)
+    except (Exception, SystemExit) as error:
+        raise HostError(_words(wanted, error)) from None
+    finally:
+        sys.path.remove(neighbours)
+    found = getattr(module, wanted.function, None)
+    if found is None:
+        functions = {n: "" for n, value in vars(module).items() if inspect.isfunction(value)}
+        raise HostError(f"{wanted.file} has no function '{wanted.function}'{near(wanted.function, functions)}")
+    if not callable(found):
+        raise HostError(f"{wanted.text} is {type(found).__name__}, not a function.")
+    _takes_parameters(found, wanted.text)
+    return found  # type: ignore[no-any-return]
+
+
+def _takes_parameters(function: Callable[..., Any], text: str = "") -> bool:
+    """Whether it takes the parameters of the run besides the result."""
+    try:
+        signature = inspect.signature(function)
+    except (TypeError, ValueError):  # of a function in C
+        return False
+    for count in (2, 1):
+        try:
+            signature.bind(*range(count))
+        except TypeError:
+            continue
+        return count == 2
+    raise HostError(f"{text} takes {signature}; it must take (result), or (result, parameters).")
+
+
+def _number(value: Any) -> float:
+    """NaN for what is none."""
+    try:
+        number = float(value) if isinstance(value, numbers.Real) or hasattr(value, "__float__") else math.nan
+    except (TypeError, ValueError):
+        return math.nan
+    return number if math.isfinite(number) else math.nan
+
+
+def _words(wanted: UserFunction, error: BaseException) -> str:
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == wanted.file]
+    line = error.lineno if isinstance(error, SyntaxError) else lines[-1] if lines else None
+    what = error.msg if isinstance(error, SyntaxError) else str(error)
+    where = f"{wanted.text}, line {line}" if line is not None else wanted.text
+    return f"{where}: {type(error).__name__}: {what}".rstrip(": ") + "."

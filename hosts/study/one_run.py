@@ -1,0 +1,149 @@
+"""One run of a study, from an instance of the FMU to its row."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.aliased_fmu import AliasedFmu
+from hosts.co_simulation import Result, driver_of, run
+from hosts.errors import HostError
+from hosts.fmu import Fmu
+from hosts.manoeuvre import Manoeuvre, with_names_of
+from hosts.measures.measure import Measure
+from hosts.numbers import Value
+from hosts.study.work import DONE, FAILED, INCOMPLETE, Job, Outcome, Work
+
+_MOST_NOTES = 3
+
+
+class Bench:
+    """An FMU on which runs are made one after the other, in one instance where that gives the same bits.
+
+    Parameters
+    ----------
+    work : Work
+    path : Path
+        FMU.
+    """
+
+    def __init__(self, work: Work, path: Path) -> None:
+        self._work, self._path = work, path
+        self._fmu: Fmu | None = None
+
+    def close(self) -> None:
+        """Free the instance."""
+        if self._fmu is not None:
+            fmu, self._fmu = self._fmu, None
+            fmu.__exit__(None, None, None)
+
+    def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
+        """Make a run; whatever goes wrong in it is its outcome.
+
+        Parameters
+        ----------
+        job : Job
+        values : mapping of str to float, int, bool or str
+            Of the parameters.
+        seed : int
+            For functions of the user's.
+        """
+        begin = clock.perf_counter()
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of NumPy, about numbers that the outcome tells of
+                outcome = self._test(job, values) if job.manoeuvre is None else self._drive(job, values, seed)
+        except Exception as error:
+            words = str(error) if isinstance(error, HostError) else f"{type(error).__name__}: {error}"
+            outcome = Outcome(FAILED, words)
+        if outcome.status == FAILED or not self._work.reuse:
+            self.close()  # what has failed may have left more than a reset clears
+        outcome.wall = clock.perf_counter() - begin
+        return outcome
+
+    def _drive(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
+        assert job.manoeuvre is not None
+        fmu, work = self._fresh(), self._work
+        seen = AliasedFmu(fmu, work.aliases) if work.aliases.aliases else fmu
+        manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
+        result = run(seen, manoeuvre, job.step, driver_of(seen, manoeuvre))
+        outcome = _of_result(result, job)
+        if job.every:
+            outcome.signals = sampled(result, work.signals, job)
+        if outcome.status == DONE:
+            given = {**values, "seed": seed}
+            measures = [m for measure in work.measures for m in measure.evaluate(result, given)]
+            _take(outcome, [(m.name, m) for m in measures])
+        return outcome
+
+    def _test(self, job: Job, values: Mapping[str, Value]) -> Outcome:
+        from hosts.catalogue.car import TestedCar
+        from hosts.catalogue.perform import perform
+        from hosts.catalogue.registry import standard_test
+
+        start = {**job.start, **values}
+        step = None if math.isnan(job.step) else job.step
+        car = TestedCar(self._work.fmu, self._path, self._work.aliases, start, step)
+        record = perform(standard_test(job.test), car, job.settings)
+        outcome = Outcome(simulated=sum(result.simulated for result in record.runs.values()))
+        named = [(column(job, m), m) for m in record.measures]
+        if not self._work.columns:  # a trial: what it measures becomes the columns
+            outcome.units = {name: m.unit for name, m in named}
+        _take(outcome, [(name, m) for name, m in named if not self._work.columns or name in self._work.columns])
+        return outcome
+
+    def _fresh(self) -> Fmu:
+        """An instance that is as new."""
+        if self._fmu is None:
+            self._fmu = Fmu(self._path)
+        else:
+            self._fmu.reset()
+            self._fmu.messages.clear()
+        return self._fmu
+
+
+def started(manoeuvre: Manoeuvre, values: Mapping[str, Value]) -> Manoeuvre:
+    """The manoeuvre with values of parameters over its start values."""
+    return replace(manoeuvre, start={**manoeuvre.start, **values})
+
+
+def column(job: Job, measure: Measure) -> str:
+    """The column of a measure of a test."""
+    return f"{job.label}.{measure.name}"
+
+
+def sampled(result: Result, names: Sequence[str], job: Job) -> NDArray[np.float64]:
+    """Values of signals at the times that are kept, of shape (samples, signals); NaN after an early end."""
+    kept = np.full((job.samples, len(names)), np.nan)
+    rows = result.values[:: job.every, [result.names.index(n) for n in names]][: job.samples]
+    kept[: len(rows)] = rows
+    return kept
+
+
+def _of_result(result: Result, job: Job) -> Outcome:
+    """Whether the run came to its end with numbers."""
+    end = Outcome(simulated=result.simulated)
+    wrong = ~np.isfinite(result.values)
+    if wrong.any():
+        row, place = np.argwhere(wrong)[0]
+        what = f"'{result.names[place]}' is {result.values[row, place]} at {result.time[row]:g} s."
+        end.status, end.reason = FAILED, f"The output {what}"
+    elif result.failed_steps:
+        words = f": {result.messages[-1]}" if result.messages else "."
+        end.status, end.reason = FAILED, f"The FMU refused the step at {result.simulated:g} s{words}"
+    return end
+
+
+def _take(outcome: Outcome, measures: Sequence[tuple[str, Measure]]) -> None:
+    outcome.measures = {name: float(m.value) for name, m in measures}
+    missing = [f"{name}: {m.note or 'it is not a number'}" for name, m in measures if not math.isfinite(m.value)]
+    if missing:
+        more = [f"and {len(missing) - _MOST_NOTES} more"] if len(missing) > _MOST_NOTES else []
+        outcome.status, outcome.reason = INCOMPLETE, "; ".join(missing[:_MOST_NOTES] + more)

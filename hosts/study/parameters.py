@@ -1,0 +1,159 @@
+"""Parameters of a study: what the FMU says of them, and values from numbers of [0, 1)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.errors import HostError
+from hosts.numbers import Value
+from hosts.study.study_file import ParameterEntry
+from hosts.variables import Variable
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One that is varied.
+
+    Parameters
+    ----------
+    name : str
+    kind : str
+        Of its variable: ``Real``, ``Integer``, ``Boolean``, ``String`` or ``Enumeration``.
+    unit : str
+        Of the FMU.
+    low, high : float
+        Range; NaN where there are values.
+    log : bool
+    values : tuple of float, int, bool or str
+        Empty where there is a range.
+    count : int or None
+        Values of the range in a grid.
+    """
+
+    name: str
+    kind: str
+    unit: str
+    low: float = math.nan
+    high: float = math.nan
+    log: bool = False
+    values: tuple[Value, ...] = ()
+    count: int | None = None
+
+    @property
+    def length(self) -> int:
+        """Values it has in a grid."""
+        return len(self.values) or self.count or 0
+
+    def at(self, u: NDArray[np.float64]) -> list[Value]:
+        """Values at places u in [0, 1), of shape (n,)."""
+        if self.values:
+            return [self.values[k] for k in np.floor(u * len(self.values)).astype(int)]
+        if self.kind != "Real":  # whole numbers, each as often as the others
+            whole = self.low + np.floor(u * (self.high - self.low + 1.0))
+            return [int(x) for x in np.minimum(whole, self.high)]
+        return np.clip(self._between(u), self.low, self.high).tolist()  # type: ignore[no-any-return]
+
+    def _between(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
+        if self.log:
+            return np.asarray(np.exp(math.log(self.low) + u * (math.log(self.high) - math.log(self.low))))
+        return np.asarray(self.low + u * (self.high - self.low))
+
+    def of_grid(self) -> Parameter:
+        """The same with the values of a grid: the ends of its range, and what lies between them in equal steps."""
+        if self.values:
+            return self
+        assert self.count is not None
+        if self.count == 1:
+            raise HostError(f"parameters.'{self.name}' has a count of 1; a range has at least 2 values in a grid.")
+        between = self._between(np.linspace(0.0, 1.0, self.count))
+        between[0], between[-1] = self.low, self.high
+        if self.kind != "Real" and (between != np.round(between)).any():
+            raise HostError(
+                f"parameters.'{self.name}': {self.count} equal steps from {self.low:g} to {self.high:g} are no whole "
+                "numbers; list them as values."
+            )
+        values = between.tolist() if self.kind == "Real" else [int(x) for x in between]
+        return Parameter(self.name, self.kind, self.unit, self.low, self.high, self.log, tuple(values), self.count)
+
+    def record(self) -> dict[str, Any]:
+        """For JSON."""
+        low, high = (None if math.isnan(x) else x for x in (self.low, self.high))
+        return {
+            "kind": self.kind,
+            "unit": self.unit,
+            "low": low,
+            "high": high,
+            "log": self.log,
+            "values": list(self.values),
+        }
+
+
+def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str) -> Parameter:
+    """A parameter, checked against its variable.
+
+    Parameters
+    ----------
+    name : str
+    entry : ParameterEntry
+    variable : Variable
+    file : str
+        How messages call the study file.
+
+    Raises
+    ------
+    HostError
+        A value is of another kind or out of the range of the FMU, with what would be right.
+    """
+    where = f"{file}: parameters.'{name}'"
+    if entry.range is not None:
+        if variable.kind not in ("Real", "Integer"):
+            raise HostError(f"{where} has a range; it is of the kind {variable.kind}, so that it needs values.")
+        low, high = (_value(x, entry, variable, f"{where}.range") for x in entry.range)
+        assert not isinstance(low, str)
+        assert not isinstance(high, str)
+        if entry.log and not low > 0.0:
+            raise HostError(f"{where} begins at {low:g}; with log = true it must be positive.")
+        if entry.log and variable.kind != "Real":
+            raise HostError(f"{where} is a whole number; list what it may be as values instead of log = true.")
+        return Parameter(name, variable.kind, variable.unit, float(low), float(high), entry.log, (), entry.count)
+    given = entry.values or []
+    values = tuple(_value(x, entry, variable, f"{where}.values[{k}]") for k, x in enumerate(given, start=1))
+    if len(set(values)) < len(values):
+        twice = next(x for k, x in enumerate(values) if x in values[:k])
+        raise HostError(f"{where}.values has {variable.text(twice)} twice; each is run once.")
+    return Parameter(name, variable.kind, variable.unit, values=values)
+
+
+def _value(given: Value, entry: ParameterEntry, variable: Variable, where: str) -> Value:
+    return in_unit(given, entry.unit, variable, where)
+
+
+def in_unit(given: Value, unit: str | None, variable: Variable, where: str) -> Value:
+    """A value in the unit of the FMU, checked.
+
+    Parameters
+    ----------
+    given : float, int, bool or str
+    unit : str or None
+        That it is given in; None: that of the FMU.
+    variable : Variable
+    where : str
+        How messages call its place.
+    """
+    if unit is None or unit == variable.unit or isinstance(given, (str, bool)):
+        return variable.check(given, where)
+    if unit not in variable.displays:
+        others = " or ".join([variable.unit, *variable.displays])
+        raise HostError(f"{where}: the unit is '{unit}'; the FMU knows '{variable.name}' in {others}.")
+    return variable.check(variable.from_display(float(given), unit, where), f"{where}, {given:g} {unit}")
+
+
+def columns_of(parameters: Sequence[Parameter], u: NDArray[np.float64]) -> Mapping[str, list[Value]]:
+    """Values by name at places u of shape (n, parameters)."""
+    return {p.name: p.at(u[:, k]) for k, p in enumerate(parameters)}

@@ -1,0 +1,166 @@
+"""The table of a study: parts in Parquet that are there whole or not at all."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from ali3.errors import FileError
+from ali3.files import whole_file
+from hosts.errors import HostError
+from hosts.numbers import Value
+from hosts.study.folder import RUNS, sync
+from hosts.study.work import FAILED, Chunk, Outcome, seed_of
+
+_TYPES = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.int64(), "Boolean": pa.bool_()}
+_NAME = "part-{:06d}.parquet"
+
+
+def table_schema(record: Mapping[str, Any]) -> Any:
+    """Columns of the table with their units, and what `pandas.read_parquet` gives as ``attrs``.
+
+    Parameters
+    ----------
+    record : mapping
+        Of the study.
+    """
+    units = record["units"]
+    fields = [("index", pa.int64()), ("point", pa.int64()), ("manoeuvre", pa.string()), ("seed", pa.int64())]
+    fields += [(name, _TYPES.get(p["kind"], pa.string())) for name, p in record["parameters"].items()]
+    fields += [(name, pa.float64()) for name in record["measures"]]
+    fields += [("status", pa.string()), ("reason", pa.string())]
+    fields += [("simulated", pa.float64()), ("wall_seconds", pa.float64())]
+    made = [pa.field(name, kind, metadata={"unit": units[name]} if name in units else None) for name, kind in fields]
+    return pa.schema(made, metadata={"PANDAS_ATTRS": json.dumps(attributes(record))})
+
+
+def attributes(record: Mapping[str, Any]) -> dict[str, Any]:
+    """What a table says of itself: units of columns, parameters with their ranges, what was run by which program."""
+    told = ("units", "parameters", "sampling", "seed", "guid", "model", "fmu", "versions", "runs", "points", "file")
+    return {
+        "study": record["name"],
+        **{key: record[key] for key in told},
+        "measures": list(record["measures"]),
+        "manoeuvres": [m["name"] for m in record["manoeuvres"]],
+        "step": {m["name"]: m["step"] for m in record["manoeuvres"]},
+    }
+
+
+def part_files(folder: Path) -> list[Path]:
+    """Parts that are there, in their order."""
+    return sorted((folder / RUNS).glob("part-*.parquet"))
+
+
+def runs_done(folder: Path, runs: int) -> NDArray[np.bool_]:
+    """Which runs have a row, of shape (runs,).
+
+    Raises
+    ------
+    HostError
+        A part is damaged, or has a row that no study has.
+    """
+    done = np.zeros(runs, dtype=np.bool_)
+    for file in part_files(folder):
+        try:
+            index = pq.ParquetFile(file).read(["index"])["index"].to_numpy()
+        except (pa.ArrowException, OSError, KeyError) as error:
+            words = str(error).strip().splitlines()[0]
+            raise HostError(f"{file} is damaged ({words}); remove it, and its runs are made again.") from None
+        if len(index) and not 0 <= index.min() <= index.max() < runs:
+            raise HostError(f"{file} has the run {index.max()}; the study has {runs} runs.")
+        if done[index].any() or len(np.unique(index)) < len(index):
+            raise HostError(f"{file} has the run {index[done[index]][:1]} a second time; remove it.")
+        done[index] = True
+    return done
+
+
+def forget_failed(folder: Path) -> int:
+    """Take the rows of failed runs out of the parts, so that they are made again; how many."""
+    forgotten = 0
+    for file in part_files(folder):
+        table = pq.ParquetFile(file).read()
+        kept = table.filter(pa.compute.not_equal(table["status"], FAILED))
+        forgotten += len(table) - len(kept)
+        if len(kept) == 0:
+            file.unlink()
+        elif len(kept) < len(table):
+            _write(kept, file)
+    return forgotten
+
+
+class PartWriter:
+    """Writes rows as parts, each of them at once.
+
+    Parameters
+    ----------
+    folder : Path
+    record : mapping
+        Of the study.
+    """
+
+    def __init__(self, folder: Path, record: Mapping[str, Any]) -> None:
+        self._folder, self._record = folder, record
+        self._schema = table_schema(record)
+        self._labels = [m["name"] for m in record["manoeuvres"]]
+        self._rows: dict[str, list[Any]] = {name: [] for name in self._schema.names}
+        files = part_files(folder)
+        self._next = int(files[-1].stem.rpartition("-")[2]) + 1 if files else 1
+
+    def __len__(self) -> int:
+        return len(self._rows["index"])
+
+    def add(self, chunk: Chunk, outcomes: Sequence[Outcome]) -> None:
+        """Keep rows for the next part."""
+        rows, each, seed = self._rows, len(self._labels), self._record["seed"]
+        for index, outcome in zip(chunk.indices, outcomes, strict=True):
+            point, number = divmod(index, each)
+            own = (index, point, self._labels[number], seed_of(seed, point))
+            for name, value in zip(("index", "point", "manoeuvre", "seed"), own, strict=True):
+                rows[name].append(value)
+            for name in self._record["measures"]:
+                rows[name].append(outcome.measures.get(name, np.nan))
+            for name in ("status", "reason", "simulated"):
+                rows[name].append(getattr(outcome, name))
+            rows["wall_seconds"].append(outcome.wall)
+        for name in self._record["parameters"]:
+            rows[name].extend(_texts(chunk.values[name], self._schema.field(name).type))
+
+    def flush(self) -> None:
+        """Write the kept rows as a part.
+
+        Raises
+        ------
+        FileError
+            It cannot be written; the parts before it stay.
+        """
+        if not len(self):
+            return
+        arrays = [pa.array(self._rows[field.name], field.type, from_pandas=False) for field in self._schema]
+        _write(pa.Table.from_arrays(arrays, schema=self._schema), self._folder / RUNS / _NAME.format(self._next))
+        self._next += 1
+        for column in self._rows.values():
+            column.clear()
+
+
+def _texts(values: Sequence[Value], kind: Any) -> Sequence[Value]:
+    return [str(value) for value in values] if kind == pa.string() else values
+
+
+def _write(table: Any, file: Path) -> None:
+    try:
+        with whole_file(file) as made:
+            pq.write_table(table, made, compression="zstd")
+            sync(made)
+    except pa.ArrowException as error:
+        raise FileError(f"{file} cannot be written: {str(error).splitlines()[0]}.") from None
+
+
+Progress = Callable[[int, int], None]
+"""Called with the number of rows that came, and how many of them failed."""

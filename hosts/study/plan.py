@@ -1,0 +1,276 @@
+"""A study that has been checked against its FMU: what is run, and what its table looks like."""
+
+from __future__ import annotations
+
+import difflib
+import hashlib
+import json
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from hosts.aliased_fmu import AliasedFmu
+from hosts.aliases import Aliases, read_aliases
+from hosts.errors import HostError
+from hosts.fmu import Fmu
+from hosts.study.jobs import jobs_of
+from hosts.study.measures import StudyMeasure, parse_measure
+from hosts.study.parameters import Parameter, parameter_of
+from hosts.study.points import Points, digest, sampled_points, table_points
+from hosts.study.program import program_digest, versions
+from hosts.study.study_file import ManoeuvreEntry, StudyFile
+from hosts.study.work import Chunk, Job, Work
+from hosts.variables import Variable
+
+OWN_COLUMNS = ("index", "point", "manoeuvre", "seed", "status", "reason", "simulated", "wall_seconds")
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is run.
+
+    Parameters
+    ----------
+    name : str
+    file, fmu : Path
+    work : Work
+        For the workers.
+    points : Points
+    kinds : dict of str to str
+        ``Real``, ``Integer``, ... of the parameters.
+    units : dict of str to str
+        Of all columns and signals that have one.
+    outputs : tuple of str
+        Inputs and outputs of the FMU: all that a run records.
+    seed : int
+    record : dict
+        All of it for JSON; two plans with the same are the same study.
+    notes : tuple of str
+        Sentences for the user.
+    """
+
+    name: str
+    file: Path
+    fmu: Path
+    work: Work
+    points: Points
+    kinds: dict[str, str]
+    units: dict[str, str]
+    outputs: tuple[str, ...]
+    seed: int
+    record: dict[str, Any]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def runs(self) -> int:
+        """Points times manoeuvres."""
+        return self.points.count * len(self.work.jobs)
+
+    @property
+    def key(self) -> str:
+        """A name for what workers keep."""
+        return hashlib.sha256(json.dumps(self.record, sort_keys=True).encode()).hexdigest()[:16]
+
+    def chunk(self, indices: Sequence[int]) -> Chunk:
+        """Runs with their values.
+
+        Parameters
+        ----------
+        indices : sequence of int
+            Rising.
+        """
+        each = len(self.work.jobs)
+        first, last = indices[0] // each, indices[-1] // each
+        block = self.points.block(first, last - first + 1)
+        places = [index // each - first for index in indices]
+        return Chunk(list(indices), {name: [column[k] for k in places] for name, column in block.items()})
+
+
+def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
+    """Check a study against its FMU.
+
+    Parameters
+    ----------
+    study : StudyFile
+    file : Path
+        Where it was read from; files it names are looked for beside it.
+    fmu_path : Path
+
+    Raises
+    ------
+    HostError
+        Whatever can be said before the first run: an unknown parameter, signal or measure, a value out of range with
+        its row, an empty grid, a manoeuvre that overwrites a parameter.
+    """
+    content = fmu_path.read_bytes() if fmu_path.is_file() else b""
+    with Fmu(fmu_path) as opened:
+        aliases = _aliases(study, file, opened)
+        fmu = AliasedFmu(opened, aliases) if aliases.aliases or aliases.constants else opened
+        points, parameters = _points(study, file, opened, fmu)
+        jobs = jobs_of(study, file, fmu, list(parameters))
+        units = {n: v.unit or "1" for n, v in fmu.variables.items()}
+        signals = _signals(study, file, fmu)
+        measures, columns = _measures(study, file, fmu, units, [j.manoeuvre.stop_time for j in jobs if j.manoeuvre])
+        outputs = tuple(dict.fromkeys((*fmu.names("input"), *fmu.names("output"))))
+        guid, model = opened.description.guid, opened.description.modelName
+    _check_names(file, [*parameters, *columns])
+    work = Work(
+        fmu_path.name,
+        guid,
+        hashlib.sha256(content).hexdigest(),
+        program_digest(),
+        tuple(jobs),
+        tuple(parameters),
+        tuple(measures),
+        tuple(columns),
+        tuple(signals),
+        aliases,
+        time_limit=study.time_limit,
+    )
+    known = {name: units[name] for name in (*parameters, *signals)}
+    all_units = {**known, **columns, "simulated": "s", "wall_seconds": "s", "time": "s"}
+    kinds = {name: fmu.table[name].kind for name in parameters}
+    name = study.name or file.stem
+    record = {
+        "name": name,
+        "guid": guid,
+        "model": model,
+        "fmu": fmu_path.name,
+        "fmu_sha256": work.sha256,
+        "seed": study.sampling.seed,
+        "sampling": study.sampling.model_dump(),
+        "parameters": {n: p.record() if isinstance(p, Parameter) else p for n, p in parameters.items()},
+        "manoeuvres": [_job_record(entry, job) for entry, job in zip(study.manoeuvres, jobs, strict=True)],
+        "start": study.start,
+        "measures": dict(columns),
+        "measured": {m.name: m.digest for m in measures},
+        "signals": study.signals.model_dump() if study.signals else None,
+        "aliases": hashlib.sha256(repr(aliases).encode()).hexdigest() if aliases.aliases else None,
+        "points": points.count,
+        "runs": points.count * len(jobs),
+        "points_sha256": digest(points),
+        "units": all_units,
+        "versions": versions(),
+        "program": work.program,
+        "file": str(file.absolute()),
+    }
+    seed, notes = study.sampling.seed, _notes(study)
+    return Plan(name, file, fmu_path, work, points, kinds, all_units, outputs, seed, record, notes)
+
+
+def _job_record(entry: ManoeuvreEntry, job: Job) -> dict[str, Any]:
+    given = entry.model_dump(exclude_none=True)
+    step = None if math.isnan(job.step) else job.step
+    return {**given, "name": job.label, "step": step, "sha256": job_digest(job)}
+
+
+def job_digest(job: Job) -> str:
+    """A hash of all that a manoeuvre does, tables and states included."""
+    manoeuvre = job.manoeuvre
+    parts = [repr((job.test, job.settings, job.start, job.step, job.every, job.samples)).encode()]
+    if manoeuvre is not None:
+        parts += [repr((manoeuvre.stop_time, manoeuvre.start, manoeuvre.driver, manoeuvre.state_time)).encode()]
+        parts += [manoeuvre.time.tobytes(), manoeuvre.state or b""]
+        parts += [part for name, values in manoeuvre.inputs.items() for part in (name.encode(), values.tobytes())]
+    return hashlib.sha256(b"\n".join(parts)).hexdigest()
+
+
+def _aliases(study: StudyFile, file: Path, fmu: Fmu) -> Aliases:
+    if study.aliases is None:
+        return Aliases()
+    return read_aliases(file.parent / study.aliases, fmu.variables)
+
+
+def _points(study: StudyFile, file: Path, opened: Fmu, fmu: Fmu | AliasedFmu) -> tuple[Points, dict[str, Any]]:
+    """Points, and a record of each parameter."""
+
+    def variable_of(name: str, where: str) -> Variable:
+        if isinstance(fmu, AliasedFmu) and name in fmu.table:
+            return fmu.table[name]
+        return opened.table.settable(name, where)
+
+    for name, value in study.start.items():
+        variable_of(name, f"{file}: start").check(value, f"{file}: start")
+    if study.sampling.method == "table":
+        assert study.sampling.file is not None
+        table = table_points(file.parent / study.sampling.file, variable_of, study.parameters)
+        names = list(table.block(0, 0))
+        both = sorted(set(names) & set(study.start))
+        if both:
+            raise HostError(f"{file}: '{both[0]}' is a column of {study.sampling.file} and in [start]; give it once.")
+        variables = {n: variable_of(n, "") for n in names}
+        return table, {n: {"kind": v.kind, "unit": v.unit} for n, v in variables.items()}
+    parameters = tuple(
+        parameter_of(name, entry, variable_of(name, f"{file}: parameters"), str(file))
+        for name, entry in study.parameters.items()
+    )
+    points = sampled_points(parameters, study.sampling, str(file))
+    return points, {p.name: p for p in points.parameters}
+
+
+def _signals(study: StudyFile, file: Path, fmu: Fmu | AliasedFmu) -> list[str]:
+    if study.signals is None:
+        return []
+    known = [*fmu.names("input"), *fmu.names("output")]
+    for k, name in enumerate(study.signals.names):
+        if name not in known:
+            raise HostError(f"{file}: signals.names: {not_known(name, known, 'input or output')}")
+        if name in study.signals.names[:k]:
+            raise HostError(f"{file}: signals.names has '{name}' twice; each is kept once.")
+    return list(study.signals.names)
+
+
+def not_known(name: str, known: Iterable[str], what: str) -> str:
+    """The sentence for a name that there is not, with those that are near."""
+    near = difflib.get_close_matches(name, list(known), 3)
+    hint = f"did you mean {' or '.join(near)}?" if near else "the command check lists them."
+    return f"the FMU has no {what} '{name}'; {hint}"
+
+
+def _measures(
+    study: StudyFile, file: Path, fmu: Fmu | AliasedFmu, units: Mapping[str, str], stop_times: Sequence[float]
+) -> tuple[list[StudyMeasure], dict[str, str]]:
+    """Measures of manoeuvres, and the units of their columns."""
+    if study.measures and not stop_times:
+        raise HostError(f"{file}: [measures] are of manoeuvres; this study has tests only, which have their own.")
+    recorded = {n: units[n] for n in (*fmu.names("input"), *fmu.names("output"))}
+    measures: list[StudyMeasure] = []
+    columns: dict[str, str] = {}
+    for name, text in study.measures.items():
+        try:
+            measure = parse_measure(text, name, file.parent)
+            columns |= measure.columns(recorded, min(stop_times))
+        except HostError as error:
+            raise HostError(f"{file}: measures.{name}: {error}") from None
+        measures.append(measure)
+    return measures, columns
+
+
+def _check_names(file: Path, names: Sequence[str]) -> None:
+    for k, name in enumerate(names):
+        if name in OWN_COLUMNS:
+            raise HostError(f"{file}: '{name}' is a column that every table of a study has; give it another name.")
+        if name in names[:k]:
+            raise HostError(f"{file}: two columns of the table would be called '{name}'; give a measure another name.")
+
+
+def _notes(study: StudyFile) -> tuple[str, ...]:
+    notes = []
+    n = study.sampling.runs or 1
+    if study.sampling.method in ("sobol", "saltelli") and n & (n - 1):
+        below = 1 << (n.bit_length() - 1)
+        notes.append(f"Sobol' points are balanced at powers of two: {below} or {2 * below} would be better than {n}.")
+    if not study.measures and study.signals is None and all(m.test is None for m in study.manoeuvres):
+        notes.append("The study has neither measures nor signals: its table will tell only which runs came to an end.")
+    return tuple(notes)
+
+
+def with_reuse(plan: Plan, reuse: bool) -> Plan:
+    """The plan for workers that use an instance again, or do not."""
+    return replace(plan, work=replace(plan.work, reuse=reuse))
+
+
+Tell = Callable[[str], None]
+"""Takes sentences for the user."""

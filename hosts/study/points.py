@@ -1,0 +1,170 @@
+"""The points of a study: values of its parameters, a block at a time."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import json
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Protocol
+
+from ali3.files import reason
+from hosts.errors import HostError
+from hosts.numbers import Value
+from hosts.study.parameters import Parameter, columns_of, in_unit
+from hosts.study.sampling import Grid, LatinHypercube, Saltelli, Sampler, SobolSequence
+from hosts.study.study_file import ParameterEntry, SamplingEntry
+from hosts.variables import Variable
+
+_MOST = 10**9
+_DIGESTED = 256  # points at both ends that tell one plan from another
+
+
+class Points(Protocol):
+    """Where points come from.
+
+    Parameters
+    ----------
+    count : int
+    """
+
+    count: int
+
+    def block(self, first: int, count: int) -> Mapping[str, list[Value]]:
+        """Values of points `first` to `first + count - 1` by name."""
+        ...
+
+
+class SampledPoints:
+    """Points of a sampler.
+
+    Parameters
+    ----------
+    parameters : tuple of Parameter
+    sampler : Sampler
+    """
+
+    def __init__(self, parameters: tuple[Parameter, ...], sampler: Sampler) -> None:
+        self.parameters, self.count, self._sampler = parameters, sampler.count, sampler
+
+    def block(self, first: int, count: int) -> Mapping[str, list[Value]]:
+        """See `Points`."""
+        return columns_of(self.parameters, self._sampler.block(first, count))
+
+
+class TablePoints:
+    """Points of a table.
+
+    Parameters
+    ----------
+    columns : mapping of str to list
+    """
+
+    def __init__(self, columns: Mapping[str, list[Value]]) -> None:
+        self._columns = columns
+        self.count = len(next(iter(columns.values())))
+
+    def block(self, first: int, count: int) -> Mapping[str, list[Value]]:
+        """See `Points`."""
+        return {name: values[first : first + count] for name, values in self._columns.items()}
+
+
+def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, file: str) -> SampledPoints:
+    """Points of a grid or by chance.
+
+    Parameters
+    ----------
+    parameters : tuple of Parameter
+    sampling : SamplingEntry
+    file : str
+        How messages call the study file.
+
+    Raises
+    ------
+    HostError
+        There would be too many.
+    """
+    n, seed, d = sampling.runs or 0, sampling.seed, len(parameters)
+    if sampling.method == "grid":
+        parameters = tuple(p.of_grid() for p in parameters)
+        sampler: Sampler = Grid([p.length for p in parameters])
+        if sampler.count > _MOST:
+            product = " x ".join(str(p.length) for p in parameters)
+            raise HostError(f"{file}: the grid has {product} = {sampler.count:.3g} points; at most {_MOST:.0e} can be.")
+    elif sampling.method == "latin_hypercube":
+        if n * d > _MOST:
+            raise HostError(
+                f"{file}: a Latin hypercube of {n} points of {d} parameters needs {8e-9 * n * d:.3g} GB of memory; "
+                "take the method sobol."
+            )
+        sampler = LatinHypercube(d, n, seed)
+    elif sampling.method == "sobol":
+        sampler = SobolSequence(d, n, seed)
+    else:
+        sampler = Saltelli(d, n, seed, sampling.second_order)
+    return SampledPoints(parameters, sampler)
+
+
+def table_points(
+    file: Path, variable_of: Callable[[str, str], Variable], entries: Mapping[str, ParameterEntry]
+) -> TablePoints:
+    """Points of a CSV file whose heading names parameters.
+
+    Parameters
+    ----------
+    file : Path
+    variable_of : callable
+        Of a name and of words for messages; raises `HostError` where there is no such variable that can be set.
+    entries : mapping of str to ParameterEntry
+        Units of columns.
+
+    Raises
+    ------
+    HostError
+        With the row (the first below the heading is 1), the name and the value.
+    """
+    try:
+        with file.open(newline="", encoding="utf-8-sig") as stream:
+            lines = [line for line in csv.reader(stream, skipinitialspace=True) if any(cell.strip() for cell in line)]
+    except OSError as error:
+        raise HostError(f"The table {file} cannot be read: {reason(error)}.") from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise HostError(f"The table {file} is no CSV file: {error}.") from None
+    if len(lines) < 2:
+        raise HostError(f"The table {file} has no points; it needs a heading and at least one row.")
+    names = [name.strip() for name in lines[0]]
+    twice = next((name for k, name in enumerate(names) if name in names[:k]), None)
+    if twice is not None:
+        raise HostError(f"The table {file} has two columns '{twice}'; each parameter has one.")
+    variables = [variable_of(name, f"{file}, heading") for name in names]
+    unknown = next((name for name in entries if name not in names), None)
+    if unknown is not None:
+        raise HostError(f"parameters.'{unknown}' is no column of {file}; its columns are {', '.join(names)}.")
+    columns: dict[str, list[Value]] = {name: [] for name in names}
+    for row, cells in enumerate(lines[1:], start=1):
+        where = f"{file}, row {row}"
+        if len(cells) != len(names):
+            raise HostError(f"{where}: {len(cells)} values where the heading has {len(names)} columns.")
+        for variable, cell in zip(variables, cells, strict=True):
+            unit = entries[variable.name].unit if variable.name in entries else None
+            columns[variable.name].append(_cell(cell, variable, unit, where))
+    return TablePoints(columns)
+
+
+def _cell(text: str, variable: Variable, unit: str | None, where: str) -> Value:
+    if unit is None or unit == variable.unit or variable.kind != "Real":
+        return variable.read(text.strip(), where)
+    try:
+        number = float(text)
+    except ValueError:
+        raise HostError(f"{where}: '{variable.name}': {text.strip()!r} is not a number.") from None
+    return in_unit(number, unit, variable, where)
+
+
+def digest(points: Points) -> str:
+    """A hash of the first and last points, by which the points of two programs are told apart."""
+    ends = [points.block(0, min(points.count, _DIGESTED))]
+    if points.count > _DIGESTED:
+        ends.append(points.block(points.count - _DIGESTED, _DIGESTED))
+    return hashlib.sha256(json.dumps([dict(end) for end in ends]).encode()).hexdigest()

@@ -1,0 +1,35 @@
+"""Which program makes the runs: the same everywhere, so that the bits are the same."""
+
+from __future__ import annotations
+
+import hashlib
+import platform
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import ali3
+
+_PACKAGES = ("ali3", "distributed", "fmpy", "numpy", "pandas", "pyarrow", "scipy", "zarr")
+
+
+@cache
+def program_digest() -> str:
+    """A hash of the sources of the hosts and of what they share."""
+    root = Path(ali3.__file__).parents[1]
+    digest = hashlib.sha256()
+    for package in ("ali3", "hosts"):
+        for file in sorted((root / package).rglob("*.py")):
+            digest.update(file.relative_to(root).as_posix().encode() + b"\n" + file.read_bytes())
+    return digest.hexdigest()
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python and of the packages that make the runs."""
+    found = {"python": platform.python_version(), "platform": platform.platform()}
+    for package in _PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:  # a clone that is not installed
+            found[package] = "not installed"
+    return found

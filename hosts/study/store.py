@@ -1,0 +1,127 @@
+"""Opens what a study has written, also while it runs."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from hosts.errors import HostError
+from hosts.study.folder import RECORD, SIGNALS, read_record
+from hosts.study.parts import attributes, part_files, table_schema
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+
+def study_record(folder: str | os.PathLike[str]) -> dict[str, Any]:
+    """What is known of a study, as in its file ``study.json``.
+
+    Raises
+    ------
+    HostError
+        It is no folder of a study.
+    """
+    record = read_record(Path(folder))
+    if record is None:
+        raise HostError(f"{folder} is no folder of a study: there is no {RECORD} in it.")
+    return record
+
+
+def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
+    """The table of a study.
+
+    Parameters
+    ----------
+    folder : path
+
+    Returns
+    -------
+    DataFrame
+        A row for each run that has ended, by its index. Columns: ``point``, ``manoeuvre``, ``seed``, the parameters by
+        their names in the FMU, the measures, ``status`` (``done``, ``incomplete`` where some measure is NaN,
+        ``failed``), ``reason``, ``simulated`` and ``wall_seconds``. ``attrs`` has units of columns and the rest of what
+        is known of the study.
+
+    Raises
+    ------
+    HostError
+        It is no folder of a study, or a part is damaged.
+    """
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    record = study_record(folder)
+    schema = table_schema(record)
+    try:
+        tables = [pq.ParquetFile(file).read() for file in part_files(Path(folder))]
+    except (pa.ArrowException, OSError) as error:
+        raise HostError(f"A part of {folder} is damaged: {str(error).splitlines()[0]}.") from None
+    table = pa.concat_tables(tables) if tables else schema.empty_table()
+    frame: pd.DataFrame = table.to_pandas().set_index("index").sort_index()
+    frame.attrs = attributes(record)
+    return frame
+
+
+def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -> xr.Dataset:
+    """Signals of a manoeuvre, read from the disk as they are used.
+
+    Parameters
+    ----------
+    folder : path
+    manoeuvre : str, optional
+        May be left out where there is one.
+
+    Returns
+    -------
+    Dataset
+        Dimensions ``point`` and ``time``; NaN where a run has not been made, and after one that ended early. The
+        parameters are coordinates along ``point``, as far as runs have been made.
+
+    Raises
+    ------
+    HostError
+        There are no signals of it.
+    """
+    import xarray as xr
+
+    found = sorted(path.stem for path in Path(folder, SIGNALS).glob("*.zarr"))
+    if not found:
+        study_record(folder)
+        raise HostError(f"The study in {folder} has kept no signals; [signals] in its file asks for them.")
+    if manoeuvre is None and len(found) == 1:
+        manoeuvre = found[0]
+    if manoeuvre not in found:
+        raise HostError(f"Signals are of one manoeuvre; those in {folder} are {', '.join(found)}.")
+    data: xr.Dataset = xr.open_zarr(Path(folder, SIGNALS, f"{manoeuvre}.zarr"), consolidated=True)
+    frame = read_study(folder)
+    rows = frame[frame["manoeuvre"] == manoeuvre].set_index("point").reindex(data["point"].to_numpy())
+    units = frame.attrs["units"]
+    for name in frame.attrs["parameters"]:
+        unit = {"units": units[name]} if name in units else {}
+        data = data.assign_coords({name: ("point", rows[name].to_numpy(), unit)})
+    data.attrs["units"] = units
+    return data
+
+
+def planned_points(folder: str | os.PathLike[str]) -> pd.DataFrame:
+    """Values of the parameters at all points of a study, also those that have not been run.
+
+    Parameters
+    ----------
+    folder : path
+        Its copies of the study file and of the FMU are read.
+    """
+    import pandas as pd
+
+    from hosts.study.plan import make_plan
+    from hosts.study.study_file import read_study_file
+
+    record = study_record(folder)
+    study, _ = read_study_file(Path(folder, "study.toml"))
+    plan = make_plan(study, Path(record["file"]), Path(folder, record["fmu"]))
+    frame = pd.DataFrame(dict(plan.points.block(0, plan.points.count)))
+    frame.index.name = "point"
+    frame.attrs["units"] = {name: record["units"][name] for name in frame.columns}
+    return frame

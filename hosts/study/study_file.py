@@ -1,0 +1,184 @@
+"""A study as its file describes it; what depends on the FMU is checked in `hosts.study.plan`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from ali3.files import reason
+from hosts.errors import HostError
+from hosts.study.file_errors import sentence
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+METHODS = ("grid", "latin_hypercube", "sobol", "saltelli", "table")
+_LARGEST = 10_000_000
+
+Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
+Setting: TypeAlias = bool | int | Number | str
+Name: TypeAlias = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_.\- ]*$", max_length=100)]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class ParameterEntry(_Part):
+    """How a parameter of the FMU is varied."""
+
+    range: list[Number] | None = Field(
+        default=None, min_length=2, max_length=2, description="two numbers, low and high"
+    )
+    values: list[Setting] | None = Field(default=None, min_length=1, description="a list of at least one value")
+    count: int | None = Field(default=None, ge=1, description="a whole number, how many values of the range a grid has")
+    unit: str | None = Field(default=None, description="the unit of the FMU or a display unit of it, as text")
+    log: bool = Field(default=False, description="true or false: whether the range is divided by the logarithm")
+
+    @model_validator(mode="after")
+    def _fits(self) -> ParameterEntry:
+        if self.range is not None and self.values is not None:
+            raise ValueError("it has a range and values; give one of them")
+        if self.range is not None and not self.range[0] < self.range[1]:
+            raise ValueError(f"its range is {self.range[0]:g} to {self.range[1]:g}; the lower end comes first")
+        if self.log and self.range is None:
+            raise ValueError("log goes with a range")
+        if self.count is not None and self.range is None:
+            raise ValueError("count goes with a range")
+        return self
+
+
+class ManoeuvreEntry(_Part):
+    """What is done with the FMU at each point."""
+
+    name: Name | None = Field(default=None, description="letters, digits, dots, minus signs and underscores")
+    manoeuvre: str | None = Field(default=None, description="a manoeuvre of the command drive: its name or a file")
+    test: str | None = Field(default=None, description="the name of a test of the command catalogue")
+    settings: dict[str, Number] = Field(default_factory=dict, description="numbers by the name of a test's setting")
+    stop_time: Number | None = Field(default=None, gt=0.0, description="a positive number, s")
+    start: dict[str, Setting] = Field(default_factory=dict, description="values by names of parameters or inputs")
+
+    @model_validator(mode="after")
+    def _fits(self) -> ManoeuvreEntry:
+        if self.manoeuvre is not None and self.test is not None:
+            raise ValueError("it has a manoeuvre and a test; give one of them")
+        if self.manoeuvre is None and self.test is None and self.stop_time is None:
+            raise ValueError("it needs a manoeuvre, a test, or a stop_time (for constant inputs)")
+        if self.test is None and self.settings:
+            raise ValueError("settings go with a test")
+        if self.test is not None and self.stop_time is not None:
+            raise ValueError("a test ends by itself; leave the stop_time out")
+        return self
+
+
+class SamplingEntry(_Part):
+    """Which points there are."""
+
+    method: Literal["grid", "latin_hypercube", "sobol", "saltelli", "table"] = Field(
+        default="grid", description=f"one of {', '.join(METHODS)}"
+    )
+    runs: int | None = Field(default=None, ge=1, le=2**30, description="a positive whole number of points")
+    seed: int = Field(default=0, ge=0, lt=2**63, description="a whole number from 0")
+    second_order: bool = Field(default=False, description="true or false, for the method saltelli")
+    file: str | None = Field(default=None, description="a CSV file whose heading names parameters")
+
+    @model_validator(mode="after")
+    def _fits(self) -> SamplingEntry:
+        drawn = self.method in ("latin_hypercube", "sobol", "saltelli")
+        if drawn and self.runs is None:
+            raise ValueError(f"the method {self.method} needs the number of points, runs")
+        if not drawn and self.runs is not None:
+            raise ValueError(f"the method {self.method} gives its number of points itself; leave runs out")
+        if (self.method == "table") != (self.file is not None):
+            raise ValueError("a file goes with the method table, and this method needs one")
+        if self.second_order and self.method != "saltelli":
+            raise ValueError("second_order goes with the method saltelli")
+        return self
+
+
+class SignalsEntry(_Part):
+    """What is kept over time."""
+
+    names: list[str] = Field(min_length=1, description="a list of at least one name of an input or output")
+    interval: Number = Field(gt=0.0, description="a positive number, s")
+
+
+class StudyFile(_Part):
+    """A study."""
+
+    name: Name | None = Field(default=None, description="letters, digits, dots, minus signs and underscores")
+    fmu: str | None = Field(default=None, description="the path of an FMU")
+    car: str | None = Field(default=None, description="a car of the package by its name, or a car file")
+    aliases: str | None = Field(default=None, description="an alias file, or the name of one of the package")
+    step: Number | None = Field(default=None, gt=0.0, description="a positive number, s")
+    time_limit: Number | None = Field(default=None, gt=0.0, description="a positive number, s, that a run may take")
+    start: dict[str, Setting] = Field(default_factory=dict, description="values by names of parameters or inputs")
+    manoeuvres: list[ManoeuvreEntry] = Field(min_length=1, description="at least one table [[manoeuvres]]")
+    sampling: SamplingEntry = Field(default=SamplingEntry(), description="a table")
+    parameters: dict[str, ParameterEntry] = Field(default_factory=dict, description="a table for each parameter")
+    signals: SignalsEntry | None = Field(default=None, description="a table with names and interval")
+    measures: dict[Name, str] = Field(default_factory=dict, description="what is computed, as text, by its name")
+
+    @model_validator(mode="after")
+    def _fits(self) -> StudyFile:
+        if (self.fmu is None) == (self.car is None):
+            raise ValueError("it needs fmu or car, one of them")
+        if self.sampling.method != "table":
+            if not self.parameters:
+                raise ValueError("it has no parameters; a grid of none is empty")
+            for name, entry in self.parameters.items():
+                if entry.range is None and entry.values is None:
+                    raise ValueError(f"parameters.'{name}' needs a range or values")
+                if self.sampling.method == "grid" and entry.range is not None and entry.count is None:
+                    raise ValueError(f"parameters.'{name}' needs a count, how many values of its range the grid has")
+                if self.sampling.method != "grid" and entry.count is not None:
+                    raise ValueError(f"parameters.'{name}' has a count, which goes with the method grid")
+        both = sorted(set(self.start) & set(self.parameters))
+        if both:
+            raise ValueError(f"'{both[0]}' is a parameter and in [start]; give it once")
+        return self
+
+
+def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
+    """Read a study file.
+
+    Parameters
+    ----------
+    file : Path
+
+    Returns
+    -------
+    StudyFile
+    bytes
+        Content of the file.
+
+    Raises
+    ------
+    HostError
+        With the key, its value, and what would be right.
+    """
+    if file.is_dir():
+        raise HostError(f"{file} is a folder; a study is a TOML file.")
+    if not file.is_file():
+        raise HostError(f"There is no file {file}.")
+    try:
+        if file.stat().st_size > _LARGEST:
+            raise HostError(f"{file} has {file.stat().st_size} bytes; a study file has at most {_LARGEST}.")
+        content = file.read_bytes()
+    except HostError:
+        raise
+    except OSError as error:
+        raise HostError(f"{file} cannot be read: {reason(error)}.") from None
+    try:
+        record: dict[str, Any] = tomllib.loads(content.decode("utf-8-sig"))
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise HostError(f"{file} is no TOML file: {error}.") from None
+    try:
+        return StudyFile.model_validate(record), content
+    except ValidationError as error:
+        raise HostError(f"{file}: {sentence(error, StudyFile)}") from None

@@ -1,0 +1,120 @@
+"""A few runs before a study: whether it works, whether an instance can be used again, what it will take."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from hosts.errors import HostError
+from hosts.study.isolated import Task, run_isolated
+from hosts.study.plan import Plan
+from hosts.study.work import FAILED, Job, Outcome, seed_of
+
+_LONGEST = 2.0  # s of a run that is repeated for the test of reuse
+_ROW = 60.0  # bytes of a row in a part beside its numbers
+_COMPRESSED = 1.0  # of signals, at worst
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What the runs before a study have told.
+
+    Parameters
+    ----------
+    seconds : float
+        Of a run, mean over the manoeuvres.
+    reuse : bool
+        Whether an instance gives the same bits after a reset.
+    columns : dict of str to str
+        Measures of tests, with units.
+    notes : tuple of str
+    """
+
+    seconds: float
+    reuse: bool
+    columns: dict[str, str]
+    notes: tuple[str, ...]
+
+
+def try_out(plan: Plan) -> Trial:
+    """Make runs of the first point, and of others where it fails, in a process of their own.
+
+    Raises
+    ------
+    HostError
+        No run of a manoeuvre can be made, with the reason of the first.
+    """
+    work, notes = replace(plan.work, reuse=False), list[str]()
+    columns: dict[str, str] = {}
+    last = plan.points.count - 1
+    points = list(dict.fromkeys((0, last // 2, last)))
+    seconds, good = 0.0, []
+    for number, job in enumerate(work.jobs):
+        outcome, point = None, 0
+        for point in points:
+            # with no columns known, a test tells which it has
+            tried = work if job.manoeuvre is not None else replace(work, columns=())
+            outcome = run_isolated(tried, plan.fmu, [_task(plan, job, point)])[0]
+            if outcome.status != FAILED:
+                break
+            notes.append(f"Run {point * len(work.jobs) + number}, {job.label}, fails: {outcome.reason}")
+        assert outcome is not None
+        if outcome.status == FAILED:
+            numbers = ", ".join(str(p * len(work.jobs) + number) for p in points)
+            raise HostError(f"No run of {job.label} that was tried ({numbers}) came to its end: {outcome.reason}")
+        columns |= outcome.units
+        seconds += outcome.wall / len(work.jobs)
+        good.append((number, job, point, outcome))
+    reuse, reused = _reuse(plan, good)
+    if reused is not None:
+        seconds += (reused - good[0][3].wall) / len(work.jobs)
+    elif any(job.manoeuvre is not None for job in work.jobs):
+        notes.append("The FMU does not give the same bits after a reset: each run loads a new instance.")
+    return Trial(max(seconds, 1e-6), reuse, columns, tuple(notes))
+
+
+def _task(plan: Plan, job: Job, point: int) -> Task:
+    values = {name: values[0] for name, values in plan.points.block(point, 1).items()}
+    return job, values, seed_of(plan.seed, point)
+
+
+def _reuse(plan: Plan, good: list[tuple[int, Job, int, Outcome]]) -> tuple[bool, float | None]:
+    """Whether a run has the same bits in an instance that has made another run; and what it takes there."""
+    driven = [(job, point, outcome) for _, job, point, outcome in good if job.manoeuvre is not None]
+    if not driven:
+        return False, None
+    job, point, outcome = driven[0]
+    assert job.manoeuvre is not None
+    share = min(1.0, _LONGEST / max(outcome.wall, 1e-9))
+    samples = max(1, math.floor(share * job.manoeuvre.stop_time / job.step)) + 1
+    stop = (samples - 1) * job.step
+    # every output at every step, so that nothing can differ unseen
+    short = replace(job, manoeuvre=replace(job.manoeuvre, stop_time=stop), every=1, samples=samples)
+    work = replace(plan.work, reuse=True, measures=(), signals=plan.outputs)
+    other = (point + plan.points.count // 2) % plan.points.count
+    tasks = [_task(plan, short, p) for p in (point, other, point)]
+    first, _, again = run_isolated(work, plan.fmu, tasks)
+    if first.status == FAILED or again.status == FAILED or first.signals is None or again.signals is None:
+        return False, None
+    same = first.signals.tobytes() == again.signals.tobytes()
+    return same, again.wall / share if same else None
+
+
+def with_columns(plan: Plan, columns: Mapping[str, str]) -> Plan:
+    """The plan with the measures of tests."""
+    names = tuple(dict.fromkeys((*plan.work.columns, *columns)))
+    record: dict[str, Any] = {
+        **plan.record,
+        "measures": {**plan.record["measures"], **columns},
+        "units": {**plan.record["units"], **columns},
+    }
+    return replace(plan, work=replace(plan.work, columns=names), record=record, units=record["units"])
+
+
+def bytes_of(plan: Plan) -> float:
+    """What the results will need at most."""
+    numbers = len(plan.work.parameters) + len(plan.work.columns) + 5
+    signals = sum(8.0 * job.samples * len(plan.work.signals) for job in plan.work.jobs)
+    return plan.runs * (8.0 * numbers + _ROW) + _COMPRESSED * plan.points.count * signals

@@ -1,0 +1,151 @@
+"""What workers need to know of a study: plain data that is sent to each of them once."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.aliases import Aliases
+from hosts.manoeuvre import Manoeuvre
+from hosts.numbers import Value
+
+if TYPE_CHECKING:
+    from hosts.study.measures import StudyMeasure
+
+DONE, INCOMPLETE, FAILED = "done", "incomplete", "failed"
+"""How a run ended: every measure is a number; some measure is none; there is no result."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is done at each point.
+
+    Parameters
+    ----------
+    label : str
+    manoeuvre : Manoeuvre, optional
+        With all start values but the parameters.
+    test : str
+        Of the catalogue, where there is no manoeuvre.
+    settings : dict of str to float
+        Of the test.
+    start : dict of str to float, int, bool or str
+        For the test.
+    step : float
+        Communication step, s; NaN for a test that takes that of the FMU.
+    every : int
+        Steps between kept values of signals; 0: none are kept.
+    samples : int
+        Kept values.
+    """
+
+    label: str
+    manoeuvre: Manoeuvre | None
+    test: str = ""
+    settings: dict[str, float] = field(default_factory=dict)
+    start: dict[str, Value] = field(default_factory=dict)
+    step: float = float("nan")
+    every: int = 0
+    samples: int = 0
+
+
+@dataclass(frozen=True)
+class Work:
+    """A study for a worker.
+
+    Parameters
+    ----------
+    fmu : str
+        File name of the FMU.
+    guid, sha256 : str
+        Of the FMU.
+    program : str
+        Digest of the program that makes the runs.
+    jobs : tuple of Job
+    parameters : tuple of str
+    measures : tuple of StudyMeasure
+        Of manoeuvres.
+    columns : tuple of str
+        All measures of the table.
+    signals : tuple of str
+    aliases : Aliases
+    reuse : bool
+        Whether an instance of the FMU is used again after a reset.
+    time_limit : float, optional
+        s a run may take.
+    """
+
+    fmu: str
+    guid: str
+    sha256: str
+    program: str
+    jobs: tuple[Job, ...]
+    parameters: tuple[str, ...]
+    measures: tuple[StudyMeasure, ...]
+    columns: tuple[str, ...]
+    signals: tuple[str, ...]
+    aliases: Aliases
+    reuse: bool = False
+    time_limit: float | None = None
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """Runs that are done one after the other by one worker.
+
+    Parameters
+    ----------
+    indices : list of int
+        Of the runs, n of them.
+    values : dict of str to list
+        n values of each parameter.
+    isolated : bool
+        Whether each run has a process of its own, so that one that crashes is found.
+    """
+
+    indices: list[int]
+    values: Mapping[str, list[Value]]
+    isolated: bool = False
+
+    def __len__(self) -> int:
+        return len(self.indices)
+
+    def part(self, first: int, stop: int, isolated: bool) -> Chunk:
+        """Some of its runs."""
+        values = {name: column[first:stop] for name, column in self.values.items()}
+        return Chunk(self.indices[first:stop], values, isolated)
+
+
+@dataclass
+class Outcome:
+    """How a run ended.
+
+    Parameters
+    ----------
+    status, reason : str
+    measures : dict of str to float
+    simulated, wall : float
+        s.
+    signals : ndarray of shape (samples, signals), optional
+    units : dict of str to str
+        Of the measures of a test, where it is not yet known which there are.
+    """
+
+    status: str = DONE
+    reason: str = ""
+    measures: dict[str, float] = field(default_factory=dict)
+    simulated: float = 0.0
+    wall: float = 0.0
+    signals: NDArray[np.float64] | None = None
+    units: dict[str, str] = field(default_factory=dict)
+
+
+def seed_of(study_seed: int, point: int) -> int:
+    """The seed of a point, the same for all its runs: 62 bits that depend on the study's seed and the point alone."""
+    text = f"{study_seed} {point}".encode()
+    return int.from_bytes(hashlib.sha256(text).digest()[:8], "big") >> 2

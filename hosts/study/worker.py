@@ -1,0 +1,149 @@
+"""What happens on a worker of Dask: the FMU is unpacked once, runs are made in chunks."""
+
+from __future__ import annotations
+
+import contextlib
+import faulthandler
+import hashlib
+import tempfile
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from distributed import Worker, WorkerPlugin, get_worker
+
+from hosts.errors import HostError
+from hosts.fmu import described
+from hosts.numbers import Value
+from hosts.study.isolated import run_isolated
+from hosts.study.one_run import Bench
+from hosts.study.program import program_digest
+from hosts.study.work import Chunk, Outcome, Work, seed_of
+
+
+class WrongWorkerError(HostError):
+    """A worker that would not make the runs as the others do."""
+
+
+@dataclass
+class _Room:
+    """What a worker keeps of a study."""
+
+    work: Work
+    seed: int
+    folder: tempfile.TemporaryDirectory[str]
+    benches: list[Bench] = field(default_factory=list)
+    of_thread: threading.local = field(default_factory=threading.local)
+
+    @property
+    def fmu(self) -> Path:
+        return Path(self.folder.name, self.work.fmu)
+
+    def bench(self) -> Bench:
+        """That of this thread."""
+        bench = getattr(self.of_thread, "bench", None)
+        if bench is None:
+            bench = self.of_thread.bench = Bench(self.work, self.fmu)
+            self.benches.append(bench)
+        return bench
+
+
+_rooms: dict[str, _Room] = {}
+"""By the key of the study and the address of the worker: workers can share a process."""
+
+
+class StudyPlugin(WorkerPlugin):
+    """Brings a study to each worker that there is and that comes.
+
+    Parameters
+    ----------
+    key : str
+        Of the study.
+    work : Work
+    seed : int
+    fmu : bytes
+        Content of the FMU.
+    """
+
+    def __init__(self, key: str, work: Work, seed: int, fmu: bytes) -> None:
+        self.name = f"ali3-study-{key}"
+        self._key, self._work, self._seed, self._fmu = key, work, seed, fmu
+
+    def setup(self, worker: Worker) -> None:
+        """Unpack the FMU."""
+        folder = tempfile.TemporaryDirectory(prefix="study-", dir=worker.local_directory, ignore_cleanup_errors=True)
+        room = _Room(self._work, self._seed, folder)
+        room.fmu.write_bytes(self._fmu)
+        _rooms[f"{self._key} {worker.address}"] = room
+
+    def teardown(self, worker: Worker) -> None:
+        """Free what the worker keeps."""
+        room = _rooms.pop(f"{self._key} {worker.address}", None)
+        if room is not None:
+            for bench in room.benches:
+                bench.close()
+            room.folder.cleanup()
+
+
+def why_wrong(key: str, dask_worker: Worker) -> str:
+    """Why this worker would make other runs than the program that asks; empty: it would not."""
+    room = _rooms.get(f"{key} {dask_worker.address}")
+    if room is None:
+        return "it has not been given the study"
+    if program_digest() != room.work.program:
+        return "it has another version of ALi3"
+    if hashlib.sha256(room.fmu.read_bytes()).hexdigest() != room.work.sha256:
+        return "its copy of the FMU is damaged"
+    guid = described(room.fmu).guid
+    if guid != room.work.guid:
+        return f"the GUID of its FMU is {guid}, not {room.work.guid}"
+    return ""
+
+
+def run_chunk(key: str, chunk: Chunk) -> list[Outcome]:
+    """Make the runs of a chunk; a task of Dask.
+
+    Parameters
+    ----------
+    key : str
+        Of the study.
+    chunk : Chunk
+
+    Returns
+    -------
+    list of Outcome
+        One for each run.
+    """
+    worker = get_worker()
+    room = _rooms.get(f"{key} {worker.address}")
+    if room is None or program_digest() != room.work.program:
+        raise WrongWorkerError(f"The worker {worker.address} cannot be used: {why_wrong(key, worker)}.")
+    work = room.work
+    tasks: list[tuple[Any, dict[str, Value], int]] = []
+    for k, index in enumerate(chunk.indices):
+        point, number = divmod(index, len(work.jobs))
+        values = {name: column[k] for name, column in chunk.values.items()}
+        tasks.append((work.jobs[number], values, seed_of(room.seed, point)))
+    if chunk.isolated:
+        return run_isolated(work, room.fmu, tasks)
+    bench, alone = room.bench(), worker.state.nthreads == 1
+    outcomes = []
+    for task in tasks:
+        with _limited(work.time_limit if alone else None):
+            outcomes.append(bench.run(*task))
+    return outcomes
+
+
+@contextlib.contextmanager
+def _limited(limit: float | None) -> Iterator[None]:
+    """End this process if the block takes longer, which nothing else can do to the code of an FMU."""
+    if limit is None:
+        yield
+        return
+    faulthandler.dump_traceback_later(limit, exit=True, file=2)
+    try:
+        yield
+    finally:
+        faulthandler.cancel_dump_traceback_later()

@@ -1,0 +1,7 @@
+"""``python -m mbs.vehicle.kinematics``."""
+
+import sys
+
+from mbs.vehicle.kinematics.command import main
+
+sys.exit(main())

@@ -1,0 +1,162 @@
+"""Kinematics of a whole car: the curves of both axles, what they are at the drawing, and what is to be said."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.checks import is_finite, shown
+from mbs.errors import ModelError
+from mbs.vehicle.car import Car
+from mbs.vehicle.kinematics.curves import Curve, steer_curve, travel_curve
+from mbs.vehicle.kinematics.linkage import Linkage
+from mbs.vehicle.kinematics.stops import stop_notes
+
+Array = NDArray[np.float64]
+
+TRAVEL = (-0.08, 0.08)
+"""Range of wheel travel where none is given, m."""
+POINTS = 81
+MOTIONS = ("parallel", "opposite", "single")
+FARTHEST, MOST_POINTS = 0.5, 10_001
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """Wheel travel and steer curves of a car.
+
+    Attributes
+    ----------
+    car : str
+        Its name.
+    curves : dict of (str, str) to Curve
+        By axle and motion; "steer" of the front axle alone.
+    notes : tuple of str
+        Sentences: where curves end early, where the range goes into the stops.
+    """
+
+    car: str
+    curves: dict[tuple[str, str], Curve]
+    notes: tuple[str, ...]
+
+    def drawn(self, axle: str) -> dict[str, float]:
+        """Values and gradients at the drawing, SI units.
+
+        Parameters
+        ----------
+        axle : {"front", "rear"}
+            Which one.
+
+        Returns
+        -------
+        dict of str to float
+            Of the left wheel and the axle, by the quantities' names; those of roll from opposite travel, those of
+            steering from the steer curve: ratio at straight ahead, angles, Ackermann and turning circle at full lock.
+        """
+        parallel = self.curves[axle, "parallel"].drawn()
+        found = {n.removesuffix("_left"): v for n, v in parallel.items() if not n.endswith("_right")}
+        opposite = self.curves[axle, "opposite"].drawn()
+        found |= {n: v for n, v in opposite.items() if n in ("roll_steer", "roll_camber", "roll_stiffness")}
+        found["roll_wheel_rate"] = opposite["wheel_rate_left"]
+        steer = self.curves.get((axle, "steer"))
+        if steer is not None:
+            found["steering_ratio"] = steer.drawn()["steering_ratio"]
+            lock = {name: float(values[-1]) for name, values in steer.columns.items()}
+            found["lock_steering_wheel_angle"] = lock["steering_wheel_angle"]
+            found["lock_inner"], found["lock_outer"] = lock["steer_angle_left"], lock["steer_angle_right"]
+            found |= {f"lock_{name}": lock[name] for name in ("ackermann", "ackermann_error", "turning_circle")}
+        return found
+
+
+def kinematics(
+    car: Car,
+    travel: tuple[float, float] = TRAVEL,
+    points: int = POINTS,
+    progress: Callable[[float], None] | None = None,
+) -> Kinematics:
+    """Wheel travel and steer curves of both axles with the chassis held and rigid.
+
+    Parameters
+    ----------
+    car : Car
+        From `mbs.vehicle.load`.
+    travel : (float, float)
+        Least and largest wheel travel, m, from the drawing, positive in bump; 0 is between them.
+    points : int
+        Of each curve; one at the drawing is added where there is none.
+    progress : callable, optional
+        Receives the share that is done.
+
+    Returns
+    -------
+    Kinematics
+        In SI units.
+
+    Raises
+    ------
+    ModelError
+        The range or the number of points is not one.
+    """
+    low, high = checked_travel(travel)
+    if not isinstance(points, int) or isinstance(points, bool) or not 3 <= points <= MOST_POINTS:
+        raise ModelError(f"points = {shown(points)}; it must be a whole number between 3 and {MOST_POINTS}.")
+    both = min(-low, high)
+    curves: dict[tuple[str, str], Curve] = {}
+    notes: list[str] = []
+    for axle in ("front", "rear"):
+        linkage = Linkage(car, axle)
+        for motion in MOTIONS:
+            ends = (-both, both) if motion == "opposite" else (low, high)
+            curves[axle, motion] = travel_curve(linkage, motion, _grid(*ends, points))
+            _tell(progress, len(curves))
+        if axle == "front":
+            per_rack = car.rack_way * 2.0 * math.pi / car.steering.rack_per_turn
+            full = car.steering.rack_travel
+            curves[axle, "steer"] = steer_curve(linkage, _grid(-full, full, points), per_rack)
+            _tell(progress, len(curves))
+        notes += stop_notes(linkage, curves[axle, "parallel"])
+    ends_early = [note for curve in curves.values() for note in curve.notes]
+    return Kinematics(car.name, curves, (*ends_early, *notes))
+
+
+def checked_travel(travel: object) -> tuple[float, float]:
+    """A range of wheel travel.
+
+    Parameters
+    ----------
+    travel : object
+        To be two numbers, m.
+
+    Raises
+    ------
+    ModelError
+        It is none.
+    """
+    if not isinstance(travel, (tuple, list)) or len(travel) != 2 or not all(is_finite(v) for v in travel):
+        raise ModelError(f"The range of wheel travel is {shown(travel)}; it must be two numbers, m.")
+    low, high = (float(v) for v in travel)
+    if not (-FARTHEST <= low < 0.0 < high <= FARTHEST):
+        raise ModelError(
+            f"The wheel travel goes from {low:g} to {high:g} m; it must go from below 0, -{FARTHEST:g} m or more, to "
+            f"above 0, {FARTHEST:g} m or less (positive in bump; 0 is the drawing)."
+        )
+    return low, high
+
+
+def _grid(low: float, high: float, points: int) -> Array:
+    """Equal steps with the drawing among them."""
+    grid = np.linspace(low, high, points)
+    near = int(np.argmin(np.abs(grid)))
+    if abs(grid[near]) < 1e-9 * (high - low):
+        grid[near] = 0.0
+        return grid
+    return np.sort(np.append(grid, 0.0))
+
+
+def _tell(progress: Callable[[float], None] | None, done: int) -> None:
+    if progress is not None:
+        progress(done / (2 * len(MOTIONS) + 1))

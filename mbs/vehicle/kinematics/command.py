@@ -1,0 +1,97 @@
+"""Draws the wheel travel and steer curves of a car: ``ali3 kinematics CAR [--out DIR]``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ali3.running import run_command, told_warnings
+
+
+def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehicle.kinematics") -> int:
+    """Run the command; `prog` is how the user typed it."""
+    parser = argparse.ArgumentParser(
+        prog=prog,
+        description="Draw the wheel travel and steer curves of a car in the terms of ISO 8855, and print what "
+        "its axles are as drawn.",
+    )
+    parser.add_argument("car", metavar="CAR", help="name of a car of the package, or a car's folder or file")
+    parser.add_argument(
+        "--travel",
+        type=float,
+        nargs=2,
+        default=(-80.0, 80.0),
+        metavar=("LOW", "HIGH"),
+        help="range of wheel travel, mm, positive in bump; default: -80 80",
+    )
+    parser.add_argument("--points", type=int, default=81, metavar="N", help="of each curve; default: 81")
+    parser.add_argument(
+        "--out",
+        type=Path,
+        metavar="DIR",
+        help="folder of kinematics.html and the CSV files; default: out/kinematics/CAR",
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write all numbers")
+    options = parser.parse_args(arguments)
+    from mbs.errors import ModelError, SimulationError
+
+    return run_command(lambda: _work(options), (ModelError, SimulationError))
+
+
+def _work(options: argparse.Namespace) -> int:
+    import matplotlib  # noqa: F401  # missing, it is told before the work
+
+    from ali3.files import check_writable, write_text
+    from mbs.progress import progress_for
+    from mbs.vehicle.car_file import load
+    from mbs.vehicle.kinematics.car_kinematics import MOTIONS, checked_travel, kinematics
+    from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
+    from mbs.vehicle.kinematics.page import page
+    from mbs.vehicle.kinematics.table import text
+
+    low, high = checked_travel(tuple(1e-3 * v for v in options.travel))
+    with told_warnings():
+        car = load(options.car)
+    folder = options.out or Path("out", "kinematics", car.name)
+    names = [f"{axle}_{motion}.csv" for axle in ("front", "rear") for motion in MOTIONS]
+    for file in (folder / "kinematics.html", *(folder / n for n in names), *([options.json] if options.json else [])):
+        check_writable(file)
+    with progress_for(None) as bar:
+        found = kinematics(car, (low, high), options.points, bar.update)
+    print(text(found))
+    for note in found.notes:
+        print(f"note: {note}", file=sys.stderr)
+    for curve in found.curves.values():
+        write_curve(curve, folder / curve_file(curve))
+    write_text(folder / "kinematics.html", page(found))
+    if options.json:
+        write_text(options.json, json.dumps(_content(found), indent=1) + "\n")
+    print(f"\n{folder / 'kinematics.html'} and {len(found.curves)} CSV files beside it", flush=True)
+    return 1 if any(curve.notes for curve in found.curves.values()) else 0
+
+
+def _content(found: Any) -> dict[str, Any]:
+    """What is written as JSON: SI units, null for what is not a number."""
+    return {
+        "car": found.car,
+        "notes": list(found.notes),
+        "drawn": {axle: {n: _finite(v) for n, v in found.drawn(axle).items()} for axle in ("front", "rear")},
+        "curves": [
+            {
+                "axle": curve.axle,
+                "motion": curve.motion,
+                "units": curve.units,
+                "columns": {name: [_finite(v) for v in values.tolist()] for name, values in curve.columns.items()},
+            }
+            for curve in found.curves.values()
+        ],
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -1,0 +1,184 @@
+"""Curves of an axle over wheel travel and over steering, continued from the drawing in small steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.vehicle.kinematics.axle_measures import HEAVE, ROLL, roll_measures, travel_measures, wheel_measures
+from mbs.vehicle.kinematics.linkage import SIDES, Linkage, NotReachedError, Position
+from mbs.vehicle.kinematics.quantities import BY_NAME, quantity_of
+from mbs.vehicle.kinematics.steer_measures import steer_measures
+from mbs.vehicle.kinematics.wheel_loads import OWN
+
+Array = NDArray[np.float64]
+
+STEP, LEAST_STEP = 0.004, 1e-6  # m: of the continuation
+STRAY = 0.2  # of a step: farther from its tangent a position may be on another branch
+DIRECTIONS = {"parallel": HEAVE, "opposite": ROLL, "single": OWN[0], "steer": np.array([0.0, 0.0, 1.0])}
+"""Motions by their names: rates of the travels of the left and the right wheel, and of the rack."""
+WORDS = {
+    "parallel": "parallel wheel travel",
+    "opposite": "opposite wheel travel (roll)",
+    "single": "travel of the left wheel alone",
+    "steer": "steering",
+}
+"""The same in words."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Columns over a motion.
+
+    Attributes
+    ----------
+    axle : {"front", "rear"}
+        Which one.
+    motion : {"parallel", "opposite", "single", "steer"}
+        Wheels up and down together; left up as right goes down; left alone; rack.
+    columns : dict of str to ndarray, shape (n,)
+        By name, in SI units; those of a wheel have ``_left`` or ``_right`` behind the name of their quantity.
+    notes : tuple of str
+        Sentences, where the curve ends before its range does.
+    """
+
+    axle: str
+    motion: str
+    columns: dict[str, Array]
+    notes: tuple[str, ...] = ()
+
+    def __getitem__(self, name: str) -> Array:
+        return self.columns[name]
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of each column."""
+        return {name: quantity_of(name).unit for name in self.columns}
+
+    @property
+    def over(self) -> str:
+        """Name of the column that the motion sets."""
+        return "steering_wheel_angle" if self.motion == "steer" else "wheel_travel_left"
+
+    def drawn(self) -> dict[str, float]:
+        """Values at the drawing, where the motion is zero.
+
+        Returns
+        -------
+        dict of str to float
+            By column.
+        """
+        k = int(np.argmin(np.abs(self.columns[self.over])))
+        return {name: float(values[k]) for name, values in self.columns.items()}
+
+
+def travel_curve(linkage: Linkage, motion: str, travel: Array) -> Curve:
+    """A curve over the travel of the left wheel.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Of the axle.
+    motion : {"parallel", "opposite", "single"}
+        What the right wheel does.
+    travel : ndarray, shape (n,)
+        Rising, with 0 among them, m.
+    """
+    direction = DIRECTIONS[motion]
+
+    def measures(at: Position) -> dict[str, float]:
+        found = wheel_measures(linkage, at) | travel_measures(linkage, at, direction)
+        return found | (roll_measures(linkage, at) if motion == "opposite" else {})
+
+    return _curve(linkage, motion, travel, measures)
+
+
+def steer_curve(linkage: Linkage, rack: Array, wheel_per_rack: float) -> Curve:
+    """A curve over the travel of the rack, the wheel centres at the height of the drawing.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Of the front axle.
+    rack : ndarray, shape (n,)
+        Rising, with 0 among them, m.
+    wheel_per_rack : float
+        Angle of the steering wheel per travel of the rack, rad/m.
+    """
+
+    def measures(at: Position) -> dict[str, float]:
+        return wheel_measures(linkage, at) | steer_measures(linkage, at, wheel_per_rack)
+
+    curve = _curve(linkage, "steer", rack, measures)
+    if wheel_per_rack > 0.0:
+        return curve
+    return Curve(curve.axle, curve.motion, {n: v[::-1] for n, v in curve.columns.items()}, curve.notes)
+
+
+def reached(linkage: Linkage, direction: Array, values: Array) -> tuple[list[Position], float | None]:
+    """Positions at rising or falling values from zero on.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Of the axle.
+    direction : ndarray, shape (3,)
+        Travels of the left and the right wheel and of the rack per value.
+    values : ndarray, shape (n,)
+        All of one sign, farther and farther from zero, m.
+
+    Returns
+    -------
+    list of Position, float or None
+        As many as can be reached, and where the linkage ends if that is before the last value.
+    """
+    found: list[Position] = []
+    at, now = linkage.drawn, 0.0
+    for value in values:
+        step = STEP
+        while now != value:
+            ahead = value if abs(value - now) <= step else now + np.sign(value - now) * step
+            try:
+                there = _next(linkage, at, direction, now, float(ahead))
+            except NotReachedError:
+                step = 0.5 * min(step, abs(float(ahead) - now))
+                if step < LEAST_STEP:
+                    return found, now
+                continue
+            at, now, step = there, float(ahead), min(STEP, 2.0 * step)
+        found.append(at)
+    return found, None
+
+
+def _next(linkage: Linkage, at: Position, direction: Array, now: float, ahead: float) -> Position:
+    """The position at the next value, near the tangent."""
+    change = at.tangent @ direction * (ahead - now)
+    there = linkage.solve(at.q + change, ahead * direction[:2], ahead * float(direction[2]))
+    if np.linalg.norm(there.q - at.q - change) > STRAY * np.linalg.norm(change):
+        raise NotReachedError(f"the position at {ahead:g} m is not near the tangent")
+    return there
+
+
+def _curve(linkage: Linkage, motion: str, values: Array, measures: Callable[[Position], dict[str, float]]) -> Curve:
+    direction, notes = DIRECTIONS[motion], []
+    below, low = reached(linkage, direction, values[values < 0.0][::-1])
+    above, high = reached(linkage, direction, values[values > 0.0])
+    for end, last in ((low, values[0]), (high, values[-1])):
+        if end is not None:
+            what = "rack travel" if motion == "steer" else "wheel travel"
+            notes.append(
+                f"{linkage.name} axle, {WORDS[motion]}: the curve ends at {1e3 * end:.1f} mm of {what}, before the "
+                f"{1e3 * last:.1f} mm asked for; beyond it the links are at a dead point or too short or too long."
+            )
+    middle = [linkage.drawn] if np.any(values == 0.0) else []
+    rows = [measures(at) for at in (*below[::-1], *middle, *above)]
+    columns = {name: np.array([row[name] for row in rows]) + 0.0 for name in rows[0]}  # no -0.0
+    (x, y), (other_x, other_y) = ([columns[f"contact_centre_{c}_{side}"] for c in "xy"] for side in SIDES)
+    columns["track_change"] = y - other_y - linkage.data.track
+    ahead = 0.5 * (x + other_x) - linkage.data.wheel.centre[0]
+    columns["wheelbase_change"] = ahead if linkage.name == "front" else -ahead
+    order = [n for name in BY_NAME for n in (name, f"{name}_left", f"{name}_right") if n in columns]
+    return Curve(linkage.name, motion, {name: columns[name] for name in order}, tuple(notes))

@@ -1,0 +1,269 @@
+"""The suspension of an axle on a chassis that is held, as a mechanism whose wheels and rack are put to a place.
+
+Of the car's templates the model has joints, springs and bars, but no tyres, brakes or gravity. With Phi(q, s) the
+conditions of the joints, s the rack's travel and c_z the heights of both wheel centres, a position solves
+
+    Phi(q, s) = 0,    c_z(q) = c_z(drawn) + travel,
+
+by Gauss's and Newton's method: each correction is the shortest one that the linearised equations allow, so that
+redundant rows do no harm. The tangent of the position follows from the same matrix, and its derivative along a
+direction from d(Phi_q)/dt qd: nothing is differenced.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PPoly
+
+from mbs.affine import AffineVector
+from mbs.compiler import compile
+from mbs.elements.road import PlaneRoad
+from mbs.evaluator import RANK_TOLERANCE, Evaluator
+from mbs.model import Model
+from mbs.model.ends import End
+from mbs.simulation import Simulation
+from mbs.vehicle.axes import FORWARD, LEFT, UP
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car import Car
+from mbs.vehicle.chassis.mount import Mount
+from mbs.vehicle.side import Point, Side
+from mbs.vehicle.springs import AxleSprings
+from mbs.vehicle.suspensions.anti_roll_bar import LINK
+
+Array = NDArray[np.float64]
+
+SIDES = ("left", "right")
+FARTHEST = 1.0  # m: travel of the rack that the guide can give
+CLOSE = 1e-11  # m: a correction that ends the iteration
+MOST_ITERATIONS = 12
+LEFT_OVER = 1e-9  # of rows that have no solution, in the unit of the rows
+
+
+class NotReachedError(ValueError):
+    """A position that the linkage cannot take."""
+
+
+@dataclass(frozen=True)
+class Position:
+    """Where the linkage stands and how it moves from there.
+
+    Attributes
+    ----------
+    travel : ndarray, shape (2,)
+        Of the left and the right wheel centre along z from the drawing, m, positive in bump.
+    rack : float
+        Travel of the rack from the drawing, m, positive to the left.
+    q : ndarray, shape (nq,)
+        Coordinates.
+    tangent : ndarray, shape (nq, 3)
+        Their derivatives with respect to the travel of the left wheel, of the right wheel and of the rack.
+    """
+
+    travel: Array
+    rack: float
+    q: Array
+    tangent: Array
+
+
+class Linkage:
+    """The suspension of one axle.
+
+    Parameters
+    ----------
+    car : Car
+        Without faults.
+    axle : {"front", "rear"}
+        Which one.
+
+    Attributes
+    ----------
+    drawn : Position
+        As the file draws it.
+    has_rod : bool
+        Whether a rod steers the wheels, which a twist beam has not.
+    springs, dampers : tuple of AffineVector
+        From one end to the other, of the left and the right side.
+    levers : tuple of int
+        Numbers of the full coordinates of the levers of the anti-roll bar; empty: there is none.
+    """
+
+    def __init__(self, car: Car, axle: str) -> None:
+        self.car, self.name, self.data = car, axle, getattr(car, axle)
+        m = Model(f"{car.name} {axle} suspension", gravity=(0.0, 0.0, 0.0))
+        b = CarBuilder(car, m, m.road(PlaneRoad()), {})
+        b.chassis = _held(m, car)
+        ramp = PPoly(np.array([[1.0], [-FARTHEST]]), np.array([-FARTHEST, FARTHEST]))  # the rack's travel is the time
+        rack = m.guide_time("rack", ramp, unit="m")
+        rods: list[str] = []
+
+        def end(side: Side, point: Point) -> End:
+            rods.append(side.wheel)
+            return m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=LEFT, guide=rack)
+
+        springs = AxleSprings(self.data.spring, self.data.damper, self.data.stops)
+        corners = list(self.data.suspension.corners(b, axle, springs, end))
+        if self.data.anti_roll_bar is not None:
+            self.data.anti_roll_bar.build(b, axle, corners)
+        m.start_in_equilibrium = False
+        self.has_rod = bool(rods)
+        self._corners = corners
+        elements = {e.name: e for e in m.elements}
+        lines = [
+            [AffineVector(tuple(elements[name].signals[:3])) for name in names]
+            for names in zip(*(_line_names(elements, c.side.wheel) for c in corners), strict=True)
+        ]
+        self.springs, self.dampers = (tuple(pair) for pair in lines)
+        self.levers = tuple(k for k, c in enumerate(m.coordinates) if c.name.startswith(LINK))
+        system = compile(m)
+        assert system.frames is not None
+        self._T, self._constant = system.frames.T.toarray(), system.frames.constant
+        self._evaluator = Evaluator(Simulation(system))
+        self._centres = [self.linear(c.carrier.point(c.side.point(self.data.wheel.centre))) for c in corners]
+        self._triads = [[self.linear(c.carrier.vector(e)) for e in (FORWARD, LEFT, UP)] for c in corners]
+        self._heights = np.array([centre[0][2] for centre in self._centres])
+        start = np.array(system.arrays["q0"])
+        self._drawn_heights = self._heights @ start + [centre[1][2] for centre in self._centres]
+        self.drawn = self.solve(start, np.zeros(2), 0.0)
+
+    def linear(self, v: AffineVector) -> tuple[Array, Array]:
+        """Matrix (3, nq) and constant (3,) of a point or vector over the coordinates.
+
+        Parameters
+        ----------
+        v : AffineVector
+            Over the full coordinates.
+        """
+        full = np.zeros((len(v), len(self._constant)))
+        for row, component in zip(full, v.components, strict=True):
+            for k, c in component.terms.items():
+                row[k] = c
+        return full @ self._T, full @ self._constant + [component.constant for component in v.components]
+
+    def full(self, k: int) -> tuple[Array, float]:
+        """Row (nq,) and constant of a full coordinate.
+
+        Parameters
+        ----------
+        k : int
+            Its number.
+        """
+        return self._T[k], float(self._constant[k])
+
+    def centre(self, side: int) -> tuple[Array, Array]:
+        """Matrix and constant of a wheel's centre; `side` is 0 for left and 1 for right."""
+        return self._centres[side]
+
+    def triad(self, side: int) -> list[tuple[Array, Array]]:
+        """Matrices and constants of the axes of a wheel's carrier that are x, y and z in the drawing."""
+        return self._triads[side]
+
+    def solve(self, start: Array, travel: Array, rack: float) -> Position:
+        """The position near a start.
+
+        Parameters
+        ----------
+        start : ndarray, shape (nq,)
+            Coordinates near to it.
+        travel : ndarray, shape (2,)
+            Of the left and the right wheel, m.
+        rack : float
+            Travel of the rack, m.
+
+        Raises
+        ------
+        NotReachedError
+            The iteration does not end: links are too short or too long for it.
+        """
+        q, still, wanted = start.copy(), np.zeros(len(start)), self._drawn_heights + travel
+        offset = np.array([centre[1][2] for centre in self._centres])
+        for _ in range(MOST_ITERATIONS):
+            phi, jacobian, ahead = self._evaluator.constraints(q, still, rack)
+            rows = np.vstack([jacobian, self._heights])
+            off = np.concatenate([phi, self._heights @ q + offset - wanted])
+            step = np.linalg.lstsq(rows, off, rcond=RANK_TOLERANCE)[0]
+            q = q - step
+            if not np.abs(step).max() < 0.5:
+                break
+            if np.abs(step).max() < CLOSE and np.abs(off).max() < LEFT_OVER:
+                right = np.zeros((len(off), 3))
+                right[-2, 0] = right[-1, 1] = 1.0
+                right[: len(phi), 2] = -ahead
+                tangent = np.linalg.lstsq(rows, right, rcond=RANK_TOLERANCE)[0]
+                if np.abs(rows @ tangent - right).max() > 1e-6:
+                    break  # at a dead point the wheels cannot go on
+                return Position(travel, rack, q, tangent)
+        raise NotReachedError(f"no position with travels of {travel[0]:g} and {travel[1]:g} m and a rack at {rack:g} m")
+
+    def bends(self, at: Position, directions: Array) -> Array:
+        """Second derivatives (nq, n) of the coordinates along directions.
+
+        Parameters
+        ----------
+        at : Position
+            Where.
+        directions : ndarray, shape (3, n)
+            Rates of the travels of the left and the right wheel and of the rack.
+        """
+        still = np.zeros(len(at.q))
+
+        def rate(qd: Array) -> Array:
+            return self._evaluator.convective(at.q, qd, at.rack)
+
+        # the guide's own rate is 1: gamma(v, s') = a(v, v) + b(v) s' + c s'^2
+        alone, right = rate(still), []
+        for direction in directions.T:
+            ahead, back = (rate(sign * (at.tangent @ direction)) for sign in (1.0, -1.0))
+            s = direction[2]
+            gamma = 0.5 * (ahead + back) - alone + 0.5 * s * (ahead - back) + s**2 * alone
+            right.append(np.concatenate([-gamma, np.zeros(2)]))
+        rows = np.vstack([self._evaluator.jacobian(at.q, at.rack), self._heights])
+        return np.asarray(np.linalg.lstsq(rows, np.transpose(right), rcond=RANK_TOLERANCE)[0])
+
+    def steering_motion(self, at: Position) -> Array:
+        """Rates (nq,) of the coordinates per travel of the rack with springs of constant length.
+
+        So a steering axis is defined: the suspension stands, the rod turns the wheel.
+
+        Parameters
+        ----------
+        at : Position
+            Where.
+        """
+        still = np.zeros(len(at.q))
+        _, jacobian, ahead = self._evaluator.constraints(at.q, still, at.rack)
+        rows = [jacobian]
+        for spring in self.springs:
+            D, d = self.linear(spring)
+            way = D @ at.q + d
+            rows.append((way @ D / np.linalg.norm(way))[None])
+        right = np.concatenate([-ahead, np.zeros(2)])
+        return np.asarray(np.linalg.lstsq(np.vstack(rows), right, rcond=RANK_TOLERANCE)[0])
+
+    def force(self, q: Array) -> Array:
+        """Forces Q (nq,) of springs, stops and bars at rest.
+
+        Parameters
+        ----------
+        q : ndarray, shape (nq,)
+            Coordinates.
+        """
+        return self._evaluator.forces(q)
+
+
+def _held(m: Model, car: Car) -> Mount:
+    """The earth as the chassis."""
+    ground = m.ground
+    axes = [ground.vector(e) for e in np.eye(3)]
+    origin = np.array(car.chassis.reference)
+    frame = ground.point(origin), axes, origin
+    return Mount(ground, ground, ground, car.chassis.reference, (axes[2], axes[0]), frame)
+
+
+def _line_names(elements: Mapping[str, object], wheel: str) -> tuple[str, str]:
+    """Names of spring and damper of a wheel, which may be one."""
+    damper = f"damper {wheel}"
+    return f"spring {wheel}", damper if damper in elements else f"spring {wheel}"

@@ -1,0 +1,156 @@
+"""Plots of curves: a figure of wheel travel for each axle, and one of steering."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from mbs.vehicle.kinematics.car_kinematics import Kinematics
+from mbs.vehicle.kinematics.curves import WORDS, Curve
+from mbs.vehicle.kinematics.quantities import BY_NAME
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+# Okabe and Ito's palette: distinguishable with any colour vision.
+COLOURS = {"parallel": "#0072B2", "opposite": "#D55E00", "single": "#009E73", "left": "#0072B2", "right": "#D55E00"}
+STYLE: dict[Any, Any] = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e3e3e3",
+    "grid.linewidth": 0.8,
+    "axes.edgecolor": "#888888",
+    "axes.titlesize": 10,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "lines.linewidth": 1.6,
+}
+TRAVEL_PANELS = (
+    ("toe_angle", ("parallel", "opposite", "single")),
+    ("camber_angle", ("parallel", "opposite", "single")),
+    ("track_change", ("parallel", "opposite")),
+    ("wheelbase_change", ("parallel",)),
+    ("caster_angle", ("parallel",)),
+    ("kingpin_inclination_angle", ("parallel",)),
+    ("caster_trail", ("parallel",)),
+    ("kingpin_offset_at_ground", ("parallel",)),
+    ("roll_centre_height", ("parallel", "opposite")),
+    ("anti_dive", ("parallel",)),
+    ("anti_lift", ("parallel",)),
+    ("anti_squat", ("parallel",)),
+    ("anti_lift_in_drive", ("parallel",)),
+    ("spring_ratio", ("parallel", "opposite")),
+    ("damper_ratio", ("parallel", "opposite")),
+    ("anti_roll_bar_ratio", ("opposite",)),
+    ("spring_load", ("parallel", "opposite")),
+    ("wheel_rate", ("parallel", "opposite")),
+    ("ride_rate", ("parallel", "opposite")),
+)
+"""Quantities over wheel travel, and the motions that each panel has."""
+STEER_PANELS = (
+    "steer_angle",
+    "steering_ratio",
+    "ackermann",
+    "ackermann_error",
+    "turning_circle",
+    "camber_angle",
+    "caster_angle",
+    "kingpin_inclination_angle",
+    "caster_trail",
+    "kingpin_offset_at_ground",
+    "track_change",
+)
+"""Quantities over the angle of the steering wheel."""
+COLUMNS = 4
+
+
+def travel_figure(found: Kinematics, axle: str) -> Figure:
+    """Panels of an axle over wheel travel, of its left wheel.
+
+    Parameters
+    ----------
+    found : Kinematics
+        Of a car.
+    axle : {"front", "rear"}
+        Which one.
+    """
+    curves = {motion: c for (of, motion), c in found.curves.items() if of == axle and motion != "steer"}
+    panels = [(name, motions) for name, motions in TRAVEL_PANELS if _column(curves["parallel"], name)]
+
+    def draw(ax: Axes, k: int) -> None:
+        name, motions = panels[k]
+        for motion in motions:
+            _line(ax, curves[motion], name, "left", COLOURS[motion], WORDS[motion])
+        _titled(ax, name)
+        ax.set_xlabel("wheel travel, mm (bump positive)")
+
+    return _figure(f"{found.car}: {axle} axle over wheel travel", len(panels), draw)
+
+
+def steer_figure(found: Kinematics) -> Figure:
+    """Panels of the front axle over the angle of the steering wheel.
+
+    Parameters
+    ----------
+    found : Kinematics
+        Of a car.
+    """
+    curve = found.curves["front", "steer"]
+
+    def draw(ax: Axes, k: int) -> None:
+        name = STEER_PANELS[k]
+        sides = ("left", "right") if f"{name}_left" in curve.columns else ("",)
+        for side in sides:
+            _line(ax, curve, name, side, COLOURS.get(side, COLOURS["left"]), f"{side} wheel" if side else "")
+        _titled(ax, name)
+        ax.set_xlabel("steering-wheel angle, deg (left positive)")
+
+    return _figure(f"{found.car}: front axle over steering", len(STEER_PANELS), draw)
+
+
+def _figure(title: str, panels: int, draw: Any) -> Figure:
+    import matplotlib as mpl
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    rows = -(-panels // COLUMNS)
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(3.4 * COLUMNS, 2.5 * rows + 0.5), layout="constrained")
+        FigureCanvasAgg(figure)
+        grid: Sequence[Axes] = list(figure.subplots(rows, COLUMNS, squeeze=False).flat)
+        for k, ax in enumerate(grid):
+            if k < panels:
+                draw(ax, k)
+            else:
+                ax.set_axis_off()
+        figure.suptitle(title, x=0.01, ha="left", fontsize=14, fontweight="bold")
+    return figure
+
+
+def _column(curve: Curve, name: str, side: str = "left") -> str:
+    """Name of the column of a quantity; empty: there is none."""
+    return next((column for column in (f"{name}_{side}", name) if column in curve.columns), "")
+
+
+def _line(ax: Axes, curve: Curve, name: str, side: str, colour: str, label: str) -> None:
+    over = BY_NAME[curve.over.removesuffix("_left")]
+    column = _column(curve, name, side)
+    ax.plot(curve[curve.over] * over.factor, curve[column] * BY_NAME[name].factor, color=colour, label=label)
+
+
+def _titled(ax: Axes, name: str) -> None:
+    quantity = BY_NAME[name]
+    ax.set_title(quantity.title)
+    ax.set_ylabel(quantity.shown)
+    low, high = ax.get_ylim()
+    least = 1e-3 * max(1.0, abs(low))
+    if high - low < least:  # round-off must not look like a curve
+        middle = 0.5 * (low + high)
+        ax.set_ylim(middle - least, middle + least)
+    if len(ax.lines) > 1:
+        ax.legend()

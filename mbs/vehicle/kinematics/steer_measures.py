@@ -1,0 +1,62 @@
+"""Ackermann's condition, turning circle and steering ratio of a steered axle at one position.
+
+Without slip the lines of both wheels' axes meet on that of the rear axle. From each wheel its place and steer angle
+give a centre of the turn on that line; Ackermann's steer angle of the outer wheel is that for the centre of the inner.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from mbs.vehicle.kinematics.linkage import Linkage, Position
+from mbs.vehicle.kinematics.wheel_motion import wheel_motion
+
+STRAIGHT = 1e-4  # rad: below it there is no circle
+
+
+def steer_measures(linkage: Linkage, at: Position, wheel_per_rack: float) -> dict[str, float]:
+    """Columns of steering.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Of the steered axle.
+    at : Position
+        Of it.
+    wheel_per_rack : float
+        Angle of the steering wheel per travel of the rack, rad/m.
+
+    Returns
+    -------
+    dict of str to float
+        In SI units, NaN where the wheels stand straight ahead or not to one side.
+    """
+    wheels = [wheel_motion(linkage, at, k) for k in range(2)]
+    steers = [w.steer for w in wheels]
+    mean = 0.5 * sum(steers)
+    rate = 0.5 * float((wheels[0].steer_rate + wheels[1].steer_rate)[2])
+    found = {
+        "steering_wheel_angle": wheel_per_rack * at.rack,
+        "rack_travel": at.rack,
+        "mean_steer_angle": mean,
+        "steering_ratio": wheel_per_rack / rate if rate else math.nan,
+        **dict.fromkeys(("ackermann_steer_angle", "ackermann_error", "ackermann", "turning_circle"), math.nan),
+    }
+    if min(abs(s) for s in steers) < STRAIGHT or steers[0] * steers[1] < 0.0:
+        return found
+    inner, outer = wheels if mean > 0.0 else wheels[::-1]
+    axle_x = linkage.car.rear.wheel.centre[0]
+
+    def centre(w_contact: np.ndarray, steer: float) -> float:
+        return float(w_contact[1] + (w_contact[0] - axle_x) / math.tan(steer))
+
+    own = centre(inner.contact, inner.steer)
+    wanted = math.atan((outer.contact[0] - axle_x) / (own - outer.contact[1]))
+    middle = 0.5 * (own + centre(outer.contact, outer.steer))
+    found["ackermann_steer_angle"] = wanted
+    found["ackermann_error"] = abs(outer.steer) - abs(wanted)
+    found["ackermann"] = 100.0 * (inner.steer - outer.steer) / (inner.steer - wanted)
+    found["turning_circle"] = 2.0 * math.hypot(outer.contact[0] - axle_x, outer.contact[1] - middle)
+    return found

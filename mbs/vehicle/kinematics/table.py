@@ -1,0 +1,90 @@
+"""What a car's axles are at the drawing, as a table of text."""
+
+from __future__ import annotations
+
+import math
+
+from mbs.vehicle.kinematics.car_kinematics import Kinematics
+from mbs.vehicle.kinematics.quantities import BY_NAME, Quantity
+
+AT_LOCK = {
+    "lock_steering_wheel_angle": ("steering_wheel_angle", "steering-wheel angle at full lock"),
+    "lock_inner": ("steer_angle", "steer angle, inner wheel, at full lock"),
+    "lock_outer": ("steer_angle", "steer angle, outer wheel, at full lock"),
+    "lock_ackermann": ("ackermann", "Ackermann at full lock"),
+    "lock_ackermann_error": ("ackermann_error", "Ackermann error at full lock"),
+    "lock_turning_circle": ("turning_circle", "turning circle (outer front contact centre)"),
+    "roll_wheel_rate": ("wheel_rate", "wheel rate in roll, with the anti-roll bar"),
+}
+SECTIONS = (
+    ("At the drawing", (
+        "toe_angle", "camber_angle", "caster_angle", "kingpin_inclination_angle", "caster_trail",
+        "kingpin_offset_at_ground", "caster_offset_at_wheel_centre", "kingpin_offset_at_wheel_centre",
+    )),
+    ("Parallel wheel travel", (
+        "toe_gradient", "camber_gradient", "roll_centre_height", "anti_dive", "anti_lift", "anti_squat",
+        "anti_lift_in_drive", "spring_ratio", "damper_ratio", "spring_load", "wheel_rate", "ride_rate",
+    )),
+    ("Roll", ("roll_steer", "roll_camber", "anti_roll_bar_ratio", "roll_wheel_rate", "roll_stiffness")),
+    ("Steering", ("steering_ratio", *(name for name in AT_LOCK if name.startswith("lock")))),
+)  # fmt: skip
+"""Rows by headings."""
+
+
+def named(name: str) -> tuple[Quantity, str]:
+    """Quantity and title of a value at the drawing.
+
+    Parameters
+    ----------
+    name : str
+        As `Kinematics.drawn` has it.
+    """
+    base, title = AT_LOCK.get(name, (name, ""))
+    quantity = BY_NAME[base]
+    return quantity, title or quantity.title
+
+
+def rows(found: Kinematics) -> list[tuple[str, str, str, str, str]]:
+    """Title, value in front, value behind, unit and meaning; a title alone is a heading.
+
+    Parameters
+    ----------
+    found : Kinematics
+        Of a car.
+    """
+    drawn = {axle: found.drawn(axle) for axle in ("front", "rear")}
+    lines = []
+    for heading, names in SECTIONS:
+        part = []
+        for name in names:
+            values = [drawn[axle].get(name, math.nan) for axle in drawn]
+            if all(math.isnan(v) for v in values):
+                continue
+            quantity, title = named(name)
+            front, rear = (_number(v * quantity.factor) for v in values)
+            part.append((title, front, rear, quantity.shown, quantity.meaning))
+        if part:
+            lines += [(heading, "", "", "", ""), *part]
+    return lines
+
+
+def text(found: Kinematics) -> str:
+    """The table as text.
+
+    Parameters
+    ----------
+    found : Kinematics
+        Of a car.
+    """
+    lines = [("", "front", "rear", "", ""), *rows(found)]
+    widths = [max(len(line[k]) for line in lines) for k in range(4)]
+    printed = []
+    for line in lines:
+        cells = [line[0].ljust(widths[0]), line[1].rjust(widths[1]), line[2].rjust(widths[2]), line[3].ljust(widths[3])]
+        printed.append("  ".join([*cells, line[4]]).rstrip())
+    return "\n".join(printed)
+
+
+def _number(value: float) -> str:
+    """Three decimals; what round-off leaves of zero is zero."""
+    return "-" if math.isnan(value) else f"{round(value, 3) + 0.0:.3f}"

@@ -1,0 +1,193 @@
+"""Place, attitude and instantaneous screw of a wheel and its carrier, and what ISO 8855 calls them.
+
+Vehicle axes: x forward, y left, z up; the chassis stands. Angles of the right wheel are those of its mirror image where
+their names say toe, camber or kingpin, and in vehicle axes where they say steer or inclination.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.vehicle.axes import UP
+from mbs.vehicle.kinematics.linkage import Linkage, Position
+
+Array = NDArray[np.float64]
+Z = np.array(UP)
+
+
+@dataclass(frozen=True)
+class WheelMotion:
+    """A wheel and its rates per travel of the left wheel, of the right wheel and of the rack: the columns of `rate`.
+
+    Attributes
+    ----------
+    side : float
+        1 left, -1 right.
+    radius : float
+        From the centre to the contact, m: loaded, as drawn.
+    centre, axis : ndarray, shape (3,)
+        Wheel centre, m, and unit vector of its axis to the left.
+    centre_rate, axis_rate, turn : ndarray, shape (3, 3)
+        Rates of both, and angular velocity of the carrier.
+    """
+
+    side: float
+    radius: float
+    centre: Array
+    axis: Array
+    centre_rate: Array
+    axis_rate: Array
+    turn: Array
+
+    @property
+    def steer(self) -> float:
+        """Steer angle about z, rad, positive to the left."""
+        return float(np.arctan2(-self.axis[0], self.axis[1]))
+
+    @property
+    def steer_rate(self) -> Array:
+        """Rates of the steer angle, shape (3,)."""
+        x, y, _ = self.axis
+        return np.asarray((x * self.axis_rate[1] - y * self.axis_rate[0]) / (x * x + y * y))
+
+    @property
+    def inclination(self) -> float:
+        """Inclination angle about the wheel's x axis, rad, positive with the top to the right."""
+        return float(np.arcsin(self.axis[2]))
+
+    @property
+    def inclination_rate(self) -> Array:
+        """Rates of the inclination angle, shape (3,)."""
+        return np.asarray(self.axis_rate[2] / np.sqrt(1.0 - self.axis[2] ** 2))
+
+    @property
+    def contact(self) -> Array:
+        """Contact centre, m: from the wheel's centre down in the wheel plane by the radius, shape (3,)."""
+        up = Z - self.axis[2] * self.axis
+        return np.asarray(self.centre - self.radius * up / np.linalg.norm(up))
+
+    @property
+    def contact_rate(self) -> Array:
+        """Rates of the contact centre, shape (3, 3); it does not turn with the carrier about the wheel's axis."""
+        a, w = self.axis, float(np.sqrt(1.0 - self.axis[2] ** 2))
+        up = Z - a[2] * a
+        up_rate = -np.outer(a, self.axis_rate[2]) - a[2] * self.axis_rate
+        return np.asarray(
+            self.centre_rate - self.radius * (up_rate / w + np.outer(up, a[2] * self.axis_rate[2]) / w**3)
+        )
+
+    @property
+    def fixed_contact_rate(self) -> Array:
+        """Rates of the point of the carrier that is at the contact centre, as of a wheel held by its brake, (3, 3)."""
+        return np.asarray(self.centre_rate + np.cross(self.turn, self.contact - self.centre, axisa=0, axisb=0).T)
+
+
+@dataclass(frozen=True)
+class SteeringAxis:
+    """The axis about which a wheel is steered.
+
+    Attributes
+    ----------
+    way : ndarray, shape (3,)
+        Unit vector that points up.
+    point : ndarray, shape (3,)
+        A point of it, m.
+    pitch : float
+        Shift along it per turn, m/rad: of a screw; 0 where ball joints hold it.
+    """
+
+    way: Array
+    point: Array
+    pitch: float
+
+    def at_height(self, z: float) -> Array:
+        """Point of the axis at a height, m, shape (3,).
+
+        Parameters
+        ----------
+        z : float
+            m.
+        """
+        return np.asarray(self.point + self.way * (z - self.point[2]) / self.way[2])
+
+    @property
+    def caster(self) -> float:
+        """Caster angle, rad: in the side view, positive with the top to the rear."""
+        return float(np.arctan2(-self.way[0], self.way[2]))
+
+    def inclination(self, side: float) -> float:
+        """Kingpin inclination angle, rad: in the rear view, positive with the top inwards.
+
+        Parameters
+        ----------
+        side : float
+            1 left, -1 right.
+        """
+        return float(np.arctan2(-side * self.way[1], self.way[2]))
+
+    def offsets(self, wheel: WheelMotion, centre: Array) -> tuple[float, float]:
+        """From a point of the wheel to the axis at the point's height, along the wheel's x axis and inwards, m.
+
+        Parameters
+        ----------
+        wheel : WheelMotion
+            Gives the directions.
+        centre : ndarray, shape (3,)
+            The point.
+
+        Returns
+        -------
+        tuple of float
+            Positive where the axis is ahead of the point, and inboard of it.
+        """
+        gap, steer = self.at_height(centre[2]) - centre, wheel.steer
+        ahead, left = gap @ [np.cos(steer), np.sin(steer), 0.0], gap @ [-np.sin(steer), np.cos(steer), 0.0]
+        return float(ahead), float(-wheel.side * left)
+
+
+def wheel_motion(linkage: Linkage, at: Position, side: int) -> WheelMotion:
+    """A wheel at a position.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Of the axle.
+    at : Position
+        Of it.
+    side : int
+        0 left, 1 right.
+    """
+    C, c = linkage.centre(side)
+    axes = linkage.triad(side)
+    turn = 0.5 * np.sum([np.cross(A @ at.q + a, (A @ at.tangent).T).T for A, a in axes], axis=0)
+    A, a = axes[1]
+    radius = linkage.data.wheel.centre[2]
+    return WheelMotion(
+        (1.0, -1.0)[side], radius, C @ at.q + c, A @ at.q + a, C @ at.tangent, A @ at.tangent, np.asarray(turn)
+    )
+
+
+def steering_axis(linkage: Linkage, at: Position, side: int) -> SteeringAxis | None:
+    """Screw axis of the carrier while the rack moves and the springs keep their length; None: nothing steers it.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Of the axle.
+    at : Position
+        Of it.
+    side : int
+        0 left, 1 right.
+    """
+    if not linkage.has_rod:
+        return None
+    rate = linkage.steering_motion(at)
+    C, c = linkage.centre(side)
+    turn = 0.5 * np.sum([np.cross(A @ at.q + a, A @ rate) for A, a in linkage.triad(side)], axis=0)
+    speed, size = C @ rate, float(np.linalg.norm(turn))
+    way = np.asarray(turn) / size * (1.0 if turn[2] >= 0.0 else -1.0)
+    point = C @ at.q + c + np.cross(turn, speed) / size**2
+    return SteeringAxis(way, np.asarray(point), float(turn @ speed) / size**2)

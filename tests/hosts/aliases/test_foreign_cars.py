@@ -1,0 +1,205 @@
+"""The same car in the names of other programs gives the same record as in ours; a wrong sign or unit does not pass."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hosts.aliases import Aliases, find_aliases, shipped_names
+from hosts.catalogue.car import TestedCar
+from hosts.errors import HostError
+from hosts.fmu import described
+from hosts.manoeuvre import Manoeuvre
+from hosts.variables import Variables
+
+CONSTANTS = """
+[constants]
+"vehicle.steering_wheel_angle_max" = 8.0
+brake_pressure_max = 12e6
+"centre_of_mass.x" = 0.35
+"centre_of_mass.y" = 0.0
+"centre_of_mass.z" = -0.25
+"""
+STYLES = ("carmaker", "carsim", "chrono", "osi", "vehicle_interfaces")
+NAMES = (
+    *(f"chassis.{name}" for name in ("x", "y", "z", "yaw", "pitch", "roll")),
+    *(f"chassis.{kind}{axis}" for kind in "vaw" for axis in "xyz"),
+    "speed",
+    "sideslip",
+    "steering_wheel_angle",
+)
+UNITS_OF_CARSIM = {
+    "Vx": "km/h",
+    "Yaw": "deg",
+    "AVz": "deg/s",
+    "Ay": "g",
+    "XCG_TM": "m",
+    "IMP_STEER_SW": "deg",
+    "IMP_PCON_BK": "MPa",
+}
+
+
+def manoeuvre():
+    """Steps of steering and pedals, smooth enough for differences, more than one turn to the left, then braking."""
+    time = np.linspace(0.0, 12.0, 1201)
+    ramp = np.clip(time, 0.0, 1.0)
+    steering = 0.28 * np.sin(0.5 * np.pi * ramp) ** 2 + 0.02 * np.sin(2.0 * time)
+    late = np.clip(time - 9.0, 0.0, 1.0)
+    return Manoeuvre(
+        "turn",
+        time=time,
+        inputs={"steering": steering, "throttle": 0.2 + 0.0 * time, "brake": 0.4 * np.sin(0.5 * np.pi * late) ** 2},
+        start={"initial.speed": 15.0},
+        stop_time=12.0,
+    )
+
+
+@pytest.fixture(scope="module")
+def ours(foreign_fmu):
+    return TestedCar("ours", foreign_fmu("ours"), step=0.01).drive(manoeuvre())
+
+
+@pytest.fixture
+def alias_file(tmp_path):
+    def write(style, text=""):
+        file = tmp_path / f"my_{style}.toml"
+        file.write_text(f'extends = "{style}"\n{text}\n{CONSTANTS}', encoding="utf-8")
+        return file
+
+    return write
+
+
+def car_of(fmu, file):
+    aliases = Aliases() if file is None else find_aliases(file, Variables(described(fmu)))
+    return TestedCar(fmu.stem, fmu, aliases, step=0.01)
+
+
+def largest_errors(ours, theirs):
+    """By name, relative to the largest value; the record's ends apart, where differences are one-sided."""
+    inner = slice(3, -3)
+    return {
+        name: float(np.max(np.abs(theirs[name] - ours[name])[inner]) / max(np.max(np.abs(ours[name])), 1e-3))
+        for name in NAMES
+    }
+
+
+def test_all_files_that_come_with_the_package_are_tried_here():
+    assert tuple(shipped_names()) == STYLES
+
+
+# Rates are differences over 10 ms, in which inputs are held, and so are half a step late; CarSim's axes do not roll.
+TOLERANCES = {"carsim": 2e-3, "chrono": 1e-2, "osi": 3e-3}
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_the_same_car_gives_the_same_record(style, foreign_fmu, alias_file, ours):
+    record = car_of(foreign_fmu(style), alias_file(style)).drive(manoeuvre())
+    assert np.ptp(ours["chassis.yaw"]) > 2.0 * np.pi
+    assert np.max(np.abs(ours["chassis.roll"])) > 0.02
+    errors = largest_errors(ours, record)
+    by_rates = {n for n in NAMES if n.startswith("chassis.a")} | (
+        {"chassis.vy", "chassis.vz", "sideslip"} if style == "carsim" else set()
+    )
+    if style == "carsim":
+        del errors["chassis.az"], errors["chassis.vz"]  # what rolled axes have of the lateral ones
+    assert max(e for n, e in errors.items() if n not in by_rates) < 1e-6, errors
+    assert max(e for n, e in errors.items() if n in by_rates) < TOLERANCES.get(style, 1e-6), errors
+    assert record["steering"] == pytest.approx(ours["steering"], abs=1e-12)
+    assert record["brake"] == pytest.approx(ours["brake"], abs=1e-12)
+
+
+def test_rates_are_as_good_as_the_step_is_short(foreign_fmu, alias_file):
+    errors = []
+    for step in (0.01, 0.002):
+        exact = replace(car_of(foreign_fmu("ours"), None), step=step).drive(manoeuvre())
+        made = replace(car_of(foreign_fmu("chrono"), alias_file("chrono")), step=step).drive(manoeuvre())
+        errors.append(largest_errors(exact, made)["chassis.ay"])
+    assert errors[1] == pytest.approx(errors[0] / 5.0, rel=0.3)
+
+
+def turned(style):
+    """Entries of a style with one sign turned, each in a way that no unit check can see."""
+    return {
+        "carmaker": ('"chassis.wz" = { name = "Car.YawRate", factor = -1.0 }', "chassis.wz"),
+        "carsim": ('"chassis.ay" = { name = "Ay", unit = "g", factor = -1.0 }', "chassis.ay"),
+        "chrono": ('"chassis.qz" = { name = "ref_frame.rot.e3", factor = -1.0 }', "chassis.yaw"),
+        "osi": ('"chassis.roll" = { name = "moving_object.base.orientation.roll", factor = -1.0 }', "chassis.roll"),
+        "vehicle_interfaces": ('"chassis.qw" = { name = "chassis.body.Q[4]", factor = -1.0 }', "chassis.yaw"),
+    }[style]
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_a_turned_sign_is_seen(style, foreign_fmu, alias_file, ours):
+    entry, name = turned(style)
+    errors = largest_errors(ours, car_of(foreign_fmu(style), alias_file(style, entry)).drive(manoeuvre()))
+    assert errors[name] > 0.5
+
+
+def test_what_drives_senses_the_derived_variables(foreign_fmu, alias_file):
+    class Looks:
+        def __init__(self):
+            self.seen = []
+
+        def act(self, time, senses):
+            self.seen.append((time, senses["chassis.yaw"], senses["chassis.ay"], senses["speed"]))
+            return {"throttle": 0.1}
+
+    pilot = Looks()
+    record = car_of(foreign_fmu("chrono"), alias_file("chrono")).drive(manoeuvre(), pilot)
+    _, yaw, ay, speed = np.array(pilot.seen).T
+    n = len(yaw)
+    assert yaw == pytest.approx(record["chassis.yaw"][:n], abs=1e-9)
+    assert speed == pytest.approx(record["speed"][:n], abs=1e-9)
+    assert np.isnan(ay[0])
+    assert ay[3:] == pytest.approx(record["chassis.ay"][3:n], abs=0.05)
+
+
+def test_units_that_the_fmu_declares_are_held_against_the_file(foreign_fmu, with_units, alias_file):
+    fmu = foreign_fmu("carsim")
+    find_aliases(alias_file("carsim"), Variables(described(with_units(fmu, UNITS_OF_CARSIM))))
+    other = Variables(described(with_units(fmu, UNITS_OF_CARSIM | {"Vx": "m/s"})))
+    with pytest.raises(HostError, match=r"'Vx' is in km/h, the FMU declares m/s; one of them is wrong"):
+        find_aliases(alias_file("carsim"), other)
+    with pytest.raises(HostError, match=r"'Vx' in the FMU in km/h: its factor must be 3.6 .*, it is 1\."):
+        find_aliases(
+            alias_file("carsim", '"chassis.vx" = "Vx"'), Variables(described(with_units(fmu, UNITS_OF_CARSIM)))
+        )
+    with pytest.raises(HostError, match=r"'chassis.x' is in m, but the FMU declares 'Yaw' in deg, another quantity"):
+        find_aliases(
+            alias_file("carsim", '"chassis.x" = "Yaw"'), Variables(described(with_units(fmu, UNITS_OF_CARSIM)))
+        )
+
+
+def test_a_formula_takes_si_units_only(foreign_fmu, with_units, tmp_path):
+    file = tmp_path / "a.toml"
+    file.write_text('sideslip = { from = "sideslip(Vx, Vy)" }')
+    variables = Variables(described(with_units(foreign_fmu("carsim"), UNITS_OF_CARSIM)))
+    with pytest.raises(HostError, match="'Vx' is in km/h in the FMU, formulas take SI units"):
+        find_aliases(file, variables)
+
+
+def test_what_depends_on_the_car_is_asked_for(foreign_fmu):
+    variables = Variables(described(foreign_fmu("carmaker")))
+    with pytest.raises(HostError) as told:
+        find_aliases("carmaker", variables)
+    assert str(told.value) == (
+        "carmaker.toml needs numbers of this car, 'vehicle.steering_wheel_angle_max' (angle of the steering wheel at "
+        'full lock, rad): write a file with extends = "carmaker" and them in its table [constants], for --aliases.'
+    )
+    with pytest.raises(HostError, match=r"'centre_of_mass\.x' \(centre of mass at rest ahead.*_angle_max' \(angle of"):
+        find_aliases("chrono", Variables(described(foreign_fmu("chrono"))))
+
+
+def test_a_file_of_another_program_is_refused(foreign_fmu):
+    with pytest.raises(HostError, match="this FMU has none, such as 'IMP_STEER_SW'; is it an FMU of that program"):
+        find_aliases("carsim", Variables(described(foreign_fmu("carmaker"))))
+
+
+def test_what_is_left_out_is_told(foreign_fmu, alias_file):
+    aliases = find_aliases(alias_file("carmaker"), Variables(described(foreign_fmu("carmaker"))))
+    assert aliases.why_missing("wheel_FL.Fz") == (
+        "carmaker.toml takes 'wheel_FL.Fz' from 'Car.FzFL', which the FMU does not have"
+    )
+    assert aliases.why_missing("chassis.x") == ""

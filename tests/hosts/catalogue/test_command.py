@@ -1,0 +1,139 @@
+"""The command does tests with cars side by side, and tells a user what is wrong before it begins."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from hosts.catalogue.command import main
+from hosts.catalogue.registry import TESTS
+
+FAST = ["--tests", "drop,kerb"]
+SSV = """<?xml version="1.0" encoding="UTF-8"?>
+<ssv:ParameterSet xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues" version="1.0" name="s">
+<ssv:Parameters><ssv:Parameter name="front.tyre.stiffness"><ssv:Real value="40000"/></ssv:Parameter></ssv:Parameters>
+</ssv:ParameterSet>
+"""
+
+
+def rows(folder: Path) -> list[dict[str, str]]:
+    with (folder / "measures.csv").open(encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_cars_stand_side_by_side_and_jobs_change_nothing(
+    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    soft = tmp_path / "soft.ssv"
+    soft.write_text(SSV, encoding="utf-8")
+    for jobs in (1, 2):
+        out = tmp_path / f"out_{jobs}"
+        sets = ["--parameters", "as-is", "--parameters", str(soft)]
+        assert main([str(prototype_fmu), *FAST, *sets, "--jobs", str(jobs), "--out", str(out)]) == 0
+    printed = capsys.readouterr().out
+    first, second = tmp_path / "out_1", tmp_path / "out_2"
+    assert (first / "measures.csv").read_bytes() == (second / "measures.csv").read_bytes()
+    assert (first / "measures.json").read_bytes() == (second / "measures.json").read_bytes()
+    tables = sorted(p.relative_to(first) for p in first.rglob("runs/**/*.csv"))
+    assert len(tables) >= 4
+    for table in tables:
+        assert (first / table).read_bytes() == (second / table).read_bytes()
+    peak = {r["car"]: float(r["value"]) for r in rows(first) if (r["test"], r["measure"]) == ("drop", "load.peak_FL")}
+    assert list(peak) == [prototype_fmu.stem, f"{prototype_fmu.stem}, soft"]
+    assert peak[f"{prototype_fmu.stem}, soft"] < 0.95 * peak[prototype_fmu.stem]
+    record = json.loads((first / "measures.json").read_text(encoding="utf-8"))
+    assert record["cars"][1]["set"] == {"front.tyre.stiffness": 40000.0}
+    assert [test["name"] for test in record["tests"]] == ["drop", "kerb"]
+    assert f"{prototype_fmu.stem}, soft" in printed
+    assert "load.peak_FL" in printed
+
+
+def test_a_test_that_cannot_be_done_is_a_row_with_its_reason(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import fmpy
+
+    from fmu_src.build import build_fmu
+    from fmu_src.scene_registry import load_scene
+
+    name, system = load_scene(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
+    fmu = build_fmu(system, name, tmp_path, [fmpy.platform])
+    assert main([str(fmu), "--tests", "steady_circle", "--out", str(tmp_path / "out")]) == 1
+    (row,) = rows(tmp_path / "out")
+    assert row["measure"] == ""
+    assert row["note"].startswith(f"The FMU {fmu.name} has no ")
+    assert "vehicle.wheelbase" in row["note"]
+    assert "1 of 1 tests could not be done" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--tests", "steady_circel"], "did you mean 'steady_circle'?"),
+        (["--test-setting", "steady_circle.radius=3"], "it must be from 30 to 1000 m"),
+        (["--test-setting", "steady_circle.radios=50"], "has no setting 'radios'"),
+        (["--test-setting", "circle.radius=50"], "it must be TEST.NAME=VALUE"),
+        (["--set", "road.frction=1"], "did you mean road.friction"),
+        (["--set", "initial.speed=3"], "the tests themselves say where a car starts"),
+        (["--parameters", "none.ssv"], "none.ssv"),
+        (["--aliases", "a.toml", "--aliases", "b.toml"], "1 FMUs and 2 alias files"),
+        (["--jobs", "0"], "it must be at least 1"),
+        (["--step", "0.5"], "at most 0.1 s"),
+    ],
+)
+def test_what_is_wrong_is_one_sentence_before_the_first_run(
+    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
+) -> None:
+    tests = [] if "--tests" in arguments else ["--tests", "steady_circle"]
+    assert main([str(prototype_fmu), *tests, *arguments, "--out", str(tmp_path / "out")]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("error: ")
+    assert words in error
+    assert not (tmp_path / "out").exists()
+
+
+def test_no_fmu_and_no_file_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 2
+    assert "There is no FMU to be tested" in capsys.readouterr().err
+    assert main([str(tmp_path / "none.fmu")]) == 2
+    assert "There is no file" in capsys.readouterr().err
+
+
+def test_the_list_has_all_tests_with_their_settings(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--list"]) == 0
+    printed = capsys.readouterr().out
+    for name in TESTS:
+        assert f"\n{name}: " in f"\n{printed}"
+    assert "--test-setting steady_circle.radius=100 m (from 30 to 1000)" in printed
+    assert "from public summaries" in printed
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
+def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> None:
+    """The drop is soon done, the circle goes on for minutes; then Ctrl-C."""
+    out, pipe = tmp_path / "out", subprocess.PIPE
+    slow = ["--tests", "drop,steady_circle", "--test-setting", "steady_circle.speed_rise=0.02", "--jobs", "2"]
+    command = [sys.executable, "-m", "hosts.catalogue", str(prototype_fmu), *slow, "--out", str(out)]
+    process = subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, start_new_session=True)
+    try:
+        end = time.monotonic() + 60.0
+        while not (out / "measures.json").exists() and process.poll() is None and time.monotonic() < end:
+            time.sleep(0.2)
+        assert process.poll() is None
+        os.killpg(process.pid, signal.SIGINT)
+        _, error = process.communicate(timeout=20.0)
+    finally:
+        process.kill()
+    assert process.returncode == 130
+    assert error.strip().endswith("stopped by Ctrl-C")
+    assert "Traceback" not in error
+    assert {row["test"] for row in rows(out)} == {"drop"}
+    assert list(out.rglob("runs/drop/*.csv"))

@@ -1,0 +1,101 @@
+"""The prototype car falls and drives over a kerb: free fall, balance of forces, step of communication."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.perform import perform
+from hosts.catalogue.record import TestRecord
+from hosts.catalogue.standard import drop, kerb
+
+
+def values(record: TestRecord) -> dict[str, float]:
+    return {m.name: m.value for m in record.measures}
+
+
+@pytest.fixture(scope="module")
+def fallen(prototype: TestedCar) -> TestRecord:
+    return perform(drop.TEST, prototype)
+
+
+@pytest.fixture(scope="module")
+def over_kerb(prototype: TestedCar) -> TestRecord:
+    return perform(kerb.TEST, prototype)
+
+
+def test_car_falls_freely_and_rests_on_its_weight(fallen: TestRecord) -> None:
+    result, measured = fallen.runs["drop"], values(fallen)
+    assert not fallen.notes
+    assert all(m.is_kept is not False for m in fallen.measures)
+    assert measured["fall.acceleration"] == pytest.approx(9.81, rel=5e-4)
+    assert abs(measured["rest.load_error"]) < 1e-4
+    # The weight is that of gravity's own book-keeping: energy given up in the air over the height that goes with it.
+    falling = result.time < measured["contact.time"] - 0.004
+    given, time = -np.diff(result["energy.gravity"][falling])[-1], result.time[falling]
+    middle = 0.5 * (time[-1] + time[-2])
+    assert given == pytest.approx(measured["rest.weight"] * 9.81 * middle * 0.002, rel=2e-3)
+
+
+def test_wheels_droop_in_the_air_and_touch_before_a_point_would(fallen: TestRecord) -> None:
+    measured = values(fallen)
+    assert measured["contact.free_fall_time"] == pytest.approx(math.sqrt(2 * 0.5 / 9.81))
+    assert measured["travel.droop"] < -0.05
+    # not earlier than a car whose body has to fall what the wheels do not hang down, and the tyres are pressed in
+    hang = 0.5 + measured["travel.droop"] - 0.05
+    assert math.sqrt(2 * hang / 9.81) < measured["contact.time"] < measured["contact.free_fall_time"]
+    assert measured["load.peak_ratio"] > 2.0
+    assert measured["load.peak_chassis"] > 0.0
+    assert 0.05 < measured["rebound.height"] < 0.5
+
+
+def test_a_fall_that_is_too_short_to_settle_says_so(prototype: TestedCar) -> None:
+    record = perform(drop.TEST, prototype, {"duration": 1.0})
+    error = next(m for m in record.measures if m.name == "rest.load_error")
+    assert math.isnan(error.value)
+    assert error.is_kept is False
+    assert "longer duration" in error.note
+
+
+def test_kerb_is_passed_both_ways(over_kerb: TestRecord) -> None:
+    assert not over_kerb.notes
+    measured = values(over_kerb)
+    for way, sign in (("down", -1.0), ("up", 1.0)):
+        z = over_kerb.runs[way]["chassis.z"]
+        assert z[-1] - z[0] == pytest.approx(sign * 0.08, abs=2e-3)
+        assert measured[f"{way}.load.peak_ratio"] > 1.5
+        # what is felt is less than what there is
+        assert 0.0 < measured[f"{way}.az.running_rms"] < measured[f"{way}.az.peak"]
+    # down, wheels hang; up, they are pushed in
+    assert -measured["down.travel.droop"] > measured["down.travel.bump"]
+    assert measured["up.travel.bump"] > -measured["up.travel.droop"]
+    # at fidelity 0 there are no stresses, and none are told
+    assert not any("stress" in name for name in measured)
+
+
+def test_results_do_not_depend_on_the_step(prototype: TestedCar, fallen: TestRecord, over_kerb: TestRecord) -> None:
+    for record, test, worst in ((fallen, drop.TEST, 0.01), (over_kerb, kerb.TEST, 0.03)):
+        coarse = values(perform(test, replace(prototype, step=0.005)))
+        for name, fine in values(record).items():
+            if "time" in name:
+                assert coarse[name] == pytest.approx(fine, abs=0.006), name
+            elif name != "rest.load_error":
+                assert coarse[name] == pytest.approx(fine, rel=worst, abs=1e-6), name
+
+
+def test_kerb_on_a_step_too_long_for_the_weighting(prototype: TestedCar) -> None:
+    record = perform(kerb.TEST, replace(prototype, step=0.01), {"ahead": 2.0})
+    rms = next(m for m in record.measures if m.name == "down.az.running_rms")
+    assert math.isnan(rms.value)
+    assert "0.005 s or less" in rms.note
+    assert any("0.01 s" in note for note in record.notes)
+
+
+def test_a_kerb_that_is_not_reached_is_told(prototype: TestedCar) -> None:
+    # so slow that rolling resistance stops the car before the edge
+    record = perform(kerb.TEST, prototype, {"speed": 4.0, "ahead": 7.5})
+    assert any("not all wheels" in note for note in record.notes)

@@ -1,0 +1,241 @@
+"""The report: what stands in it, that it is whole HTML, and that nothing in a name can become a part of it."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import time
+import zipfile
+from itertools import pairwise
+from pathlib import Path
+
+import html5lib
+import numpy as np
+import pytest
+
+from ali3.errors import FileError
+from hosts.catalogue.record import Line, Plot
+from hosts.catalogue.report import write_report
+from hosts.catalogue.report.numbers import bounds, difference, shown, unit_shown
+from hosts.catalogue.report.pictures import pictures_of
+from hosts.catalogue.report.section import command_of
+from hosts.catalogue.report.thinning import MOST, thinned
+from tests.hosts.catalogue.synthetic_records import EVIL, record, synthetic
+
+COMMAND = ["ali3", "catalogue", "my car.fmu", "--tests=test_0", "--test-setting", "test_1.speed=80", "--jobs", "2"]
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory):
+    """Its description is all that a report reads of a car."""
+    made = tmp_path_factory.mktemp("fmu") / "small.fmu"
+    text = """<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="Small &lt;b&gt;" guid="{1-2}" generationTool="a tool"
+numberOfEventIndicators="0"><CoSimulation modelIdentifier="small"/>
+<UnitDefinitions><Unit name="N/m"><BaseUnit kg="1" s="-2"/></Unit></UnitDefinitions>
+<DefaultExperiment stepSize="0.004"/>
+<ModelVariables><ScalarVariable name="front.spring.stiffness" valueReference="0" causality="parameter"
+variability="fixed"><Real start="12360" unit="N/m"/></ScalarVariable>
+<ScalarVariable name="initial.x" valueReference="1" causality="parameter" variability="fixed"><Real start="0"/>
+</ScalarVariable></ModelVariables><ModelStructure/></fmiModelDescription>"""
+    with zipfile.ZipFile(made, "w") as archive:
+        archive.writestr("modelDescription.xml", text)
+    return made
+
+
+@pytest.fixture(scope="module")
+def report(fmu, tmp_path_factory):
+    """The file with its document as a browser reads it."""
+    file = tmp_path_factory.mktemp("report") / "report.html"
+    tests, cars, records = synthetic(fmu, tests=3, points=5000)
+    write_report(file, tests, cars, records, {"test_0": {"speed": 80.0}}, COMMAND)
+    parser = html5lib.HTMLParser(tree=html5lib.getTreeBuilder("lxml"), namespaceHTMLElements=False)
+    document = parser.parse(file.read_text("utf-8"))
+    assert parser.errors == []
+    return file, document
+
+
+def texts(elements):
+    return [" ".join("".join(e.itertext()).split()) for e in elements]
+
+
+def test_a_page_that_needs_nothing_else(report):
+    file, document = report
+    root = document.getroot()
+    assert root.get("lang") == "en"
+    assert document.xpath("//meta[@name='viewport']")
+    assert not document.xpath("//script | //link | //iframe | //*[starts-with(@src, 'http')]")
+    assert all(img.get("src").startswith("data:image/svg+xml;base64,") for img in document.xpath("//img"))
+    assert b"\x00" not in file.read_bytes()
+
+
+def test_nothing_in_a_name_becomes_a_part_of_the_page(report):
+    _, document = report
+    assert EVIL in texts(document.xpath("//th"))
+    assert EVIL in document.findtext(".//title")
+    assert not document.xpath("//script | //b")
+    assert "Small <b>" in texts(document.xpath("//td"))
+
+
+def test_everything_of_a_car_is_in_the_header(report):
+    _, document = report
+    rows = {texts(row)[0]: texts(row)[1:] for row in document.xpath("(//table)[1]//tr")}
+    assert rows["GUID"] == ["{1-2}"] * 3
+    assert rows["communication step"] == ["0.004 s"] * 3
+    assert rows["file"] == ["small.fmu"] * 3
+    changed = {texts(row)[0]: texts(row)[1:] for row in document.xpath("(//table)[2]//tr")}
+    assert changed["front.spring.stiffness"] == ["as built", "15000 N/mas built 12360 N/m", "as built"]
+    assert "initial.x" not in changed
+
+
+def test_limits_and_differences_are_told_by_words(report):
+    _, document = report
+    row = next(r for r in document.xpath("//tr") if "yaw_rate.overshoot" in "".join(r.itertext()))
+    assert texts(row)[1:] == ["0.12 kept", "0.22 not kept+0.1 (+83.3 %)", "0.32 not kept+0.2 (+167 %)", "at most 0.2"]
+    assert [s.get("class") for s in row.iter("span") if s.get("class")] == ["kept", "broken", "broken"]
+    missing = next(r for r in document.xpath("//tr") if "roll.time" in "".join(r.itertext()))
+    assert texts(missing)[1] == "–The car has no output chassis.roll."
+
+
+def test_a_section_has_all_of_a_test(report):
+    _, document = report
+    text = texts(document.xpath("//section[@id='test_0']"))[0]
+    for words in (
+        "ISO 7401:2011, Lateral transient response test methods",
+        "8.2: a step of the steering wheel in 0.1 s (text checked)",
+        "at 100 km/h (from public summaries)",
+        f"{EVIL}: The step was 12 ms; take 10 ms.",
+        "80 km/hby default 100 km/h",
+        "ali3 catalogue 'my car.fmu' --jobs 2 --tests test_0",
+    ):
+        assert words in text
+    not_done = texts(document.xpath("//section[@id='test_1']"))[0]
+    assert "with $stiff$ springs: not done. The FMU has no variable steering;" in not_done
+    assert "--test-setting test_1.speed=80 --jobs 2 --tests test_1" in not_done
+    assert len(document.xpath("//section[@id='test_0']//details")) == 4
+
+
+def test_tables_have_headers_and_pictures_have_words(report):
+    _, document = report
+    for table in document.xpath("//table"):
+        assert table.find("caption") is not None
+        assert all(th.get("scope") for th in table.iter("th"))
+    alt = document.xpath("(//section[@id='test_0']//img)[2]")[0].get("alt")
+    assert alt.startswith("Gain: gain, 1/s over frequency, Hz. as built, yaw rate: from 0.9615 at 0.2 to 0.05882 at 4,")
+    links = {a.get("href")[1:] for a in document.xpath("//a")}
+    ids = document.xpath("//@id")
+    assert links <= set(ids)
+    assert len(ids) == len(set(ids))
+
+
+def svg_of(picture):
+    import base64
+
+    from lxml import etree
+
+    return etree.fromstring(base64.b64decode(picture.source.partition(",")[2]))
+
+
+def test_cars_differ_without_colour(fmu):
+    """In dashes: by them alone two cars can be told apart in grey."""
+    plot = Plot("p", "x, m", "y, m", [Line("", np.arange(50.0), np.arange(50.0))])
+    picture = pictures_of({f"car {k}": [plot] for k in range(5)})[0]
+    paths = svg_of(picture).xpath(
+        "//*[starts-with(@id, 'axes_1')]//*[local-name()='path'][contains(@style, 'stroke: #')]"
+    )
+    styles = [p.get("style") for p in paths]
+    lines = [s for s in styles if re.search("stroke: #(0072b2|d55e00|009e73|e69f00|cc79a7)", s)]
+    dashes = {(re.search("stroke-dasharray: ([^;]*)", s) or ["", "whole"])[1] for s in lines}
+    assert len(lines) >= 5
+    assert len(dashes) == 5
+
+
+def test_plots_of_several_cars_are_one_picture():
+    pictures = pictures_of({"a": record(0, 500).plots, "b": record(1, 500).plots[:2]})
+    assert [p.title for p in pictures] == ["Yaw rate", "Gain", "Path"]
+    assert "a: from" in pictures[0].words
+    assert "b: from" in pictures[0].words
+    assert "b" not in re.findall(r"(?:\. |; )(\w+):", pictures[2].words)
+
+
+def test_empty_and_broken_lines_are_drawn():
+    nothing = Line("nothing", np.full(5, np.nan), np.full(5, np.nan))
+    plots = [Plot("p", "x, 1", "y, 1", [nothing, Line("none", np.empty(0), np.empty(0))]), Plot("q", "x", "y", [])]
+    pictures = pictures_of({"a": plots})
+    assert pictures[0].words.endswith("nothing: no points; none: no points.")
+
+
+def test_thinned_lines_keep_extremes_and_gaps():
+    rng = np.random.default_rng(1)
+    x = np.linspace(0.0, 10.0, 100_000)
+    y = rng.normal(size=len(x)).cumsum()
+    y[77_777] = 1e6
+    y[33_333] = -1e6
+    y[50_000:50_010] = np.nan
+    kept = thinned(x, y)
+    assert len(kept) < 1.1 * MOST
+    assert {0, len(x) - 1, 77_777, 33_333} <= set(kept.tolist())
+    assert np.isnan(y[kept]).any()
+    assert np.array_equal(thinned(x[:100], y[:100]), np.arange(100))
+    # Nobody sees the difference: a step's line runs within the range of what was left out.
+    for a, b in pairwise(kept):
+        inside = y[a : b + 1]
+        if not np.isnan(inside).any():
+            reach = y[max(a - 400, 0) : b + 400]
+            assert np.nanmin(reach) <= inside.min()
+            assert inside.max() <= np.nanmax(reach)
+
+
+def test_numbers_for_people():
+    assert [shown(v) for v in (0.123456, 1e-7, 12345.6, float("nan"), float("-inf"))] == [
+        "0.1235",
+        "1e-7",
+        "1.235e+4",
+        "–",
+        "-∞",
+    ]
+    assert (unit_shown("m/s2"), unit_shown("1"), unit_shown("N.m")) == ("m/s²", "", "N·m")
+    assert difference(0.9, 1.0) == "−0.1 (−10 %)"
+    assert difference(1.0, 0.0) == "+1"
+    assert difference(1.0, float("nan")) == ""
+    assert bounds(-np.inf, 0.35, "1") == "at most 0.35"
+    assert bounds(1.0, 2.0, "m") == "1 to 2 m"
+
+
+def test_the_command_of_one_test():
+    assert command_of(COMMAND, "test_1")[2:] == [
+        "my car.fmu",
+        "--test-setting",
+        "test_1.speed=80",
+        "--jobs",
+        "2",
+        "--tests",
+        "test_1",
+    ]
+
+
+def test_a_car_whose_file_is_gone_and_characters_that_cannot_be_there(fmu, tmp_path):
+    copy = tmp_path / "gone.fmu"
+    shutil.copy(fmu, copy)
+    tests, cars, records = synthetic(copy, cars=1, tests=1, points=50)
+    copy.unlink()
+    records["test_0"]["as built"] = "it says \x00\x1b[31m\ud800"
+    write_report(tmp_path / "r.html", tests, cars, records)
+    text = (tmp_path / "r.html").read_text("utf-8")
+    assert "There is no file" in text
+    assert "it says \ufffd\ufffd[31m\ufffd" in text
+
+
+def test_the_file_is_whole_or_not_there(fmu, tmp_path):
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(FileError, match="cannot be made"):
+        write_report(tmp_path / "file" / "r.html", *synthetic(fmu, 1, 1, 50))
+
+
+@pytest.mark.slow
+def test_a_large_report_is_written_in_seconds(fmu, tmp_path):
+    tests, cars, records = synthetic(fmu)
+    begin = time.process_time()
+    write_report(tmp_path / "r.html", tests, cars, records)
+    assert time.process_time() - begin < 15.0
+    assert Path(tmp_path / "r.html").stat().st_size < 5_000_000

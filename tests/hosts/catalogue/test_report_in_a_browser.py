@@ -1,0 +1,76 @@
+"""The report in Chromium: no error, nothing loaded, nothing wider than a phone."""
+
+from __future__ import annotations
+
+import pytest
+
+from hosts.catalogue.report import write_report
+from tests.hosts.catalogue.synthetic_records import synthetic
+from viewer import browser
+
+
+@pytest.fixture(scope="module")
+def seen(tmp_path_factory):
+    """Pages by width, what they told and asked for, and how they stand."""
+    play = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    try:
+        program = browser.find_chromium()
+    except RuntimeError as error:
+        pytest.skip(str(error))
+    folder = tmp_path_factory.mktemp("report")
+    file = folder / "report.html"
+    write_report(file, *synthetic(folder / "none.fmu", tests=2, points=500))
+    told, asked = [], []
+    with play.sync_playwright() as started:
+        chromium = started.chromium.launch(executable_path=program, args=browser.launch_arguments())
+        pages = {}
+        for width, colours in ((1280, "light"), (390, "dark")):
+            page = chromium.new_page(viewport={"width": width, "height": 900}, color_scheme=colours)
+            page.on("console", lambda message: told.append(message.text))
+            page.on("pageerror", lambda error: told.append(str(error)))
+            page.on("request", lambda request: asked.append(request.url))
+            page.goto(file.as_uri())
+            page.evaluate("document.querySelectorAll('img').forEach(i => i.loading = 'eager')")
+            page.evaluate("Promise.all([...document.images].map(i => i.decode()))")
+            pages[width] = page
+        yield pages, told, asked
+        chromium.close()
+
+
+def test_it_opens_without_a_word_and_loads_nothing(seen):
+    _, told, asked = seen
+    assert told == []
+    assert {url.partition(":")[0] for url in asked} <= {"file", "data"}
+    assert sum(url.startswith("file") for url in asked) == 2
+
+
+def test_pictures_are_there_and_nothing_is_too_wide(seen):
+    for width, page in seen[0].items():
+        assert page.evaluate("[...document.images].every(i => i.naturalWidth > 100)")
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_dark_and_light_have_enough_contrast(seen):
+    """Text on the ground, by the luminance of WCAG: 4.5 and more."""
+    for page in seen[0].values():
+        ratios = page.evaluate(
+            """() => {
+              const light = text => {
+                const [r, g, b] = text.match(/[0-9.]+/g).slice(0, 3).map(v => v / 255)
+                  .map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+                return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+              };
+              const ground = light(getComputedStyle(document.body).backgroundColor);
+              return ['body', '.kept', '.broken', 'td small', 'nav a'].map(name => {
+                const ink = light(getComputedStyle(document.querySelector(name)).color);
+                return (Math.max(ink, ground) + 0.05) / (Math.min(ink, ground) + 0.05);
+              });
+            }"""
+        )
+        assert min(ratios) > 4.5, ratios
+
+
+def test_tables_open(seen):
+    page = seen[0][390]
+    page.locator("summary").first.click()
+    assert page.locator("details table").first.is_visible()

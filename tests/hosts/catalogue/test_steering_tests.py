@@ -1,0 +1,180 @@
+"""Step, sine and chirp steer of a car that is a linear bicycle model, against its closed forms."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hosts.catalogue.perform import perform
+from hosts.catalogue.record import TestRecord
+from hosts.catalogue.registry import standard_test
+from hosts.catalogue.steering import SteeringInput
+from hosts.errors import HostError
+from tests.hosts.catalogue.bicycle import ROLL_PER_ACCELERATION, BicycleCar, bicycle, gains, mode
+
+SPEED = 100.0 / 3.6
+LOCK = {"vehicle.steering_wheel_angle_max": 8.0}
+
+
+def values(record: TestRecord) -> dict[str, float]:
+    return {m.name: m.value for m in record.measures}
+
+
+@pytest.fixture(scope="module")
+def step() -> TestRecord:
+    seen: list[float] = []
+    record = perform(standard_test("step_steer"), BicycleCar(), {"level_1": 0.0}, seen.append)
+    assert len(seen) > 5
+    assert seen == sorted(seen)
+    assert (seen[0], seen[-1]) == (0.0, 1.0)
+    return record
+
+
+def test_steady_values_of_a_step(step: TestRecord) -> None:
+    found, (yaw_rate, acceleration, slip) = values(step), gains(SPEED)
+    for level, wanted in (("level_2", 4.0), ("level_3", 6.0)):
+        assert found[f"{level}.lateral_acceleration.steady"] == pytest.approx(wanted, rel=0.02)
+        assert found[f"{level}.yaw_rate.gain"] == pytest.approx(yaw_rate, rel=1e-3)
+        assert found[f"{level}.lateral_acceleration.gain"] == pytest.approx(acceleration, rel=1e-3)
+        angle = found[f"{level}.steering_wheel_angle"]
+        assert found[f"{level}.sideslip.steady"] == pytest.approx(slip * angle, rel=2e-3)
+        assert found[f"{level}.roll.gradient"] == pytest.approx(ROLL_PER_ACCELERATION, rel=1e-6)
+        assert found[f"{level}.asymmetry"] < 1e-6
+    assert "level_1.yaw_rate.gain" not in found
+
+
+def test_transients_of_a_step(step: TestRecord) -> None:
+    # the ramp of the steering is short against the mode: shifted by its half it is a step
+    from scipy.signal import lsim
+
+    found = values(step)
+    angle = found["level_2.steering_wheel_angle"]
+    rise = angle / math.radians(500.0)
+    t = np.arange(0.0, 5.0, 1e-3)
+    yaw_rate, acceleration, slip = lsim(bicycle(SPEED), np.clip(t / rise, 0.0, 1.0) * angle, t)[1].T
+    for name, x in (("yaw_rate", yaw_rate), ("lateral_acceleration", acceleration)):
+        at = t[np.argmax(x > 0.9 * x[-1])] - 0.5 * rise
+        assert found[f"level_2.{name}.response_time"] == pytest.approx(at, abs=0.01)
+        assert found[f"level_2.{name}.overshoot"] == pytest.approx(max(x.max() / x[-1] - 1.0, 0.0), abs=0.003)
+    peak = t[np.argmax(yaw_rate)] - 0.5 * rise
+    assert found["level_2.yaw_rate.peak_response_time"] == pytest.approx(peak, abs=0.01)
+    assert found["level_2.tb_factor"] == pytest.approx(peak * abs(slip[-1]), rel=0.03)
+
+
+def test_a_level_that_tyres_do_not_reach_is_left_out_with_its_reason() -> None:
+    car = BicycleCar(strongest=5.0)
+    record = perform(standard_test("step_steer"), car, {"level_1": 0.0})
+    found = values(record)
+    assert found["level_2.yaw_rate.gain"] == pytest.approx(gains(SPEED)[0], rel=1e-3)
+    assert math.isnan(found["level_3.yaw_rate.gain"])
+    assert any("reaches 5 m/s²" in n and "level_3 is left out" in n for n in record.notes)
+
+
+def test_a_car_that_turns_less_to_the_right_is_seen() -> None:
+    record = perform(standard_test("step_steer"), BicycleCar(turn_right=0.8), {"level_1": 0.0, "level_3": 0.0})
+    found = {m.name: m for m in record.measures}
+    assert found["level_2.asymmetry"].value == pytest.approx(0.2 / 0.9, rel=0.02)
+    assert "Left" in found["level_2.yaw_rate.gain"].note
+
+
+def test_a_slow_car_is_tested_at_80_and_a_slower_one_refused() -> None:
+    only = {"level_1": 0.0, "level_3": 0.0}
+    record = perform(standard_test("step_steer"), BicycleCar(top_speed=25.0), only)
+    assert values(record)["speed"] == pytest.approx(80.0)
+    assert any("does not hold 100 km/h" in n for n in record.notes)
+    with pytest.raises(HostError, match=r"does not hold 80 km/h.*its fastest was"):
+        perform(standard_test("step_steer"), BicycleCar(top_speed=15.0), only)
+
+
+def test_a_run_that_ends_early_leaves_its_measures_open() -> None:
+    # the ramp is over after some ten seconds; the step, after two
+    full = perform(standard_test("sine_steer"), BicycleCar())
+    ends = float(full.runs["sine_left"].time[-1]) - 1.0
+    record = perform(standard_test("sine_steer"), BicycleCar(refuses_after=ends), {"lateral_acceleration": 0.3})
+    assert math.isnan(values(record)["yaw_rate.lag"])
+    assert any("ended early" in n for n in record.notes)
+
+
+@pytest.mark.parametrize(
+    ("test", "settings", "words"),
+    [
+        ("step_steer", {"steady_from": 5.0}, "steady_from = 5 s and ends at steady_to = 4 s"),
+        ("step_steer", {"level_1": 0.0, "level_2": 0.0, "level_3": 0.0}, "all 0"),
+        ("chirp_steer", {"lowest_frequency": 0.6, "highest_frequency": 1.1}, "above twice lowest_frequency, 1.2 Hz"),
+        ("chirp_steer", {"lowest_frequency": 0.1}, "duration is 60 s; for 0.1 Hz it must be at least 80 s"),
+        ("sine_steer", {"speed": 1.0}, "speed of the test sine_steer is 1 km/h"),
+    ],
+)
+def test_settings_that_make_no_sense_are_refused(test: str, settings: dict[str, float], words: str) -> None:
+    with pytest.raises(HostError, match=words):
+        perform(standard_test(test), BicycleCar(), settings)
+
+
+def test_one_period_has_the_lag_of_the_model() -> None:
+    found = values(perform(standard_test("sine_steer"), BicycleCar()))
+    response = _exact(np.array([0.5]))
+    yaw_rate, acceleration = response[0][0], response[1][0]
+    # one period from rest is no steady sine: its lags and ratios are near those of the response at 0.5 Hz
+    assert found["yaw_rate.lag"] == pytest.approx(-np.angle(yaw_rate) / math.pi, abs=0.02)
+    assert found["lateral_acceleration.lag"] == pytest.approx(-np.angle(acceleration) / math.pi, abs=0.02)
+    assert found["yaw_rate.second_ratio"] == pytest.approx(abs(yaw_rate), rel=0.03)
+    assert found["lateral_acceleration.second_ratio"] == pytest.approx(abs(acceleration), rel=0.03)
+    assert found["yaw_rate.hysteresis"] == pytest.approx(math.sin(-np.angle(yaw_rate)), abs=0.05)
+
+
+def _exact(frequency: np.ndarray) -> np.ndarray:
+    """Yaw rate, lateral acceleration and sideslip angle over steering at frequencies in Hz."""
+    s, m = 2j * np.pi * frequency, bicycle(SPEED)
+    return np.array([(m.C @ np.linalg.solve(x * np.eye(2) - m.A, m.B) + m.D)[:, 0] for x in s]).T
+
+
+@pytest.mark.parametrize("steered_by", ["steering_wheel_angle_demand", "steering"])
+def test_chirp_has_the_responses_of_the_model(steered_by: str) -> None:
+    # a step of 10 ms would hold the part of the acceleration that follows the wheel at once back by half of it
+    car = BicycleCar(steered_by=steered_by, told=LOCK, step=0.002)
+    record = perform(standard_test("chirp_steer"), car)
+    plots = {p.title: p.lines[0] for p in record.plots}
+    words = ("Yaw rate", "Lateral acceleration", "Sideslip angle")
+    for word, exact in zip(words, _exact(plots["Yaw rate over steering: gain"].x), strict=True):
+        scale = math.radians(1.0) if word == "Lateral acceleration" else 1.0
+        assert plots[f"{word} over steering: gain"].y == pytest.approx(scale * np.abs(exact), rel=0.03)
+        phase = np.degrees(np.unwrap(np.angle(exact)))
+        phase += 360.0 if phase[0] < -90.0 else 0.0
+        assert plots[f"{word} over steering: phase"].y == pytest.approx(phase, abs=2.0)
+    found, (w, zeta) = values(record), mode(SPEED)
+    assert found["mode.natural_frequency"] == pytest.approx(w, rel=0.02)
+    assert found["mode.damping_ratio"] == pytest.approx(zeta, rel=0.02)
+    assert found["mode.misfit"] < 0.01
+    assert found["yaw_rate.gain"] == pytest.approx(abs(_exact(np.array([0.2]))[0][0]), rel=0.01)
+    assert found["roll.phase_1_0_hz"] == pytest.approx(found["lateral_acceleration.phase_1_0_hz"])
+
+
+def test_a_car_without_sideslip_and_roll_is_measured_without_them() -> None:
+    car = BicycleCar(shown=("chassis.wz", "chassis.ay", "speed"), step=0.004)
+    record = perform(standard_test("chirp_steer"), car)
+    found = {m.name: m for m in record.measures}
+    assert math.isfinite(found["yaw_rate.gain_bandwidth"].value) or found["yaw_rate.gain_bandwidth"].note
+    assert found["sideslip.gain"].note == "The run does not show the sideslip angle."
+    assert found["mode.natural_frequency"].value == pytest.approx(mode(SPEED)[0], rel=0.02)
+
+
+def test_a_step_that_is_too_long_for_the_frequencies_is_refused() -> None:
+    with pytest.raises(HostError, match=r"communication step is 0\.05 s; .* longer than 0\.025 s"):
+        perform(standard_test("chirp_steer"), BicycleCar(step=0.05))
+
+
+def test_the_input_that_takes_the_angle() -> None:
+    facts = BicycleCar(told=LOCK).facts
+    assert SteeringInput.of(facts) == SteeringInput("steering_wheel_angle_demand", 1.0, 8.0)
+    scaled = SteeringInput.of(replace(facts, inputs=frozenset({"steering"})))
+    assert (scaled.name, scaled.per_radian, scaled.largest) == ("steering", 0.125, 8.0)
+    plain = SteeringInput.of(replace(facts, inputs=frozenset({"steering"}), constants={}))
+    assert not plain.is_angle
+    assert "vehicle.steering_wheel_angle_max" in plain.note
+    assert "test sine_with_dwell demands angles" in (plain.why_no_angles("sine_with_dwell") or "")
+    assert scaled.why_no_angles("sine_with_dwell") is None
+    with pytest.raises(HostError, match="none of the inputs steering_wheel_angle_demand"):
+        SteeringInput.of(replace(facts, inputs=frozenset({"throttle"})))
