@@ -21,7 +21,7 @@ from hosts.errors import HostError
 _ROUNDS = 3  # of weights
 _SETTLED = 0.02  # change of the weights
 _LEAST_NOISE = 0.01  # of a signal's standard deviation, for the first weights only
-_NO_EFFECT = 1e-6  # of the noise, over the whole range
+_NO_EFFECT = 1e-3  # of the noise, over the whole range
 
 
 @dataclass(frozen=True)

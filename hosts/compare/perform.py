@@ -38,16 +38,18 @@ def perform(options: argparse.Namespace) -> int:
     wanted = _wanted(options, task)
     for note in task.notes:
         print(f"note: {note}", flush=True)
-    with Replay(options.fmu, task.aliases, task.manoeuvre, task.step, task.slopes) as replay:
+    with Replay(options.fmu, task.aliases, task.manoeuvre, task.step, task.slopes, task.speed) as replay:
         before, problems = _first(options, task, replay)
         print(table(before))
         for line in [*common_words(before), *problems]:
             print(line, flush=True)
         found, after = None, None
+        for message in replay.said:
+            print(f"FMU: {message}")
         if wanted.parameters:
             _refuse_odd(problems, options)
             found, after = _fit(options, task, replay, before, wanted)
-    notes = list(task.notes)
+    notes = task.notes + [f"In {n} of {replay.runs} runs the FMU said: {what}" for what, n in replay.said.items()]
     if found is not None and after is not None:
         print("with the fitted parameters" + (" and sensors:" if wanted.nuisances else ":"))
         print(table(after))

@@ -16,6 +16,7 @@ from hosts.compare.log import Signal
 from hosts.fmu import Fmu
 from hosts.manoeuvre import Manoeuvre
 from hosts.numbers import Value
+from hosts.pilots.speed_holder import SpeedHolder
 
 
 def inputs_of(
@@ -88,6 +89,10 @@ class _Sloping(AliasedFmu):
         super().step(time, step)
 
 
+def _holder(speed: Signal) -> SpeedHolder:
+    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)))
+
+
 class Replay:
     """An FMU that is driven again and again through the same inputs.
 
@@ -102,17 +107,30 @@ class Replay:
         Communication step, s.
     slopes : bool
         Whether the inputs go straight from row to row, which the FMU must be able to follow; else they are held.
+    speed : Signal, optional
+        That a driver holds by the pedals.
 
     Attributes
     ----------
     runs : int
         That were made.
+    said : dict of str to int
+        What the FMU logged at warning or above, and in how many runs.
     """
 
-    def __init__(self, path: Path, aliases: Aliases, manoeuvre: Manoeuvre, step: float, slopes: bool = False) -> None:
+    def __init__(
+        self,
+        path: Path,
+        aliases: Aliases,
+        manoeuvre: Manoeuvre,
+        step: float,
+        slopes: bool = False,
+        speed: Signal | None = None,
+    ) -> None:
         self._path, self._aliases = path, aliases
         self.manoeuvre, self.step = manoeuvre, step
-        self._slopes = slopes
+        self._slopes, self._speed = slopes, speed
+        self.said: dict[str, int] = {}
         self._fmu: Fmu | None = None
         self._can_reset: bool | None = None
         self.runs = 0
@@ -155,8 +173,16 @@ class Replay:
                 manoeuvre.name, manoeuvre.time, manoeuvre.inputs, manoeuvre.stop_time, {**manoeuvre.start, **values}
             )
         self.runs += 1
-        kind = _Sloping(self._fmu, self._aliases, manoeuvre) if self._slopes else AliasedFmu(self._fmu, self._aliases)
-        return run(kind, manoeuvre, self.step)
+        fmu = _Sloping(self._fmu, self._aliases, manoeuvre) if self._slopes else AliasedFmu(self._fmu, self._aliases)
+        # A pilot has a memory: each run has its own.
+        driver = None if self._speed is None else _holder(self._speed)
+        self._fmu.messages.clear()
+        result = run(fmu, manoeuvre, self.step, driver)
+        if self._aliases.derived:
+            self._aliases.with_central_rates(result.names, result.time, result.values)
+        for message in dict.fromkeys(result.messages):
+            self.said[message] = self.said.get(message, 0) + 1
+        return result
 
     def check_reset(self) -> bool:
         """Drive twice; an FMU whose second drive after a reset is another is loaded anew for each drive from now on.

@@ -1,4 +1,4 @@
-"""The scene `tuned`, a mass on a spring that swings, as SciPy integrates it: an engine that shares nothing with ours."""
+"""The scene `tuned`, a swinging mass on a spring, as SciPy integrates it: an engine that shares nothing with ours."""
 
 from __future__ import annotations
 
