@@ -224,7 +224,8 @@ def run(
     if manoeuvre.state is not None:
         fmu.restore_bytes(manoeuvre.state)
     row = get_outputs()
-    acts = driver.act(0.0, _Senses(zip(outputs, row, strict=True))) if driver is not None else {}
+    senses = _Senses(zip(outputs, row, strict=True))
+    acts = driver.act(0.0, senses) if driver is not None else {}
     missing = [n for n in acts if n not in inputs]
     if missing:
         raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
@@ -244,7 +245,7 @@ def run(
         t = k * step
         wanted = manoeuvre.at(t, whole)
         if driver is not None:
-            wanted |= acts if k == 0 else driver.act(t, _Senses(zip(outputs, row, strict=True)))
+            wanted |= acts if k == 0 else driver.act(t, senses)
         now = [wanted[n] for n in used]
         if used:
             set_inputs(now)
@@ -261,7 +262,9 @@ def run(
             values[done // every, len(inputs) :] = row
         if done % 50 == 0:
             progress(done)
-        if until is not None and until(done * step, _Senses(zip(outputs, row, strict=True))):
+        if driver is not None or until is not None:
+            senses = _Senses(zip(outputs, row, strict=True))
+        if until is not None and until(done * step, senses):
             break
     wall = clock.perf_counter() - begin
     progress(done)

@@ -40,7 +40,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
         type=Path,
         metavar="FILE",
         help="our names for the variables of FMUs that have others: one file for all FMUs, or one for each in their "
-        "order; chrono, carmaker, carsim, osi and vehicle_interfaces come with the package",
+        "order, 'none' where it has ours; chrono, carmaker, carsim, osi and vehicle_interfaces come with the package",
     )
     parser.add_argument(
         "--parameters",

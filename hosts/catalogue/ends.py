@@ -22,7 +22,7 @@ class Ends:
     Attributes
     ----------
     reason : str
-        ``stands``, ``spun`` or ``rolled``; empty while the run goes on.
+        ``stands``, ``spun`` or ``rolled``; empty while the run goes on; that of the last call.
     """
 
     def __init__(self, stands: float = 0.0, not_before: float = 0.0) -> None:
@@ -32,6 +32,7 @@ class Ends:
 
     def __call__(self, time: float, outputs: Mapping[str, float]) -> bool:
         """Whether the run is over; outputs that the car does not have are not looked at."""
+        self.reason = ""
         if abs(outputs.get("chassis.roll", 0.0)) > ROLLED:
             self.reason = "rolled"
         elif outputs["speed"] > 1.0 and abs(outputs.get("sideslip", 0.0)) > SPUN:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TypeAlias
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.errors import HostError
+
+_MOST_MESSAGES, _MOST_NAMES, _LONGEST = 10, 4, 300
 
 Reason: TypeAlias = str
 """Why a test of a car could not be done: a sentence."""
@@ -95,4 +98,21 @@ def perform(
     progress(0.0)
     record = test.perform(car, wanted, progress)
     progress(1.0)
-    return record
+    return replace(record, notes=[*record.notes, *_said(record)])
+
+
+def _said(record: TestRecord) -> list[str]:
+    """What the FMU said in which runs, each sentence once."""
+    runs: dict[str, list[str]] = {}
+    for name, result in record.runs.items():
+        for message in dict.fromkeys(" ".join(m.split()) for m in result.messages):
+            runs.setdefault(message, []).append(name)
+    said = []
+    for message, names in list(runs.items())[:_MOST_MESSAGES]:
+        where = "every run" if len(names) == len(record.runs) > 1 else ", ".join(names[:_MOST_NAMES])
+        more = f" and {len(names) - _MOST_NAMES} more" if where != "every run" and len(names) > _MOST_NAMES else ""
+        words = message if len(message) <= _LONGEST else f"{message[:_LONGEST]}..."
+        said.append(f"The FMU said in {where}{more}: {words}")
+    if len(runs) > _MOST_MESSAGES:
+        said.append(f"The FMU said {len(runs) - _MOST_MESSAGES} other sentences.")
+    return said

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
+from hosts.co_simulation import Result
 from hosts.errors import HostError
 from hosts.measures.filters import phaseless_low_pass
 
@@ -19,6 +20,8 @@ _FAST = math.radians(13.5)
 _SLOW_UNTIL = math.radians(60.0)
 _LARGEST = math.radians(540.0)
 _RATE_OF_INPUT = 0.005
+_LINE = (0.3, 1.2)
+_LATEST = 1.0
 
 
 @dataclass(frozen=True)
@@ -89,8 +92,9 @@ def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 
 
     Notes
     -----
-    The steering wheel turns by 2 °/s up to 60°, then by 13.5 °/s. The car is late by some tenths of a second; the
-    angles are too large by as much as it turns in this time, below 1° as long as it turns slowly.
+    The steering wheel turns by 2 °/s up to 60°, then by 13.5 °/s. The car is late by some tenths of a second, so the
+    angles are too large by what it turns in this time. That angle is where a straight line through the first part of
+    the ramp, 0.3 to 1.2 m/s², meets zero; it is taken off as long as the wheel turns slowly.
     """
     given = SteeringInput.of(car.facts)
     if given.is_angle:
@@ -119,8 +123,19 @@ def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 
         turned, lateral = turned - turned[zero].mean(), lateral - lateral[zero].mean()
     kept = run.time >= 0.0
     turned, lateral = turned[kept], lateral[kept]
+    turned = turned - _late(turned, lateral, float(angle[1] / time[1]))
     top = int(np.argmax(lateral)) + 1
     return SteadyMap(speed, turned[:top], lateral[:top], run)
+
+
+def _late(angle: NDArray[np.float64], acceleration: NDArray[np.float64], rate: float) -> NDArray[np.float64]:
+    """By how much angles of a ramp run ahead of the answer, rad, up to each."""
+    first = (acceleration >= _LINE[0]) & (acceleration <= _LINE[1]) & (np.arange(len(angle)) < np.argmax(acceleration))
+    if first.sum() < 5:
+        return np.zeros(len(angle))
+    slope, offset = np.polyfit(angle[first], acceleration[first], 1)
+    late = min(max(-offset / slope, 0.0), rate * _LATEST) if slope > 0.0 else 0.0
+    return np.asarray(np.minimum(late, angle))
 
 
 def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, acceleration: float) -> SteadyMap:
@@ -137,9 +152,9 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
     Raises
     ------
     HostError
-        If the car reaches neither.
+        If the car reaches neither, or its FMU refuses a step.
     """
-    found = steady_map(car, speed, acceleration)
+    found = second = steady_map(car, speed, acceleration)
     if len(found.angle):
         return found
     if lower < speed:
@@ -147,8 +162,18 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
         if len(second.angle):
             note = f"The car does not hold {3.6 * speed:g} km/h; the test is done at {3.6 * lower:g} km/h."
             return SteadyMap(lower, second.angle, second.acceleration, second.run, (note,))
-    fastest = 3.6 * float(np.max(found.run.result["speed"]))
-    raise HostError(
-        f"The car does not hold {3.6 * min(speed, lower):g} km/h on a straight line; its fastest was {fastest:.3g}. "
-        "Choose a lower speed (--test-setting TEST.speed=...)."
+    raise HostError(why_not_reached(second.run.result, min(speed, lower)))
+
+
+def why_not_reached(result: Result, speed: float) -> str:
+    """Why the steering did not begin at a speed, m/s, in a run: a sentence."""
+    end = float(result.time[-1])
+    if result.failed_steps:
+        said = f": {result.messages[-1]}" if result.messages else "."
+        return f"The FMU refused a step after {end:.3g} s, before the steering began{said}"
+    speeds = 3.6 * result["speed"]
+    return (
+        f"The car does not hold {3.6 * speed:g} km/h on a straight line: after {end:.3g} s it is "
+        f"at {speeds[-1]:.3g} km/h, its fastest was {speeds.max():.3g}. Choose a lower speed (--test-setting "
+        "TEST.speed=...)."
     )

@@ -18,9 +18,11 @@ from hosts.measures.filters import resample
 from hosts.pilots.speed_holder import SpeedHolder
 
 _CLOSE = 0.1
+_NEAR = 0.5
 _COAST_FROM = 0.7
 _ROLLED = math.radians(60.0)
 _INTERVAL = 0.005
+_REACHED = 0.97
 
 
 class Pedals(Enum):
@@ -88,7 +90,9 @@ class SteeredPilot:
             if speed <= self.speed:
                 self.begin = time
         else:
-            if abs(speed - self._approach) > _CLOSE:
+            # a car whose gearbox hunts is good enough after a while: standards allow 2 km/h
+            close = _CLOSE if time < 0.6 * self.longest else _NEAR
+            if abs(speed - self._approach) > close:
                 self._steady_since = time
             if time - self._steady_since >= 1.0:
                 if self.pedals is Pedals.COAST:
@@ -132,17 +136,27 @@ class SteeredRun:
     speed: NDArray[np.float64]
     whole: bool
 
+    def shortfall(self, amplitude: float) -> str:
+        """A sentence where the steering wheel did not come to an angle, rad, that was asked for; else empty."""
+        reached = float(np.abs(self.steering).max()) if len(self.steering) else math.nan
+        if not reached < _REACHED * amplitude:
+            return ""
+        return (
+            f"The steering wheel came to {math.degrees(reached):.3g}° where {math.degrees(amplitude):.3g}° were asked "
+            "for: the car's own steering is slower."
+        )
+
     @property
     def interval(self) -> float:
         """Between samples, s."""
         return float(self.time[1] - self.time[0])
 
-    def thinned(self, interval: float = 0.01) -> Result:
-        """The record with rows no closer than an interval, s: each n-th, and the last."""
+    def thinned(self, interval: float = 0.02) -> Result:
+        """The record from 1 s before the steering begins, with rows no closer than an interval, s."""
         r = self.result
         step = float(r.time[1] - r.time[0]) if len(r.time) > 1 else interval
-        each = max(1, math.floor(interval / step + 1e-9))
-        rows = np.unique(np.append(np.arange(0, len(r.time), each), len(r.time) - 1))
+        first = int(np.searchsorted(r.time, self.begin - 1.0 - 1e-9)) if math.isfinite(self.begin) else 0
+        rows = np.arange(first, len(r.time), max(1, math.floor(interval / step + 1e-9)))
         return replace(r, time=r.time[rows], values=r.values[rows])
 
 
@@ -206,14 +220,15 @@ def _signals(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
     interval = max(_INTERVAL, row)
     # the grid has a sample where the steering begins
     first = pilot.begin - interval * math.floor(min(1.0, pilot.begin) / interval)
-    blank = np.full(len(result.time), math.nan)
+    kept = result.time > first - 1.5 * row
+    time, blank = result.time[kept], np.full(len(result.time), math.nan)
+    grid = resample(time, time, interval, first)[0]
 
     def even(values: NDArray[np.float64]) -> NDArray[np.float64]:
-        if not np.isfinite(values).all():
+        if not np.isfinite(values[kept]).all():
             return np.full(len(grid), math.nan)
-        return resample(result.time, values, interval, first)[1]
+        return resample(time, values[kept], interval, first)[1]
 
-    grid = resample(result.time, result.time, interval, first)[0]
     names = ("chassis.wz", "sideslip", "chassis.roll", "speed")
     yaw_rate, sideslip, roll, speed = (even(result[n] if n in result.names else blank) for n in names)
     return SteeredRun(

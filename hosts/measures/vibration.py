@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from functools import reduce
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import trapezoid
-from scipy.signal import bilinear, sosfilt, tf2sos
+from scipy.signal import bilinear_zpk, sosfilt, tf2zpk, zpk2sos
 
 # Corners in Hz and quality factors of Wk: band limits, acceleration-velocity transition, upward step.
 _HIGH_PASS, _LOW_PASS = 0.4, 100.0
@@ -58,8 +59,9 @@ def weighted(acceleration: NDArray[np.float64], interval: float) -> NDArray[np.f
     ndarray of shape (n,)
         m/s2; the filter starts at rest.
     """
-    numerator, denominator = bilinear(*weighting_wk(), fs=1.0 / interval)
-    return np.asarray(sosfilt(tf2sos(numerator, denominator), acceleration))
+    # in factors: coefficients of degree 8 lose all digits at short steps
+    factors: Any = bilinear_zpk(*tf2zpk(*weighting_wk()), fs=1.0 / interval)
+    return np.asarray(sosfilt(zpk2sos(*factors), acceleration))
 
 
 def largest_running_rms(values: NDArray[np.float64], interval: float, window: float = 1.0) -> float:

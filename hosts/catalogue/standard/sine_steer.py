@@ -67,6 +67,7 @@ class SineSteer:
         for run, side_name in zip(sides, ("left", "right"), strict=True):
             if not run.whole:
                 notes.append(f"The run that begins to the {side_name} ended early; what needs all of it is missing.")
+        notes += sorted(set(filter(None, [run.shortfall(amplitude) for run in sides])))
         angle_unit = "rad" if given.is_angle else "1"
         measures = [
             Measure("speed", 3.6 * ramp.speed, "km/h", "speed at the begin"),

@@ -11,6 +11,7 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.dwell_measures import EARLY, LATE, least_displacement, measures_of_dwell
 from hosts.catalogue.dwell_series import DwellRun, amplitudes, processed, series
 from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
+from hosts.catalogue.steady_map import why_not_reached
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import NEED, SteeringInput
 from hosts.co_simulation import Result
@@ -130,9 +131,9 @@ def _ramp(car: TestedCar, speed: float, side: float, largest: float) -> SteeredR
 
 
 def _no_angle(ramps: list[SteeredRun], speed: float) -> str:
-    if not all(len(r.time) for r in ramps):
-        fastest = 3.6 * max(float(r.result["speed"].max()) for r in ramps)
-        return f"The car does not hold {speed:g} km/h on a straight line; its fastest was {fastest:.3g} km/h."
+    for r in ramps:
+        if not len(r.time):
+            return why_not_reached(r.result, speed / 3.6)
     reached = min(float(np.abs(r.acceleration).max()) for r in ramps) / G
     return (
         f"The car reaches {reached:.2g} g at {speed:g} km/h while the steering wheel turns slowly; the angle A at "
@@ -157,6 +158,8 @@ def _notes(sides: list[list[DwellRun]], wanted: list[float], a: float, given: St
                 f"({side[-1].amplitude / a:.2g} A; {how}); larger amplitudes, up to "
                 f"{math.degrees(wanted[-1]):.0f}°, are not driven."
             )
+    # one is enough: the largest amplitude is the first that a slow steering does not reach
+    notes += [s for s in (r.run.shortfall(r.amplitude) for side in sides for r in side[-1:]) if s][:1]
     if given.largest < math.radians(270.0) or wanted[-1] >= given.largest * 0.999:
         notes.append(f"The series ends at full lock, {math.degrees(given.largest):.0f}°.")
     return notes

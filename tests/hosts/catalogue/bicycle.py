@@ -56,6 +56,10 @@ class BicycleCar(TestedCar):
         Factor on the angle of turns to the right.
     refuses_after : float
         Time at which a step is refused, s.
+    from_rest : float
+        Speed of the lateral motion, m/s, of a car that begins at rest and has no start value of it; 0: it has one.
+    shown : tuple of str
+        Its outputs.
     """
 
     label: str = "bicycle"
@@ -67,15 +71,15 @@ class BicycleCar(TestedCar):
     strongest: float = math.inf
     turn_right: float = 1.0
     refuses_after: float = math.inf
+    from_rest: float = 0.0
     shown: tuple[str, ...] = OUTPUTS
 
     @property
     def facts(self) -> CarFacts:  # type: ignore[override]
         """See `TestedCar.facts`."""
         inputs = frozenset({self.steered_by, "throttle", "brake"})
-        return CarFacts(
-            inputs, frozenset(self.shown), frozenset({"initial.speed"}), {}, self.told, float(self.step or 0.01)
-        )
+        start: frozenset[str] = frozenset() if self.from_rest else frozenset({"initial.speed"})
+        return CarFacts(inputs, frozenset(self.shown), start, {}, self.told, float(self.step or 0.01))
 
     def drive(
         self,
@@ -87,8 +91,8 @@ class BicycleCar(TestedCar):
         """See `TestedCar.drive`; the lateral motion is that of the speed at the start."""
         assert pilot is not None
         assert until is not None
-        step, speed = self.facts.step, float(manoeuvre.start["initial.speed"])
-        system = bicycle(speed)
+        step, speed = self.facts.step, 0.0 if self.from_rest else float(manoeuvre.start["initial.speed"])
+        system = bicycle(self.from_rest or speed)
         a, b, c, d, _ = cont2discrete((system.A, system.B, system.C, system.D), step)
         full = self.told.get("vehicle.steering_wheel_angle_max", 1.0)
         per_input = full if self.steered_by == "steering" else 1.0

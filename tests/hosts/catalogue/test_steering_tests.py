@@ -8,10 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hosts.catalogue.dwell_series import table
 from hosts.catalogue.perform import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
+from hosts.catalogue.steady_map import steady_map
+from hosts.catalogue.steered_run import Pedals, level_acceleration, steer
 from hosts.catalogue.steering import SteeringInput
+from hosts.co_simulation import Result
 from hosts.errors import HostError
 from tests.hosts.catalogue.bicycle import ROLL_PER_ACCELERATION, BicycleCar, bicycle, gains, mode
 
@@ -85,7 +89,7 @@ def test_a_slow_car_is_tested_at_80_and_a_slower_one_refused() -> None:
     record = perform(standard_test("step_steer"), BicycleCar(top_speed=25.0), only)
     assert values(record)["speed"] == pytest.approx(80.0)
     assert any("does not hold 100 km/h" in n for n in record.notes)
-    with pytest.raises(HostError, match=r"does not hold 80 km/h.*its fastest was"):
+    with pytest.raises(HostError, match=r"does not hold 80 km/h.*after 30 s it is at 54 km/h"):
         perform(standard_test("step_steer"), BicycleCar(top_speed=15.0), only)
 
 
@@ -178,3 +182,46 @@ def test_the_input_that_takes_the_angle() -> None:
     assert scaled.why_no_angles("sine_with_dwell") is None
     with pytest.raises(HostError, match="none of the inputs steering_wheel_angle_demand"):
         SteeringInput.of(replace(facts, inputs=frozenset({"throttle"})))
+
+
+def test_the_level_acceleration_does_not_depend_on_the_roll_of_the_body() -> None:
+    roll = np.linspace(-0.5, 0.5, 11)
+    # 4 m/s² to the left and nothing upwards, in axes that have rolled with the left side up
+    motion = {"chassis.ay": 4.0 * np.cos(roll), "chassis.az": -4.0 * np.sin(roll), "chassis.roll": roll}
+    result = Result(list(motion), {}, np.arange(11.0), np.stack(list(motion.values()), 1), 0.0, 10.0, 0, [])
+    assert level_acceleration(result) == pytest.approx(4.0)
+
+
+def test_a_car_without_a_start_value_of_the_speed_drives_up_to_it() -> None:
+    found, from_rest = (
+        perform(standard_test("sine_steer"), car) for car in (BicycleCar(), BicycleCar(from_rest=SPEED, step=0.01))
+    )
+    # the record keeps the time of the run, of which it has the part with the steering
+    assert from_rest.runs["sine_left"].time[0] > found.runs["sine_left"].time[0] + 5.0
+    assert len(from_rest.runs["sine_left"].time) == pytest.approx(5.0 / 0.02, abs=3)
+    for name, value in values(found).items():
+        assert values(from_rest)[name] == pytest.approx(value, rel=1e-3, abs=1e-6)
+
+
+def test_the_map_of_a_slow_ramp_is_that_of_the_steady_state() -> None:
+    for steered_by in ("steering_wheel_angle_demand", "steering"):
+        found = steady_map(BicycleCar(steered_by=steered_by, told=LOCK), SPEED, 4.0)
+        assert found.angle_at(4.0) == pytest.approx(4.0 / gains(SPEED)[1], rel=2e-3)
+        assert found.angle_at(2.0) == pytest.approx(2.0 / gains(SPEED)[1], rel=2e-3)
+        assert math.isnan(found.angle_at(9.0))
+
+
+def test_a_steering_wheel_that_does_not_come_to_its_angle_is_told() -> None:
+    whole = steer(BicycleCar(), "sine", SPEED, *table(0.5), Pedals.FIXED)
+    assert whole.shortfall(0.5) == ""
+    assert (
+        replace(whole, steering=0.9 * whole.steering)
+        .shortfall(0.5)
+        .startswith("The steering wheel came to 25.8° where 28.6° were asked for")
+    )
+
+
+def test_an_fmu_that_refuses_a_step_before_the_steering_is_told() -> None:
+    for test in ("sine_steer", "sine_with_dwell"):
+        with pytest.raises(HostError, match=r"FMU refused a step after 0\.51 s, before the steering began"):
+            perform(standard_test(test), BicycleCar(refuses_after=0.5))

@@ -118,3 +118,13 @@ def test_the_deviation_is_beside_the_line_of_travel() -> None:
     result = Result(names, dict.fromkeys(names, "1"), time, values, 0.0, 6.0, 0, [])
     measures = {m.name: m.value for m in measures_of(result, 1.0, {"speed": 72.0, "pedal": 1.0})}
     assert measures["deviation.lateral"] == pytest.approx(0.3, abs=1e-9)
+
+
+def test_a_car_that_cannot_be_started_at_speed_gathers_it(prototype: TestedCar) -> None:
+    bare, settings = replace(prototype), {"speed": 40.0, "pedal": 0.6}
+    parameters = tuple(n for n in prototype.facts.parameters if n != "initial.speed")
+    bare.__dict__["facts"] = replace(prototype.facts, parameters=parameters)
+    slow, fast = (values(perform(straight_braking.TEST, car, settings)) for car in (bare, prototype))
+    assert slow["initial_speed"] == pytest.approx(40.0 / 3.6, abs=0.06)
+    for name in ("stopping_distance.corrected", "deceleration.mean_fully_developed"):
+        assert slow[name] == pytest.approx(fast[name], rel=0.02)

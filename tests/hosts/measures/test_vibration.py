@@ -23,7 +23,9 @@ def test_weighting_has_the_factors_of_the_table() -> None:
     np.testing.assert_allclose(gains[:-1], list(TABLE.values())[:-1], rtol=0.009)
 
 
-@pytest.mark.parametrize(("step", "frequency", "accuracy"), [(0.001, 50.0, 0.01), (LONGEST_STEP, 20.0, 0.031)])
+@pytest.mark.parametrize(
+    ("step", "frequency", "accuracy"), [(0.001, 50.0, 0.011), (LONGEST_STEP, 20.0, 0.031), (1e-4, 1.0, 0.005)]
+)
 def test_filter_of_samples_weights_a_sine_as_the_transfer_function_does(
     step: float, frequency: float, accuracy: float
 ) -> None:

@@ -1,0 +1,223 @@
+"""Double lane change: the highest entry speed at which no cone is hit, on both courses of ISO 3888."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.ends import Ends
+from hosts.catalogue.lane_change_measures import Passage, measures_of, plots_of
+from hosts.catalogue.preparation import held, with_step_up_to
+from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
+from hosts.course import COURSES, Course
+from hosts.errors import HostError
+from hosts.pilots.course_follower import CourseFollower, DriverSettings
+from hosts.pilots.course_from_here import CourseFromHere
+from hosts.pilots.line_follower import LineFollower
+from hosts.pilots.pilot import Pilot
+from hosts.planned_course import planned
+
+STEP = 0.005  # s, in which the driver holds the steering
+SETTLED = 1.0  # s, of driving straight before the course is laid out
+RUN_UP = 10.0  # m, from the front of the car to the first lane
+RELEASED_AFTER = 2.0  # m, into the first lane of ISO 3888-2
+LONGEST_RUN_UP = 120.0  # s
+ISO_3888_1 = Standard(
+    "ISO 3888-1:2018",
+    "Passenger cars: test track for a severe lane-change manoeuvre, part 1: double lane-change",
+    (Clause("", "lanes of 15, 25 and 30 m with 30 and 25 m between them, 3.5 m apart; the speed is held"),),
+)
+ISO_3888_2 = Standard(
+    "ISO 3888-2:2011",
+    "Passenger cars: test track for a severe lane-change manoeuvre, part 2: obstacle avoidance",
+    (
+        Clause("", "61 m: lanes of 12, 11 and 12 m with 13.5 and 12.5 m between them; widths from that of the car"),
+        Clause("", "the throttle is released 2 m after the first lane begins; the speed there is the entry speed"),
+    ),
+)
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """A course and how it is driven."""
+
+    name: str
+    course: str
+    release: float  # m into the first lane
+
+
+_LAYOUTS = (_Layout("iso_3888_1", "iso_3888_1", math.inf), _Layout("iso_3888_2", "iso_3888_2", RELEASED_AFTER))
+
+DRIVERS: dict[str, tuple[float, float, float]] = {
+    "least curvature, early": (0.4, 0.5, 0.3),
+    "least curvature, late": (0.3, 0.5, 0.5),
+    "centre line": (0.25, 0.0, 0.0),
+}
+"""Drivers that try each speed, as people have several attempts: preview, horizon and lead of `LineFollower`, s."""
+
+
+class DoubleLaneChange:
+    """See `hosts.catalogue.record.StandardTest`."""
+
+    name = "double_lane_change"
+    title = "Double lane change"
+    standards = (ISO_3888_1, ISO_3888_2)
+    settings = (
+        Setting("course", 0.0, "1", "1: ISO 3888-1, 2: ISO 3888-2, 0: both", 0.0, 2.0),
+        Setting("lowest", 40.0, "km/h", "first speed", 10.0, 200.0),
+        Setting("highest", 160.0, "km/h", "no speed above it is tried", 20.0, 300.0),
+        Setting("increment", 10.0, "km/h", "by which the speed grows until a cone is hit", 1.0, 50.0),
+        Setting("resolution", 1.0, "km/h", "to which the limit is then bisected", 0.05, 10.0),
+    )
+    needs = (
+        *("steering", "throttle", "brake", "chassis.x", "chassis.y", "chassis.yaw", "speed"),
+        *("vehicle.wheelbase", "vehicle.front_wheel_angle_max", "vehicle.length", "vehicle.width"),
+    )
+
+    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+        """See `hosts.catalogue.record.StandardTest.perform`."""
+        if settings["course"] not in (0.0, 1.0, 2.0):
+            raise HostError(f"The course is {settings['course']:g}; it must be 0 (both), 1 or 2.")
+        if settings["lowest"] >= settings["highest"]:
+            raise HostError(
+                f"The lowest speed is {settings['lowest']:g} km/h and the highest {settings['highest']:g} km/h; it "
+                "must be less."
+            )
+        car, notes = with_step_up_to(car, STEP, "the steering of the driver")
+        notes += (
+            f"The result depends on the driver: it is that of the best of {len(DRIVERS)}; another one may be faster.",
+        )
+        chosen = _LAYOUTS if settings["course"] == 0.0 else (_LAYOUTS[int(settings["course"]) - 1],)
+        measures, plots, runs = [], [], {}
+        for k, layout in enumerate(chosen):
+
+            def part(done: float, k: int = k) -> None:
+                progress((k + done) / len(chosen))
+
+            passed, failed, more = limit(car, layout, settings, part)
+            notes += more
+            measures += measures_of(layout.name, passed, failed, settings["resolution"])
+            plots += plots_of(layout.name, passed, failed)
+            for name, passage in (("passed", passed), ("failed", failed)):
+                if passage is not None:
+                    runs[f"{layout.name}_{name}"] = passage.result
+        return TestRecord(measures, plots, runs, notes)
+
+
+def limit(
+    car: TestedCar, layout: _Layout, settings: Mapping[str, float], progress: Callable[[float], None]
+) -> tuple[Passage | None, Passage | None, tuple[str, ...]]:
+    """The fastest passage without a cone and the slowest with one.
+
+    Returns
+    -------
+    passed, failed : Passage or None
+        None: there is none.
+    notes : tuple of str
+    """
+    passed: Passage | None = None
+    failed: Passage | None = None
+    speed, tried = settings["lowest"], 0
+    bisections = math.ceil(math.log2(max(settings["increment"] / settings["resolution"], 1.0)))
+    most = math.ceil((settings["highest"] - settings["lowest"]) / settings["increment"]) + 1 + bisections
+    while failed is None:
+        passage = tries(car, layout, speed, passed)
+        tried += 1
+        progress(tried / most)
+        if passage.clean:
+            passed = passage
+            if speed >= settings["highest"]:
+                return passed, None, (f"{layout.name}: no cone was hit up to {speed:g} km/h; take a higher highest.",)
+            speed = min(speed + settings["increment"], settings["highest"])
+        else:
+            failed = passage
+    if passed is None:
+        why = failed.why
+        return None, failed, (f"{layout.name}: already at {speed:g} km/h {why}; take a lower lowest.",)
+    while failed.wanted - passed.wanted > settings["resolution"] * (1.0 + 1e-9):
+        passage = tries(car, layout, 0.5 * (passed.wanted + failed.wanted), passed)
+        tried += 1
+        progress(min(tried / most, 1.0))
+        if passage.clean:
+            passed = passage
+        else:
+            failed = passage
+    return passed, failed, (f"{layout.name}: at {failed.wanted:g} km/h {failed.why} (driver: {failed.driver}).",)
+
+
+def tries(car: TestedCar, layout: _Layout, speed: float, passed: Passage | None) -> Passage:
+    """The first clean passage of the drivers, that of the last success first; else the one nearest to clean."""
+    order = sorted(DRIVERS, key=lambda name: passed is None or name != passed.driver)
+    made = []
+    for driver in order:
+        made.append(drive(car, layout, speed, driver))
+        if made[-1].clean:
+            return made[-1]
+    return max(made, key=lambda p: (p.is_through, -math.inf if math.isnan(p.least_clearance) else p.least_clearance))
+
+
+def steering_of(driver: str, course: Course, constants: Mapping[str, float], speed: float) -> Pilot:
+    """One of the drivers.
+
+    Parameters
+    ----------
+    driver : str
+        One of `DRIVERS`.
+    course : Course
+    constants : mapping of str to float
+        Of the car.
+    speed : float
+        m/s.
+    """
+    wheelbase, angle = constants["vehicle.wheelbase"], constants["vehicle.front_wheel_angle_max"]
+    length, width = constants["vehicle.length"], constants["vehicle.width"]
+    if driver == "centre line":
+        return CourseFollower(course, DriverSettings(speed, wheelbase, angle, length, width))
+    preview, horizon, lead = DRIVERS[driver]
+    return LineFollower(planned(course, 0.0, length, width), wheelbase, angle, preview, horizon, lead)
+
+
+def drive(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage:
+    """One passage of a course.
+
+    Parameters
+    ----------
+    car : TestedCar
+    layout : _Layout
+    speed : float
+        km/h.
+    driver : str
+        One of `DRIVERS`.
+    """
+    constants, wanted = car.facts.constants, speed / 3.6
+    length, width = constants["vehicle.length"], constants["vehicle.width"]
+    course = COURSES[layout.course](width, RUN_UP + 0.5 * length)
+    can_start = "initial.speed" in car.facts.parameters
+    near = max(0.005 * wanted, 0.05)
+    pilot = CourseFromHere(
+        steering_of(driver, course, constants, wanted),
+        wanted,
+        lambda time, senses: time >= SETTLED - 1e-9 and abs(senses["speed"] - wanted) <= near,
+        course.gates[0].x_start + layout.release - 0.5 * length,
+    )
+    run_up = SETTLED + 10.0 if can_start else LONGEST_RUN_UP
+    way = course.gates[-1].x_end + length
+    ends = Ends(stands=0.3 * wanted)
+
+    def over(time: float, outputs: Mapping[str, float]) -> bool:
+        if math.isnan(pilot.start):
+            return time > run_up
+        x, y, _ = pilot.seen(outputs)
+        return ends(time, outputs) or x > way or abs(y) > 8.0
+
+    start = {"initial.speed": wanted} if can_start else {}
+    result = car.drive(held(car, f"{layout.name} {speed:g} km/h", run_up + 3.0 * way / wanted, {}, start), pilot, over)
+    after = result.time >= pilot.start - 1e-9 if not math.isnan(pilot.start) else np.zeros(len(result.time), bool)
+    return Passage(speed, result, driver, course, (length, width), pilot.pose, after, ends.reason, layout.release)
+
+
+TEST = DoubleLaneChange()

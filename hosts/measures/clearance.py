@@ -1,0 +1,79 @@
+"""How far the outline of a car stays from the cones of a course."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.course import Course
+
+
+def outline(
+    x: NDArray[np.float64], y: NDArray[np.float64], yaw: NDArray[np.float64], length: float, width: float
+) -> NDArray[np.float64]:
+    """Corners of a rectangle.
+
+    Parameters
+    ----------
+    x, y, yaw : ndarray of shape (n,)
+        Its centre and heading, m and rad.
+    length, width : float
+        m.
+
+    Returns
+    -------
+    ndarray of shape (n, 4, 2)
+        Earth, m: front left, rear left, rear right, front right.
+    """
+    ahead, aside = np.stack([np.cos(yaw), np.sin(yaw)], -1), np.stack([-np.sin(yaw), np.cos(yaw)], -1)
+    signs = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]) * 0.5 * np.array([length, width])
+    centre = np.stack([x, y], -1)
+    return np.asarray(
+        centre[:, None] + signs[:, :1] * ahead[:, None] + signs[:, 1:] * aside[:, None],
+    )
+
+
+def clearance(
+    course: Course,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    yaw: NDArray[np.float64],
+    length: float,
+    width: float,
+) -> NDArray[np.float64]:
+    """Distance of a car's outline from the edges of the lanes, along which cones stand.
+
+    Parameters
+    ----------
+    course : Course
+    x, y, yaw : ndarray of shape (n,)
+        Centre of the outline and heading, m and rad, in the axes of the course.
+    length, width : float
+        m.
+
+    Returns
+    -------
+    ndarray of shape (n,)
+        m; the least of that of the outline's corners from the edges beside them and that of the edges' ends from the
+        outline; negative: cones are hit, by that depth. Infinite between lanes.
+
+    Notes
+    -----
+    Two convex figures that do not meet are closest at a corner of one of them.
+    """
+    least = np.full(len(x), np.inf)
+    corners = outline(x, y, yaw, length, width)
+    for gate in course.gates:
+        within = (corners[..., 0] >= gate.x_start) & (corners[..., 0] <= gate.x_end)
+        beside = np.minimum(gate.y_left - corners[..., 1], corners[..., 1] - gate.y_right)
+        least = np.minimum(least, np.where(within, beside, np.inf).min(axis=1))
+        for end in (gate.x_start, gate.x_end):
+            for edge in (gate.y_left, gate.y_right):
+                dx, dy = end - x, edge - y
+                ahead = np.abs(np.cos(yaw) * dx + np.sin(yaw) * dy) - 0.5 * length
+                aside = np.abs(np.cos(yaw) * dy - np.sin(yaw) * dx) - 0.5 * width
+                away = np.hypot(np.maximum(ahead, 0.0), np.maximum(aside, 0.0))
+                # a cone that is passed beside counts, one that lies ahead or behind does not yet
+                near = np.where(ahead <= 0.0, away + np.minimum(np.maximum(ahead, aside), 0.0), np.inf)
+                least = np.minimum(least, near)
+    return least

@@ -1,0 +1,106 @@
+"""Stops from a circle: closed forms of a made turn, both sides of the prototype car, the step, what cannot be done."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.perform import perform
+from hosts.catalogue.record import TestRecord
+from hosts.catalogue.standard import braking_in_a_turn
+from hosts.catalogue.turn_braking_measures import Stop, measures_of
+from hosts.co_simulation import Result
+from hosts.errors import HostError
+
+FEW = {"levels": 2.0, "pedal": 0.3, "deceleration": 4.0}
+
+
+def values(record: TestRecord) -> dict[str, float]:
+    return {m.name: m.value for m in record.measures}
+
+
+def turn(deceleration: float, factor: float, radius: float, drift: float) -> Stop:
+    """A stop from a circle on which the yaw rate becomes `factor` times that which keeps it, at once.
+
+    The path stays the circle, but `drift` m/s outwards; the sideslip changes by 0.05 rad towards the outside.
+    """
+    onset, step, v0 = 2.0, 0.002, 20.0
+    time = step * np.arange(3001)
+    since = np.maximum(time - onset, 0.0)
+    speed = np.maximum(v0 - deceleration * since, 0.1)
+    way = v0 * np.minimum(time, onset) + np.where(since > 0, v0 * since - 0.5 * deceleration * since**2, 0.0)
+    side, size = math.copysign(1.0, radius), abs(radius)
+    angle, r = way / size, size + drift * since
+    x, y = r * np.sin(angle), side * (size - r * np.cos(angle))
+    rate = speed / radius * np.where(since > 0, factor, 1.0)
+    sideslip = -side * (0.02 + np.where(since > 0, 0.05, 0.0))
+    names = ["speed", "chassis.x", "chassis.y", "chassis.wz", "sideslip", "chassis.ay"]
+    columns = np.column_stack([speed, x, y, rate, sideslip, speed**2 / radius])
+    return Stop(0.5, Result(names, dict.fromkeys(names, "1"), time, columns, 0.0, 6.0, 0, []), onset, "stands")
+
+
+@pytest.mark.parametrize("radius", [80.0, -80.0])
+def test_measures_of_a_made_turn(radius: float) -> None:
+    stops = [turn(a, 1.2, radius, 0.4) for a in (3.0, 5.0)]
+    measured = {m.name: m for m in measures_of(stops, {"deceleration": 4.0})}
+    value = {name: m.value for name, m in measured.items()}
+    assert value["steady.radius"] == pytest.approx(80.0, rel=1e-6)
+    assert value["steady.ay"] == pytest.approx(400.0 / 80.0, rel=1e-6)
+    assert value["steady.yaw_rate"] == pytest.approx(20.0 / radius, rel=1e-3)
+    assert value["yaw_rate.ratio"] == pytest.approx(1.2, rel=1e-6)
+    # halfway between both stops: 20 % of (17 + 15) / 2 m/s over 80 m
+    assert value["yaw_rate.change"] == pytest.approx(0.2 * 16.0 / 80.0, rel=1e-6)
+    assert value["sideslip.change"] == pytest.approx(-0.05, rel=1e-3)
+    assert value["path.deviation"] == pytest.approx(0.4, abs=1e-4)
+    assert value["ay.ratio"] == pytest.approx(1.0, rel=1e-6)
+    assert value["deceleration.largest"] == pytest.approx(5.0, rel=1e-6)
+    assert math.isnan(value["lock.deceleration"])
+    assert "slip" in measured["lock.deceleration"].note
+
+
+def test_a_deceleration_that_no_stop_has_is_told() -> None:
+    measured = {m.name: m for m in measures_of([turn(3.0, 1.0, 80.0, 0.0)], {"deceleration": 6.0})}
+    assert math.isnan(measured["yaw_rate.ratio"].value)
+    assert "3 to 3 m/s2" in measured["yaw_rate.ratio"].note
+    assert measured["worst.yaw_rate.ratio"].value == pytest.approx(1.0)
+
+
+@pytest.fixture(scope="module")
+def left(prototype: TestedCar) -> TestRecord:
+    return perform(braking_in_a_turn.TEST, prototype, FEW)
+
+
+def test_prototype_brakes_from_the_circle_that_was_asked_for(left: TestRecord) -> None:
+    measured = values(left)
+    assert not left.notes
+    assert measured["steady.radius"] == pytest.approx(100.0, rel=0.01)
+    assert measured["steady.ay"] == pytest.approx(5.0, rel=0.02)
+    assert measured["steady.yaw_rate"] == pytest.approx(measured["steady.speed"] / measured["steady.radius"], rel=5e-3)
+    # load moves to the front wheels, which turn the car in
+    assert measured["yaw_rate.ratio"] > 1.05
+    assert measured["path.deviation"] < 0.0
+
+
+def test_right_is_the_mirror_of_left_and_the_step_does_not_matter(prototype: TestedCar, left: TestRecord) -> None:
+    right = values(perform(braking_in_a_turn.TEST, replace(prototype, step=0.002), FEW | {"radius": -100.0}))
+    odd = ("steady.yaw_rate", "steady.sideslip")
+    for name, value in values(left).items():
+        if not math.isnan(value):
+            wanted = -value if name in odd else value
+            assert right[name] == pytest.approx(wanted, rel=0.03, abs=2e-3), name
+
+
+def test_a_circle_that_cannot_be_held_is_told(prototype: TestedCar) -> None:
+    record = perform(braking_in_a_turn.TEST, prototype, FEW | {"lateral_acceleration": 14.0, "radius": 60.0})
+    assert record.notes
+    assert "asked for" in record.notes[-1] or "did not get onto" in record.notes[-1]
+
+
+@pytest.mark.parametrize(("setting", "value"), [("radius", 5.0), ("levels", 2.5)])
+def test_wrong_settings(prototype: TestedCar, setting: str, value: float) -> None:
+    with pytest.raises(HostError, match=f"{setting}.*{value:g}"):
+        perform(braking_in_a_turn.TEST, prototype, {setting: value})

@@ -1,0 +1,58 @@
+"""A test is checked before it is done, and what the FMU says in it is kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+
+from hosts.aliases import Aliases
+from hosts.catalogue.perform import missing_for, perform, settings_of_test
+from hosts.catalogue.record import Setting, TestRecord
+from hosts.co_simulation import Result
+from hosts.errors import HostError
+from tests.hosts.catalogue.bicycle_car import BicycleCar
+
+
+def result(*messages: str) -> Result:
+    return Result(["a"], {"a": "1"}, np.zeros(1), np.zeros((1, 1)), 0.0, 0.0, 0, list(messages))
+
+
+class Talking:
+    name, title, standards = "talking", "Talking", ()
+    settings = (Setting("count", 2.0, "1", "runs", 1.0, 9.0),)
+    needs = ("speed", "nothing | throttle")
+
+    def perform(self, car: BicycleCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+        runs = {f"run_{k}": result("The step is\n too long.", *(["Once."] if k else [])) for k in range(2)}
+        return TestRecord([], [], runs, ["Noted."])
+
+
+def test_what_the_fmu_says_is_noted_once() -> None:
+    record = perform(Talking(), BicycleCar())  # type: ignore[arg-type]
+    assert record.notes == [
+        "Noted.",
+        "The FMU said in every run: The step is too long.",
+        "The FMU said in run_1: Once.",
+    ]
+
+
+def test_one_of_several_names_suffices() -> None:
+    test = Talking()
+    assert missing_for(test, BicycleCar(), {}) is None  # type: ignore[arg-type]
+    test.needs = ("speed", "nothing | nowhere")
+    assert "has no nothing or nowhere; where it has" in str(missing_for(test, BicycleCar(), {}))  # type: ignore[arg-type]
+    aliases = Aliases(missing={"nothing": "The file takes it from X."})
+    assert str(missing_for(test, BicycleCar(aliases=aliases), {})).endswith("; The file takes it from X.")  # type: ignore[arg-type]
+
+
+def test_settings_are_completed_and_checked() -> None:
+    assert settings_of_test(Talking(), {}) == {"count": 2.0}  # type: ignore[arg-type]
+    for given, words in (
+        ({"count": 10.0}, "it must be from 1 to 9"),
+        ({"count": float("nan")}, "is nan"),
+        ({"n": 1.0}, "no setting 'n'"),
+    ):
+        with pytest.raises(HostError, match=words):
+            settings_of_test(Talking(), given)  # type: ignore[arg-type]

@@ -1,0 +1,52 @@
+"""The line of least curvature: inside the lanes, bent less than any simple one, and as bent as it has to be."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hosts.course import COURSES, Course, Gate
+from hosts.errors import HostError
+from hosts.measures.clearance import clearance
+from hosts.planned_course import ROOM_LEFT, planned
+
+LENGTH, WIDTH = 4.2, 1.8
+
+
+def points(course: Course, x: np.ndarray) -> np.ndarray:
+    return np.array([course.path(v) for v in x]).T
+
+
+@pytest.mark.parametrize("name", list(COURSES))
+def test_line_keeps_its_room_and_bends_less_than_the_centre_line(name: str) -> None:
+    course = COURSES[name](WIDTH)
+    line = planned(course, 0.0, LENGTH, WIDTH)
+    x = np.linspace(0.0, course.gates[-1].x_end + 5.0, 2000)
+    y, slope, bend = points(line, x)
+    narrowest = min(g.y_left - g.y_right for g in course.gates) - WIDTH
+    free = clearance(course, x, y, np.arctan(slope), LENGTH, WIDTH).min()
+    # slopes of up to 0.2 cost some centimetres of the room that is kept
+    assert 0.5 * narrowest * ROOM_LEFT - 0.04 < free < 0.5 * narrowest
+    y, slope_of_centres, bend_of_centres = points(course, x)
+    if clearance(course, x, y, np.arctan(slope_of_centres), LENGTH, WIDTH).min() > 0.0:
+        assert np.abs(bend).max() < 0.7 * np.abs(bend_of_centres).max()
+    else:
+        assert name == "iso_3888_2"  # whose narrow lanes the line of centres does not keep
+    assert line.path(0.0)[:2] == pytest.approx((course.gates[0].centre, 0.0), abs=1e-9)
+    # slope and curvature are those of the line
+    np.testing.assert_allclose(np.gradient(points(line, x)[0], x)[1:-1], slope[1:-1], atol=1e-4)
+
+
+def test_one_lane_change_needs_the_curvature_of_two_arcs() -> None:
+    # offset d within the length l by two parabolas: 4 d / l^2; the room of 1 cm lets the bends begin 2.5 m in the lanes
+    far = 60.0
+    course = Course("aside", (Gate(0.0, 40.0, -0.01, 0.01), Gate(40.0 + far, 200.0, 2.99, 3.01)))
+    x = np.linspace(0.0, 150.0, 1501)
+    bend = np.abs(points(planned(course, 0.0, 0.001, 0.001), x)[2]).max()
+    assert 4 * 2.98 / (far + 6.0) ** 2 < bend < 1.2 * 4 * 3.0 / far**2
+
+
+def test_a_car_too_wide_is_told() -> None:
+    course = COURSES["iso_3888_2"](1.5)
+    with pytest.raises(HostError, match=r"lane 1 is 1\.9 m wide; a car of 2\.1 m"):
+        planned(course, 0.0, 4.0, 2.1)
