@@ -69,6 +69,12 @@ def _wanted(options: argparse.Namespace, task: Task) -> _Fitting:
     if names and not options.fit:
         raise HostError("--nuisance goes with --fit; delays and drift are estimated without both.")
     begin = task.manoeuvre.start  # as set, or as measured
+    sought = [t.partition("=")[0].strip() for t in options.fit]
+    if sought and "initial.speed" in begin and "initial.speed" not in (*task.set_values, *sought):
+        task.notes.append(
+            "initial.speed is as measured in the first tenth of a second; its error goes into what is fitted: "
+            "--fit initial.speed=LOW:HIGH finds it too."
+        )
     return _Fitting(wanted_parameters(options.fit, task.parameters, begin), names)
 
 

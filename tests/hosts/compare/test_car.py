@@ -118,6 +118,7 @@ def test_a_delay_of_the_log_is_found_with_its_sign(car: Path, tmp_path: Path) ->
     assert values(record)["chassis.ay.delay"] == pytest.approx(0.06, abs=4e-3)
 
 
+@pytest.mark.slow
 def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
     true = {"front.tyre.grip": 0.85, "initial.speed": 15.0}
     log = logged(car, tmp_path, true, delay=0.04, noise=1.0)
@@ -126,8 +127,10 @@ def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
     )
     assert status == 0
     found = {f["name"]: f for f in record["fit"]["found"]}
-    for name, value in (*true.items(), ("delay", 0.04)):
+    for name, value in (("front.tyre.grip", 0.85), ("delay", 0.04)):
         assert abs(found[name]["value"] - value) < 1.5 * found[name]["half_width_95"], name
+    # Another step is another speed, by more than the noise hides.
+    assert found["initial.speed"]["value"] == pytest.approx(15.0, abs=0.01)
     assert found["front.tyre.grip"]["half_width_95"] < 0.02
     assert values(record, "fitted_measures")["chassis.wz.rms"] == pytest.approx(0.004, rel=0.15)
 
@@ -135,11 +138,11 @@ def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
 def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path) -> None:
     """With another drag the pedals of the log would lose the speed; the driver keeps it."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
-    other = ("--set", "aerodynamics.drag_area=2")
+    other = ("--set", "aerodynamics.drag_area=8")
     pedals = values(compared(car, log, *other)[1])["speed.rms"]
     held = values(compared(car, log, *other, "--hold-speed")[1])["speed.rms"]
-    assert pedals > 0.3
-    assert held < 0.2 * pedals
+    assert pedals > 2.0
+    assert held < 0.5 * pedals
 
 
 def test_a_log_that_begins_in_a_turn_says_so(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
