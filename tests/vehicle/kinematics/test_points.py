@@ -154,3 +154,18 @@ def test_no_bar_no_part_of_the_bar():
     )
     share = 2.0 * car.front.anti_roll_bar.stiffness * with_bar["anti_roll_bar_ratio"] ** 2
     assert with_bar["wheel_rate_left"] - without["wheel_rate_left"] == pytest.approx(share, rel=1e-6)
+
+
+@pytest.mark.parametrize(("car", "axle"), [*AXLES, ("hatchback", "rear")])
+def test_tangent_and_bending_of_the_way(car, axle):
+    """Against differences of positions, along a direction of both wheels and the rack."""
+    link, step = linkage(car, axle), 1e-4
+    way = np.array([1.0, 0.5, 0.7 if link.has_rod else 0.0])
+    at = link.solve(link.drawn.q, np.array([0.03, -0.02]), 0.01 if link.has_rod else 0.0)
+    ahead, behind = (
+        link.solve(at.q, at.travel + s * way[:2], at.rack + s * way[2]).q for s in (step, -step)
+    )  # fmt: skip
+    np.testing.assert_allclose(at.tangent @ way, (ahead - behind) / (2.0 * step), atol=1e-5)
+    bend = link.bends(at, way[:, None])[:, 0]
+    np.testing.assert_allclose(bend, (ahead - 2.0 * at.q + behind) / step**2, atol=2e-3)
+    assert np.abs(bend).max() > 1.0
