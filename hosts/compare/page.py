@@ -74,9 +74,8 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
             unit = "" if s.measured.unit == "1" else f", {s.measured.unit}"
             last = runs[-1][0]
             over.set_title(f"{name}{unit}")
-            rest.set_title(
-                f"simulated − measured: rms {last.deviations.rms:.3g}{unit.replace(',', '')}; rating {last.rating.overall:.2f}"
-            )
+            rms = f"rms {last.deviations.rms:.3g}{unit.replace(',', '')}"
+            rest.set_title(f"simulated − measured: {rms}; rating {last.rating.overall:.2f}")
             rest.axhline(0.0, color="#444444", linewidth=0.8)
             over.margins(x=0)
             if k == 0:
