@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -180,6 +181,12 @@ class _Senses(dict[str, float]):
         raise HostError(f"Who drives needs the output '{name}', which the FMU does not have.")
 
 
+def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, float]) -> str:
+    act = next(f"{n} = {x}" for n, x in acts.items() if not math.isfinite(x))
+    sense = next((f": the output {n} of the FMU is {x}" for n, x in senses.items() if not math.isfinite(x)), "")
+    return f"At {time:.4g} s who drives asks for {act}{sense}."
+
+
 def run(
     fmu: Fmu | AliasedFmu,
     manoeuvre: Manoeuvre,
@@ -245,7 +252,10 @@ def run(
         t = k * step
         wanted = manoeuvre.at(t, whole)
         if driver is not None:
-            wanted |= acts if k == 0 else driver.act(t, senses)
+            acts = acts if k == 0 else driver.act(t, senses)
+            if not all(map(math.isfinite, acts.values())):
+                raise HostError(_not_finite(t, acts, senses))
+            wanted |= acts
         now = [wanted[n] for n in used]
         if used:
             set_inputs(now)

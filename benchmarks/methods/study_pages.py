@@ -6,8 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from benchmarks.shared.pages import table
 
 Row = Mapping[str, Any]
@@ -152,8 +150,8 @@ def _extrapolated(rows: Sequence[Row]) -> list[dict[str, str]]:
 
 
 def _slope(springs: Sequence[Row]) -> float:
-    """Bytes that the main process grows by with a run, from its memory at most; not below zero."""
+    """Bytes that the main process grows by with a run, between the two largest studies; not below zero."""
     if len(springs) < 2:
         return math.nan
-    runs, memory = ([float(r[key]) for r in springs] for key in ("runs", "main_mb"))
-    return max(0.0, 1e6 * float(np.polyfit(runs, memory, 1)[0]))
+    small, large = springs[-2:]
+    return max(0.0, 1e6 * (large["main_mb"] - small["main_mb"]) / (large["runs"] - small["runs"]))

@@ -9,7 +9,8 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from hosts.catalogue.car import TestedCar
     from hosts.catalogue.record import StandardTest
     from hosts.catalogue.task import Outcome, Task
+
+_PENDING = "Not done yet: the command is at work, or was stopped."
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.catalogue") -> int:
@@ -112,13 +115,14 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
             if reason is not None:
                 outcomes[test.name][car.label] = reason
             else:
+                outcomes[test.name][car.label] = _PENDING
                 folder = None if options.no_runs else options.out.absolute()
                 tasks.append(Task(test.name, car, settings[test.name], folder))
-    for _ in _done(tasks, options.jobs or os.cpu_count() or 1, outcomes):
-        # what is there survives whatever comes
-        write_measures(options.out, tests, cars, _ordered(outcomes, cars), settings)
-    outcomes = _ordered(outcomes, cars)
+    # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, outcomes, settings)
+    with closing(_done(tasks, options.jobs or os.cpu_count() or 1, outcomes)) as done:
+        for _ in done:
+            write_measures(options.out, tests, cars, outcomes, settings)
     print_measures(tests, cars, outcomes)
     files += _report(options.out / "report.html", tests, cars, outcomes, settings, command)
     runs = "" if options.no_runs or not tasks else f", tables of the runs in {options.out / 'runs'}"
@@ -141,7 +145,7 @@ def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> 
     return settings
 
 
-def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcome]]) -> Iterator[None]:
+def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcome]]) -> Generator[None]:
     """Do all tasks under a progress bar; after each its outcome is among the others."""
     from tqdm import tqdm
 
@@ -156,16 +160,11 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
             bar.set_description_str(f"{tasks[place].test}, {tasks[place].car.label}", refresh=False)
             bar.update(sum(parts) - bar.n)
 
-        for place, outcome in done_by(tasks, jobs, progress):
-            progress(place, 1.0)
-            outcomes[tasks[place].test][tasks[place].car.label] = outcome
-            yield
-
-
-def _ordered(outcomes: Mapping[str, Mapping[str, Outcome]], cars: Sequence[TestedCar]) -> dict[str, dict[str, Outcome]]:
-    """The outcomes of each test in the order of the cars, in whatever order they came."""
-    labels = [car.label for car in cars]
-    return {test: {label: found[label] for label in labels if label in found} for test, found in outcomes.items()}
+        with closing(done_by(tasks, jobs, progress)) as done:
+            for place, outcome in done:
+                progress(place, 1.0)
+                outcomes[tasks[place].test][tasks[place].car.label] = outcome
+                yield
 
 
 def _report(

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.plausible import implausible
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.co_simulation import Result
@@ -152,17 +153,18 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
     Raises
     ------
     HostError
-        If the car reaches neither, or its FMU refuses a step.
+        If the car reaches neither, its FMU refuses a step, or signs or units of its signals do not fit.
     """
-    found = second = steady_map(car, speed, acceleration)
-    if len(found.angle):
-        return found
-    if lower < speed:
-        second = steady_map(car, lower, acceleration)
-        if len(second.angle):
-            note = f"The car does not hold {3.6 * speed:g} km/h; the test is done at {3.6 * lower:g} km/h."
-            return SteadyMap(lower, second.angle, second.acceleration, second.run, (note,))
-    raise HostError(why_not_reached(second.run.result, min(speed, lower)))
+    found = steady_map(car, speed, acceleration)
+    if not len(found.angle) and lower < speed:
+        note = f"The car does not hold {3.6 * speed:g} km/h; the test is done at {3.6 * lower:g} km/h."
+        found = replace(steady_map(car, lower, acceleration), notes=(note,))
+    if not len(found.angle):
+        raise HostError(why_not_reached(found.run.result, found.speed))
+    wrong = implausible(found.run)
+    if wrong is not None:
+        raise HostError(wrong)
+    return found
 
 
 def why_not_reached(result: Result, speed: float) -> str:

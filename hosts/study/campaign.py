@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time as clock
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from ali3.errors import FileError
 from hosts.errors import HostError
 from hosts.study.folder import begin_study, check_same, free_space, locked, read_record
+from hosts.study.parts import PartWriter, forget_failed, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
 from hosts.study.study_file import StudyFile, read_study_file
@@ -73,41 +75,54 @@ def run_study(
     folder = out_folder(out, study, file)
     if folder.exists() and not folder.is_dir():
         raise HostError(f"{folder} is a file; the results of a study are a folder.")
-    before = read_record(folder)
-    plan = make_plan(study, file, _fmu(study, file, folder, before))
+    before = _before(folder)
+    plan = _plan(study, file, folder, before)
     for note in plan.notes:
         print(f"note: {note}", file=sys.stderr)
     if before is not None:
         # columns of tests are known from the first half
         plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
         check_same(folder, before, plan.record)
-    trial = try_out(plan)
-    for note in trial.notes:
-        print(f"note: {note}", file=sys.stderr)
-    plan = with_columns(plan, trial.columns)
-    plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
-    workers_here = None if scheduler is not None else workers
-    _print_plan(plan, trial, folder, scheduler, workers_here)
-    if dry:
-        return None
-    with locked(folder):
-        return _run(plan, trial, folder, content, scheduler, workers, again)
+    with nullcontext() if dry else locked(folder):
+        if before is not None and not dry and not again and runs_done(folder, plan.runs).all():
+            print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
+            return Ended(folder, True, 0)
+        trial = try_out(plan)
+        for note in trial.notes:
+            print(f"note: {note}", file=sys.stderr)
+        plan = with_columns(plan, trial.columns)
+        plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
+        _print_plan(plan, trial, folder, scheduler, workers)
+        return None if dry else _run(plan, trial, folder, content, scheduler, workers, again)
+
+
+def _before(folder: Path) -> dict[str, Any] | None:
+    """The record of a first half."""
+    record = read_record(folder)
+    if record is None and part_files(folder):
+        raise HostError(f"{folder} has rows of a study but not its study.json; give another --out.")
+    return record
+
+
+def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | None) -> Plan:
+    """The checked plan, with the FMU that is named, or that of the car; an unchanged car has that of the first half."""
+    if study.fmu is not None:
+        return make_plan(study, file, file.parent / study.fmu)
+    from hosts.built_fmu import car_digest, fmu_of_car
+
+    assert study.car is not None
+    beside = file.parent / study.car
+    car = str(beside) if beside.exists() else study.car
+    digest = car_digest(car)
+    kept = folder / before["fmu"] if before is not None and before.get("car") == digest else None
+    fmu = kept if kept is not None and kept.is_file() else fmu_of_car(car, lambda line: print(line, file=sys.stderr))
+    plan = make_plan(study, file, fmu)
+    return replace(plan, record={**plan.record, "car": digest})
 
 
 def out_folder(out: Path | None, study: StudyFile, file: Path) -> Path:
     """Where the results go."""
     return out if out is not None else Path("out", study.name or file.stem)
-
-
-def _fmu(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | None) -> Path:
-    """The FMU that is named, or that of the car; a car that is unchanged has that of the first half."""
-    if study.fmu is not None:
-        return file.parent / study.fmu
-    from hosts.built_fmu import fmu_of_car
-
-    assert study.car is not None
-    beside = file.parent / study.car
-    return fmu_of_car(str(beside) if beside.exists() else study.car, lambda line: print(line, file=sys.stderr))
 
 
 def _print_plan(plan: Plan, trial: Trial, folder: Path, scheduler: str | None, workers: int | None) -> None:
@@ -146,8 +161,6 @@ def _size(count: float) -> str:
 def _run(
     plan: Plan, trial: Trial, folder: Path, content: bytes, scheduler: str | None, workers: int | None, again: bool
 ) -> Ended:
-    from hosts.study.parts import forget_failed, runs_done
-
     record = read_record(folder)
     if record is None:
         _check_space(bytes_of(plan), folder)
@@ -188,7 +201,6 @@ def _make(
     from hosts.study.cluster import bring, connected, take_away
     from hosts.study.execution import Execution, SchedulerLostError
     from hosts.study.missing import ChunkSize, missing_runs
-    from hosts.study.parts import PartWriter
     from hosts.study.signals import SignalWriter, make_store
 
     signals = None
@@ -222,12 +234,14 @@ def _make(
         return Ended(folder, False, progress.failed)
     rate = progress.made / seconds
     words = f"{progress.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {progress.failed} failed"
+    if progress.incomplete:
+        words += f", {progress.incomplete} incomplete"
+    for line in progress.said():
+        print(line)
     print(f"{words}; written: {folder}")
     return Ended(folder, True, progress.failed)
 
 
 def _kept(plan: Plan, folder: Path) -> str:
-    from hosts.study.parts import runs_done
-
     count = int(np.count_nonzero(runs_done(folder, plan.runs)))
     return f"{count} of {plan.runs} runs are written and stay; the same command makes the others."

@@ -87,6 +87,8 @@ def _local_cluster(workers: int, folder: Path) -> Iterator[LocalCluster]:
     # This machine's own name may resolve to a network; nothing but it is to reach the workers.
     settings: dict[str, Any] = {
         "distributed.scheduler.allowed-failures": _DEATHS,
+        "distributed.scheduler.http.routes": [],
+        "distributed.worker.http.routes": [],
         "distributed.worker.daemon": True,
         "temporary-directory": str(folder),
     }
@@ -98,8 +100,8 @@ def _local_cluster(workers: int, folder: Path) -> Iterator[LocalCluster]:
             threads_per_worker=1,
             processes=True,
             host="127.0.0.1",
-            dashboard_address=None,
-            worker_dashboard_address=None,
+            dashboard_address="127.0.0.1:0",  # None would take the port 8787
+            scheduler_kwargs={"dashboard": False},
             local_directory=str(folder),
             silence_logs=logging.CRITICAL,
             env=places | {"OMP_NUM_THREADS": "1"},

@@ -147,7 +147,7 @@ class Execution:
         self._writer.add(chunk, outcomes)
         if self._signals is not None:
             self._signals.add(chunk, outcomes)
-        self._progress(len(chunk), sum(outcome.status == FAILED for outcome in outcomes))
+        self._progress(outcomes)
 
     def _look_at_scheduler(self) -> None:
         now = clock.monotonic()

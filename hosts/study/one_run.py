@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.aliased_fmu import AliasedFmu
+from hosts.aliases import Aliases
 from hosts.co_simulation import Result, driver_of, run
 from hosts.errors import HostError
 from hosts.fmu import Fmu
@@ -22,6 +23,8 @@ from hosts.numbers import Value
 from hosts.study.work import DONE, FAILED, INCOMPLETE, Job, Outcome, Work
 
 _MOST_NOTES = 3
+_MOST_MESSAGES = 5
+_LONGEST = 300  # characters of a message
 
 
 class Bench:
@@ -71,9 +74,11 @@ class Bench:
     def _drive(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
         assert job.manoeuvre is not None
         fmu, work = self._fresh(), self._work
-        seen = AliasedFmu(fmu, work.aliases) if work.aliases.aliases else fmu
+        seen = seen_through(fmu, work.aliases)
         manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
         result = run(seen, manoeuvre, job.step, driver_of(seen, manoeuvre))
+        if work.aliases.derived:
+            work.aliases.with_central_rates(result.names, result.time, result.values)
         outcome = _of_result(result, job)
         if job.every:
             outcome.signals = sampled(result, work.signals, job)
@@ -93,6 +98,7 @@ class Bench:
         car = TestedCar(self._work.fmu, self._path, self._work.aliases, start, step)
         record = perform(standard_test(job.test), car, job.settings)
         outcome = Outcome(simulated=sum(result.simulated for result in record.runs.values()))
+        outcome.messages = said(record.notes)
         named = [(column(job, m), m) for m in record.measures]
         if not self._work.columns:  # a trial: what it measures becomes the columns
             outcome.units = {name: m.unit for name, m in named}
@@ -107,6 +113,17 @@ class Bench:
             self._fmu.reset()
             self._fmu.messages.clear()
         return self._fmu
+
+
+def seen_through(fmu: Fmu, aliases: Aliases) -> Fmu | AliasedFmu:
+    """The FMU under our names; itself where there are none."""
+    return AliasedFmu(fmu, aliases) if aliases.aliases or aliases.derived or aliases.constants else fmu
+
+
+def said(messages: Sequence[str]) -> tuple[str, ...]:
+    """The first different sentences, each once and not too long."""
+    found = dict.fromkeys(" ".join(message.split()) for message in messages)
+    return tuple(m if len(m) <= _LONGEST else f"{m[: _LONGEST - 3]}..." for m in list(found)[:_MOST_MESSAGES])
 
 
 def started(manoeuvre: Manoeuvre, values: Mapping[str, Value]) -> Manoeuvre:
@@ -129,7 +146,7 @@ def sampled(result: Result, names: Sequence[str], job: Job) -> NDArray[np.float6
 
 def _of_result(result: Result, job: Job) -> Outcome:
     """Whether the run came to its end with numbers."""
-    end = Outcome(simulated=result.simulated)
+    end = Outcome(simulated=result.simulated, messages=said(result.messages))
     wrong = ~np.isfinite(result.values)
     if wrong.any():
         row, place = np.argwhere(wrong)[0]

@@ -12,7 +12,6 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from ali3.errors import FileError
 from ali3.files import whole_file
 from hosts.errors import HostError
 from hosts.numbers import Value
@@ -35,7 +34,7 @@ def table_schema(record: Mapping[str, Any]) -> Any:
     fields = [("index", pa.int64()), ("point", pa.int64()), ("manoeuvre", pa.string()), ("seed", pa.int64())]
     fields += [(name, _TYPES.get(p["kind"], pa.string())) for name, p in record["parameters"].items()]
     fields += [(name, pa.float64()) for name in record["measures"]]
-    fields += [("status", pa.string()), ("reason", pa.string())]
+    fields += [("status", pa.string()), ("reason", pa.string()), ("messages", pa.string())]
     fields += [("simulated", pa.float64()), ("wall_seconds", pa.float64())]
     made = [pa.field(name, kind, metadata={"unit": units[name]} if name in units else None) for name, kind in fields]
     return pa.schema(made, metadata={"PANDAS_ATTRS": json.dumps(attributes(record))})
@@ -76,7 +75,9 @@ def runs_done(folder: Path, runs: int) -> NDArray[np.bool_]:
         if len(index) and not 0 <= index.min() <= index.max() < runs:
             raise HostError(f"{file} has the run {index.max()}; the study has {runs} runs.")
         if done[index].any() or len(np.unique(index)) < len(index):
-            raise HostError(f"{file} has the run {index[done[index]][:1]} a second time; remove it.")
+            raise HostError(
+                f"{file} has a run that another part has too; remove it, and its other runs are made again."
+            )
         done[index] = True
     return done
 
@@ -128,6 +129,7 @@ class PartWriter:
                 rows[name].append(outcome.measures.get(name, np.nan))
             for name in ("status", "reason", "simulated"):
                 rows[name].append(getattr(outcome, name))
+            rows["messages"].append(" ".join(outcome.messages))
             rows["wall_seconds"].append(outcome.wall)
         for name in self._record["parameters"]:
             rows[name].extend(_texts(chunk.values[name], self._schema.field(name).type))
@@ -154,13 +156,12 @@ def _texts(values: Sequence[Value], kind: Any) -> Sequence[Value]:
 
 
 def _write(table: Any, file: Path) -> None:
-    try:
-        with whole_file(file) as made:
-            pq.write_table(table, made, compression="zstd")
-            sync(made)
-    except pa.ArrowException as error:
-        raise FileError(f"{file} cannot be written: {str(error).splitlines()[0]}.") from None
+    buffer = pa.BufferOutputStream()
+    pq.write_table(table, buffer, compression="zstd")
+    with whole_file(file) as made:
+        made.write_bytes(buffer.getvalue())
+        sync(made)
 
 
-Progress = Callable[[int, int], None]
-"""Called with the number of rows that came, and how many of them failed."""
+Progress = Callable[[Sequence[Outcome]], None]
+"""Called with the outcomes that came."""

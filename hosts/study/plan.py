@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from hosts.aliased_fmu import AliasedFmu
-from hosts.aliases import Aliases, read_aliases
+from hosts.aliases import Aliases, find_aliases
 from hosts.errors import HostError
 from hosts.fmu import Fmu
 from hosts.study.jobs import jobs_of
 from hosts.study.measures import StudyMeasure, parse_measure
+from hosts.study.one_run import seen_through
 from hosts.study.parameters import Parameter, parameter_of
 from hosts.study.points import Points, digest, sampled_points, table_points
 from hosts.study.program import program_digest, versions
@@ -24,7 +25,7 @@ from hosts.study.study_file import ManoeuvreEntry, StudyFile
 from hosts.study.work import Chunk, Job, Work
 from hosts.variables import Variable
 
-OWN_COLUMNS = ("index", "point", "manoeuvre", "seed", "status", "reason", "simulated", "wall_seconds")
+OWN_COLUMNS = ("index", "point", "manoeuvre", "seed", "status", "reason", "messages", "simulated", "wall_seconds")
 
 
 @dataclass(frozen=True)
@@ -107,7 +108,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
     content = fmu_path.read_bytes() if fmu_path.is_file() else b""
     with Fmu(fmu_path) as opened:
         aliases = _aliases(study, file, opened)
-        fmu = AliasedFmu(opened, aliases) if aliases.aliases or aliases.constants else opened
+        fmu = seen_through(opened, aliases)
         points, parameters = _points(study, file, opened, fmu)
         jobs = jobs_of(study, file, fmu, list(parameters))
         units = {n: v.unit or "1" for n, v in fmu.variables.items()}
@@ -147,7 +148,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         "measures": dict(columns),
         "measured": {m.name: m.digest for m in measures},
         "signals": study.signals.model_dump() if study.signals else None,
-        "aliases": hashlib.sha256(repr(aliases).encode()).hexdigest() if aliases.aliases else None,
+        "aliases": hashlib.sha256(repr(aliases).encode()).hexdigest() if study.aliases else None,
         "points": points.count,
         "runs": points.count * len(jobs),
         "points_sha256": digest(points),
@@ -180,7 +181,8 @@ def job_digest(job: Job) -> str:
 def _aliases(study: StudyFile, file: Path, fmu: Fmu) -> Aliases:
     if study.aliases is None:
         return Aliases()
-    return read_aliases(file.parent / study.aliases, fmu.variables)
+    beside = file.parent / study.aliases
+    return find_aliases(beside if beside.is_file() else study.aliases, fmu.table)
 
 
 def _points(study: StudyFile, file: Path, opened: Fmu, fmu: Fmu | AliasedFmu) -> tuple[Points, dict[str, Any]]:
@@ -188,7 +190,10 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: Fmu | AliasedFmu) ->
 
     def variable_of(name: str, where: str) -> Variable:
         if isinstance(fmu, AliasedFmu) and name in fmu.table:
-            return fmu.table[name]
+            found = fmu.table[name]
+            if found.causality in ("parameter", "input") and found.variability != "constant":
+                return found
+            raise HostError(f"{where}: '{name}' is no parameter or input of the FMU; it cannot be set.")
         return opened.table.settable(name, where)
 
     for name, value in study.start.items():

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import math
 import os
 import shlex
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from ali3.files import make_folder, write_text
 from ali3.running import command_name
 from hosts.errors import HostError
 from hosts.numbers import Value
 from hosts.study.folder import read_record
+
+if TYPE_CHECKING:
+    from hosts.manoeuvre import Manoeuvre
+    from hosts.study.work import Job
 
 FOLDER = "repeat"
 
@@ -25,7 +30,8 @@ class Repeat:
     Parameters
     ----------
     drive : str
-        Makes the run again and writes its table, or does the test again.
+        Makes the run again and writes its table, or does the test again; empty for a manoeuvre under names of an alias
+        file.
     view : str
         Shows it moving; empty for a test.
     """
@@ -35,7 +41,7 @@ class Repeat:
 
 
 def repeat_command(folder: str | os.PathLike[str], index: int, write: bool = True) -> Repeat:
-    """The commands that repeat a run.
+    """The commands that repeat a run; see `Repeater` for many.
 
     Parameters
     ----------
@@ -51,6 +57,17 @@ def repeat_command(folder: str | os.PathLike[str], index: int, write: bool = Tru
     HostError
         There is no such run.
     """
+    return repeater(folder)(index, write)
+
+
+def repeater(folder: str | os.PathLike[str]) -> Callable[[int, bool], Repeat]:
+    """A function that gives the commands of a run, as `repeat_command` does; the plan is made once.
+
+    Parameters
+    ----------
+    folder : path
+        Of the study.
+    """
     from hosts.study.plan import make_plan
     from hosts.study.study_file import read_study_file
 
@@ -58,27 +75,45 @@ def repeat_command(folder: str | os.PathLike[str], index: int, write: bool = Tru
     record = read_record(place)
     if record is None:
         raise HostError(f"{folder} is no folder of a study: there is no study.json in it.")
-    if not 0 <= index < record["runs"]:
-        raise HostError(f"There is no run {index}; the study in {folder} has the runs 0 to {record['runs'] - 1}.")
+    runs = record["runs"]
     study, _ = read_study_file(place / "study.toml")
     plan = make_plan(study, Path(record["file"]), place / record["fmu"])
-    point, number = divmod(index, len(plan.work.jobs))
-    job = plan.work.jobs[number]
-    values = {name: column[0] for name, column in plan.points.block(point, 1).items()}
-    fmu = str(place / record["fmu"])
-    aliases = ["--aliases", str(plan.file.parent / study.aliases)] if study.aliases else []
-    if job.manoeuvre is None:
-        step = [] if study.step is None else ["--step", repr(study.step)]
-        settings = [part for n, x in job.settings.items() for part in ("--test-setting", f"{job.test}.{n}={x!r}")]
-        out = ["--out", str(place / FOLDER / f"run-{index}")]
-        words = [fmu, "--tests", job.test, *_sets({**job.start, **values}), *settings, *step, *aliases, *out]
-        return Repeat(_line("catalogue", words), "")
-    file = place / FOLDER / f"run-{index}.csv"
+    aliases = ["--aliases", _alias_file(study.aliases, plan.file)] if study.aliases else []
+
+    def repeat(index: int, write: bool = True) -> Repeat:
+        if not 0 <= index < runs:
+            raise HostError(f"There is no run {index}; the study in {folder} has the runs 0 to {runs - 1}.")
+        point, number = divmod(index, len(plan.work.jobs))
+        values = {name: column[0] for name, column in plan.points.block(point, 1).items()}
+        job, fmu = plan.work.jobs[number], place / record["fmu"]
+        if job.manoeuvre is None:
+            return _test(job, fmu, values, aliases, place / FOLDER / f"run-{index}")
+        if aliases:
+            return Repeat("", "")  # the command drive knows the names of the FMU only
+        return _drive(job, fmu, values, place / FOLDER / f"run-{index}.csv", write)
+
+    return repeat
+
+
+def _alias_file(name: str, file: Path) -> str:
+    beside = file.parent / name
+    return str(beside) if beside.is_file() else name
+
+
+def _test(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[str], out: Path) -> Repeat:
+    step = [] if math.isnan(job.step) else ["--step", repr(job.step)]
+    settings = [part for n, x in job.settings.items() for part in ("--test-setting", f"{job.test}.{n}={x!r}")]
+    words = [str(fmu), "--tests", job.test, *_sets({**job.start, **values}), *settings, *step, *aliases]
+    return Repeat(_line("catalogue", [*words, "--out", str(out)]), "")
+
+
+def _drive(job: Job, fmu: Path, values: Mapping[str, Value], file: Path, write: bool) -> Repeat:
+    assert job.manoeuvre is not None
     if write:
         _write_manoeuvre(job.manoeuvre, file)
-    name = file.with_suffix(".ini") if not job.manoeuvre.inputs else file
-    words = [fmu, "-m", str(name), "--step", repr(job.step), *_sets(values)]
-    drive = _line("drive", [*words, "--out", str(place / FOLDER)])
+    name = file if job.manoeuvre.inputs else file.with_suffix(".ini")
+    words = [str(fmu), "-m", str(name), "--step", repr(job.step), *_sets(values)]
+    drive = _line("drive", [*words, "--out", str(file.parent)])
     return Repeat(drive, _line("view", [*words, "--out", str(file.with_suffix(".html"))]))
 
 
@@ -94,7 +129,7 @@ def _line(command: str, words: list[str]) -> str:
     return f"{command_name(command)} {shlex.join(words)}"
 
 
-def _write_manoeuvre(manoeuvre: Any, file: Path) -> None:
+def _write_manoeuvre(manoeuvre: Manoeuvre, file: Path) -> None:
     """A manoeuvre with all its start values, as the command drive reads it."""
     make_folder(file.parent)
     sections = {

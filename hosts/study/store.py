@@ -41,8 +41,8 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
     DataFrame
         A row for each run that has ended, by its index. Columns: ``point``, ``manoeuvre``, ``seed``, the parameters by
         their names in the FMU, the measures, ``status`` (``done``, ``incomplete`` where some measure is NaN,
-        ``failed``), ``reason``, ``simulated`` and ``wall_seconds``. ``attrs`` has units of columns and the rest of what
-        is known of the study.
+        ``failed``), ``reason``, ``messages`` of the FMU, ``simulated`` and ``wall_seconds``. ``attrs`` has units of
+        columns and the rest of what is known of the study.
 
     Raises
     ------

@@ -134,6 +134,8 @@ class Outcome:
     signals : ndarray of shape (samples, signals), optional
     units : dict of str to str
         Of the measures of a test, where it is not yet known which there are.
+    messages : tuple of str
+        What the FMU said, and notes of a test; each sentence once.
     """
 
     status: str = DONE
@@ -143,6 +145,7 @@ class Outcome:
     wall: float = 0.0
     signals: NDArray[np.float64] | None = None
     units: dict[str, str] = field(default_factory=dict)
+    messages: tuple[str, ...] = ()
 
 
 def seed_of(study_seed: int, point: int) -> int:

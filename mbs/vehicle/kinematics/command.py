@@ -10,7 +10,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ali3.errors import UserError
 from ali3.running import run_command, told_warnings
+
+LEAST_RANGE = 1e-3  # m: who gives metres finds less
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehicle.kinematics") -> int:
@@ -62,6 +65,11 @@ def _work(options: argparse.Namespace) -> int:
     from mbs.vehicle.kinematics.table import rows, text
 
     low, high = checked_travel(tuple(1e-3 * v for v in options.travel))
+    if high - low < LEAST_RANGE:
+        raise UserError(
+            f"--travel goes from {options.travel[0]:g} to {options.travel[1]:g} mm; it is in mm and must span "
+            f"{1e3 * LEAST_RANGE:g} mm or more."
+        )
     with told_warnings():
         car = load(options.car)
     fidelity = fidelity_of(car, options.fidelity)

@@ -136,7 +136,7 @@ def test_what_a_car_lacks_and_wrong_settings_are_told(prototype: TestedCar) -> N
     bare = replace(prototype)
     constants = {n: x for n, x in prototype.facts.constants.items() if n != "vehicle.width"}
     bare.__dict__["facts"] = replace(prototype.facts, constants=constants)
-    assert "vehicle.width" in str(missing_for(double_lane_change.TEST, bare))
+    assert "vehicle.width" in str(missing_for(double_lane_change.TEST, bare, {}))
     with pytest.raises(HostError, match="course is 1.5"):
         perform(double_lane_change.TEST, prototype, {"course": 1.5})
     with pytest.raises(HostError, match="lowest speed is 90"):

@@ -225,3 +225,18 @@ def test_an_fmu_that_refuses_a_step_before_the_steering_is_told() -> None:
     for test in ("sine_steer", "sine_with_dwell"):
         with pytest.raises(HostError, match=r"FMU refused a step after 0\.51 s, before the steering began"):
             perform(standard_test(test), BicycleCar(refuses_after=0.5))
+
+
+@pytest.mark.parametrize("test", ["sine_steer", "sine_with_dwell"])
+@pytest.mark.parametrize(
+    ("factors", "words"),
+    [
+        ({"chassis.ay": -1.0}, "to the left the lateral acceleration is to the other side"),
+        ({"chassis.wz": -1.0}, "to the left the yaw rate is to the other side"),
+        ({"chassis.wz": math.degrees(1.0)}, r"where speed times yaw rate is 2\d\d m/s²: a unit is wrong"),
+        ({"chassis.wz": -1.0, "chassis.ay": -1.0}, "to the left the lateral acceleration is to the other side"),
+    ],
+)
+def test_wrong_signs_and_units_are_told(test: str, factors: dict[str, float], words: str) -> None:
+    with pytest.raises(HostError, match=words):
+        perform(standard_test(test), BicycleCar(factors=factors))

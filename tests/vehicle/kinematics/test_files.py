@@ -87,6 +87,10 @@ def test_the_page_of_the_documentation_prints_what_it_says(capsys):
         (["hatchback", "--travel", "80", "-80"], "The wheel travel goes from 0.08 to -0.08 m; it must go from below 0"),
         (["hatchback", "--travel", "-80", "900"], "The wheel travel goes from -0.08 to 0.9 m"),
         (["hatchback", "--travel", "nan", "80"], "The range of wheel travel is (nan, 0.08); it must be two numbers"),
+        (
+            ["hatchback", "--travel", "-0.08", "0.08"],
+            "--travel goes from -0.08 to 0.08 mm; it is in mm and must span 1 mm",
+        ),
         (["hatchback", "--points", "2"], "points = 2; it must be a whole number between 3 and 10001"),
         (["hatchback", "--fidelity", "9"], "The fidelity of the car is 9; it must be one of"),
         (["hatchback", "--out", "FILE"], "FILE is a file"),

@@ -154,3 +154,28 @@ def test_no_bar_no_part_of_the_bar():
     )
     share = 2.0 * car.front.anti_roll_bar.stiffness * with_bar["anti_roll_bar_ratio"] ** 2
     assert with_bar["wheel_rate_left"] - without["wheel_rate_left"] == pytest.approx(share, rel=1e-6)
+
+
+@pytest.mark.parametrize(("car", "axle"), [*AXLES, ("hatchback", "rear")])
+def test_tangent_and_bending_of_the_way(car, axle):
+    """Against differences of positions, along a direction of both wheels and the rack."""
+    link, step = linkage(car, axle), 1e-4
+    way = np.array([1.0, 0.5, 0.7 if link.has_rod else 0.0])
+    at = link.solve(link.drawn.q, np.array([0.03, -0.02]), 0.01 if link.has_rod else 0.0)
+    ahead, behind = (
+        link.solve(at.q, at.travel + s * way[:2], at.rack + s * way[2]).q for s in (step, -step)
+    )  # fmt: skip
+    np.testing.assert_allclose(at.tangent @ way, (ahead - behind) / (2.0 * step), atol=1e-5)
+    bend = link.bends(at, way[:, None])[:, 0]
+    np.testing.assert_allclose(bend, (ahead - 2.0 * at.q + behind) / step**2, atol=2e-3)
+    assert np.abs(bend).max() > 1.0
+
+
+def test_wheelbase_of_trailing_arms_and_of_a_strut():
+    """In parallel travel the arms turn about their pivots: a wheel that comes up beyond their height comes forwards."""
+    link = linkage("hatchback", "rear")
+    x, _, z = np.subtract(link.data.wheel.centre, link.data.suspension.points.pivot)
+    back = np.sqrt(x**2 + z**2 - (z + TRAVEL) ** 2) + x  # of the centres against the drawing
+    np.testing.assert_allclose(travel_curve(link, "parallel", TRAVEL)["wheelbase_change"], back, atol=1e-12)
+    front = travel_curve(linkage("hatchback", "front"), "parallel", TRAVEL)
+    np.testing.assert_allclose(front["wheelbase_change"], front["contact_centre_x_left"], atol=1e-12)

@@ -1,0 +1,77 @@
+"""What cannot be run is said in one sentence before the first run."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from hosts.study import trial
+from hosts.study.command import main
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+RANGE = '"spring.stiffness" = { range = [50.0, 80.0] }'
+SOBOL = 'method = "sobol"\nruns = 16\nseed = 7'
+CASES = tomllib.loads((Path(__file__).parent / "bad_input.toml").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(autouse=True)
+def _no_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    def run(*_: object) -> None:
+        raise AssertionError("a run was made")
+
+    monkeypatch.setattr(trial, "run_isolated", run)
+
+
+@pytest.fixture
+def told(study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Callable[..., str]:
+    def tell(*replaced: tuple[str, str], more: str = "") -> str:
+        assert main([str(study_file(*replaced, more=more)), "--out", str(tmp_path / "out")]) == 2
+        error = capsys.readouterr().err
+        assert error.count("\n") == 1
+        assert not (tmp_path / "out").exists()
+        return error.removeprefix("error: ").replace(f"{tmp_path}/", "").strip()
+
+    return tell
+
+
+@pytest.mark.parametrize("case", CASES["file"], ids=lambda case: case["new"])
+def test_a_wrong_file_is_one_sentence(told: Callable[..., str], case: dict[str, str]) -> None:
+    assert told((case["old"], case["new"])).startswith(case["begins"])
+
+
+def test_unknown_signals_and_odd_intervals(told: Callable[..., str]) -> None:
+    signals = '[signals]\nnames = ["bob.w"]\ninterval = 0.05\n'
+    assert told(more=signals) == (
+        "study.toml: signals.names: the FMU has no input or output 'bob.w'; did you mean bob.y or bob.x?"
+    )
+    assert told(more=signals.replace("bob.w", "bob.y").replace("0.05", "0.015")) == (
+        "study.toml: manoeuvres[1]: signals.interval is 0.015 s, no whole multiple of the step of 0.01 s; take 0.02 s."
+    )
+
+
+@pytest.mark.parametrize("case", CASES["table"], ids=lambda case: case["table"])
+def test_a_wrong_row_of_a_table_is_named(told: Callable[..., str], tmp_path: Path, case: dict[str, str]) -> None:
+    (tmp_path / "t.csv").write_text(case["table"])
+    free = '"spring.free_length" = { range = [0.5, 0.8] }'
+    error = told((SOBOL, 'method = "table"\nfile = "t.csv"'), (RANGE, ""), (free, ""))
+    assert error.startswith(case["begins"])
+
+
+def test_what_the_command_line_asks(
+    told: Callable[..., str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([str(tmp_path / "none.toml")]) == 2
+    assert capsys.readouterr().err == f"error: There is no file {tmp_path}/none.toml.\n"
+    assert main([str(tmp_path)]) == 2
+    assert capsys.readouterr().err == f"error: {tmp_path} is a folder; a study is a TOML file.\n"
+    assert main([str(tmp_path), "--workers", "0"]) == 2
+    assert capsys.readouterr().err == "error: --workers is 0; at least one is needed.\n"
+    assert main([str(tmp_path), "--run", "1"]) == 2
+    assert "is no folder of a study: there is no study.json in it." in capsys.readouterr().err

@@ -1,0 +1,106 @@
+"""A run that fails is a row with its reason, whatever it does to its process."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from hosts.aliases import Aliases
+from hosts.manoeuvre import Manoeuvre
+from hosts.study.campaign import run_study
+from hosts.study.one_run import Bench
+from hosts.study.store import read_study
+from hosts.study.work import Job, Work
+
+TESTS = Path(__file__).parents[2]
+BAD = """
+import os
+import signal
+import time
+
+def value(result, parameters):
+    k = parameters["spring.stiffness"]
+    if k == 52.0:
+        raise ArithmeticError("not this one")
+    if k == 53.0:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if k == 54.0:
+        time.sleep(1000.0)
+    if k == 55.0:
+        os._exit(3)
+    return float("nan") if k == 56.0 else k
+
+value.units = "N/m"
+"""
+TABLE = "spring.stiffness\n" + "".join(f"{k}\n" for k in range(50, 60))
+
+
+def table_study(study_file: Callable[..., Path], folder: Path) -> Path:
+    (folder / "table.csv").write_text(TABLE)
+    (folder / "bad.py").write_text(BAD)
+    return study_file(
+        ('method = "sobol"\nruns = 16\nseed = 7', 'method = "table"\nfile = "table.csv"'),
+        ('"spring.stiffness" = { range = [50.0, 80.0] }\n', ""),
+        ('"spring.free_length" = { range = [0.5, 0.8] }\n', ""),
+        ('"max(bob.y)"', '"max(bob.y)"\nown = "bad.py:value"'),
+        ("step = 0.01", "step = 0.01\ntime_limit = 2.0"),
+    )
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_runs_that_raise_crash_or_hang_are_rows(study_file: Callable[..., Path], tmp_path: Path) -> None:
+    file = table_study(study_file, tmp_path)
+    ended = run_study(file, tmp_path / "out", None, 2)
+    assert ended is not None
+    assert (ended.complete, ended.failed) == (True, 3)
+    table = read_study(ended.folder)
+    good = [0, 1, 7, 8, 9]
+    assert (
+        table.loc[good, "own"].tolist()
+        == table.loc[good, "spring.stiffness"].tolist()
+        == [50.0, 51.0, 57.0, 58.0, 59.0]
+    )
+    assert (table.loc[good, "status"] == "done").all()
+    assert table.loc[[2, 6], "status"].tolist() == ["incomplete", "incomplete"]
+    assert "not this one" in table.loc[2, "reason"]
+    assert math.isfinite(table.loc[2, "highest"])
+    failed = table.loc[[3, 4, 5]]
+    assert (failed["status"] == "failed").all()
+    assert failed["highest"].isna().all()
+    assert failed["reason"].tolist() == [
+        "The run ended its process by the signal SIGKILL.",
+        "The run took more than 2 s (time_limit).",
+        "The run ended its process with exit code 3.",
+    ]
+
+
+def test_a_refused_step_is_a_reason(tmp_path: Path) -> None:
+    name, system = load_scene(f"{TESTS / 'fmu' / 'scenes.py'}:reach")
+    fmu = build_fmu(system, name, tmp_path, [fmpy.platform])
+    manoeuvre = Manoeuvre("pull", np.array([0.0, 1.0]), {"pull": np.array([0.0, 10.0])}, 1.0)
+    job = Job("pull", manoeuvre, step=0.01, every=10, samples=11)
+    work = Work(fmu.name, "", "", "", (job,), (), (), (), ("bob.x",), Aliases(), reuse=True)
+    bench = Bench(work, fmu)
+    outcome = bench.run(job, {}, 0)
+    assert outcome.status == "failed"
+    assert outcome.reason.startswith(f"The FMU refused the step at {outcome.simulated:g} s: ")
+    assert 0.0 < outcome.simulated < 1.0
+    assert outcome.signals is not None
+    there = int(outcome.simulated / 0.1 + 1e-6) + 1
+    assert np.isfinite(outcome.signals[:there]).all()
+    assert np.isnan(outcome.signals[there:]).all()
+    # the next run is not harmed by it
+    still = replace(job, manoeuvre=replace(manoeuvre, inputs={"pull": np.zeros(2)}))
+    assert bench.run(still, {}, 0).status == "done"
+    bench.close()
+    assert bench.run(job, {"none": 1.0}, 0).reason.startswith("The FMU has no parameter or input 'none'")
+    bench.close()

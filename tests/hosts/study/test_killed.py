@@ -1,0 +1,187 @@
+"""The command, the scheduler and workers are killed in the middle: no row is lost, none is made twice."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import psutil
+import pyarrow.parquet as pq
+import pytest
+from distributed import Client
+
+from hosts.study.parts import part_files
+from hosts.study.store import read_study
+
+ROOT = Path(__file__).parents[3]
+RUNS = 60
+SLOW = """
+import time
+
+def value(result, parameters):
+    time.sleep(0.1)
+    return float(parameters["spring.stiffness"])
+
+value.units = "N/m"
+"""
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
+
+
+@pytest.fixture
+def slow_study(study_file: Callable[..., Path], tmp_path: Path) -> Path:
+    """A study whose runs take a tenth of a second each."""
+    (tmp_path / "slow.py").write_text(SLOW)
+    runs = ("runs = 16", f"runs = {RUNS}"), ('"sobol"', '"latin_hypercube"')
+    return study_file(*runs, ('"max(bob.y)"', '"max(bob.y)"\nslow = "slow.py:value"'))
+
+
+def command(*arguments: object) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-m", "hosts.study", *map(str, arguments), "--no-report"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=ROOT,
+        start_new_session=True,
+    )
+
+
+def wait_for_part(folder: Path, process: subprocess.Popen[str], parts: int) -> None:
+    end = time.monotonic() + 90.0
+    while len(part_files(folder)) < parts:
+        assert process.poll() is None, process.communicate()
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def rows(folder: Path) -> dict[int, tuple[object, ...]]:
+    """All rows as they are on the disk; fails if a run is there twice."""
+    found: dict[int, tuple[object, ...]] = {}
+    for file in part_files(folder):
+        for row in pq.ParquetFile(file).read().to_pylist():
+            assert row["index"] not in found
+            found[row["index"]] = tuple(row.values())
+    return found
+
+
+def check_complete(folder: Path) -> None:
+    assert sorted(rows(folder)) == list(range(RUNS))
+    table = read_study(folder)
+    assert (table["status"] == "done").all()
+    assert np.array_equal(table["slow"], table["spring.stiffness"])
+
+
+@pytest.mark.slow
+def test_the_command_is_killed(slow_study: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    before: dict[int, tuple[object, ...]] = {}
+    for part in (1, 2):
+        process = command(slow_study, "--out", out, "--workers", 2)
+        wait_for_part(out, process, part)
+        children = psutil.Process(process.pid).children(recursive=True)
+        process.send_signal(signal.SIGKILL)
+        process.communicate()
+        now = rows(out)
+        assert len(before) < len(now) < RUNS
+        assert {index: now[index] for index in before} == before
+        before = now
+        assert psutil.wait_procs(children, timeout=30.0)[1] == []  # the workers end with the command
+    process = command(slow_study, "--out", out, "--workers", 2)
+    told, error = process.communicate(timeout=120.0)
+    assert (process.returncode, error) == (0, "")
+    assert f"{len(before)} of {RUNS} runs are there" in told
+    now = rows(out)
+    assert {index: now[index] for index in before} == before
+    check_complete(out)
+
+
+def test_a_worker_is_killed(slow_study: Path, tmp_path: Path, scheduler: str) -> None:
+    out = tmp_path / "out"
+    process = command(slow_study, "--out", out, "--scheduler", scheduler)
+    wait_for_part(out, process, 1)
+    with Client(scheduler, set_as_default=False) as client:
+        os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
+    _, error = process.communicate(timeout=120.0)
+    assert (process.returncode, error) == (0, "")
+    check_complete(out)
+
+
+@contextmanager
+def own_scheduler(folder: Path) -> Iterator[tuple[str, subprocess.Popen[str]]]:
+    """A scheduler and a worker, each a program of its own."""
+    file = folder / "scheduler.json"
+    file.unlink(missing_ok=True)
+    start = "import sys; from distributed.cli.{0} import main; sys.argv[0] = '{0}'; main()"
+    local = ("--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0")
+    one = ("--nthreads", "1", "--death-timeout", "30", "--local-directory", str(folder))
+    scheduler = subprocess.Popen(
+        [sys.executable, "-c", start.format("dask_scheduler"), *local, "--port", "0", "--scheduler-file", str(file)],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+    worker = subprocess.Popen(
+        [sys.executable, "-c", start.format("dask_worker"), *local, "--scheduler-file", str(file), *one],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        cwd=ROOT,
+    )
+    try:
+        end = time.monotonic() + 60.0
+        while not file.is_file():
+            assert time.monotonic() < end
+            time.sleep(0.05)
+        with Client(scheduler_file=str(file), set_as_default=False, timeout=30) as client:
+            client.wait_for_workers(1, timeout=60)
+            address = client.scheduler.address
+        yield address, scheduler
+    finally:
+        for process in (worker, scheduler):
+            for child in psutil.Process(process.pid).children(recursive=True) if process.poll() is None else []:
+                child.kill()
+            process.kill()
+            process.wait()
+
+
+@pytest.mark.slow
+def test_the_scheduler_is_killed(slow_study: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    with own_scheduler(tmp_path) as (address, scheduler):
+        process = command(slow_study, "--out", out, "--scheduler", address)
+        wait_for_part(out, process, 1)
+        scheduler.send_signal(signal.SIGKILL)
+        _, error = process.communicate(timeout=120.0)
+    assert process.returncode == 1
+    before = rows(out)
+    assert 0 < len(before) < RUNS
+    assert error.splitlines()[-1] == (
+        f"The scheduler at {address} has gone. {len(before)} of {RUNS} runs are written and stay; the same command "
+        "makes the others."
+    )
+    with own_scheduler(tmp_path) as (address, _):
+        process = command(slow_study, "--out", out, "--scheduler", address)
+        _, error = process.communicate(timeout=120.0)
+    assert (process.returncode, error) == (0, "")
+    now = rows(out)
+    assert {index: now[index] for index in before} == before
+    check_complete(out)
+
+
+@pytest.mark.slow
+def test_ctrl_c_keeps_what_has_come(slow_study: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    process = command(slow_study, "--out", out, "--workers", 2)
+    wait_for_part(out, process, 1)
+    threading.Timer(0.5, lambda: process.send_signal(signal.SIGINT)).start()
+    _, error = process.communicate(timeout=60.0)
+    assert process.returncode == 130
+    assert error.strip().splitlines()[-1] == "stopped by Ctrl-C"
+    assert 0 < len(rows(out)) < RUNS

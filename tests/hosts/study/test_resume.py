@@ -1,0 +1,176 @@
+"""A study that is started again: what is done stays, and only the same study goes on."""
+
+from __future__ import annotations
+
+import shlex
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+import pyarrow.parquet as pq
+import pytest
+from fmpy.util import read_csv
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from hosts.drive import main as drive
+from hosts.errors import HostError
+from hosts.study.campaign import run_study
+from hosts.study.command import main
+from hosts.study.folder import locked
+from hosts.study.repeat import repeat_command
+from hosts.study.store import read_study
+
+TESTS = Path(__file__).parents[2]
+ROOT = TESTS.parent
+
+
+@pytest.fixture(scope="module")
+def finished(spring: Path, scheduler: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a study of its own FMU, that is done."""
+    folder = tmp_path_factory.mktemp("finished")
+    fmu = shutil.copy(spring, folder / "Tuned.fmu")
+    text = (Path(__file__).parent / "study.txt").read_text(encoding="utf-8").format(fmu=fmu)
+    (folder / "study.toml").write_text(text)
+    assert run_study(folder / "study.toml", folder / "out", scheduler, None) is not None
+    return folder
+
+
+@pytest.fixture
+def half(finished: Path, tmp_path: Path) -> Path:
+    """A copy of it, whose only part has gone."""
+    shutil.copytree(finished, tmp_path, dirs_exist_ok=True)
+    text = (tmp_path / "study.toml").read_text().replace(str(finished), str(tmp_path))
+    (tmp_path / "study.toml").write_text(text)
+    (tmp_path / "out" / "runs" / "part-000001.parquet").unlink()
+    return tmp_path
+
+
+def refused(folder: Path) -> str:
+    with pytest.raises(HostError) as caught:
+        run_study(folder / "study.toml", folder / "out", "tcp://127.0.0.1:9", None)
+    return str(caught.value).replace(f"{folder}/", "")
+
+
+def test_another_fmu_is_refused_by_its_guid(half: Path) -> None:
+    scene = (TESTS / "hosts" / "scenes.py").read_text().replace("mass=2.0", "mass=2.5")
+    (half / "heavier.py").write_text(scene)
+    name, system = load_scene(f"{half / 'heavier.py'}:tuned")
+    before = read_study(half / "out").attrs["guid"]
+    build_fmu(system, name, half, [fmpy.platform])
+    now = fmpy.read_model_description(str(half / "Tuned.fmu")).guid
+    assert refused(half) == (
+        f'out holds another study, whose rows stay as they are: the GUID of the FMU was "{before}" and is "{now}". '
+        "Put it back as it was, or give another --out."
+    )
+
+
+def test_an_fmu_of_the_same_guid_and_other_content_is_refused(half: Path) -> None:
+    with zipfile.ZipFile(half / "Tuned.fmu", "a") as archive:
+        archive.writestr("documentation/more.txt", "more")
+    assert "rows stay as they are: the content of the FMU changed. Put it back" in refused(half)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("50.0, 80.0", "50.0, 81.0", "parameters.'spring.stiffness'.high was 80.0 and is 81.0."),
+        ("seed = 7", "seed = 8", "seed was 7 and is 8; sampling.seed was 7 and is 8."),
+        ("stop_time = 2.0", "stop_time = 2.1", "manoeuvres[1].stop_time was 2.0 and is 2.1."),
+        ("max(bob.y)", "mean(bob.y)", "the measures 'highest' changed."),
+        ("runs = 16", "runs = 32", "sampling.runs was 16 and is 32."),
+    ],
+)
+def test_a_changed_study_is_refused(half: Path, old: str, new: str, words: str) -> None:
+    text = (half / "study.toml").read_text()
+    (half / "study.toml").write_text(text.replace(old, new))
+    assert f"rows stay as they are: {words} Put it back" in refused(half)
+
+
+def test_only_what_is_missing_is_made(
+    finished: Path, half: Path, scheduler: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = read_study(finished / "out")
+    runs = half / "out" / "runs"
+    again = [str(half / "study.toml"), "--out", str(half / "out"), "--no-report", "--scheduler"]
+    shutil.copy(finished / "out" / "runs" / "part-000001.parquet", runs)
+    assert main([*again, "tcp://127.0.0.1:9"]) == 0  # where nobody answers: nobody is asked
+    assert "16 of 16 runs are there" in capsys.readouterr().out
+    table = pq.ParquetFile(runs / "part-000001.parquet").read()
+    pq.write_table(table.slice(3, 9), runs / "part-000001.parquet")
+    assert main([*again, scheduler]) == 0
+    told = capsys.readouterr().out
+    assert f"{min(9, len(table) - 3)} of 16 runs are there" in told
+    now = read_study(half / "out")
+    assert now.drop(columns="wall_seconds").equals(before.drop(columns="wall_seconds"))
+    (half / "out" / "study.json").unlink()
+    assert refused(half) == "out has rows of a study but not its study.json; give another --out."
+
+
+def test_two_programs_do_not_write_to_one_folder(half: Path) -> None:
+    with locked(half / "out"):
+        assert refused(half) == (
+            f"Another program runs a study in {half / 'out'}; wait for it, or give another --out."
+        ).replace(f"{half}/", "")
+
+
+def test_no_scheduler_is_one_sentence(half: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hosts.study.cluster._PATIENCE", 0.5)
+    assert refused(half).startswith("No scheduler of Dask answers at tcp://127.0.0.1:9: ")
+
+
+def test_a_damaged_part_is_named(half: Path) -> None:
+    (half / "out" / "runs" / "part-000007.parquet").write_bytes(b"PAR1 no PAR1")
+    assert refused(half).startswith("out/runs/part-000007.parquet is damaged (")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")
+def test_a_full_disk_keeps_what_is_written(finished: Path, half: Path, scheduler: str) -> None:
+    shutil.copy(finished / "out" / "runs" / "part-000001.parquet", half / "part")
+    (half / "study.toml").write_text((half / "study.toml").read_text().replace("runs = 16", "runs = 32"))
+    start = """
+import resource, signal, sys
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+from hosts.study import campaign, execution
+from hosts.study.parts import PartWriter
+written = PartWriter.flush
+def flush(self):
+    rows = len(self)
+    written(self)
+    if rows:  # full from now on
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2000, resource.RLIM_INFINITY))
+PartWriter.flush = flush
+execution._FLUSH = (0.0, 0.0)
+from hosts.study.command import main
+sys.exit(main())
+"""
+    new = half / "new"
+    command = [sys.executable, "-c", start, half / "study.toml", "--out", new, "--scheduler", scheduler]
+    done = subprocess.run(map(str, command), capture_output=True, text=True, check=False, cwd=ROOT)
+    assert done.returncode == 2, done.stderr
+    table = read_study(new)
+    assert 0 < len(table) < 32
+    assert done.stderr.splitlines()[-1] == (
+        f"error: {new}/runs/part-000002.parquet cannot be written: file too large. {len(table)} of 32 runs are written "
+        "and stay; the same command makes the others."
+    )
+    assert [file.name for file in (new / "runs").iterdir()] == ["part-000001.parquet"]
+    ended = run_study(half / "study.toml", new, scheduler, None)
+    assert ended is not None
+    assert len(read_study(new)) == 32
+    assert read_study(new).loc[table.index].equals(table)
+
+
+def test_a_run_is_repeated_as_a_drive(finished: Path) -> None:
+    out = finished / "out"
+    lines = repeat_command(out, 11)
+    words = shlex.split(lines.drive)
+    assert drive(words[words.index("drive") + 1 :]) == 0
+    table = read_csv(out / "repeat" / "tuned_run-11.csv")
+    assert max(table["bob.y"]) == read_study(out).loc[11, "highest"]
+    assert " view " in lines.view
+    with pytest.raises(HostError, match="There is no run 16; the study in .* has the runs 0 to 15."):
+        repeat_command(out, 16)

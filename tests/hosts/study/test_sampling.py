@@ -1,0 +1,58 @@
+"""Points: against SALib, in blocks as in one piece, and what each method promises."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from SALib.sample import sobol
+
+from hosts.study.sampling import Grid, LatinHypercube, Saltelli, Sampler, SobolSequence
+
+
+def in_blocks(sampler: Sampler, size: int) -> np.ndarray:
+    blocks = [sampler.block(k, min(size, sampler.count - k)) for k in range(0, sampler.count, size)]
+    return np.vstack(blocks)
+
+
+@pytest.mark.parametrize("second_order", [False, True])
+def test_points_for_sobol_indices_are_those_of_salib(second_order: bool) -> None:
+    problem = {"num_vars": 3, "names": ["a", "b", "c"], "bounds": [[0.0, 1.0]] * 3}
+    theirs = sobol.sample(problem, 16, calc_second_order=second_order, seed=5)
+    assert np.array_equal(in_blocks(Saltelli(3, 16, 5, second_order), 7), theirs)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: LatinHypercube(3, 50, 2),
+        lambda: SobolSequence(3, 50, 2),
+        lambda: Saltelli(2, 9, 2, True),
+        lambda: Grid((3, 4, 2)),
+    ],
+)
+def test_blocks_are_pieces_of_the_whole(make) -> None:
+    whole = make().block(0, make().count)
+    assert np.array_equal(in_blocks(make(), 4), whole)
+    sampler = make()
+    sampler.block(10, 5)
+    assert np.array_equal(sampler.block(3, 6), whole[3:9])  # back, as after a study was stopped
+
+
+def test_a_latin_hypercube_has_one_point_in_each_slice() -> None:
+    points = LatinHypercube(4, 30, 1).block(0, 30)
+    assert np.array_equal(np.sort(np.floor(30 * points), axis=0), np.tile(np.arange(30.0)[:, None], 4))
+
+
+def test_sobol_points_are_balanced_at_a_power_of_two() -> None:
+    points = SobolSequence(2, 64, 1).block(0, 64)
+    counts = np.histogram2d(points[:, 0], points[:, 1], bins=8, range=[[0, 1], [0, 1]])[0]
+    assert (counts == 1).all()
+    assert not np.array_equal(points, SobolSequence(2, 64, 2).block(0, 64))
+
+
+def test_a_grid_has_all_combinations_once_the_last_fastest() -> None:
+    grid = Grid((2, 3))
+    places = np.floor(grid.block(0, 6) * [2, 3]).astype(int)
+    assert [tuple(place) for place in places] == list(itertools.product(range(2), range(3)))

@@ -1,0 +1,62 @@
+"""FMUs of cars are built once for each content."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from hosts import built_fmu
+from hosts.errors import HostError
+
+# Stands in for the builder, which needs half a minute: an FMU with the text of the car file.
+BUILD = """
+import pathlib, sys
+car, out = sys.argv[sys.argv.index("--car") + 1], pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
+text = (pathlib.Path(car) / "car.toml").read_text()
+if "wrong" in text:
+    sys.exit("error: The car is wrong.")
+out.mkdir()
+(out / "Car.fmu").write_text(text)
+"""
+
+
+@pytest.fixture
+def car(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(built_fmu, "module_command", lambda *words: [sys.executable, "-c", BUILD, *words])
+    folder = tmp_path / "car"
+    folder.mkdir()
+    (tmp_path / "frame.op4").write_text("frame")
+    (folder / "car.toml").write_text('name = "a"\nframe = "../frame.op4"\n')
+    (folder / "tubes.csv").write_text("1\n")
+    return folder
+
+
+def test_a_car_is_built_once_for_each_content(car: Path, tmp_path: Path) -> None:
+    told: list[str] = []
+    first = built_fmu.fmu_of_car(str(car), told.append)
+    assert first.read_text() == (car / "car.toml").read_text()
+    assert built_fmu.fmu_of_car(str(car), told.append) == first
+    assert len(told) == 1
+    shutil.copytree(car, tmp_path / "elsewhere")
+    assert built_fmu.fmu_of_car(str(tmp_path / "elsewhere"), told.append) == first
+    for file in (car / "car.toml", car / "tubes.csv", tmp_path / "frame.op4"):
+        file.write_text(file.read_text() + "\n")
+        assert built_fmu.fmu_of_car(str(car), told.append) != first
+    assert len(told) == 4
+    assert [f.name for f in first.parent.parent.iterdir() if f.name.startswith(".")] == []
+
+
+def test_another_program_builds_again(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = built_fmu.fmu_of_car(str(car), print)
+    monkeypatch.setattr(built_fmu, "program_version", lambda: "other")
+    assert built_fmu.fmu_of_car(str(car), print) != first
+
+
+def test_the_words_of_a_build_that_fails(car: Path) -> None:
+    (car / "car.toml").write_text("wrong")
+    with pytest.raises(HostError, match=r"The FMU of the car .* cannot be built: The car is wrong\."):
+        built_fmu.fmu_of_car(str(car), print)
