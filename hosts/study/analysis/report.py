@@ -41,7 +41,7 @@ def write_report(folder: Path) -> list[Path]:
     Returns
     -------
     list of Path
-        What was written, the report first.
+        The report, and the folder with its pictures and the table of effects.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     file, rows = folder / "report.html", folder / "analysis" / "effects.csv"
     write_text(file, document(f"Study {data.about['study']}", body))
     _write_numbers(rows, numbers)
-    return [file, rows, *pictures.files]
+    return [file, rows.parent]
 
 
 def _write_numbers(file: Path, rows: Sequence[dict[str, object]]) -> None:
