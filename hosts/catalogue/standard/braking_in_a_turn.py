@@ -18,8 +18,8 @@ from hosts.pilots.circle_follower import CircleFollower
 from hosts.pilots.fixed_steering import FixedSteering
 
 STEP = 0.005  # s; the yaw acceleration is a difference over some of them
-ON_CIRCLE = 8.0  # s, after which the steering is fixed
-HORIZON = 2.0  # s; shorter, light cars sway along the circle
+ON_CIRCLE = 12.0  # s, after which the steering is fixed
+HORIZON = 1.5  # s; shorter, light cars sway along the circle
 LONGEST_RUN_UP = 60.0  # s, for a car that cannot be started at speed
 ISO_7975 = Standard(
     "ISO 7975:2019",
@@ -115,7 +115,7 @@ def _unsteady(made: Stop, settings: Mapping[str, float]) -> tuple[str, ...]:
     notes: tuple[str, ...] = ()
     radius, speed = made.circle[2], made.before("speed")
     wanted, ay = settings["lateral_acceleration"], speed**2 / radius
-    if abs(ay - wanted) > 0.05 * wanted or abs(radius - abs(settings["radius"])) > 0.05 * abs(settings["radius"]):
+    if abs(ay - wanted) > 0.04 * wanted or abs(radius - abs(settings["radius"])) > 0.02 * abs(settings["radius"]):
         notes += (
             f"The undisturbed circle has {radius:.4g} m and {ay:.3g} m/s2 where {abs(settings['radius']):g} m and "
             f"{wanted:g} m/s2 were asked for.",

@@ -53,6 +53,7 @@ class _Layout:
 _LAYOUTS = (_Layout("iso_3888_1", "iso_3888_1", math.inf), _Layout("iso_3888_2", "iso_3888_2", RELEASED_AFTER))
 
 DRIVERS: dict[str, tuple[float, float, float]] = {
+    "least curvature, close": (0.2, 0.3, 0.3),
     "least curvature, early": (0.4, 0.5, 0.3),
     "least curvature, late": (0.3, 0.5, 0.5),
     "centre line": (0.25, 0.0, 0.0),
@@ -137,7 +138,7 @@ def limit(
             failed = passage
     if passed is None:
         why = failed.why
-        return None, failed, (f"{layout.name}: already at {speed:g} km/h {why}; take a lower lowest.",)
+        return None, failed, (f"{layout.name}: already at {speed:g} km/h {why}; take a lower lowest, if slower helps.",)
     while failed.wanted - passed.wanted > settings["resolution"] * (1.0 + 1e-9):
         passage = tries(car, layout, 0.5 * (passed.wanted + failed.wanted), passed)
         tried += 1

@@ -18,7 +18,7 @@ from hosts.co_simulation import Result
 from hosts.course import Course, Gate
 from hosts.errors import HostError
 
-OBSTACLE = {"course": 2.0, "lowest": 60.0, "highest": 80.0, "increment": 10.0, "resolution": 2.5}
+OBSTACLE = {"course": 2.0, "lowest": 60.0, "highest": 80.0, "increment": 10.0, "resolution": 5.0}
 LANE = Course("lane", (Gate(10.0, 30.0, -1.5, 1.5),))
 
 
@@ -109,7 +109,7 @@ def driven(prototype: TestedCar) -> TestRecord:
 def test_prototype_has_a_limit_on_the_obstacle_course(driven: TestRecord) -> None:
     measured = values(driven)
     assert 60.0 <= measured["iso_3888_2.speed"] < 75.0
-    assert measured["iso_3888_2.speed_hit"] - measured["iso_3888_2.speed"] <= 2.5
+    assert measured["iso_3888_2.speed_hit"] - measured["iso_3888_2.speed"] <= 5.0
     assert 0.0 < measured["iso_3888_2.clearance"] < 0.2
     # the car rolls: it comes out slower than it went in
     assert measured["iso_3888_2.exit_speed"] < measured["iso_3888_2.entry_speed"] - 3.0
@@ -123,7 +123,9 @@ def test_prototype_has_a_limit_on_the_obstacle_course(driven: TestRecord) -> Non
 
 def test_clearance_does_not_depend_on_the_step(prototype: TestedCar) -> None:
     least = [
-        double_lane_change.drive(replace(prototype, step=step), _LAYOUTS[1], 55.0, list(DRIVERS)[1]).least_clearance
+        double_lane_change.drive(
+            replace(prototype, step=step), _LAYOUTS[1], 55.0, "least curvature, late"
+        ).least_clearance
         for step in (0.001, 0.005)
     ]
     assert least[0] > 0.0
@@ -134,7 +136,7 @@ def test_what_a_car_lacks_and_wrong_settings_are_told(prototype: TestedCar) -> N
     bare = replace(prototype)
     constants = {n: x for n, x in prototype.facts.constants.items() if n != "vehicle.width"}
     bare.__dict__["facts"] = replace(prototype.facts, constants=constants)
-    assert "vehicle.width" in str(missing_for(double_lane_change.TEST, bare))
+    assert "vehicle.width" in str(missing_for(double_lane_change.TEST, bare, {}))
     with pytest.raises(HostError, match="course is 1.5"):
         perform(double_lane_change.TEST, prototype, {"course": 1.5})
     with pytest.raises(HostError, match="lowest speed is 90"):
