@@ -74,7 +74,8 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     fine = _fine(pairs, coarse, drift)
     note = f"a delay of {other:.3g} s fits nearly as well" if other is not None else ""
     if abs(fine.delay) > longest:
-        note = f"it lies at the limit of {longest:g} s that was looked for"
+        words = f"no delay up to {longest:g} s, which was looked for (--longest-delay), fits best"
+        return Alignment(*4 * (math.nan,), fine.correlation, words)
     return Alignment(fine.delay, fine.delay_error, fine.drift, fine.drift_error, fine.correlation, note)
 
 

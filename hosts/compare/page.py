@@ -75,7 +75,7 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
             last = runs[-1][0]
             over.set_title(f"{name}{unit}")
             rest.set_title(
-                f"simulated minus measured: rms {last.deviations.rms:.3g}{unit}, rating {last.rating.overall:.2f}"
+                f"simulated − measured: rms {last.deviations.rms:.3g}{unit.replace(',', '')}; rating {last.rating.overall:.2f}"
             )
             rest.axhline(0.0, color="#444444", linewidth=0.8)
             over.margins(x=0)

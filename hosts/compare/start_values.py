@@ -15,6 +15,7 @@ from hosts.fmu import Fmu
 from hosts.numbers import Value
 
 _AVERAGED = 0.1  # s at the begin of a log
+_WHERE = " (where the reference point is to be)"
 _MOVES, _TURNS = 0.5, 0.02  # m/s, rad/s
 
 
@@ -50,7 +51,8 @@ def measured_start(
         if value is not None and f"initial.{axis}" in fmu.variables and f"initial.{axis}" not in given:
             start[f"initial.{axis}"] = value
     if start:
-        notes.append(f"The start is as measured: {', '.join(f'{n} = {v:.4g}' for n, v in start.items())}.")
+        words = ", ".join(f"{n} = {v:.4g}" for n, v in start.items())
+        notes.append(f"The start is as measured: {words}{_WHERE if 'initial.x' in start else ''}.")
     if speed is not None and abs(speed) > _MOVES and "initial.speed" not in (start | dict(given)):
         notes.append(
             f"The log begins at {speed:.3g} m/s; the FMU has no parameter initial.speed, so that it starts as it does "
@@ -108,7 +110,8 @@ def at_start(signal: Signal) -> float:
     """Value at time 0: of a line through the first samples, which noise moves little."""
     few = signal.time <= max(_AVERAGED, signal.time[0] + 4.5 * signal.interval)
     slope, value = np.polyfit(signal.time[few], signal.values[few], 1)
-    return float(value) if math.isfinite(slope) else float(signal.values[0])
+    value = value if math.isfinite(slope) else signal.values[0]
+    return 0.0 if abs(value) < 1e-9 else float(value)  # rounding errors of the line
 
 
 def _of(signals: Mapping[str, Signal], name: str) -> float | None:

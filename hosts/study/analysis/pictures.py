@@ -23,16 +23,10 @@ class Pictures:
     Parameters
     ----------
     folder : Path
-
-    Attributes
-    ----------
-    files : list of Path
-        Written so far.
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.files: list[Path] = []
 
     def add(self, figure: Figure, name: str, what: str) -> HtmlElement:
         """Write a figure, and give its place in the page."""
@@ -41,5 +35,4 @@ class Pictures:
         with Image.open(file) as drawn, whole_file(file) as made:
             # A palette: lines in many colours take a third of the bytes, and look the same.
             drawn.convert("RGB").quantize(256, Image.Quantize.FASTOCTREE).save(made, optimize=True)
-        self.files.append(file)
         return picture(file.read_bytes(), what)

@@ -41,20 +41,22 @@ def write_report(folder: Path) -> list[Path]:
     Returns
     -------
     list of Path
-        What was written, the report first.
+        The report, and the folder with its pictures and the table of effects.
 
     Raises
     ------
     HostError
         There is no study, or no run in it yet.
     """
-    from hosts.study.repeat import repeat_command
+    from hosts.study.repeat import repeater
     from hosts.study.store import read_study
+
+    # Whole paths: the report is read from any folder.
+    repeated = repeater(folder.absolute())
 
     @cache
     def commands(index: int) -> list[str]:
-        # Whole paths: the report is read from any folder.
-        repeat = repeat_command(folder.absolute(), index, write=True)
+        repeat = repeated(index, True)
         return [line for line in (repeat.drive, repeat.view) if line]
 
     return report_of(read_study(folder), folder, commands)
@@ -81,7 +83,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     file, rows = folder / "report.html", folder / "analysis" / "effects.csv"
     write_text(file, document(f"Study {data.about['study']}", body))
     _write_numbers(rows, numbers)
-    return [file, rows, *pictures.files]
+    return [file, rows.parent]
 
 
 def _write_numbers(file: Path, rows: Sequence[dict[str, object]]) -> None:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from hosts.catalogue.dwell_series import amplitudes, table
+from hosts.catalogue.dwell_series import amplitudes, processed, table
 from hosts.catalogue.perform import perform
 from hosts.catalogue.registry import standard_test
+from hosts.catalogue.steered_run import Pedals, steer
 from hosts.errors import HostError
 from hosts.measures.slowly_increasing_steer import G
 from tests.hosts.catalogue.bicycle import BicycleCar, bicycle, gains
@@ -119,3 +121,14 @@ def test_a_car_that_takes_no_angle_is_refused() -> None:
 def test_a_series_without_end_is_refused() -> None:
     with pytest.raises(HostError, match=r"A is 2\d\.\d°.* has 9\d runs to each side, where 80 are the most"):
         perform(standard_test("sine_with_dwell"), BicycleCar(), {"increment": 0.1})
+
+
+def test_signals_are_filtered_at_their_frequencies_and_zero_before_the_steering() -> None:
+    run = steer(BicycleCar(), "sine", SPEED, *table(0.5), Pedals.COAST)
+    six, ten = (np.sin(2 * np.pi * f * run.time) for f in (6.0, 10.0))
+    made = processed(replace(run, steering=0.3 + ten, yaw_rate=0.3 + six, acceleration=0.3 + six))
+    inner = (run.time > 0.5) & (run.time < 3.0)
+    for got, wave in ((made.steering, ten), (made.yaw_rate, six), (made.acceleration, six)):
+        # half of the amplitude at the cut-off; the mean before the steering, of no whole number of periods, is gone
+        assert got[inner] == pytest.approx(0.5 * wave[inner], abs=0.04)
+        assert got[run.time < -0.1].mean() == pytest.approx(0.0, abs=1e-12)
