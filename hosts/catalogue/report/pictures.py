@@ -22,6 +22,7 @@ from hosts.result_plots import COLOURS, STYLE
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (6, 2, 1, 2)), (0, (9, 3)), (0, (3, 1, 1, 1, 1, 1)))
 _WIDTHS = (1.5, 1.9, 2.2, 1.7, 1.3, 1.7)
 _MARKERS = ("", "o", "s", "^", "D", "v", "P")
+_SHARED = "#767676"
 _MARKS = 9
 """Markers on a line that is one of several of its car."""
 # Inches; the height is that of the axes.
@@ -67,7 +68,11 @@ def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> list[Picture]:
 
 def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> Picture:
     first = next(iter(found.values()))[1]
-    names = [_name(label, line, plot, many) for label, plot in found.values() for line in plot.lines]
+    shared = _shared([plot for _, plot in found.values()])
+    names = [
+        *shared,
+        *(_name(n, line, p, many) for n, p in found.values() for line in p.lines if line.label not in shared),
+    ]
     columns = 1 if max(map(len, names), default=0) > 30 else 2
     rows = -(-len(names) // columns) if len(names) > 1 else 0
     below = _BELOW + _LEGEND_ROW * rows
@@ -77,8 +82,11 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> P
     figure.subplots_adjust(_LEFT / _WIDTH, below / height, 1.0 - _RIGHT / _WIDTH, 1.0 - _ABOVE / height)
     axes = figure.add_subplot()
     words = []
+    for line in shared.values():
+        axes.plot(line.x, line.y, color=_SHARED, linewidth=1.2, label=line.label)
+        words.append(f"{line.label}: {_range(line, first)}")
     for k, (label, plot) in found.items():
-        for j, line in enumerate(plot.lines):
+        for j, line in enumerate(line for line in plot.lines if line.label not in shared):
             name = _name(label, line, plot, many)
             _draw(axes, line, name, *((k, j) if many else (j, 0)))
             words.append(f"{name or 'the line'}: {_range(line, plot)}")
@@ -104,6 +112,26 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> P
     figure.savefig(content, format="svg", metadata={"Date": None, "Creator": None})
     source = f"data:image/svg+xml;base64,{base64.b64encode(content.getvalue()).decode()}"
     return Picture(title, source, f"{title}: {first.y} over {first.x}. {'; '.join(words) or 'No lines'}.")
+
+
+def _shared(plots: Sequence[Plot]) -> dict[str, Line]:
+    """Lines by label that are the same for all cars, such as lanes; none where cars do all the same."""
+    if len(plots) < 2:
+        return {}
+    found = {
+        line.label: line
+        for line in plots[0].lines
+        if line.label and all(any(_same(line, other) for other in plot.lines) for plot in plots[1:])
+    }
+    return found if len(found) < len(plots[0].lines) else {}
+
+
+def _same(one: Line, other: Line) -> bool:
+    return (
+        one.label == other.label
+        and np.array_equal(one.x, other.x, equal_nan=True)
+        and np.array_equal(one.y, other.y, equal_nan=True)
+    )
 
 
 def _two_or_five(value: float, _: object) -> str:

@@ -148,7 +148,8 @@ def test_tables_have_headers_and_pictures_have_words(report):
         assert table.find("caption") is not None
         assert all(th.get("scope") for th in table.iter("th"))
     alt = document.xpath("(//section[@id='test_0']//img)[2]")[0].get("alt")
-    assert alt.startswith("Gain: gain, 1/s over frequency, Hz. as built, yaw rate: from 0.9615 at 0.2 to 0.05882 at 4,")
+    assert alt.startswith("Gain: gain, 1/s over frequency, Hz. roll: from 1 at 0.2 to 0.05 at 4,")
+    assert "as built, yaw rate: from 0.9615 at 0.2 to 0.05882 at 4," in alt
     links = {a.get("href")[1:] for a in document.xpath("//a")}
     ids = document.xpath("//@id")
     assert links <= set(ids)
@@ -183,6 +184,17 @@ def test_plots_of_several_cars_are_one_picture():
     assert "a: from" in pictures[0].words
     assert "b: from" in pictures[0].words
     assert "b" not in re.findall(r"(?:\. |; )(\w+):", pictures[2].words)
+
+
+def test_what_is_the_same_for_all_cars_is_drawn_once():
+    x = np.arange(100.0)
+    lanes = Line("lanes", x, np.where(x < 50.0, 1.0, np.nan))
+    plots = {f"car {k}": [Plot("p", "x, m", "y, m", [lanes, Line("path", x, k * x)])] for k in range(3)}
+    words = pictures_of(plots)[0].words
+    assert words.count("lanes") == 1
+    assert all(f"car {k}, path" in words for k in range(3))
+    same = {f"car {k}": [Plot("p", "x, m", "y, m", [lanes])] for k in range(2)}
+    assert "car 1" in pictures_of(same)[0].words
 
 
 def test_empty_and_broken_lines_are_drawn():
