@@ -22,10 +22,11 @@ from benchmarks.methods.pages import (
     stability_blocks,
     work_blocks,
 )
+from benchmarks.methods.study_pages import study_blocks
 from benchmarks.paper.pages import four_bar_blocks, puma_blocks
 from benchmarks.shared.pages import DOCS, machine, replace
 
-PAGES = ("speed_and_accuracy.md", "stability.md", "accuracy.md")
+PAGES = ("speed_and_accuracy.md", "stability.md", "accuracy.md", "scale.md")
 
 
 def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
@@ -35,12 +36,12 @@ def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pages", description=__doc__)
-    for name in ("work", "stability", "growth", "four-bar", "puma", "dissipative", "honesty", "control"):
+    for name in ("work", "stability", "growth", "four-bar", "puma", "dissipative", "honesty", "control", "study"):
         parser.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="FILE", help=f"JSON of {name}")
     parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages")
     o = parser.parse_args(arguments)
-    files = (o.work, o.stability, o.growth, o.four_bar, o.puma, o.dissipative, o.honesty, o.control)
-    work, stability, growth, four_bar, puma, dissipative, honesty, control = (_read(f) for f in files)
+    files = (o.work, o.stability, o.growth, o.four_bar, o.puma, o.dissipative, o.honesty, o.control, o.study)
+    work, stability, growth, four_bar, puma, dissipative, honesty, control, study = (_read(f) for f in files)
     blocks: dict[str, str] = {}
     if work:
         blocks |= work_blocks([r for f in work for r in f["rows"]]) | {"machine work": machine(work[0]["meta"])}
@@ -60,6 +61,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if honesty:
         blocks |= honesty_blocks([r for f in honesty for r in f["rows"]])
         blocks |= {"machine honesty": machine(honesty[0]["meta"])}
+    if study:
+        blocks |= study_blocks([r for f in study for r in f["rows"]]) | {"machine study": machine(study[0]["meta"])}
     for page in PAGES:
         file = o.docs / page
         write_text(file, replace(file.read_text(encoding="utf-8"), blocks))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -180,6 +181,12 @@ class _Senses(dict[str, float]):
         raise HostError(f"Who drives needs the output '{name}', which the FMU does not have.")
 
 
+def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, float]) -> str:
+    act = next(f"{n} = {x}" for n, x in acts.items() if not math.isfinite(x))
+    sense = next((f": the output {n} of the FMU is {x}" for n, x in senses.items() if not math.isfinite(x)), "")
+    return f"At {time:.4g} s who drives asks for {act}{sense}."
+
+
 def run(
     fmu: Fmu | AliasedFmu,
     manoeuvre: Manoeuvre,
@@ -224,7 +231,8 @@ def run(
     if manoeuvre.state is not None:
         fmu.restore_bytes(manoeuvre.state)
     row = get_outputs()
-    acts = driver.act(0.0, _Senses(zip(outputs, row, strict=True))) if driver is not None else {}
+    senses = _Senses(zip(outputs, row, strict=True))
+    acts = driver.act(0.0, senses) if driver is not None else {}
     missing = [n for n in acts if n not in inputs]
     if missing:
         raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
@@ -244,7 +252,10 @@ def run(
         t = k * step
         wanted = manoeuvre.at(t, whole)
         if driver is not None:
-            wanted |= acts if k == 0 else driver.act(t, _Senses(zip(outputs, row, strict=True)))
+            acts = acts if k == 0 else driver.act(t, senses)
+            if not all(map(math.isfinite, acts.values())):
+                raise HostError(_not_finite(t, acts, senses))
+            wanted |= acts
         now = [wanted[n] for n in used]
         if used:
             set_inputs(now)
@@ -261,7 +272,9 @@ def run(
             values[done // every, len(inputs) :] = row
         if done % 50 == 0:
             progress(done)
-        if until is not None and until(done * step, _Senses(zip(outputs, row, strict=True))):
+        if driver is not None or until is not None:
+            senses = _Senses(zip(outputs, row, strict=True))
+        if until is not None and until(done * step, senses):
             break
     wall = clock.perf_counter() - begin
     progress(done)

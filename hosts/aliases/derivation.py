@@ -57,7 +57,7 @@ class Derivation:
         columns: list[NDArray[np.float64]] = list(np.asarray(values, np.float64).T)
         for derived, arguments in zip(self._derived, self._arguments, strict=True):
             made = derived.how.compute(t, *(columns[a] if isinstance(a, int) else a for a in arguments))
-            columns.append(np.broadcast_to(made, t.shape))
+            columns.append(made if made.shape == t.shape else np.broadcast_to(made, t.shape))
         return np.array(columns[self._width :]).reshape(len(self.names), len(t)).T
 
     def live(self, time: float, values: ArrayLike) -> NDArray[np.float64]:

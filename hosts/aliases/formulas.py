@@ -124,7 +124,8 @@ def _angular_velocity(axis: int) -> Callable[..., Array]:
 
 def _rate(time: Array, x: Array) -> Array:
     """Rate of change by differences of second order; NaN where there is one row only."""
-    x = np.broadcast_to(x, time.shape)
+    if np.shape(x) != time.shape:
+        x = np.broadcast_to(x, time.shape)
     if len(time) < 2:
         return np.full(time.shape, np.nan)
     return np.asarray(np.gradient(x, time, edge_order=2 if len(time) > 2 else 1))

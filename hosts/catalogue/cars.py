@@ -15,6 +15,8 @@ from hosts.settings import settings_of
 
 AS_IS = "as-is"
 """In place of a parameter set: the FMU as it is."""
+NO_ALIASES = "none"
+"""In place of an alias file: the FMU has our names."""
 _OF_THE_TESTS = ("initial.speed", "initial.x", "initial.y", "initial.z", "initial.yaw")
 
 
@@ -31,7 +33,8 @@ def cars_of(
     ----------
     fmus : sequence of Path
     alias_files : sequence of Path
-        None, one for all FMUs, or one for each; or names of those that come with the package, such as ``chrono``.
+        None, one for all FMUs, or one for each; or names of those that come with the package, such as ``chrono``;
+        `NO_ALIASES` is none.
     sets : sequence of Path
         SSV files; `AS_IS` is none. None at all: the FMUs as they are.
     values : sequence of (str, str)
@@ -63,7 +66,8 @@ def _cars_of_one(
 ) -> list[TestedCar]:
     cars = []
     with Fmu(path) as fmu:
-        aliases = Aliases() if alias_file is None else find_aliases(alias_file, fmu.table)
+        file = None if alias_file is None or str(alias_file) == NO_ALIASES else alias_file
+        aliases = Aliases() if file is None else find_aliases(file, fmu.table)
         for one in sets:
             wishes = Wishes([] if str(one) == AS_IS else [one], list(values))
             start = settings_of(fmu.table, wishes).start

@@ -33,7 +33,7 @@ _APPROACH = 60.0
 
 @dataclass(frozen=True)
 class CircleRun:
-    """What a run yields, from where the car runs steadily on.
+    """What a run yields, from where the car runs steadily to its largest lateral acceleration.
 
     Parameters
     ----------
@@ -186,25 +186,24 @@ class _Wheel:
 
 
 def _signals(result: Result, watch: _Watch, steering: SteeringInput, step: float) -> CircleRun:
-    rows = result.time >= (watch.begin if math.isfinite(watch.begin) else math.inf)
-    blank = np.full(int(rows.sum()), math.nan)
+    steady = np.flatnonzero(result.time >= (watch.begin if math.isfinite(watch.begin) else math.inf))
+    largest = math.nan
+    if len(steady):
+        width = max(1, round(1.0 / _interval(result.time)))
+        mean = uniform_filter1d(watch.side * level_acceleration(result)[steady], width, mode="nearest")
+        largest = float(mean.max())
+        steady = steady[: int(np.argmax(mean)) + 1]  # behind it the car slides off
 
     def of(name: str) -> NDArray[np.float64]:
-        return result[name][rows] if name in result else blank
+        return result[name][steady] if name in result else np.full(len(steady), math.nan)
 
-    roll = of("chassis.roll")
-    acceleration = level_acceleration(result)[rows]
-    largest = math.nan
-    if rows.any():
-        width = max(1, round(1.0 / _interval(result.time)))
-        largest = float(uniform_filter1d(watch.side * acceleration, width, mode="nearest").max())
     return CircleRun(
         result,
-        result.time[rows],
-        acceleration,
-        steering.measured(result, step)[rows],
+        result.time[steady],
+        level_acceleration(result)[steady],
+        steering.measured(result, step)[steady],
         of("sideslip"),
-        roll,
+        of("chassis.roll"),
         of("steering_wheel_torque"),
         of("speed"),
         largest,

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from hosts.catalogue.record import StandardTest
     from hosts.catalogue.task import Outcome, Task
 
+_PENDING = "Not done yet: the command is at work, or was stopped."
+
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.catalogue") -> int:
     """Run the command, which the user typed as `prog`."""
@@ -40,7 +42,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
         type=Path,
         metavar="FILE",
         help="our names for the variables of FMUs that have others: one file for all FMUs, or one for each in their "
-        "order; chrono, carmaker, carsim, osi and vehicle_interfaces come with the package",
+        "order, 'none' where it has ours; chrono, carmaker, carsim, osi and vehicle_interfaces come with the package",
     )
     parser.add_argument(
         "--parameters",
@@ -112,13 +114,13 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
             if reason is not None:
                 outcomes[test.name][car.label] = reason
             else:
+                outcomes[test.name][car.label] = _PENDING
                 folder = None if options.no_runs else options.out.absolute()
                 tasks.append(Task(test.name, car, settings[test.name], folder))
-    for _ in _done(tasks, options.jobs or os.cpu_count() or 1, outcomes):
-        # what is there survives whatever comes
-        write_measures(options.out, tests, cars, _ordered(outcomes, cars), settings)
-    outcomes = _ordered(outcomes, cars)
+    # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, outcomes, settings)
+    for _ in _done(tasks, options.jobs or os.cpu_count() or 1, outcomes):
+        write_measures(options.out, tests, cars, outcomes, settings)
     print_measures(tests, cars, outcomes)
     files += _report(options.out / "report.html", tests, cars, outcomes, settings, command)
     runs = "" if options.no_runs or not tasks else f", tables of the runs in {options.out / 'runs'}"
@@ -160,12 +162,6 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
             progress(place, 1.0)
             outcomes[tasks[place].test][tasks[place].car.label] = outcome
             yield
-
-
-def _ordered(outcomes: Mapping[str, Mapping[str, Outcome]], cars: Sequence[TestedCar]) -> dict[str, dict[str, Outcome]]:
-    """The outcomes of each test in the order of the cars, in whatever order they came."""
-    labels = [car.label for car in cars]
-    return {test: {label: found[label] for label in labels if label in found} for test, found in outcomes.items()}
 
 
 def _report(

@@ -139,8 +139,12 @@ def print_measures(
 
 
 def _sentences(record: TestRecord) -> list[str]:
-    said = [f"{m.name}: {m.note}" for m in record.measures if m.note and not math.isfinite(m.value)]
-    return list(dict.fromkeys([*record.notes, *said]))
+    """The notes of a test, and why measures are not there, those of one reason together."""
+    missing: dict[str, list[str]] = {}
+    for m in record.measures:
+        if m.note and not math.isfinite(m.value):
+            missing.setdefault(m.note, []).append(m.name)
+    return [*dict.fromkeys(record.notes), *(f"{', '.join(names)}: {note}" for note, names in missing.items())]
 
 
 def _cell(measure: Measure | None) -> str:

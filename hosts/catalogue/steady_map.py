@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.plausible import implausible
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
+from hosts.co_simulation import Result
 from hosts.errors import HostError
 from hosts.measures.filters import phaseless_low_pass
 
@@ -151,19 +153,29 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
     Raises
     ------
     HostError
-        If the car reaches neither.
+        If the car reaches neither, its FMU refuses a step, or signs or units of its signals do not fit.
     """
-    found = second = steady_map(car, speed, acceleration)
-    if len(found.angle):
-        return found
-    if lower < speed:
-        second = steady_map(car, lower, acceleration)
-        if len(second.angle):
-            note = f"The car does not hold {3.6 * speed:g} km/h; the test is done at {3.6 * lower:g} km/h."
-            return SteadyMap(lower, second.angle, second.acceleration, second.run, (note,))
-    speeds = 3.6 * second.run.result["speed"]
-    raise HostError(
-        f"The car does not hold {3.6 * min(speed, lower):g} km/h on a straight line: after "
-        f"{second.run.result.time[-1]:.3g} s it is at {speeds[-1]:.3g} km/h, its fastest was {speeds.max():.3g}. "
-        "Choose a lower speed (--test-setting TEST.speed=...)."
+    found = steady_map(car, speed, acceleration)
+    if not len(found.angle) and lower < speed:
+        note = f"The car does not hold {3.6 * speed:g} km/h; the test is done at {3.6 * lower:g} km/h."
+        found = replace(steady_map(car, lower, acceleration), notes=(note,))
+    if not len(found.angle):
+        raise HostError(why_not_reached(found.run.result, found.speed))
+    wrong = implausible(found.run)
+    if wrong is not None:
+        raise HostError(wrong)
+    return found
+
+
+def why_not_reached(result: Result, speed: float) -> str:
+    """Why the steering did not begin at a speed, m/s, in a run: a sentence."""
+    end = float(result.time[-1])
+    if result.failed_steps:
+        said = f": {result.messages[-1]}" if result.messages else "."
+        return f"The FMU refused a step after {end:.3g} s, before the steering began{said}"
+    speeds = 3.6 * result["speed"]
+    return (
+        f"The car does not hold {3.6 * speed:g} km/h on a straight line: after {end:.3g} s it is "
+        f"at {speeds[-1]:.3g} km/h, its fastest was {speeds.max():.3g}. Choose a lower speed (--test-setting "
+        "TEST.speed=...)."
     )

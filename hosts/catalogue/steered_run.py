@@ -151,12 +151,12 @@ class SteeredRun:
         """Between samples, s."""
         return float(self.time[1] - self.time[0])
 
-    def thinned(self, interval: float = 0.01) -> Result:
-        """The record with rows no closer than an interval, s: each n-th, and the last."""
+    def thinned(self, interval: float = 0.02) -> Result:
+        """The record from 1 s before the steering begins, with rows no closer than an interval, s."""
         r = self.result
         step = float(r.time[1] - r.time[0]) if len(r.time) > 1 else interval
-        each = max(1, math.floor(interval / step + 1e-9))
-        rows = np.unique(np.append(np.arange(0, len(r.time), each), len(r.time) - 1))
+        first = int(np.searchsorted(r.time, self.begin - 1.0 - 1e-9)) if math.isfinite(self.begin) else 0
+        rows = np.arange(first, len(r.time), max(1, math.floor(interval / step + 1e-9)))
         return replace(r, time=r.time[rows], values=r.values[rows])
 
 
@@ -220,14 +220,15 @@ def _signals(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
     interval = max(_INTERVAL, row)
     # the grid has a sample where the steering begins
     first = pilot.begin - interval * math.floor(min(1.0, pilot.begin) / interval)
-    blank = np.full(len(result.time), math.nan)
+    kept = result.time > first - 1.5 * row
+    time, blank = result.time[kept], np.full(len(result.time), math.nan)
+    grid = resample(time, time, interval, first)[0]
 
     def even(values: NDArray[np.float64]) -> NDArray[np.float64]:
-        if not np.isfinite(values).all():
+        if not np.isfinite(values[kept]).all():
             return np.full(len(grid), math.nan)
-        return resample(result.time, values, interval, first)[1]
+        return resample(time, values[kept], interval, first)[1]
 
-    grid = resample(result.time, result.time, interval, first)[0]
     names = ("chassis.wz", "sideslip", "chassis.roll", "speed")
     yaw_rate, sideslip, roll, speed = (even(result[n] if n in result.names else blank) for n in names)
     return SteeredRun(

@@ -57,7 +57,10 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     parser.add_argument("--fidelity", type=number, metavar="N", help="how much model, where the FMU offers a choice")
     add_setting_options(parser)
     parser.add_argument(
-        "--aliases", type=Path, metavar="FILE", help="TOML file that maps our names to those of an FMU that has others"
+        "--aliases",
+        type=Path,
+        metavar="FILE",
+        help="our names for those of another program: a TOML file, or chrono, carmaker, ...",
     )
     parser.add_argument("--record", type=Path, metavar="DIR", help="record inputs and outputs of every step there")
     page = parser.add_argument_group("with a page")

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import re
 
-_POWERS = {"2": "²", "3": "³", "-1": "⁻¹", "-2": "⁻²"}
+_SMALL = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_POWER = re.compile(r"(?<=[a-zA-Z])(-?\d+)(\.\d+)?")
 NONE = "–"
 """Where there is no number."""
 
@@ -20,11 +22,8 @@ def unit_shown(unit: str) -> str:
     """A unit of FMI as it is printed; empty where there is none."""
     if unit in ("1", ""):
         return ""
-    text = unit.replace(".", "·")
-    for digits, small in _POWERS.items():
-        for letter in ("m", "s", "rad", "deg"):
-            text = text.replace(f"{letter}{digits}", f"{letter}{small}")
-    return text
+    text = re.sub(r"\.(?=[a-zA-Z])", "·", unit)
+    return _POWER.sub(lambda found: f"^{found[0]}" if found[2] else found[0].translate(_SMALL), text)
 
 
 def with_unit(value: float, unit: str) -> str:

@@ -10,7 +10,9 @@ import numpy as np
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.dwell_measures import EARLY, LATE, least_displacement, measures_of_dwell
 from hosts.catalogue.dwell_series import DwellRun, amplitudes, processed, series
+from hosts.catalogue.plausible import implausible
 from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
+from hosts.catalogue.steady_map import why_not_reached
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import NEED, SteeringInput
 from hosts.co_simulation import Result
@@ -19,6 +21,7 @@ from hosts.measures.slowly_increasing_steer import G, angle_by_regression
 
 _RATE = math.radians(13.5)
 _RAMP_TO = 0.5 * G
+_MOST_RUNS = 80
 _TRANSLATED = "Read in an English translation: "
 
 
@@ -96,12 +99,21 @@ class SineWithDwellTest:
         for side in (1.0, -1.0):
             ramps.append(_ramp(car, speed, side, given.largest))
             progress(0.1 * len(ramps))
+        wrong = implausible(ramps[0])
+        if wrong is not None:
+            raise HostError(wrong)
         found = [angle_by_regression(r.steering, r.acceleration) if len(r.time) else math.nan for r in ramps]
         if not math.isfinite(sum(found)):
             raise HostError(_no_angle(ramps, settings["speed"]))
         # the regulation rounds to 0.1°, each ramp and the mean
         a = _rounded(0.5 * sum(map(_rounded, found)))
         wanted = amplitudes(a, settings["first"], settings["increment"], given.largest)
+        if len(wanted) > _MOST_RUNS:
+            raise HostError(
+                f"A is {math.degrees(a):.1f}°, so the series to {math.degrees(wanted[-1]):.0f}° has {len(wanted)} runs "
+                f"to each side, where {_MOST_RUNS} are the most: raise the setting increment, or look at the unit "
+                "of the steering wheel's angle."
+            )
         sides = [
             series(car, speed, side, wanted, lambda done, begin=begin: progress(begin + 0.4 * done))  # type: ignore[misc]
             for begin, side in ((0.2, 1.0), (0.6, -1.0))
@@ -130,9 +142,9 @@ def _ramp(car: TestedCar, speed: float, side: float, largest: float) -> SteeredR
 
 
 def _no_angle(ramps: list[SteeredRun], speed: float) -> str:
-    if not all(len(r.time) for r in ramps):
-        fastest = 3.6 * max(float(r.result["speed"].max()) for r in ramps)
-        return f"The car does not hold {speed:g} km/h on a straight line; its fastest was {fastest:.3g} km/h."
+    for r in ramps:
+        if not len(r.time):
+            return why_not_reached(r.result, speed / 3.6)
     reached = min(float(np.abs(r.acceleration).max()) for r in ramps) / G
     return (
         f"The car reaches {reached:.2g} g at {speed:g} km/h while the steering wheel turns slowly; the angle A at "

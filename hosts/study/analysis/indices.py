@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 _FEWEST_BLOCKS = 16
 # Harmonics of RBD-FAST, and the fewest runs from which SALib's bootstrap (of half the runs) can tell them apart.
 _HARMONICS = 10
-_FEWEST_FOR_ESTIMATE = 64
+_FEWEST_FOR_ESTIMATE, _MOST_FOR_ESTIMATE = 64, 50_000
 
 
 @dataclass(frozen=True)
@@ -156,6 +156,9 @@ def estimated_indices(
         return f"{len(y)} runs yield the measure; from {_FEWEST_FOR_ESTIMATE} on indices are estimated."
     if np.ptp(y) <= 1e-12 * np.abs(y).max():
         return f"The measure is {y[0]:.6g} in all runs."
+    if len(y) > _MOST_FOR_ESTIMATE:
+        some = np.random.default_rng(seed).choice(len(y), _MOST_FOR_ESTIMATE, replace=False)
+        x, y = x[some], y[some]
     found = rbd_fast.analyze(_problem(names), x, y, M=_HARMONICS, seed=seed)
     none = np.full(len(names), np.nan)
     how = (

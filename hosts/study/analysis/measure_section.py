@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from html import escape
+from typing import TYPE_CHECKING
 
+from hosts.catalogue.report.elements import element
 from hosts.study.analysis.data import Parameter, Response, StudyData
 from hosts.study.analysis.effect_plots import MOST_POINTS, plot_main_effects, plot_scatter
 from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
 from hosts.study.analysis.main_effects import MainEffect, main_effect
-from hosts.study.analysis.page import paragraph, table
+from hosts.study.analysis.page import commands_cell, paragraph, table
 from hosts.study.analysis.parallel_plots import MOST_LINES, plot_parallel
 from hosts.study.analysis.pictures import Pictures
-from hosts.study.analysis.study_section import Commands, repeat_cell
+from hosts.study.analysis.study_section import Commands
 from hosts.study.analysis.summary_plots import plot_overview
 from hosts.study.analysis.tables import Row, extremes
+
+if TYPE_CHECKING:
+    from lxml.html import HtmlElement
 
 _WORST = 5
 
@@ -27,7 +31,7 @@ def measure_section(
     pictures: Pictures,
     commands: Commands,
     numbers: list[dict[str, object]],
-) -> list[str]:
+) -> list[HtmlElement]:
     """Its distribution, indices, main effects, runs, and the highest and lowest of them with their commands.
 
     Parameters
@@ -46,43 +50,43 @@ def measure_section(
     numbers += _numbers(response, data.parameters, effects, indices)
     lost = bool(data.failed.any())
     name, label = f"{number + 1:02d}_{response.label}", response.label
-    body = [f"<h2>{escape(response.title)}</h2>"]
+    body = [element("h2", response.title)]
     body.append(pictures.add(plot_overview(response, indices), f"{name}_overview", f"Distribution of {label}"))
-    body.append(paragraph(indices if isinstance(indices, str) else indices.how, "note"))
+    body.append(paragraph(indices if isinstance(indices, str) else indices.how, "faint"))
     if data.parameters:
-        body.append("<h3>Main effects</h3>")
+        body.append(element("h3", "Main effects"))
         figure = plot_main_effects(data.parameters, response, effects)
         body.append(pictures.add(figure, f"{name}_effects", f"Main effects on {label}"))
         of_blocks = " (about: runs of a block of the design share values)" * (data.method == "saltelli")
         words = f"Mean over all runs of a class of the parameter, with its interval of 95 %{of_blocks}."
-        body.append(paragraph(words, "note"))
-        body.append("<h3>Runs</h3>")
+        body.append(paragraph(words, "faint"))
+        body.append(element("h3", "Runs"))
         figure = plot_scatter(data, response, effects)
         body.append(pictures.add(figure, f"{name}_runs", f"{label} over each parameter"))
         body.append(_drawn("run", len(response.rows), MOST_POINTS, "; red marks below are failed runs" * lost))
         body.append(pictures.add(plot_parallel(data, response), f"{name}_parallel", f"Parallel coordinates of {label}"))
         body.append(_drawn("line", len(response.rows), MOST_LINES, "; dotted red lines are failed runs" * lost))
     highest, lowest = extremes(data, response, _WORST)
-    body.append("<h3>Highest and lowest</h3>")
+    body.append(element("h3", "Highest and lowest"))
     body.append(_extremes(data, response, [*highest, *reversed(lowest)], commands))
     return body
 
 
-def _drawn(what: str, count: int, most: int, more: str) -> str:
+def _drawn(what: str, count: int, most: int, more: str) -> HtmlElement:
     words = f"{most} of {count} {what}s, drawn by chance" if count > most else f"All {count} {what}s"
-    return paragraph(f"{words}{more}.", "note")
+    return paragraph(f"{words}{more}.", "faint")
 
 
-def _extremes(data: StudyData, response: Response, rows: Sequence[Row], commands: Commands) -> str:
+def _extremes(data: StudyData, response: Response, rows: Sequence[Row], commands: Commands) -> HtmlElement:
     cells = []
     for row in rows:
         values = [
             p.words[int(v)] if p.words else f"{v:.6g}"
             for p, v in zip(data.parameters, data.x[row.position], strict=True)
         ]
-        cells.append((str(row.index), f"{row.value:.6g}", *values, *repeat_cell(commands, row.index)))
+        cells.append((str(row.index), f"{row.value:.6g}", *values, commands_cell(commands(row.index))))
     head = ("run", response.title, *(p.title for p in data.parameters), "to repeat it")
-    return table(head, cells, (0, len(head) - 1))
+    return table("Highest runs, then lowest", head, cells)
 
 
 def _indices(data: StudyData, response: Response) -> Indices | str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 from PIL import Image
@@ -11,6 +12,9 @@ from PIL import Image
 from ali3.files import whole_file
 from hosts.result_plots import save_picture
 from hosts.study.analysis.page import picture
+
+if TYPE_CHECKING:
+    from lxml.html import HtmlElement
 
 
 class Pictures:
@@ -30,7 +34,7 @@ class Pictures:
         self.folder = folder
         self.files: list[Path] = []
 
-    def add(self, figure: Figure, name: str, what: str) -> str:
+    def add(self, figure: Figure, name: str, what: str) -> HtmlElement:
         """Write a figure, and give its place in the page."""
         file = self.folder / f"{re.sub(r'[^A-Za-z0-9]+', '_', name).strip('_')[:80]}.png"
         save_picture(figure, file)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from matplotlib import pyplot as plt
 
 from ali3.files import make_folder, whole_file, write_text
+from hosts.catalogue.report.elements import element
 from hosts.errors import HostError
 from hosts.result_plots import STYLE
 from hosts.study.analysis.data import study_data
@@ -49,6 +51,7 @@ def write_report(folder: Path) -> list[Path]:
     from hosts.study.repeat import repeat_command
     from hosts.study.store import read_study
 
+    @cache
     def commands(index: int) -> list[str]:
         # Whole paths: the report is read from any folder.
         repeat = repeat_command(folder.absolute(), index, write=True)
@@ -70,8 +73,8 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     numbers: list[dict[str, object]] = []
     with plt.rc_context({**STYLE, "font.size": 9, "axes.titlesize": 10}):
         if shown and data.parameters:
-            body.append("<h2>Rank correlations</h2>")
-            body.append(paragraph("Spearman's: 1 or -1 where the measure only grows or only falls with it.", "note"))
+            body.append(element("h2", "Rank correlations"))
+            body.append(paragraph("Spearman's: 1 or -1 where the measure only grows or only falls with it.", "faint"))
             body.append(pictures.add(plot_correlations(data, shown), "correlations", "Rank correlations"))
         for k, response in enumerate(tqdm(shown, desc="report", unit="measure", delay=2.0)):
             body += measure_section(data, response, k, pictures, commands, numbers)

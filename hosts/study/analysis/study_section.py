@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from html import escape
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from matplotlib import pyplot as plt
 
+from hosts.catalogue.report.elements import element
 from hosts.result_plots import STYLE
 from hosts.study.analysis.data import FAILED, StudyData
 from hosts.study.analysis.effect_plots import plot_failed
-from hosts.study.analysis.page import paragraph, table
+from hosts.study.analysis.page import commands_cell, paragraph, table
 from hosts.study.analysis.pictures import Pictures
 from hosts.study.analysis.tables import reasons, statistics
 
 MOST_RESPONSES = 40
 _SHOWN_OF_A_REASON = 3
 
+if TYPE_CHECKING:
+    from lxml.html import HtmlElement
+
 Commands: TypeAlias = "Callable[[int], Sequence[str]]"
 """Lines that repeat the run of an index."""
 
 
-def head_section(data: StudyData) -> list[str]:
+def head_section(data: StudyData) -> list[HtmlElement]:
     """What was run, and how much of it is done."""
     about, counts = data.about, data.frame["status"].astype(str).value_counts()
     words = ", ".join(f"{counts[s]} {s}" for s in ("done", "incomplete", FAILED) if s in counts)
@@ -35,62 +38,55 @@ def head_section(data: StudyData) -> list[str]:
         ("runs", f"{len(data.frame)} of {data.planned}: {words}"),
         ("versions", versions),
     ]
-    body = [f"<h1>Study {escape(str(about['study']))}</h1>", table(("", ""), rows, (0, 1))]
+    body = [element("h1", f"Study {about['study']}"), table("What was run", ("", ""), rows)]
     if len(data.frame) < data.planned:
         missing = data.planned - len(data.frame)
         body.append(
-            paragraph(
-                f"{missing} of {data.planned} runs are not done yet; this is the report of the others.", "warning"
-            )
+            paragraph(f"{missing} of {data.planned} runs are not done yet; this is the report of the others.", "note")
         )
     if len(data.responses) > MOST_RESPONSES:
         left = len(data.responses) - MOST_RESPONSES
         body.append(
             paragraph(
-                f"Plots are drawn of the first {MOST_RESPONSES} measures; {left} more are in the table only.", "warning"
+                f"Plots are drawn of the first {MOST_RESPONSES} measures; {left} more are in the table only.", "note"
             )
         )
     return body
 
 
-def measures_section(data: StudyData) -> list[str]:
+def measures_section(data: StudyData) -> list[HtmlElement]:
     """A table of all measures with their percentiles."""
     if not data.responses:
-        return ["<h2>Measures</h2>", paragraph("No run yields a measure.", "warning")]
+        return [element("h2", "Measures"), paragraph("No run yields a measure.", "note")]
     found = [(r, statistics(r)) for r in data.responses]
     head = ("measure", "unit", *found[0][1])
     rows = [
         (r.label, r.unit, f"{len(r.rows)} of {r.asked}", *(f"{v:.5g}" for v in list(s.values())[1:])) for r, s in found
     ]
-    return ["<h2>Measures</h2>", table(head, rows)]
+    return [element("h2", "Measures"), table("Of all runs", head, rows)]
 
 
-def failed_section(data: StudyData, pictures: Pictures, commands: Commands) -> list[str]:
+def failed_section(data: StudyData, pictures: Pictures, commands: Commands) -> list[HtmlElement]:
     """Where in the space of the parameters runs failed, why, and how one is repeated; empty where none did."""
     body = []
     for status, title in ((FAILED, "Failed runs"), ("incomplete", "Runs without some measure")):
         groups = reasons(data, status)
         if not groups:
             continue
-        body.append(f"<h2>{title}</h2>")
+        body.append(element("h2", title))
         if status == FAILED and data.parameters:
             with plt.rc_context({**STYLE, "font.size": 9}):
                 body.append(pictures.add(plot_failed(data), "failed", "Share of failed runs over each parameter"))
             body.append(
                 paragraph(
                     "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run.",
-                    "note",
+                    "faint",
                 )
             )
         rows = []
         for text, indices in groups:
             for k, index in enumerate(indices[:_SHOWN_OF_A_REASON]):
                 first = (text, str(len(indices))) if k == 0 else ("", "")
-                rows.append((*first, str(index), *repeat_cell(commands, index)))
-        body.append(table(("reason", "runs", "for example", "to repeat it"), rows, (0, 3)))
+                rows.append((*first, str(index), commands_cell(commands(index))))
+        body.append(table("Why", ("reason", "runs", "for example", "to repeat it"), rows))
     return body
-
-
-def repeat_cell(commands: Commands, index: int) -> list[str]:
-    """The cell of a table with the commands that repeat a run."""
-    return ["<code>" + "</code><br><code>".join(escape(line) for line in commands(index)) + "</code>"]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.checks import is_finite, shown
+from mbs.checks import instance_of, is_finite, shown
 from mbs.errors import ModelError
 from mbs.vehicle.car import Car
 from mbs.vehicle.kinematics.curves import Curve, steer_curve, travel_curve
@@ -98,9 +98,12 @@ def kinematics(
 
     Raises
     ------
+    ArgumentTypeError
+        `car` is no Car.
     ModelError
         The range or the number of points is not one.
     """
+    instance_of(Car, car, "The car of kinematics()", "a Car of mbs.vehicle.load()")
     low, high = checked_travel(travel)
     if not isinstance(points, int) or isinstance(points, bool) or not 3 <= points <= MOST_POINTS:
         raise ModelError(f"points = {shown(points)}; it must be a whole number between 3 and {MOST_POINTS}.")

@@ -10,7 +10,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ali3.errors import UserError
 from ali3.running import run_command, told_warnings
+
+LEAST_RANGE = 1e-3  # m: who gives metres finds less
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehicle.kinematics") -> int:
@@ -28,6 +31,11 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
         default=(-80.0, 80.0),
         metavar=("LOW", "HIGH"),
         help="range of wheel travel, mm, positive in bump; default: -80 80",
+    )
+    parser.add_argument(
+        "--fidelity",
+        metavar="N",
+        help="of the chassis for the compliance, number or name; default: its flexible frame, where it has one",
     )
     parser.add_argument("--points", type=int, default=81, metavar="N", help="of each curve; default: 81")
     parser.add_argument(
@@ -50,37 +58,52 @@ def _work(options: argparse.Namespace) -> int:
     from mbs.progress import progress_for
     from mbs.vehicle.car_file import load
     from mbs.vehicle.kinematics.car_kinematics import MOTIONS, checked_travel, kinematics
+    from mbs.vehicle.kinematics.compliance import compliance, fidelity_of
+    from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
     from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
     from mbs.vehicle.kinematics.page import page
-    from mbs.vehicle.kinematics.table import text
+    from mbs.vehicle.kinematics.table import rows, text
 
     low, high = checked_travel(tuple(1e-3 * v for v in options.travel))
+    if high - low < LEAST_RANGE:
+        raise UserError(
+            f"--travel goes from {options.travel[0]:g} to {options.travel[1]:g} mm; it is in mm and must span "
+            f"{1e3 * LEAST_RANGE:g} mm or more."
+        )
     with told_warnings():
         car = load(options.car)
+    fidelity = fidelity_of(car, options.fidelity)
     folder = options.out or Path("out", "kinematics", car.name)
     names = [f"{axle}_{motion}.csv" for axle in ("front", "rear") for motion in MOTIONS]
     for file in (folder / "kinematics.html", *(folder / n for n in names), *([options.json] if options.json else [])):
         check_writable(file)
     with progress_for(None) as bar:
         found = kinematics(car, (low, high), options.points, bar.update)
-    print(text(found))
-    for note in found.notes:
+    gives = compliance(car, fidelity)
+    print(text([*rows(found), *compliance_rows(gives)]))
+    for note in filter(None, (*found.notes, gives.sentence)):
         print(f"note: {note}", file=sys.stderr)
     for curve in found.curves.values():
         write_curve(curve, folder / curve_file(curve))
-    write_text(folder / "kinematics.html", page(found))
+    write_text(folder / "kinematics.html", page(found, gives))
     if options.json:
-        write_text(options.json, json.dumps(_content(found), indent=1) + "\n")
+        write_text(options.json, json.dumps(_content(found, gives), indent=1) + "\n")
     print(f"\n{folder / 'kinematics.html'} and {len(found.curves)} CSV files beside it", flush=True)
     return 1 if any(curve.notes for curve in found.curves.values()) else 0
 
 
-def _content(found: Any) -> dict[str, Any]:
+def _content(found: Any, gives: Any) -> dict[str, Any]:
     """What is written as JSON: SI units, null for what is not a number."""
     return {
         "car": found.car,
         "notes": list(found.notes),
         "drawn": {axle: {n: _finite(v) for n, v in found.drawn(axle).items()} for axle in ("front", "rear")},
+        "compliance": {
+            "fidelity": gives.fidelity.value,
+            "freedoms": gives.freedoms,
+            "sentence": gives.sentence,
+            "values": gives.values,
+        },
         "curves": [
             {
                 "axle": curve.axle,

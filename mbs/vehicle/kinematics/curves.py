@@ -17,6 +17,7 @@ from mbs.vehicle.kinematics.wheel_loads import OWN
 Array = NDArray[np.float64]
 
 STEP, LEAST_STEP = 0.004, 1e-6  # m: of the continuation
+ROUND_OFF = 1e-9  # m
 STRAY = 0.2  # of a step: farther from its tangent a position may be on another branch
 DIRECTIONS = {"parallel": HEAVE, "opposite": ROLL, "single": OWN[0], "steer": np.array([0.0, 0.0, 1.0])}
 """Motions by their names: rates of the travels of the left and the right wheel, and of the rack."""
@@ -157,21 +158,22 @@ def _next(linkage: Linkage, at: Position, direction: Array, now: float, ahead: f
     """The position at the next value, near the tangent."""
     change = at.tangent @ direction * (ahead - now)
     there = linkage.solve(at.q + change, ahead * direction[:2], ahead * float(direction[2]))
-    if np.linalg.norm(there.q - at.q - change) > STRAY * np.linalg.norm(change):
+    if np.linalg.norm(there.q - at.q - change) > STRAY * np.linalg.norm(change) + ROUND_OFF:
         raise NotReachedError(f"the position at {ahead:g} m is not near the tangent")
     return there
 
 
 def _curve(linkage: Linkage, motion: str, values: Array, measures: Callable[[Position], dict[str, float]]) -> Curve:
     direction, notes = DIRECTIONS[motion], []
+    values = np.where(np.abs(values) < ROUND_OFF, 0.0, values)
     below, low = reached(linkage, direction, values[values < 0.0][::-1])
     above, high = reached(linkage, direction, values[values > 0.0])
     for end, last in ((low, values[0]), (high, values[-1])):
         if end is not None:
             what = "rack travel" if motion == "steer" else "wheel travel"
             notes.append(
-                f"{linkage.name} axle, {WORDS[motion]}: the curve ends at {1e3 * end:.1f} mm of {what}, before the "
-                f"{1e3 * last:.1f} mm asked for; beyond it the links are at a dead point or too short or too long."
+                f"{linkage.name} axle, {WORDS[motion]}: the links allow no more than {1e3 * end:+.1f} mm of {what} (a "
+                f"dead point, or a link too short or too long); the curve ends there, not at {1e3 * last:+.1f} mm."
             )
     middle = [linkage.drawn] if np.any(values == 0.0) else []
     rows = [measures(at) for at in (*below[::-1], *middle, *above)]

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
+from mbs.vehicle.kinematics.compliance import Compliance
+from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
 from mbs.vehicle.kinematics.plots import steer_figure, travel_figure
 from mbs.vehicle.kinematics.table import rows
 
@@ -23,15 +24,15 @@ tr td { border-top: 1px solid #e3e3e3; } img { width: 100%; margin-top: 2em; } t
 """
 
 
-def page(found: Kinematics, sentences: Sequence[str] = ()) -> str:
+def page(found: Kinematics, gives: Compliance) -> str:
     """The page as text; it needs no other file.
 
     Parameters
     ----------
     found : Kinematics
         Of a car.
-    sentences : sequence of str
-        To stand beside its notes, as those of compliance.
+    gives : Compliance
+        Of the same car.
     """
     title = f"Kinematics of the car '{found.car}'"
     lines = [
@@ -39,10 +40,10 @@ def page(found: Kinematics, sentences: Sequence[str] = ()) -> str:
         f'<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>',
         f"<style>{STYLE}</style></head><body><h1>{escape(title)}</h1>",
         "<p>The chassis is held, rigid; the wheel centres move. Terms of ISO 8855: x forward, y left, z up.</p>",
-        *(f"<p>{escape(text)}</p>" for text in (*found.notes, *sentences)),
+        *(f"<p>{escape(text)}</p>" for text in (*found.notes, gives.sentence) if text),
         "<table><tr><td></td><td>front</td><td>rear</td><td></td><td></td></tr>",
     ]
-    for line in rows(found):
+    for line in (*rows(found), *compliance_rows(gives)):
         if not any(line[1:]):
             lines.append(f'<tr><th colspan="5">{escape(line[0])}</th></tr>')
         else:

@@ -67,6 +67,9 @@ STEER_PANELS = (
 )
 """Quantities over the angle of the steering wheel."""
 COLUMNS = 4
+DASHES = {"opposite": (0, (5, 2)), "single": (0, (1, 1.5))}
+"""Of motions whose curves may lie on those of parallel travel."""
+LARGEST_CIRCLE = 60.0  # m: wider circles would hide the others
 
 
 def travel_figure(found: Kinematics, axle: str) -> Figure:
@@ -85,7 +88,7 @@ def travel_figure(found: Kinematics, axle: str) -> Figure:
     def draw(ax: Axes, k: int) -> None:
         name, motions = panels[k]
         for motion in motions:
-            _line(ax, curves[motion], name, "left", COLOURS[motion], WORDS[motion])
+            _line(ax, curves[motion], name, "left", COLOURS[motion], WORDS[motion], DASHES.get(motion, "-"))
         _titled(ax, name)
         ax.set_xlabel("wheel travel, mm (bump positive)")
 
@@ -108,6 +111,8 @@ def steer_figure(found: Kinematics) -> Figure:
         for side in sides:
             _line(ax, curve, name, side, COLOURS.get(side, COLOURS["left"]), f"{side} wheel" if side else "")
         _titled(ax, name)
+        if name == "turning_circle":
+            ax.set_ylim(0.0, LARGEST_CIRCLE)
         ax.set_xlabel("steering-wheel angle, deg (left positive)")
 
     return _figure(f"{found.car}: front axle over steering", len(STEER_PANELS), draw)
@@ -137,10 +142,16 @@ def _column(curve: Curve, name: str, side: str = "left") -> str:
     return next((column for column in (f"{name}_{side}", name) if column in curve.columns), "")
 
 
-def _line(ax: Axes, curve: Curve, name: str, side: str, colour: str, label: str) -> None:
+def _line(ax: Axes, curve: Curve, name: str, side: str, colour: str, label: str, dashes: Any = "-") -> None:
     over = BY_NAME[curve.over.removesuffix("_left")]
     column = _column(curve, name, side)
-    ax.plot(curve[curve.over] * over.factor, curve[column] * BY_NAME[name].factor, color=colour, label=label)
+    ax.plot(
+        curve[curve.over] * over.factor,
+        curve[column] * BY_NAME[name].factor,
+        color=colour,
+        label=label,
+        linestyle=dashes,
+    )
 
 
 def _titled(ax: Axes, name: str) -> None:

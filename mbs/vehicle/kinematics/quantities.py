@@ -74,8 +74,8 @@ WHEEL = (
     _quantity(
         "kingpin_offset_at_ground",
         "length",
-        "kingpin offset at ground (scrub radius)",
-        "steering axis at the ground inboard of the contact centre",
+        "scrub radius",
+        "kingpin offset at the ground, axis inboard positive",
     ),
     _quantity(
         "caster_offset_at_wheel_centre",
@@ -122,7 +122,7 @@ AXLE_TRAVEL = (
         "anti_roll_bar_ratio",
         "angle per travel",
         "motion ratio of the anti-roll bar",
-        "twist of the bar per difference of the wheels' travels, as they go against each other",
+        "twist per difference of the travels, in roll",
     ),
     _quantity("anti_dive", "percent", "anti-dive", "braking: share of the load transfer in the links, front"),
     _quantity("anti_lift", "percent", "anti-lift", "braking: the same behind"),

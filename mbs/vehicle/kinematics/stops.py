@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from mbs.vehicle.kinematics.curves import Curve
 from mbs.vehicle.kinematics.linkage import Linkage
@@ -47,7 +48,6 @@ def travel_at(parallel: Curve, compression: float) -> float:
         m, negative where the spring is longer.
     """
     compressed = parallel.drawn()["spring_length_left"] - parallel["spring_length_left"]
-    order = np.argsort(compressed)
-    return float(
-        np.interp(compression, compressed[order], parallel["wheel_travel_left"][order], left=np.nan, right=np.nan)
-    )
+    rising, first = np.unique(compressed, return_index=True)
+    travel = PchipInterpolator(rising, parallel["wheel_travel_left"][first], extrapolate=False)
+    return float(travel(compression))

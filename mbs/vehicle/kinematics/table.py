@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
+from mbs.vehicle.kinematics.compliance_table import shown_number
 from mbs.vehicle.kinematics.quantities import BY_NAME, Quantity
 
 AT_LOCK = {
@@ -61,30 +63,28 @@ def rows(found: Kinematics) -> list[tuple[str, str, str, str, str]]:
             if all(math.isnan(v) for v in values):
                 continue
             quantity, title = named(name)
-            front, rear = (_number(v * quantity.factor) for v in values)
+            front, rear = (shown_number(v * quantity.factor) for v in values)
             part.append((title, front, rear, quantity.shown, quantity.meaning))
         if part:
             lines += [(heading, "", "", "", ""), *part]
     return lines
 
 
-def text(found: Kinematics) -> str:
-    """The table as text.
+def text(lines: Sequence[tuple[str, str, str, str, str]]) -> str:
+    """Rows as text.
 
     Parameters
     ----------
-    found : Kinematics
-        Of a car.
+    lines : sequence of (str, str, str, str, str)
+        As `rows` gives them.
     """
-    lines = [("", "front", "rear", "", ""), *rows(found)]
+    lines = [("", "front", "rear", "", ""), *lines]
     widths = [max(len(line[k]) for line in lines) for k in range(4)]
     printed = []
     for line in lines:
+        if line[0] and not any(line[1:]):
+            printed.append(f"\n{line[0]}")
+            continue
         cells = [line[0].ljust(widths[0]), line[1].rjust(widths[1]), line[2].rjust(widths[2]), line[3].ljust(widths[3])]
         printed.append("  ".join([*cells, line[4]]).rstrip())
     return "\n".join(printed)
-
-
-def _number(value: float) -> str:
-    """Three decimals; what round-off leaves of zero is zero."""
-    return "-" if math.isnan(value) else f"{round(value, 3) + 0.0:.3f}"

@@ -58,6 +58,8 @@ class BicycleCar(TestedCar):
         Time at which a step is refused, s.
     from_rest : float
         Speed of the lateral motion, m/s, of a car that begins at rest and has no start value of it; 0: it has one.
+    factors : mapping of str to float
+        On outputs, as a wrong alias file has them.
     shown : tuple of str
         Its outputs.
     """
@@ -72,6 +74,7 @@ class BicycleCar(TestedCar):
     turn_right: float = 1.0
     refuses_after: float = math.inf
     from_rest: float = 0.0
+    factors: Mapping[str, float] = field(default_factory=dict)
     shown: tuple[str, ...] = OUTPUTS
 
     @property
@@ -121,7 +124,7 @@ class BicycleCar(TestedCar):
         names = [*acts, *OUTPUTS]
         kept = [names.index(n) for n in (*acts, *self.shown)]
         time = step * np.arange(len(rows))
-        values = np.array(rows)[:, kept]
+        values = (np.array(rows) * [self.factors.get(n, 1.0) for n in names])[:, kept]
         return Result([names[k] for k in kept], {}, time, values, 0.0, float(time[-1]), failed, [])
 
 

@@ -16,7 +16,7 @@ import pytest
 from hosts.catalogue.command import main
 from hosts.catalogue.registry import TESTS
 
-FAST = ["--tests", "drop,kerb"]
+FAST = ["--tests", "drop"]
 SSV = """<?xml version="1.0" encoding="UTF-8"?>
 <ssv:ParameterSet xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues" version="1.0" name="s">
 <ssv:Parameters><ssv:Parameter name="front.tyre.stiffness"><ssv:Real value="40000"/></ssv:Parameter></ssv:Parameters>
@@ -43,7 +43,7 @@ def test_cars_stand_side_by_side_and_jobs_change_nothing(
     assert (first / "measures.csv").read_bytes() == (second / "measures.csv").read_bytes()
     assert (first / "measures.json").read_bytes() == (second / "measures.json").read_bytes()
     tables = sorted(p.relative_to(first) for p in first.rglob("runs/**/*.csv"))
-    assert len(tables) >= 4
+    assert len(tables) == 2
     for table in tables:
         assert (first / table).read_bytes() == (second / table).read_bytes()
     peak = {r["car"]: float(r["value"]) for r in rows(first) if (r["test"], r["measure"]) == ("drop", "load.peak_FL")}
@@ -51,7 +51,7 @@ def test_cars_stand_side_by_side_and_jobs_change_nothing(
     assert peak[f"{prototype_fmu.stem}, soft"] < 0.95 * peak[prototype_fmu.stem]
     record = json.loads((first / "measures.json").read_text(encoding="utf-8"))
     assert record["cars"][1]["set"] == {"front.tyre.stiffness": 40000.0}
-    assert [test["name"] for test in record["tests"]] == ["drop", "kerb"]
+    assert [test["name"] for test in record["tests"]] == ["drop"]
     assert f"{prototype_fmu.stem}, soft" in printed
     assert "load.peak_FL" in printed
 
@@ -125,7 +125,9 @@ def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> 
     process = subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, start_new_session=True)
     try:
         end = time.monotonic() + 60.0
-        while not (out / "measures.json").exists() and process.poll() is None and time.monotonic() < end:
+        while process.poll() is None and time.monotonic() < end:
+            if (out / "measures.json").exists() and len(rows(out)) > 2:
+                break
             time.sleep(0.2)
         assert process.poll() is None
         os.killpg(process.pid, signal.SIGINT)
@@ -135,5 +137,7 @@ def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> 
     assert process.returncode == 130
     assert error.strip().endswith("stopped by Ctrl-C")
     assert "Traceback" not in error
-    assert {row["test"] for row in rows(out)} == {"drop"}
+    (left,) = (row for row in rows(out) if row["test"] == "steady_circle")
+    assert left["note"] == "Not done yet: the command is at work, or was stopped."
+    assert "load.peak_FL" in {row["measure"] for row in rows(out) if row["test"] == "drop"}
     assert list(out.rglob("runs/drop/*.csv"))

@@ -194,7 +194,8 @@ def test_numbers_for_people():
         "–",
         "-∞",
     ]
-    assert (unit_shown("m/s2"), unit_shown("1"), unit_shown("N.m")) == ("m/s²", "", "N·m")
+    units = ("m/s2", "1", "N.m", "m.s-1.75", "rad.s-2", "km/h")
+    assert [unit_shown(unit) for unit in units] == ["m/s²", "", "N·m", "m·s^-1.75", "rad·s⁻²", "km/h"]
     assert difference(0.9, 1.0) == "−0.1 (−10 %)"
     assert difference(1.0, 0.0) == "+1"
     assert difference(1.0, float("nan")) == ""

@@ -114,3 +114,8 @@ def test_a_car_that_cannot_reach_the_acceleration_is_refused() -> None:
 def test_a_car_that_takes_no_angle_is_refused() -> None:
     with pytest.raises(HostError, match=r"demands angles.*steering_wheel_angle_max"):
         perform(standard_test("sine_with_dwell"), BicycleCar(steered_by="steering"), FEW)
+
+
+def test_a_series_without_end_is_refused() -> None:
+    with pytest.raises(HostError, match=r"A is 2\d\.\d°.* has 9\d runs to each side, where 80 are the most"):
+        perform(standard_test("sine_with_dwell"), BicycleCar(), {"increment": 0.1})

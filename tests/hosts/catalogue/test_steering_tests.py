@@ -196,7 +196,9 @@ def test_a_car_without_a_start_value_of_the_speed_drives_up_to_it() -> None:
     found, from_rest = (
         perform(standard_test("sine_steer"), car) for car in (BicycleCar(), BicycleCar(from_rest=SPEED, step=0.01))
     )
-    assert from_rest.runs["sine_left"].time[-1] > found.runs["sine_left"].time[-1] + 5.0
+    # the record keeps the time of the run, of which it has the part with the steering
+    assert from_rest.runs["sine_left"].time[0] > found.runs["sine_left"].time[0] + 5.0
+    assert len(from_rest.runs["sine_left"].time) == pytest.approx(5.0 / 0.02, abs=3)
     for name, value in values(found).items():
         assert values(from_rest)[name] == pytest.approx(value, rel=1e-3, abs=1e-6)
 
@@ -217,3 +219,24 @@ def test_a_steering_wheel_that_does_not_come_to_its_angle_is_told() -> None:
         .shortfall(0.5)
         .startswith("The steering wheel came to 25.8° where 28.6° were asked for")
     )
+
+
+def test_an_fmu_that_refuses_a_step_before_the_steering_is_told() -> None:
+    for test in ("sine_steer", "sine_with_dwell"):
+        with pytest.raises(HostError, match=r"FMU refused a step after 0\.51 s, before the steering began"):
+            perform(standard_test(test), BicycleCar(refuses_after=0.5))
+
+
+@pytest.mark.parametrize("test", ["sine_steer", "sine_with_dwell"])
+@pytest.mark.parametrize(
+    ("factors", "words"),
+    [
+        ({"chassis.ay": -1.0}, "to the left the lateral acceleration is to the other side"),
+        ({"chassis.wz": -1.0}, "to the left the yaw rate is to the other side"),
+        ({"chassis.wz": math.degrees(1.0)}, r"where speed times yaw rate is 2\d\d m/s²: a unit is wrong"),
+        ({"chassis.wz": -1.0, "chassis.ay": -1.0}, "to the left the lateral acceleration is to the other side"),
+    ],
+)
+def test_wrong_signs_and_units_are_told(test: str, factors: dict[str, float], words: str) -> None:
+    with pytest.raises(HostError, match=words):
+        perform(standard_test(test), BicycleCar(factors=factors))

@@ -101,6 +101,12 @@ def test_what_a_pilot_lacks_is_named(prototype: TestedCar) -> None:
         prototype.drive(still, Blind())
 
 
+def test_a_pilot_that_asks_for_nothing_is_told(prototype: TestedCar) -> None:
+    turn = SteeringTable([0.0, 0.1, 0.2], [0.0, 0.0, math.nan])
+    with pytest.raises(HostError, match="At 0.1.* s who drives asks for steering = nan."):
+        prototype.drive(Manoeuvre("blank", np.zeros(0), {}, 0.3), turn)
+
+
 def test_start_values_of_the_car_are_set_but_the_test_has_the_last_word(prototype_fmu: Path) -> None:
     car = TestedCar("slow", prototype_fmu, start={"initial.speed": 3.0, "initial.yaw": 0.5})
     rest = Manoeuvre("rest", np.zeros(0), {}, 0.01)

@@ -1,0 +1,260 @@
+"""Runs of a study on Dask, measured: overhead of a run, memory, disk, tasks, rows, starts."""
+
+from __future__ import annotations
+
+import gc
+import multiprocessing
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypeVar
+
+import fmpy
+import numpy as np
+import psutil
+
+import mbs
+from fmu_src.build import build_fmu
+
+Row = dict[str, Any]
+T = TypeVar("T")
+
+_CAR = """fmu = '{fmu}'
+[[manoeuvres]]
+manoeuvre = "slalom"
+stop_time = {stop_time!r}
+[sampling]
+method = "{method}"
+runs = {runs}
+[parameters."road.friction_factor"]
+range = [0.4, 1.0]
+[parameters."front.spring.stiffness"]
+range = [9000.0, 20000.0]
+[parameters."rear.damper.damping"]
+range = [500.0, 2000.0]
+[measures]
+peak_ay = "max(abs(chassis.ay))"
+roll = "rms(chassis.roll)"
+load = "min(wheel_FL.Fz)"
+"""
+_SPRING = """fmu = '{fmu}'
+[[manoeuvres]]
+name = "release"
+stop_time = {stop_time!r}
+[sampling]
+method = "{method}"
+runs = {runs}
+[parameters."spring.stiffness"]
+range = [50.0, 200.0]
+[parameters."spring.damping"]
+range = [0.0, 5.0]
+[measures]
+low = "min(bob.y)"
+end = "final(bob.y)"
+"""
+TEXTS = {"car": _CAR, "spring": _SPRING}
+"""Study files by their case."""
+
+
+def spring_fmu(folder: Path) -> Path:
+    """An FMU of which a run takes about a millisecond."""
+    m = mbs.Model("spring", dimension=2)
+    bob = m.point_mass("bob", mass=2.0, position=(0.0, -1.0))
+    spring = m.spring_damper("spring", (m.ground, (0.0, 0.0)), bob, stiffness=100.0, damping=1.0, free_length=0.8)
+    for name, value, high, unit in (("stiffness", 100.0, 900.0, "N/m"), ("damping", 1.0, 20.0, "N.s/m")):
+        m.parameter(f"spring.{name}", value, 0.0, high, unit, f"Of the spring: {name}", targets=[(spring, name, 1.0)])
+    m.sense_position("bob.y", bob, component="y")
+    return build_fmu(mbs.compile(m), "spring", folder, [fmpy.platform])
+
+
+def alone(work: Callable[..., T], *arguments: Any) -> T:
+    """Do it in a new process, so that its memory is its own."""
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        return pool.submit(work, *arguments).result()
+
+
+def plan_of(case: str, fmu: Path, runs: int, stop_time: float, folder: Path, method: str = "sobol") -> Any:
+    """The plan of a study, and its file in a folder."""
+    from hosts.study.plan import make_plan
+    from hosts.study.study_file import read_study_file
+
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / f"{case}.toml"
+    text = TEXTS[case].format(fmu=fmu.absolute(), stop_time=stop_time, runs=runs, method=method)
+    file.write_text(text, encoding="utf-8")
+    return make_plan(read_study_file(file)[0], file, fmu.absolute())
+
+
+def stop_time_for(case: str, fmu: Path, seconds: float, folder: Path) -> float:
+    """How long a run is to simulate, to take so many seconds in a plain loop."""
+    trial = 1.0
+    return round(max(0.1, trial * seconds / loop(case, fmu, 5, trial, folder)["run_s"]), 2)
+
+
+def loop(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row:
+    """The same runs one after the other without Dask, after one to warm up."""
+    from hosts.study.one_run import Bench
+
+    plan = plan_of(case, fmu, max(runs, 2), stop_time, folder)
+    job, work = plan.work.jobs[0], replace(plan.work, reuse=True)
+    bench, block = Bench(work, plan.fmu), plan.points.block(0, runs)
+    values = [{name: column[k] for name, column in block.items()} for k in range(runs)]
+    try:
+        bench.run(job, values[0], 0)
+        begin = time.perf_counter()
+        for value in values:
+            bench.run(job, value, 0)
+        return {"what": "loop", "case": case, "runs": runs, "run_s": (time.perf_counter() - begin) / runs}
+    finally:
+        bench.close()
+
+
+def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, folder: Path) -> Row:
+    """A study on a local cluster, without its start: time beside the runs, memory, disk."""
+    from hosts.study.cluster import bring, connected
+    from hosts.study.execution import Execution
+    from hosts.study.folder import begin_study
+    from hosts.study.missing import ChunkSize, missing_runs
+    from hosts.study.parts import PartWriter, part_files
+    from hosts.study.store import read_study
+    from hosts.study.trial import try_out
+
+    plan = plan_of(case, fmu, runs, stop_time, folder)
+    trial = try_out(plan)
+    plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
+    begin_study(folder, plan.record, b"", plan.fmu)
+    me, chunks, memory = psutil.Process(), [0], [0.0]
+
+    def came(made: int, failed: int) -> None:
+        memory.append(me.memory_info().rss)
+
+    def counted(missing: Iterator[list[int]]) -> Iterator[list[int]]:
+        for chunk in missing:
+            chunks[0] += 1
+            yield chunk
+
+    begin = time.perf_counter()
+    with connected(None, workers) as client:
+        bring(client, plan)
+        size = ChunkSize(trial.seconds, workers)
+        execution = Execution(client, plan, size, PartWriter(folder, plan.record), None, came)
+        before, processor, started = me.memory_info().rss, sum(me.cpu_times()[:2]), time.perf_counter()
+        execution.run(counted(missing_runs(np.zeros(plan.runs, np.bool_), size)))
+        elapsed, processor = time.perf_counter() - started, sum(me.cpu_times()[:2]) - processor
+        of_worker = max(p.memory_info().rss for p in me.children(recursive=True))
+    frame = read_study(folder)
+    assert len(frame) == runs
+    walls = frame["wall_seconds"].to_numpy()
+    beside = workers * elapsed - walls.sum()
+    files = part_files(folder)
+    return {
+        "what": "runs",
+        "case": case,
+        "workers": workers,
+        "runs": runs,
+        "failed": int((frame["status"] == "failed").sum()),
+        "run_s": float(walls.mean()),
+        "start_s": started - begin,
+        "elapsed_s": elapsed,
+        "rate": runs / elapsed,
+        "overhead_ms": 1e3 * float(beside) / runs,
+        "overhead": float(beside / walls.sum()),
+        "chunks": chunks[0],
+        "main_ms": 1e3 * processor / runs,
+        "before_mb": 1e-6 * before,
+        "main_mb": 1e-6 * max(memory),
+        "worker_mb": 1e-6 * of_worker,
+        "bytes": sum(f.stat().st_size for f in files) / runs,
+        "parts": len(files),
+    }
+
+
+def start_again(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row:
+    """The command on a folder in which all rows are: what it takes to find that nothing is missing."""
+    import subprocess
+
+    from ali3.running import module_command
+
+    file = folder / f"{case}.toml"
+    line = module_command("hosts.study", str(file), "--out", str(folder), "--no-report")
+    begin = time.perf_counter()
+    done = subprocess.run(line, check=False, capture_output=True, text=True)
+    if done.returncode != 0 or f"{runs} of {runs} runs are there" not in done.stdout:
+        raise RuntimeError(f"the study was not found whole: {done.stdout} {done.stderr}")
+    return {"what": "start again", "case": case, "runs": runs, "start_s": time.perf_counter() - begin}
+
+
+def plan_alone(case: str, fmu: Path, runs: int, method: str, folder: Path) -> Row:
+    """Time and memory of a plan, and of its points block by block."""
+    plan_of(case, fmu, 16, 1.0, folder, method)
+    gc.collect()
+    before, begin = psutil.Process().memory_info().rss, time.perf_counter()
+    plan = plan_of(case, fmu, runs, 1.0, folder, method)
+    seconds, size = time.perf_counter() - begin, 1000
+    begin = time.perf_counter()
+    for first in range(0, runs, size):
+        plan.points.block(first, min(size, runs - first))
+    blocks = time.perf_counter() - begin
+    memory = psutil.Process().memory_info().rss - before
+    row = {"what": "plan", "method": method, "runs": runs, "start_s": seconds}
+    return row | {"main_ms": 1e3 * blocks / runs, "main_mb": 1e-6 * memory}
+
+
+def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
+    """The one writer, alone: rows that no run has made, in chunks of 20 as they come from workers; and finding them."""
+    from hosts.study.folder import begin_study
+    from hosts.study.parts import PartWriter, part_files, runs_done
+    from hosts.study.store import read_study
+    from hosts.study.work import Outcome
+
+    plan = plan_of(case, fmu, rows, 1.0, folder)
+    begin_study(folder, plan.record, b"", plan.fmu)
+    rng, chunk, part = np.random.default_rng(0), 20, 50_000
+    numbers = rng.random((rows, len(plan.work.columns))).tolist()
+    writer, spent = PartWriter(folder, plan.record), 0.0
+    for first in range(0, rows, chunk):
+        indices = list(range(first, min(first + chunk, rows)))
+        made = [
+            Outcome(measures=dict(zip(plan.work.columns, numbers[k], strict=True)), simulated=1.0, wall=numbers[k][0])
+            for k in indices
+        ]
+        begin = time.perf_counter()
+        writer.add(plan.chunk(indices), made)
+        if len(writer) >= part:
+            writer.flush()
+        spent += time.perf_counter() - begin
+    begin = time.perf_counter()
+    writer.flush()
+    spent += time.perf_counter() - begin
+    del writer, numbers
+    size = sum(f.stat().st_size for f in part_files(folder))
+    begin = time.perf_counter()
+    assert runs_done(folder, rows).all()
+    found = time.perf_counter() - begin
+    begin, before = time.perf_counter(), psutil.Process().memory_info().rss
+    frame = read_study(folder)
+    read = time.perf_counter() - begin
+    assert len(frame) == rows
+    memory = psutil.Process().memory_info().rss - before
+    row = {"what": "rows", "case": case, "runs": rows, "main_ms": 1e3 * spent / rows, "bytes": size / rows}
+    return row | {"found_s": found, "read_s": read, "read_mb": 1e-6 * memory}
+
+
+def empty_tasks(tasks: int, workers: int) -> Row:
+    """Tasks that do nothing, to see what Dask itself takes."""
+    from hosts.study.cluster import connected
+
+    with connected(None, workers) as client:
+        client.gather(client.map(_nothing, range(100), pure=False))
+        me = psutil.Process()
+        begin, processor = time.perf_counter(), sum(me.cpu_times()[:2])
+        client.gather(client.map(_nothing, range(tasks), pure=False))
+        elapsed, processor = time.perf_counter() - begin, sum(me.cpu_times()[:2]) - processor
+    row = {"what": "empty tasks", "runs": tasks, "workers": workers, "elapsed_s": elapsed}
+    return row | {"task_ms": 1e3 * elapsed / tasks, "main_ms": 1e3 * processor / tasks}
+
+
+def _nothing(number: int) -> int:
+    return number

@@ -1,0 +1,166 @@
+"""Compliance of the axles: toe, camber and shifts per force at the contact centres, the wheels held at their height.
+
+The chassis is held in the mean of the joints that carry its suspensions, the steering wheel at its angle. Links are
+rigid and joints ideal, so what gives is a flexible frame, or the torsion bar of a steering column.
+
+Small motions that the held rows allow are q = V z. With multipliers lam of all rows, Phi_q' lam = Q at the drawing,
+their stiffness is V' (H - dQ/dq) V, H = sum lam_k Phi_k,qq: springs, frame and the preload of links that turn.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.checks import instance_of
+from mbs.errors import ModelError
+from mbs.vehicle.car import Car
+from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.kinematics.held_car import HeldCar, HeldWheel
+
+Array = NDArray[np.float64]
+
+SENSES = {"same": 1.0, "opposed": -1.0}
+"""Load of the right wheel per load of the left one, as vectors in vehicle axes for forces along x and moments about z
+of equal sense, and mirrored where opposed."""
+LOADS = ("lateral_force", "longitudinal_force", "drive_force", "aligning_torque")
+"""On the carrier: forces along y and x at the contact centre, along x at the wheel centre, moment about z."""
+
+
+@dataclass(frozen=True)
+class Compliance:
+    """What the left wheel of an axle does per load on both wheels.
+
+    Attributes
+    ----------
+    fidelity : Fidelity
+        Of the chassis.
+    freedoms : int
+        Independent small motions that held wheels and steering leave; 0: nothing gives, and all values are zero.
+    values : dict of str to dict of str to float
+        By axle; names as ``lateral_force.same.steer_angle``: the load, its sense on the right wheel, and the response:
+        steer_angle and inclination_angle, rad per N or per N m, contact_y and centre_x, m per N or per N m. Of the
+        axle ``wheel_rate`` and ``roll_wheel_rate``, N/m, with what gives in series.
+    sentence : str
+        Why nothing gives; empty where something does.
+    """
+
+    fidelity: Fidelity
+    freedoms: int
+    values: dict[str, dict[str, float]]
+    sentence: str
+
+
+def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compliance:
+    """Compliance of both axles at the drawing.
+
+    Parameters
+    ----------
+    car : Car
+        From `mbs.vehicle.load`.
+    fidelity : Fidelity, int or str, optional
+        Of the chassis; by default its flexible frame with all static modes, where the car has one.
+
+    Returns
+    -------
+    Compliance
+        In SI units.
+
+    Raises
+    ------
+    ModelError
+        The car has no frame for the fidelity.
+    """
+    instance_of(Car, car, "The car of compliance()", "a Car of mbs.vehicle.load()")
+    chosen = fidelity_of(car, fidelity)
+    held = HeldCar(car, chosen)
+    V, soft = held.flexibility(held.wheel_rows())
+    values = {axle: _responses(held, axle, V, soft) for axle in ("front", "rear")}
+    free, springs = held.flexibility(np.zeros((0, len(held.q))))
+    for axle, found in values.items():
+        found |= _rates(held, axle, free, springs)
+    return Compliance(chosen, V.shape[1], values, "" if V.shape[1] else _words(car, chosen))
+
+
+def fidelity_of(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
+    """The fidelity at which compliance is taken.
+
+    Parameters
+    ----------
+    car : Car
+        From `mbs.vehicle.load`.
+    fidelity : Fidelity, int or str, optional
+        A member, its number, also as text, or its name; None: the best that the car offers.
+
+    Raises
+    ------
+    ModelError
+        There is none, or the car has no frame for it.
+    """
+    offered = tuple(car.fidelities())
+    if fidelity is None:
+        return Fidelity.DYNAMIC if Fidelity.DYNAMIC in offered else Fidelity.RIGID
+    chosen = Fidelity.of(int(fidelity) if isinstance(fidelity, str) and fidelity.isdecimal() else fidelity)
+    if chosen not in offered and (chosen is Fidelity.RIGID or len(offered) == 1):
+        why = f": its frame does not fit it. {car.misfit}" if car.misfit else "."
+        raise ModelError(f"The car '{car.name}' has fidelity 0 only, not {chosen.value}{why}")
+    return chosen
+
+
+def _words(car: Car, fidelity: Fidelity) -> str:
+    if fidelity is not Fidelity.RIGID:
+        how = f"at fidelity {fidelity.value} the chassis is {fidelity.description}"
+    elif car.misfit:
+        how = f"the chassis is rigid, because its frame does not fit the car ({car.misfit})"
+    elif car.chassis.frame is None:
+        how = "the chassis is rigid: the car's file has no frame"
+    else:
+        how = "the chassis is rigid at fidelity 0"
+    return (
+        f"Toe and camber do not give under forces at the contact centres: links and joints are rigid, and {how}. "
+        "All compliances are exactly zero."
+    )
+
+
+def _responses(held: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, float]:
+    left, right = (held.wheels[axle[0].upper() + side] for side in "LR")
+    found = {}
+    for load in LOADS:
+        for sense, sign in SENSES.items():
+            moved = V @ (soft @ (V.T @ (_load(left, load) + sign * _load(right, load))))
+            for name, row in _responding(left).items():
+                found[f"{load}.{sense}.{name}"] = float(row @ moved) + 0.0
+    return found
+
+
+def _load(wheel: HeldWheel, load: str) -> Array:
+    """Generalised force (nq,) of a unit load on a wheel's carrier."""
+    rows = {
+        "lateral_force": wheel.contact[1],
+        "longitudinal_force": wheel.contact[0],
+        "drive_force": wheel.centre[0],
+        "aligning_torque": wheel.turn[2],
+    }
+    return np.asarray(rows[load])
+
+
+def _responding(wheel: HeldWheel) -> dict[str, Array]:
+    """Rows (nq,) of what a wheel does."""
+    return {
+        "steer_angle": -wheel.axis[0],
+        "inclination_angle": wheel.axis[2],
+        "contact_y": wheel.contact[1],
+        "centre_x": wheel.centre[0],
+    }
+
+
+def _rates(held: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, float]:
+    """Load of a wheel per its rise, both wheels alike and against each other."""
+    left, right = (held.wheels[axle[0].upper() + side] for side in "LR")
+    found = {}
+    for name, sign in (("wheel_rate", 1.0), ("roll_wheel_rate", -1.0)):
+        moved = V @ (soft @ (V.T @ (left.contact[2] + sign * right.contact[2])))
+        found[name] = 1.0 / float(left.contact[2] @ moved)
+    return found

@@ -1,0 +1,79 @@
+"""Compliance of a car's axles as rows of text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from mbs.vehicle.kinematics.compliance import LOADS, SENSES, Compliance
+
+_DEG = 180.0 / math.pi
+_FORCE = {"angle": (1e3 * _DEG, "deg/kN"), "shift": (1e6, "mm/kN")}
+_TORQUE = {"angle": (100.0 * _DEG, "deg/100 N.m"), "shift": (1e5, "mm/100 N.m")}
+_WORDS = {
+    "lateral_force": "lateral force",
+    "longitudinal_force": "longitudinal force at the contact",
+    "drive_force": "longitudinal force at the wheel centre",
+    "aligning_torque": "aligning torque",
+}
+_SENSE = {"same": "both wheels alike", "opposed": "right wheel opposed"}
+_SHOWN: Mapping[str, tuple[tuple[str, str, str], ...]] = {
+    "lateral_force": (("contact_y", "shift", "contact centre to the left"),),
+    "longitudinal_force": (("centre_x", "shift", "wheel centre forwards"),),
+}
+_ANGLES = (
+    ("steer_angle", "angle", "steer angle, left positive"),
+    ("inclination_angle", "angle", "inclination angle, top to the right positive"),
+)
+
+
+def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
+    """Title, value in front, value behind, unit and meaning; a title alone is a heading.
+
+    Parameters
+    ----------
+    found : Compliance
+        Of a car.
+    """
+    title = f"Compliance of the left wheel per load (fidelity {found.fidelity.value})"
+    lines: list[tuple[str, str, str, str, str]] = [(title, "", "", "", "")]
+    for load in LOADS if found.freedoms else ():
+        units = _TORQUE if load == "aligning_torque" else _FORCE
+        for sense in SENSES:
+            for name, kind, meaning in (*_ANGLES, *_SHOWN.get(load, ())):
+                factor, unit = units[kind]
+                values = [found.values[axle][f"{load}.{sense}.{name}"] * factor for axle in ("front", "rear")]
+                lines.append(
+                    (
+                        f"{_WORDS[load]}, {_SENSE[sense]}",
+                        shown_number(values[0]),
+                        shown_number(values[1]),
+                        unit,
+                        meaning,
+                    )
+                )
+    for name, words in (("wheel_rate", "wheel rate with what gives"), ("roll_wheel_rate", "the same in roll")):
+        values = [1e-3 * found.values[axle][name] for axle in ("front", "rear")]
+        lines.append(
+            (
+                words,
+                shown_number(values[0]),
+                shown_number(values[1]),
+                "N/mm",
+                "load per travel, frame or column in series",
+            )
+        )
+    return lines
+
+
+def shown_number(value: float) -> str:
+    """Four digits; what round-off leaves of zero is zero, what there is not a dash.
+
+    Parameters
+    ----------
+    value : float
+        In the unit that is shown.
+    """
+    if math.isnan(value):
+        return "-"
+    return f"{value:.0f}" if abs(value) >= 1e4 else f"{round(value, 6) + 0.0:.4g}"

@@ -1,0 +1,211 @@
+"""A car whose chassis is held in its mean, with its steering and suspensions, without tyres, brakes and gravity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import NDArray
+
+from mbs.affine import AffineVector
+from mbs.compiler import compile
+from mbs.elements.road import PlaneRoad
+from mbs.errors import ModelError
+from mbs.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
+from mbs.model import Model
+from mbs.model.body import Body
+from mbs.model.ends import End
+from mbs.simulation import Simulation
+from mbs.vehicle.axes import FORWARD, LEFT, UP
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car import Car
+from mbs.vehicle.chassis.build import build_chassis
+from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.side import Point, Side
+from mbs.vehicle.springs import AxleSprings
+
+Array = NDArray[np.float64]
+
+AXES = FORWARD, LEFT, UP
+SETTLED, MOST_ITERATIONS = 1e-9, 30  # m, of the search for equilibrium
+
+
+@dataclass(frozen=True)
+class HeldWheel:
+    """Rows (3, nq) that give small motions of a wheel.
+
+    Attributes
+    ----------
+    radius : float
+        From the centre to the contact, m.
+    centre, axis, turn, contact : ndarray, shape (3, nq)
+        Of its centre, its axis to the left, its carrier's rotation, and the carrier's point at the contact centre.
+    """
+
+    radius: float
+    centre: Array
+    axis: Array
+    turn: Array
+    contact: Array
+
+
+def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[str, tuple[Body, Point]]]:
+    """The model, in which nothing holds the chassis yet, and carrier and centre as drawn of each wheel.
+
+    Parameters
+    ----------
+    car : Car
+        Without faults.
+    fidelity : Fidelity
+        Of its chassis.
+    """
+    m = Model(f"{car.name} held", gravity=(0.0, 0.0, 0.0))
+    m.start_in_equilibrium = False
+    m.floating = True
+    steering = m.input("steering", min=-1.0, max=1.0)
+    b = CarBuilder(car, m, m.road(PlaneRoad()), {"steering": steering})
+    b.chassis = build_chassis(m, car.chassis, None if fidelity is Fidelity.RIGID else car.flexible_frame, fidelity)
+
+    def fixed(side: Side, point: Point) -> End:
+        return b.chassis.body, point
+
+    steered = car.steering.build(b, car.rack_way)
+    carriers: dict[str, tuple[Body, Point]] = {}
+    for axle, data, rod in (("front", car.front, steered.tie_rod), ("rear", car.rear, fixed)):
+        springs = AxleSprings(data.spring, data.damper, data.stops)
+        corners = list(data.suspension.corners(b, axle, springs, rod))
+        if data.anti_roll_bar is not None:
+            data.anti_roll_bar.build(b, axle, corners)
+        carriers |= {c.side.wheel: (c.carrier, c.side.point(data.wheel.centre)) for c in corners}
+    return m, b, carriers
+
+
+class HeldCar:
+    """The car in equilibrium with the contact centres at the heights of the drawing.
+
+    Parameters
+    ----------
+    car : Car
+        Without faults.
+    fidelity : Fidelity
+        Of its chassis.
+
+    Attributes
+    ----------
+    q : ndarray, shape (nq,)
+        Coordinates.
+    wheels : dict of str to HeldWheel
+        By name, FL, FR, RL and RR.
+    """
+
+    def __init__(self, car: Car, fidelity: Fidelity) -> None:
+        m, b, carriers = held_model(car, fidelity)
+        system = compile(m)
+        assert system.frames is not None
+        self._T, self._constant = system.frames.T.toarray(), system.frames.constant
+        self._evaluator = Evaluator(Simulation(system))
+        self._carriers = {
+            name: (
+                centre,
+                [self._linear(v) for v in (carrier.point(centre), *map(carrier.vector, (FORWARD, LEFT, UP)))],
+            )
+            for name, (carrier, centre) in carriers.items()
+        }
+        origin, axes, _ = b.chassis.contact_frame
+        middle, (x, y, _) = self._linear(origin)[0], (self._linear(axis)[0] for axis in axes)
+        self._pins = np.vstack([middle, x[1:], y[2:]])  # three shifts and three turns of the mean frame
+        self.q = np.array(self._evaluator.state.q)
+        self._settle()
+
+    @property
+    def wheels(self) -> dict[str, HeldWheel]:
+        """Small motions of the wheels, by name."""
+        return {name: self._wheel(*parts) for name, parts in self._carriers.items()}
+
+    def rows(self, q: Array) -> Array:
+        """Jacobian (n, nq) of the conditions of the joints and of the held chassis.
+
+        Parameters
+        ----------
+        q : ndarray, shape (nq,)
+            Coordinates.
+        """
+        return np.vstack([self._evaluator.jacobian(q), self._pins])
+
+    def wheel_rows(self) -> Array:
+        """Rows (4, nq) of the heights of the contact centres."""
+        return np.array([wheel.contact[2] for wheel in self.wheels.values()])
+
+    def flexibility(self, held: Array) -> tuple[Array, Array]:
+        """Small motions that the joints and further rows allow, and the inverse of their stiffness.
+
+        Parameters
+        ----------
+        held : ndarray, shape (k, nq)
+            Rows that are held besides.
+
+        Returns
+        -------
+        V : ndarray, shape (nq, n)
+            Motions.
+        soft : ndarray, shape (n, n)
+            Their flexibility.
+        """
+        jacobian = self.rows(self.q)
+        every = np.vstack([jacobian, self.wheel_rows()])
+        lam = np.linalg.lstsq(every.T, self.force(self.q), rcond=RANK_TOLERANCE)[0]
+        V = scipy.linalg.null_space(np.vstack([jacobian, held]), rcond=RANK_TOLERANCE)
+        if not V.shape[1]:
+            return V, np.zeros((0, 0))
+        stiffness = np.zeros((V.shape[1], V.shape[1]))
+        for j, v in enumerate(V.T):
+            ahead, behind = self.q + SHIFT * v, self.q - SHIFT * v
+            slope = (self.force(ahead) - self.force(behind)) / (2.0 * SHIFT)
+            turned = (self.rows(ahead) - self.rows(behind)).T @ lam[: len(jacobian)] / (2.0 * SHIFT)
+            stiffness[:, j] = V.T @ (turned - slope)
+        for load, wheel in zip(lam[len(jacobian) :], self.wheels.values(), strict=True):
+            lean = wheel.axis[2] @ V  # a contact centre rises by R (1 - cos) as its wheel leans
+            stiffness += load * wheel.radius * np.outer(lean, lean)
+        return V, np.asarray(np.linalg.inv(0.5 * (stiffness + stiffness.T)))
+
+    def force(self, q: Array) -> Array:
+        """Forces Q (nq,) of springs and frame at rest.
+
+        Parameters
+        ----------
+        q : ndarray, shape (nq,)
+            Coordinates.
+        """
+        return self._evaluator.forces(q)
+
+    def _settle(self) -> None:
+        """Go to where the frame holds the springs, by Newton's method on the motions that the rows allow."""
+        still = np.zeros(len(self.q))
+        held = np.vstack([self._pins, np.array([parts[0][0][2] for _, parts in self._carriers.values()])])
+        places = held @ self.q
+        for _ in range(MOST_ITERATIONS):
+            V, soft = self.flexibility(self.wheel_rows())
+            change = V @ (soft @ (V.T @ self.force(self.q)))
+            self.q = self.q + change
+            for _ in range(5):
+                phi, jacobian, _ = self._evaluator.constraints(self.q, still)
+                off = np.concatenate([phi, held @ self.q - places])
+                self.q = self.q - np.linalg.lstsq(np.vstack([jacobian, held]), off, rcond=RANK_TOLERANCE)[0]
+            if not np.abs(change).max(initial=0.0) > SETTLED:
+                return
+        raise ModelError("The frame of the held car finds no equilibrium with its springs.")
+
+    def _wheel(self, centre: Point, parts: list[tuple[Array, Array]]) -> HeldWheel:
+        place, *axes = parts
+        turn = 0.5 * np.sum([np.cross(A @ self.q + a, A, axisb=0).T for A, a in axes], axis=0)
+        down = np.array([0.0, 0.0, -centre[2]])
+        contact = place[0] + np.cross(turn, down, axisa=0).T
+        return HeldWheel(centre[2], place[0], axes[1][0], turn, contact)
+
+    def _linear(self, v: AffineVector) -> tuple[Array, Array]:
+        full = np.zeros((3, len(self._T)))
+        for row, component in zip(full, v.components, strict=True):
+            for k, c in component.terms.items():
+                row[k] = c
+        return full @ self._T, full @ self._constant + [component.constant for component in v.components]

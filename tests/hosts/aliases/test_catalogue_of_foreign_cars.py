@@ -1,0 +1,74 @@
+"""A test of the catalogue gives the same measures of the same car in whatever names it has."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from hosts.aliases import Aliases, find_aliases
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.perform import missing_for, perform
+from hosts.catalogue.registry import standard_test
+from hosts.fmu import described
+from hosts.variables import Variables
+
+CONSTANTS = {
+    "vehicle.steering_wheel_angle_max": 8.0,
+    "brake_pressure_max": 12e6,
+    "centre_of_mass.x": 0.35,
+    "centre_of_mass.y": 0.0,
+    "centre_of_mass.z": -0.25,
+}
+# Accelerations: of Chrono as differences over 10 ms, of OSI their part from the turning, of CarSim level.
+TOLERANCES = {"carmaker": 1e-6, "carsim": 5e-3, "chrono": 2e-2, "osi": 5e-3, "vehicle_interfaces": 1e-6}
+
+
+@pytest.fixture(scope="module")
+def step_steer(foreign_fmu):
+    """The measures of a car by name."""
+    test = standard_test("step_steer")
+
+    def measures(style: str, file: Path | None) -> dict[str, float]:
+        fmu = foreign_fmu(style)
+        told = Variables(described(fmu))
+        aliases = Aliases(constants=CONSTANTS) if file is None else find_aliases(file, told)
+        car = TestedCar(style, fmu, aliases, step=0.01)
+        assert missing_for(test, car, {s.name: s.value for s in test.settings}) is None
+        return {m.name: m.value for m in perform(test, car).measures}
+
+    return measures
+
+
+@pytest.fixture(scope="module")
+def ours(step_steer):
+    return step_steer("ours", None)
+
+
+@pytest.fixture
+def file(tmp_path):
+    def write(style, entries=""):
+        made = tmp_path / f"{style}.toml"
+        numbers = "\n".join(f'"{name}" = {value}' for name, value in CONSTANTS.items())
+        made.write_text(f'extends = "{style}"\n{entries}\n[constants]\n{numbers}', encoding="utf-8")
+        return made
+
+    return write
+
+
+SLOW = ("carsim", "osi", "vehicle_interfaces")
+
+
+@pytest.mark.parametrize("style", [pytest.param(s, marks=pytest.mark.slow if s in SLOW else ()) for s in TOLERANCES])
+def test_measures_are_the_same(style, step_steer, ours, file):
+    theirs = step_steer(style, file(style))
+    assert theirs.keys() == ours.keys()
+    assert sum(map(math.isfinite, ours.values())) > 10
+    for name, value in ours.items():
+        assert theirs[name] == pytest.approx(value, rel=TOLERANCES[style], abs=1e-9, nan_ok=True), name
+
+
+def test_a_turned_sign_turns_a_measure(step_steer, ours, file):
+    theirs = step_steer("carmaker", file("carmaker", '"chassis.wz" = { name = "Car.YawRate", factor = -1.0 }'))
+    assert not all(theirs[n] == pytest.approx(v, rel=0.1, nan_ok=True) for n, v in ours.items())

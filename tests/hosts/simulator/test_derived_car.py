@@ -1,0 +1,51 @@
+"""A car seen through aliases has its derived variables too, and they follow jumps of its time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hosts.aliases import Alias, Aliases
+from hosts.aliases.derived import parse_derived
+from hosts.simulator.aliased_car import AliasedCar
+from hosts.simulator.moments import Moment
+
+ALIASES = Aliases(
+    (Alias("steering", "StrAng", -540.0), Alias("chassis.x", "X", 1000.0)),
+    derived=(
+        parse_derived("chassis.vx", "rate(chassis.x)", {}, "here"),
+        parse_derived("speed", "length(chassis.vx, 0)", {}, "here"),
+    ),
+)
+
+
+class Sledge:
+    """What `AliasedCar` needs of a car: it moves 2 m/s forward."""
+
+    names, inputs, units, constants, step = ("StrAng", "X"), ("StrAng",), {"StrAng": "deg", "X": "mm"}, {}, 0.01
+
+    def __init__(self):
+        self.time = 0.0
+
+    def latest(self):
+        moment = Moment.__new__(Moment)
+        for name in Moment.__dataclass_fields__:
+            object.__setattr__(moment, name, 0)
+        return replace(moment, time=self.time, values=np.array([270.0, 2000.0 * self.time]))
+
+
+def test_derived_values_come_after_those_of_the_car():
+    sledge = Sledge()
+    car = AliasedCar(sledge, ALIASES)
+    assert car.names == ("steering", "chassis.x", "chassis.vx", "speed")
+    assert car.inputs == ("steering",)
+    assert set(car.units) == set(car.names)
+    assert np.isnan(car.latest().values[2:]).all()
+    for k in range(1, 5):
+        sledge.time = 0.01 * k
+        assert car.latest().values == pytest.approx([-0.5, 0.02 * k, 2.0, 2.0])
+        assert car.latest().values == pytest.approx([-0.5, 0.02 * k, 2.0, 2.0])  # asked twice in a step
+    sledge.time = 0.0
+    assert np.isnan(car.latest().values[2:]).all()

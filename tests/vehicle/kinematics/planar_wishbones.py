@@ -1,0 +1,100 @@
+"""Double wishbones whose links move in planes across the car, solved in closed form as four-bar linkages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from scipy.optimize import brentq
+
+from mbs.vehicle import load
+
+CENTRE, TRACK_HALF = 0.2489, 0.67
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """Pivots and ball joints (y, z) of the left side as drawn, m."""
+
+    lower_pivot: tuple[float, float]
+    lower_ball: tuple[float, float]
+    upper_pivot: tuple[float, float]
+    upper_ball: tuple[float, float]
+
+    def car(self, **more):
+        """The prototype with these wishbones; its tie rod is a copy of the lower arm, so that nothing steers."""
+        return _car(self, tuple(more.items()))
+
+    def points(self):
+        """Hard points as the file names them."""
+        (ly, lz), (by, bz), (uy, uz), (vy, vz) = (
+            self.lower_pivot,
+            self.lower_ball,
+            self.upper_pivot,
+            self.upper_ball,
+        )
+        return {
+            "lower_pivot_front": [0.15, ly, lz],
+            "lower_pivot_rear": [-0.15, ly, lz],
+            "upper_pivot_front": [0.13, uy, uz],
+            "upper_pivot_rear": [-0.13, uy, uz],
+            "lower_ball_joint": [0.0, by, bz],
+            "upper_ball_joint": [0.0, vy, vz],
+            "tie_rod_inner": [-0.125, ly, lz],
+            "tie_rod_outer": [-0.125, by, bz],
+        }
+
+    def upright(self, angle):
+        """Lower ball joint and turn of the upright about x for an angle of the lower arm, rad."""
+        pivot, ball, top, head = (
+            np.array(p) for p in (self.lower_pivot, self.lower_ball, self.upper_pivot, self.upper_ball)
+        )
+        low = pivot + np.linalg.norm(ball - pivot) * np.array([np.cos(angle), np.sin(angle)])
+        post, arm = np.linalg.norm(head - ball), np.linalg.norm(head - top)
+        gap = top - low
+        far = np.linalg.norm(gap)
+        along = (far**2 + post**2 - arm**2) / (2.0 * far)
+        across = np.sqrt(post**2 - along**2)
+        unit = gap / far
+        head_now = low + along * unit + across * np.array([unit[1], -unit[0]])  # outboard of the line to the pivot
+        drawn, now = head - ball, head_now - low
+        turn = np.arctan2(drawn[0] * now[1] - drawn[1] * now[0], drawn @ now)
+        return low, turn
+
+    def wheel(self, travel):
+        """Centre (y, z), turn about x and contact (y, z) of the left wheel at a travel, m."""
+
+        def at(angle):
+            low, turn = self.upright(angle)
+            gap = np.subtract((TRACK_HALF, CENTRE), self.lower_ball)
+            c, s = np.cos(turn), np.sin(turn)
+            return low + np.array([c * gap[0] - s * gap[1], s * gap[0] + c * gap[1]]), turn
+
+        drawn = np.arctan2(*np.subtract(self.lower_ball, self.lower_pivot)[::-1])
+        angle = brentq(lambda a: at(a)[0][1] - CENTRE - travel, drawn - 0.8, drawn + 0.8, xtol=1e-14)
+        centre, turn = at(angle)
+        return centre, turn, centre - CENTRE * np.array([-np.sin(turn), np.cos(turn)])
+
+    def pole(self, travel):
+        """Instantaneous centre (y, z) of the upright: where the lines of both arms meet."""
+        drawn = np.arctan2(*np.subtract(self.lower_ball, self.lower_pivot)[::-1])
+        angle = brentq(lambda a: self._height(a) - CENTRE - travel, drawn - 0.8, drawn + 0.8, xtol=1e-14)
+        low, turn = self.upright(angle)
+        post = np.subtract(self.upper_ball, self.lower_ball)
+        c, s = np.cos(turn), np.sin(turn)
+        head = low + np.array([c * post[0] - s * post[1], s * post[0] + c * post[1]])
+        first, second = low - self.lower_pivot, head - self.upper_pivot
+        share = np.linalg.solve(np.column_stack([first, -second]), np.subtract(self.upper_pivot, self.lower_pivot))
+        return np.array(self.lower_pivot) + share[0] * first
+
+    def _height(self, angle):
+        low, turn = self.upright(angle)
+        gap = np.subtract((TRACK_HALF, CENTRE), self.lower_ball)
+        return low[1] + np.sin(turn) * gap[0] + np.cos(turn) * gap[1]
+
+
+@cache
+def _car(linkage, more):
+    moved = {f"front.suspension.points.{name}": list(value) for name, value in (linkage.points() | dict(more)).items()}
+    return load("prototype").changed(moved | {"chassis.frame.or_rigid": True})  # the frame has other joints

@@ -1,0 +1,76 @@
+"""A planar steering with upright steering axes: angles by the sine rule, Ackermann and turning circle by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs.vehicle.kinematics.curves import steer_curve
+from mbs.vehicle.kinematics.linkage import Linkage
+from tests.vehicle.kinematics.planar_wishbones import TRACK_HALF, FourBar
+
+KINGPIN = np.array([0.0, 0.60])
+INNER, OUTER = np.array([-0.14, 0.30]), np.array([-0.12, 0.57])
+LINKS = FourBar((0.30, 0.15), (0.60, 0.15), (0.30, 0.385), (0.60, 0.385))
+RACK = np.linspace(-0.05, 0.05, 11)
+
+
+def angle(rack):
+    """Steer angle of the left wheel: the arm's end lies on two circles, about the kingpin and the rod's inner end."""
+    arm, rod = np.linalg.norm(OUTER - KINGPIN), np.linalg.norm(OUTER - INNER)
+    gap = INNER + np.array([0.0, rack]) - KINGPIN
+    far = np.hypot(*gap)
+    corner = np.arccos((arm**2 + far**2 - rod**2) / (2.0 * arm * far))
+    drawn = np.arctan2(*(OUTER - KINGPIN)[::-1])
+    sign = np.sign(np.cross([*(INNER - KINGPIN), 0.0], [*(OUTER - KINGPIN), 0.0])[2])
+    turn = np.arctan2(*gap[::-1]) + sign * corner - drawn
+    return (turn + np.pi) % (2.0 * np.pi) - np.pi
+
+
+@pytest.fixture(scope="module")
+def curve():
+    car = LINKS.car(tie_rod_inner=(*INNER, 0.15), tie_rod_outer=(*OUTER, 0.15))
+    assert car.rack_way == -1.0  # rods behind the axle
+    return car, steer_curve(Linkage(car, "front"), RACK, -2.0 * np.pi / car.steering.rack_per_turn)
+
+
+def test_steer_angles(curve):
+    car, c = curve
+    left = np.array([angle(s) for s in c["rack_travel"]])
+    right = -np.array([angle(-s) for s in c["rack_travel"]])
+    assert abs(left[-1]) > 0.3
+    np.testing.assert_allclose(c["steer_angle_left"], left, atol=1e-12)
+    np.testing.assert_allclose(c["steer_angle_right"], right, atol=1e-12)
+    for k in (1, 5, 8):
+        slopes = [(angle(s + 1e-6) - angle(s - 1e-6)) / 2e-6 for s in (c["rack_travel"][k], -c["rack_travel"][k])]
+        ratio = -2.0 * np.pi / car.steering.rack_per_turn / np.mean(slopes)
+        assert c["steering_ratio"][k] == pytest.approx(ratio, rel=1e-7)
+    np.testing.assert_allclose(c["camber_angle_left"], 0.0, atol=1e-12)
+
+
+def test_ackermann_and_turning_circle(curve):
+    car, c = curve
+    offset, base = TRACK_HALF - KINGPIN[1], car.wheelbase
+    for k in (0, 2, 8, 10):
+        left, right = c["steer_angle_left"][k], c["steer_angle_right"][k]
+        inner, outer = (left, right) if left > 0.0 else (-right, -left)  # a turn to the left, mirrored if need be
+        # contact centres: the offset turned about the kingpins
+        x_in, y_in = -offset * np.sin(inner), KINGPIN[1] + offset * np.cos(inner)
+        x_out, y_out = offset * np.sin(outer), -KINGPIN[1] - offset * np.cos(outer)
+        middle_in = y_in + (x_in + base) / np.tan(inner)
+        wanted = np.arctan2(x_out + base, middle_in - y_out)
+        assert c["ackermann_error"][k] == pytest.approx(outer - wanted, abs=1e-12)
+        assert c["ackermann"][k] == pytest.approx(100.0 * (inner - outer) / (inner - wanted), rel=1e-9)
+        middle = 0.5 * (middle_in + y_out + (x_out + base) / np.tan(outer))
+        assert c["turning_circle"][k] == pytest.approx(2.0 * np.hypot(x_out + base, middle - y_out), rel=1e-9)
+        assert abs(c["ackermann_steer_angle"][k]) == pytest.approx(wanted, rel=1e-12)
+    assert np.isnan(c["ackermann"][5])
+    np.testing.assert_allclose(c["ackermann"][:5], c["ackermann"][:5:-1], rtol=1e-9)
+
+
+def test_steering_axes_are_upright_and_the_scrub_radius_that_of_the_drawing(curve):
+    _, c = curve
+    np.testing.assert_allclose(c["kingpin_inclination_angle_left"], 0.0, atol=1e-12)
+    np.testing.assert_allclose(c["caster_angle_right"], 0.0, atol=1e-12)
+    np.testing.assert_allclose(c["kingpin_offset_at_ground_left"], TRACK_HALF - KINGPIN[1], atol=1e-12)
+    np.testing.assert_allclose(c["caster_trail_left"], 0.0, atol=1e-12)

@@ -1,0 +1,112 @@
+"""Planar wishbones against closed forms: equal and parallel, parallel and sloping, unequal; over large travel."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from mbs.vehicle.kinematics.curves import travel_curve
+from mbs.vehicle.kinematics.linkage import Linkage
+from tests.vehicle.kinematics.planar_wishbones import CENTRE, TRACK_HALF, FourBar
+
+LEVEL = FourBar((0.30, 0.15), (0.60, 0.15), (0.30, 0.385), (0.60, 0.385))
+SLOPING = FourBar((0.30, 0.19), (0.60, 0.15), (0.30, 0.425), (0.60, 0.385))
+UNEQUAL = FourBar((0.30, 0.165), (0.60, 0.15), (0.35, 0.372), (0.575, 0.385))
+TRAVEL = np.linspace(-0.12, 0.12, 13)
+
+
+@cache
+def parallel(linkage):
+    return travel_curve(Linkage(linkage.car(), "front"), "parallel", TRAVEL)
+
+
+@pytest.mark.parametrize("linkage", [LEVEL, SLOPING])
+def test_parallel_equal_arms_carry_the_wheel_on_a_circle_without_turning_it(linkage):
+    curve = parallel(linkage)
+    for name in ("camber_angle_left", "camber_gradient_left", "toe_angle_left", "toe_gradient_left"):
+        np.testing.assert_allclose(curve[name], 0.0, atol=1e-12)
+    y, z = np.subtract(linkage.lower_ball, linkage.lower_pivot)
+    way = np.sqrt(y**2 + z**2 - (z + TRAVEL) ** 2) - y
+    np.testing.assert_allclose(curve["track_change"], 2.0 * way, atol=1e-12)
+    # the arms stay parallel, so the way to their pole is that of the arms; it rises inwards from the contact centre
+    slope = -(z + TRAVEL) / np.sqrt(y**2 + z**2 - (z + TRAVEL) ** 2)
+    np.testing.assert_allclose(curve["roll_centre_height"], (TRACK_HALF + way) * slope, atol=1e-12)
+
+
+def test_level_equal_arms_have_their_roll_centre_on_the_ground():
+    assert parallel(LEVEL).drawn()["roll_centre_height"] == pytest.approx(0.0, abs=1e-14)
+    assert parallel(SLOPING).drawn()["roll_centre_height"] == pytest.approx(TRACK_HALF * 0.04 / 0.30, rel=1e-12)
+
+
+def test_unequal_arms_are_the_four_bar_linkage():
+    curve = parallel(UNEQUAL)
+    wheels = [UNEQUAL.wheel(z) for z in TRAVEL]
+    turns = np.array([turn for _, turn, _ in wheels])
+    assert np.ptp(turns) > np.radians(5.0)
+    np.testing.assert_allclose(curve["inclination_angle_left"], turns, atol=1e-12)
+    np.testing.assert_allclose(curve["camber_angle_right"], -turns, atol=1e-12)
+    np.testing.assert_allclose(curve["wheel_centre_y_left"], [c[0] for c, _, _ in wheels], atol=1e-12)
+    np.testing.assert_allclose(curve["contact_centre_y_left"], [p[0] for _, _, p in wheels], atol=1e-12)
+    np.testing.assert_allclose(curve["contact_centre_z_left"], [p[1] for _, _, p in wheels], atol=1e-12)
+    np.testing.assert_allclose(curve["track_change"], [2.0 * (p[0] - TRACK_HALF) for _, _, p in wheels], atol=1e-12)
+    # d(turn)/d(travel) is 1 over the lever of the pole, camber the opposite of it on the left side
+    poles = np.array([UNEQUAL.pole(z) for z in TRAVEL])
+    centres = np.array([c for c, _, _ in wheels])
+    np.testing.assert_allclose(curve["camber_gradient_left"], -1.0 / (centres - poles)[:, 0], rtol=1e-9)
+
+
+def test_the_roll_centre_is_on_the_line_from_contact_to_pole():
+    curve = parallel(UNEQUAL)
+    for k, z in enumerate(TRAVEL):
+        (y, ground), (pole_y, pole_z) = UNEQUAL.wheel(z)[2], UNEQUAL.pole(z)
+        height = (pole_z - ground) * y / (y - pole_y)
+        assert curve["roll_centre_height"][k] == pytest.approx(height, rel=1e-9)
+
+
+def test_roll_steer_and_roll_camber_of_wheels_that_do_not_turn():
+    """Parallel equal arms: the wheels lean with the chassis, and the suspension's roll is that of the travels."""
+    curve = travel_curve(Linkage(LEVEL.car(), "front"), "opposite", np.array([-0.02, 0.0, 0.02]))
+    np.testing.assert_allclose(curve["roll_camber"], 1.0, atol=1e-12)
+    np.testing.assert_allclose(curve["roll_steer"], 0.0, atol=1e-12)
+    np.testing.assert_allclose(curve["suspension_roll_angle"], [0.02 / TRACK_HALF, 0.0, -0.02 / TRACK_HALF], atol=1e-14)
+
+
+def test_motion_ratio_of_an_inclined_spring():
+    """On level arms the wheel centre rises as the ball joint does; the spring takes its part along its own line."""
+    curve = parallel(LEVEL).drawn()
+    lower, upper = np.array([0.0, 0.50, 0.175]), np.array([0.0, 0.38, 0.785])
+    lever = lower[1:] - LEVEL.lower_pivot
+    way = np.array([-lever[1], lever[0]]) / 0.30  # of the spring's end per wheel travel
+    line = (upper - lower)[1:] / np.linalg.norm(upper - lower)
+    assert curve["spring_ratio_left"] == pytest.approx(way @ line, rel=1e-12)
+    assert curve["damper_ratio_left"] == pytest.approx(way @ line, rel=1e-12)
+
+
+def test_wheel_rate_by_the_lever_law_over_large_travel():
+    """The wheel does not lean, so the load is that of the spring on its lever, and the rate its derivative."""
+    linkage = Linkage(LEVEL.car(), "front")
+    spring = linkage.data.spring
+    lever, upper = np.subtract((0.50, 0.175), LEVEL.lower_pivot), np.array([0.38, 0.785])
+
+    def load(z):
+        turn = np.arcsin(z / 0.30)
+        c, s = np.cos(turn), np.sin(turn)
+        end = np.array(LEVEL.lower_pivot) + np.array([[c, -s], [s, c]]) @ lever
+        across = np.array([-s * lever[0] - c * lever[1], c * lever[0] - s * lever[1]]) / (0.30 * c)
+        gap = upper - end
+        length = np.linalg.norm(gap)
+        return spring.stiffness * (spring.free_length - length) * (across @ gap) / length
+
+    z = np.linspace(-0.06, 0.06, 7)
+    curve = travel_curve(linkage, "parallel", z)
+    np.testing.assert_allclose(curve["spring_load_left"], [load(x) for x in z], rtol=1e-10)
+    slope = [(load(x + 1e-5) - load(x - 1e-5)) / 2e-5 for x in z]
+    np.testing.assert_allclose(curve["wheel_rate_left"], slope, rtol=1e-6)
+    tyre = linkage.data.tyre.stiffness
+    np.testing.assert_allclose(1.0 / curve["ride_rate_left"], 1.0 / np.array(slope) + 1.0 / tyre, rtol=1e-6)
+    opposite = travel_curve(linkage, "opposite", z)
+    roll = 2.0 * TRACK_HALF**2 * opposite.drawn()["wheel_rate_left"]
+    assert opposite.drawn()["roll_stiffness"] == pytest.approx(roll, rel=1e-9)
+    assert linkage.data.wheel.centre[2] == CENTRE
