@@ -12,7 +12,7 @@ from hosts.aliases.checks import check_unit, declared, factor_of_unit, is_si
 from hosts.aliases.content import SHIPPED, Content, Entry, number, read_content, shipped_names
 from hosts.aliases.derived import Derived, in_order, parse_derived
 from hosts.errors import HostError
-from hosts.variables import Variables
+from hosts.variables import Variable, Variables
 
 _KEYS = ("name", "factor", "offset", "unit")
 _RECORDED = ("input", "output")
@@ -78,6 +78,11 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
             wanted.add(entry.value["factor"])
         else:
             aliases.append(_alias(entry, constants, known))
+            if known is not None and _is_hidden(known[entry.value["name"]]):
+                missing[entry.ours] = (
+                    f"{entry.file} takes '{entry.ours}' from '{entry.value['name']}', which is a local variable of the "
+                    "FMU and no output"
+                )
     aliases = [a for a in aliases if not _is_there_itself(a, content.entries[a.ours], aliases, names)]
     seen: dict[str, str] = {}
     for alias in aliases:
@@ -93,6 +98,10 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
             f"'{first.value.get('name', first.ours)}'; is it an FMU of that program?"
         )
     return Aliases(tuple(aliases), constants, derived, missing)
+
+
+def _is_hidden(variable: Variable) -> bool:
+    return variable.causality in ("local", "independent") and variable.variability != "constant"
 
 
 def _constants(content: Content, known: Variables | None) -> dict[str, float]:

@@ -9,7 +9,8 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -119,8 +120,9 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
                 tasks.append(Task(test.name, car, settings[test.name], folder))
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, outcomes, settings)
-    for _ in _done(tasks, options.jobs or os.cpu_count() or 1, outcomes):
-        write_measures(options.out, tests, cars, outcomes, settings)
+    with closing(_done(tasks, options.jobs or os.cpu_count() or 1, outcomes)) as done:
+        for _ in done:
+            write_measures(options.out, tests, cars, outcomes, settings)
     print_measures(tests, cars, outcomes)
     files += _report(options.out / "report.html", tests, cars, outcomes, settings, command)
     runs = "" if options.no_runs or not tasks else f", tables of the runs in {options.out / 'runs'}"
@@ -143,7 +145,7 @@ def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> 
     return settings
 
 
-def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcome]]) -> Iterator[None]:
+def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcome]]) -> Generator[None]:
     """Do all tasks under a progress bar; after each its outcome is among the others."""
     from tqdm import tqdm
 
@@ -158,10 +160,11 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
             bar.set_description_str(f"{tasks[place].test}, {tasks[place].car.label}", refresh=False)
             bar.update(sum(parts) - bar.n)
 
-        for place, outcome in done_by(tasks, jobs, progress):
-            progress(place, 1.0)
-            outcomes[tasks[place].test][tasks[place].car.label] = outcome
-            yield
+        with closing(done_by(tasks, jobs, progress)) as done:
+            for place, outcome in done:
+                progress(place, 1.0)
+                outcomes[tasks[place].test][tasks[place].car.label] = outcome
+                yield
 
 
 def _report(

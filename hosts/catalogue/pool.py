@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import multiprocessing
 import signal
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+import tempfile
+import threading
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 
@@ -14,7 +16,7 @@ from hosts.catalogue.task import Outcome, Task, do
 _END = 5.0  # s that a process has to end by itself
 
 
-def done_by(tasks: Sequence[Task], jobs: int, progress: Callable[[int, float], None]) -> Iterator[tuple[int, Outcome]]:
+def done_by(tasks: Sequence[Task], jobs: int, progress: Callable[[int, float], None]) -> Generator[tuple[int, Outcome]]:
     """Do tasks, several at a time; give each with its place as soon as it is done.
 
     Parameters
@@ -30,10 +32,18 @@ def done_by(tasks: Sequence[Task], jobs: int, progress: Callable[[int, float], N
     A task knows nothing of the others, so that its outcome does not depend on `jobs`. Where the iteration is left
     early, as by Ctrl-C, the processes are ended.
     """
+    # FMUs are unpacked in a folder that goes with the command, also where a process could not clean up.
+    with tempfile.TemporaryDirectory(prefix="catalogue_", ignore_cleanup_errors=True) as folder:
+        yield from _done_in(folder, tasks, jobs, progress)
+
+
+def _done_in(
+    folder: str, tasks: Sequence[Task], jobs: int, progress: Callable[[int, float], None]
+) -> Generator[tuple[int, Outcome]]:
     left = list(range(len(tasks)))[::-1]
     workers: list[_Worker] = []
     try:
-        workers = [_Worker() for _ in range(max(1, min(jobs, len(tasks))))]
+        workers = [_Worker(folder) for _ in range(max(1, min(jobs, len(tasks))))]
         idle = list(workers)
         while left or len(idle) < len(workers):
             while left and idle:
@@ -48,7 +58,7 @@ def done_by(tasks: Sequence[Task], jobs: int, progress: Callable[[int, float], N
                     continue
                 yield worker.place, word
                 if worker.is_gone:
-                    workers[workers.index(worker)] = worker = _Worker()
+                    workers[workers.index(worker)] = worker = _Worker(folder)
                 idle.append(worker)
         for worker in workers:
             worker.end()
@@ -60,11 +70,12 @@ def done_by(tasks: Sequence[Task], jobs: int, progress: Callable[[int, float], N
 class _Worker:
     """A process that does one task after the other."""
 
-    def __init__(self) -> None:
+    def __init__(self, folder: str) -> None:
         context = multiprocessing.get_context("spawn")
         self.connection, theirs = context.Pipe()
-        self.process: BaseProcess = context.Process(target=_work, args=(theirs,), daemon=True)
-        self.process.start()
+        self.process: BaseProcess = context.Process(target=_work, args=(theirs, folder), daemon=True)
+        with _deaf():
+            self.process.start()
         theirs.close()
         self.place = -1
         self.is_gone = False
@@ -96,6 +107,19 @@ class _Worker:
         self.connection.close()
 
 
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """A context whose child processes take no notice of Ctrl-C from their first moment on; the command ends them."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def _how(code: int | None) -> str:
     if code is not None and code < 0:
         with suppress(ValueError):
@@ -103,9 +127,10 @@ def _how(code: int | None) -> str:
     return f" with exit code {code}"
 
 
-def _work(connection: Connection) -> None:
+def _work(connection: Connection, folder: str) -> None:
     """The loop of a worker."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all of the terminal; the command ends its workers
+    tempfile.tempdir = folder
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # where it is not inherited
     with suppress(EOFError, OSError):
         while (task := connection.recv()) is not None:
             connection.send(do(task, connection.send))

@@ -15,6 +15,8 @@ def shown(value: float) -> str:
     """Four digits, without an exponent where it reads well; `NONE` for what is no number."""
     if not math.isfinite(value):
         return NONE if math.isnan(value) else ("∞" if value > 0.0 else "-∞")
+    if 1e4 <= abs(value) < 1e7:
+        return f"{float(f'{value:.4g}'):.0f}"
     return f"{value:.4g}".replace("e+0", "e+").replace("e-0", "e-")
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.report.elements import Content, element, table
-from hosts.catalogue.report.numbers import NONE, bounds, difference, shown, unit_shown, with_unit
+from hosts.catalogue.report.numbers import NONE, bounds, difference, unit_shown, with_unit
 from hosts.errors import HostError
 from hosts.fmu import described
 from hosts.measures.measure import Measure
@@ -154,25 +154,37 @@ def _outcome(record: TestRecord | str | None) -> HtmlElement:
 
 def _row(name: str, found: Sequence[Measure | None]) -> list[Content]:
     """A measure of all cars, the first of which is what others are held against."""
-    known = next(m for m in found if m is not None)
+    there = [m for m in found if m is not None]
+    known = there[0]
     tail = unit_shown(known.unit)
-    what: Content = element(
-        "span", known.text or name, element("small", f" {name}{f', {tail}' if tail else ''}", class_="faint")
-    )
-    cells: list[Content] = [what]
+    shared = known.note if len(there) > 1 and all(m.note == known.note for m in there) else ""
+    what: list[Content] = [known.text or name, element("small", f" {name}{f', {tail}' if tail else ''}")]
+    if shared:
+        what.append(element("small", f" {shared}"))
+    cells: list[Content] = [element("span", *what)]
     for k, measure in enumerate(found):
-        cells.append(element("td", NONE) if measure is None else value_cell(measure, found[0] if k else None))
+        if measure is None:
+            cells.append(element("td", NONE))
+        else:
+            cells.append(_value_cell(measure, found[0] if k else None, known, "" if shared else measure.note))
     limit = known.limit
-    cells.append("" if limit is None else bounds(limit.lowest, limit.highest, known.unit))
+    cells.append(
+        ""
+        if limit is None
+        else element("td", bounds(limit.lowest, limit.highest, known.unit), element("small", limit.source))
+    )
     return cells
 
 
-def value_cell(measure: Measure, first: Measure | None) -> HtmlElement:
-    """A value, whether its limit is kept, and its difference to that of another car."""
+def _value_cell(measure: Measure, first: Measure | None, known: Measure, note: str) -> HtmlElement:
+    """A value, whether its limit is kept, its difference to that of the first car, and what is to be said of it."""
     parts: list[Content] = [with_unit(measure.value, measure.unit)]
-    if measure.is_kept is not None:
+    limit = measure.limit
+    if limit is not None:
         word, kind = ("kept", "kept") if measure.is_kept else ("not kept", "broken")
         parts += [" ", element("span", word, class_=kind)]
+        if limit != known.limit:
+            parts.append(element("small", f"here {bounds(limit.lowest, limit.highest, measure.unit)}"))
     if first is not None:
         if first.unit == measure.unit:
             text = difference(measure.value, first.value)
@@ -180,11 +192,6 @@ def value_cell(measure: Measure, first: Measure | None) -> HtmlElement:
             text = f"in {measure.unit}, the first in {first.unit}"
         if text:
             parts.append(element("small", text))
-    if measure.note:
-        parts.append(element("small", measure.note))
-    return element(
-        "td",
-        *parts,
-        class_="value",
-        title=f"{shown(measure.value)}" if measure.value == 0 else repr(float(measure.value)),
-    )
+    if note:
+        parts.append(element("small", note))
+    return element("td", *parts, class_="value", title=repr(float(measure.value)))

@@ -31,11 +31,16 @@ def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffe
     """The measure of each run, its mean as a line, and failed runs as marks at the lower edge."""
     figure, axes = parameter_panels(data.parameters, response.title, share_y=True)
     shown = drawn(len(response.rows), MOST_POINTS)
+    # A few runs are to be seen, many are not to become one patch.
+    size, alpha = (
+        float(np.clip(60.0 / len(shown) ** 0.4, 3.0, 10.0)),
+        float(np.clip(12.0 / len(shown) ** 0.45, 0.4, 0.9)),
+    )
     failed = np.flatnonzero(data.failed & (data.frame["manoeuvre"].astype(str) == response.manoeuvre).to_numpy())
     failed = failed[drawn(len(failed), MOST_POINTS)]
     for k, (panel, effect) in enumerate(zip(axes, effects, strict=True)):
         x = data.x[response.rows[shown], k]
-        panel.plot(x, response.values[shown], ".", color=BLUE, markersize=3, alpha=0.5, markeredgewidth=0)
+        panel.plot(x, response.values[shown], ".", color=BLUE, markersize=size, alpha=alpha, markeredgewidth=0)
         mark = "_" if data.parameters[k].words else "-"
         panel.plot(effect.at, effect.mean, mark, color="#222222", linewidth=1.2, markersize=14)
         if len(failed):

@@ -52,7 +52,7 @@ def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[Content]]) 
 
 def commands_cell(lines: Iterable[str]) -> HtmlElement:
     """A cell with commands to be copied."""
-    return element("td", *(element("code", line) for line in lines))
+    return element("td", *([element("code", line) for line in lines] or ["–"]))
 
 
 def picture(png: bytes, what: str) -> HtmlElement:

@@ -48,13 +48,15 @@ def write_report(folder: Path) -> list[Path]:
     HostError
         There is no study, or no run in it yet.
     """
-    from hosts.study.repeat import repeat_command
+    from hosts.study.repeat import repeater
     from hosts.study.store import read_study
+
+    # Whole paths: the report is read from any folder.
+    repeated = repeater(folder.absolute())
 
     @cache
     def commands(index: int) -> list[str]:
-        # Whole paths: the report is read from any folder.
-        repeat = repeat_command(folder.absolute(), index, write=True)
+        repeat = repeated(index, True)
         return [line for line in (repeat.drive, repeat.view) if line]
 
     return report_of(read_study(folder), folder, commands)

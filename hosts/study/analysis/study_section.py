@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from matplotlib import pyplot as plt
 
-from hosts.catalogue.report.elements import element
+from hosts.catalogue.report.elements import Content, element
 from hosts.result_plots import STYLE
 from hosts.study.analysis.data import FAILED, StudyData
 from hosts.study.analysis.effect_plots import plot_failed
 from hosts.study.analysis.page import commands_cell, paragraph, table
 from hosts.study.analysis.pictures import Pictures
-from hosts.study.analysis.tables import reasons, statistics
+from hosts.study.analysis.tables import reasons, said, statistics
 
 MOST_RESPONSES = 40
-_SHOWN_OF_A_REASON = 3
+_SHOWN_OF_A_REASON, _SHOWN_REASONS = 3, 20
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -67,26 +67,27 @@ def measures_section(data: StudyData) -> list[HtmlElement]:
 
 
 def failed_section(data: StudyData, pictures: Pictures, commands: Commands) -> list[HtmlElement]:
-    """Where in the space of the parameters runs failed, why, and how one is repeated; empty where none did."""
+    """Where in the space of the parameters runs failed, why, and what the FMU said; empty where all was good."""
     body = []
-    for status, title in ((FAILED, "Failed runs"), ("incomplete", "Runs without some measure")):
-        groups = reasons(data, status)
+    for groups, title in (
+        (reasons(data, FAILED), "Failed runs"),
+        (reasons(data, "incomplete"), "Runs without some measure"),
+        (said(data), "What the FMU said"),
+    ):
         if not groups:
             continue
         body.append(element("h2", title))
-        if status == FAILED and data.parameters:
+        if title == "Failed runs" and data.parameters:
             with plt.rc_context({**STYLE, "font.size": 9}):
                 body.append(pictures.add(plot_failed(data), "failed", "Share of failed runs over each parameter"))
-            body.append(
-                paragraph(
-                    "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run.",
-                    "faint",
-                )
-            )
-        rows = []
-        for text, indices in groups:
+            words = "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run."
+            body.append(paragraph(words, "faint"))
+        rows: list[tuple[Content, ...]] = []
+        for text, indices in groups[:_SHOWN_REASONS]:
             for k, index in enumerate(indices[:_SHOWN_OF_A_REASON]):
                 first = (text, str(len(indices))) if k == 0 else ("", "")
                 rows.append((*first, str(index), commands_cell(commands(index))))
-        body.append(table("Why", ("reason", "runs", "for example", "to repeat it"), rows))
+        body.append(table("Words and runs", ("words", "runs", "for example", "to repeat it"), rows))
+        if len(groups) > _SHOWN_REASONS:
+            body.append(paragraph(f"{len(groups) - _SHOWN_REASONS} rarer ones are in the table of runs only.", "faint"))
     return body

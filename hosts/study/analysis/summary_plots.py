@@ -42,11 +42,11 @@ def _histogram(axes: Axes, response: Response) -> None:
         edges = np.linspace(y.min(), y.max(), _MOST_BINS + 1)
     axes.hist(y, edges.tolist(), color=BLUE, alpha=0.75)
     for percent, value in zip(PERCENTILES, np.percentile(y, PERCENTILES), strict=True):
-        axes.axvline(float(value), color=RED, linewidth=1.2, linestyle="-" if percent == 50.0 else "--")
-        axes.annotate(
-            f"{percent:g} %", (float(value), 1.0), xycoords=("data", "axes fraction"), xytext=(2, -2),
-            textcoords="offset points", va="top", fontsize=8, color=RED, rotation=90,
-        )  # fmt: skip
+        dashes = "-" if percent == 50.0 else "--"
+        axes.axvline(float(value), color=RED, linewidth=1.2, linestyle=dashes, label=f"{percent:g} %: {value:.4g}")
+    axes.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 0.985), ncols=3, handlelength=1.4, columnspacing=1.0, fontsize=8
+    )
     axes.set_xlabel(response.title)
     axes.set_axisbelow(True)
     axes.set_ylabel("runs")

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hosts.study.analysis.data import Response, StudyData
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 _PERCENTILES = (0.0, 5.0, 50.0, 95.0, 100.0)
 _NUMBER = re.compile(r"(?<![A-Za-z_\d.\[])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w\]])")
@@ -57,10 +61,22 @@ def extremes(data: StudyData, response: Response, count: int) -> tuple[list[Row]
 
 def reasons(data: StudyData, status: str) -> list[tuple[str, list[int]]]:
     """Reasons of the runs of a status and their indices, the most frequent first; they may differ in their numbers."""
+    return _grouped(data.frame.loc[data.frame["status"].astype(str) == status, "reason"])
+
+
+def said(data: StudyData) -> list[tuple[str, list[int]]]:
+    """What the FMU said in its runs and their indices, the most frequent first; it may differ in its numbers."""
+    if "messages" not in data.frame:
+        return []
+    messages = data.frame["messages"].fillna("").astype(str)
+    return _grouped(messages[messages != ""])
+
+
+def _grouped(texts: pd.Series[str]) -> list[tuple[str, list[int]]]:
+    """Texts that are the same but for their numbers, and the runs in which they stand."""
     found: dict[str, list[tuple[int, str]]] = {}
-    wanted = data.frame[data.frame["status"].astype(str) == status]
-    for index, text in zip(wanted.index, wanted["reason"].astype(str), strict=True):
-        found.setdefault(_NUMBER.sub("…", text), []).append((int(index), text))
+    for index, text in texts.astype(str).items():
+        found.setdefault(_NUMBER.sub("…", text), []).append((int(str(index)), text))
     groups = [
         (runs[0][1] if len({text for _, text in runs}) == 1 else pattern, [index for index, _ in runs])
         for pattern, runs in found.items()

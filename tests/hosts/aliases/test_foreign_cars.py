@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
+import zipfile
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from fmpy import read_model_description
 
 from hosts.aliases import Aliases, find_aliases, shipped_names
 from hosts.catalogue.car import TestedCar
@@ -87,6 +91,14 @@ def largest_errors(ours, theirs):
 
 def test_all_files_that_come_with_the_package_are_tried_here():
     assert tuple(shipped_names()) == STYLES
+
+
+def test_a_wheel_has_them():
+    builder = pytest.importorskip("hatchling.builders.wheel").WheelBuilder
+    root = Path(__file__).parents[3]
+    packed = {file.distribution_path.replace("\\", "/") for file in builder(str(root)).recurse_included_files()}
+    assert {f"hosts/alias_files/{style}.toml" for style in STYLES} <= packed
+    assert "hosts/catalogue/report/page.css" in packed
 
 
 # Rates are differences over 10 ms, in which inputs are held, and so are half a step late; CarSim's axes do not roll.
@@ -203,3 +215,19 @@ def test_what_is_left_out_is_told(foreign_fmu, alias_file):
         "carmaker.toml takes 'wheel_FL.Fz' from 'Car.FzFL', which the FMU does not have"
     )
     assert aliases.why_missing("chassis.x") == ""
+
+
+def test_a_variable_that_is_no_output_is_told(foreign_fmu, tmp_path, alias_file):
+    fmu = foreign_fmu("carmaker")
+    made = tmp_path / "local.fmu"
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(made, "w") as new:
+        for item in old.infolist():
+            content = old.read(item)
+            if item.filename == "modelDescription.xml":
+                content = re.sub(rb'(name="Car.ay"[^>]*)causality="output"', rb'\1causality="local"', content)
+                content = content.replace(b'causality="local" initial="calculated"', b'causality="local"')
+            new.writestr(item, content)
+    aliases = find_aliases(alias_file("carmaker"), Variables(read_model_description(str(made), validate=False)))
+    assert aliases.why_missing("chassis.ay") == (
+        "carmaker.toml takes 'chassis.ay' from 'Car.ay', which is a local variable of the FMU and no output"
+    )

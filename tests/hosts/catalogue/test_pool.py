@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
+from hosts.catalogue.car import TestedCar
 from hosts.catalogue.pool import done_by
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.task import Task
@@ -34,11 +37,18 @@ def test_a_crash_and_a_fault_are_rows_and_the_others_are_done(tmp_path: Path) ->
     ]
 
 
-def test_processes_end_with_the_iteration() -> None:
-    tasks = [Task("steady_circle", BicycleCar(), {}) for _ in range(2)]  # type: ignore[arg-type]
-    iteration = done_by([*tasks, Task("steady_circle", FaultyCar(), FAST)], 3, lambda place, part: None)  # type: ignore[arg-type]
-    assert next(iteration)[0] == 2
-    workers = iteration.gi_frame.f_locals["workers"]  # type: ignore[attr-defined]
-    assert sum(worker.process.is_alive() for worker in workers) == 3
-    iteration.close()  # type: ignore[attr-defined]
-    assert not any(worker.process.is_alive() for worker in workers)
+def test_processes_and_what_they_unpacked_go_with_the_iteration(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, prototype_fmu: Path
+) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    slow = Task("steady_circle", TestedCar("slow", prototype_fmu), {"speed_rise": 0.02})
+    iteration = done_by([slow, Task("steady_circle", FaultyCar(), FAST)], 2, lambda place, part: None)  # type: ignore[arg-type]
+    assert next(iteration)[0] == 1
+    end = time.monotonic() + 30.0
+    while not list(tmp_path.rglob("modelDescription.xml")) and time.monotonic() < end:
+        time.sleep(0.05)
+    children = multiprocessing.active_children()
+    assert len(children) == 2
+    iteration.close()
+    assert not any(child.is_alive() for child in children)
+    assert not list(tmp_path.iterdir())

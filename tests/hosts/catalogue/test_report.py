@@ -14,12 +14,13 @@ import numpy as np
 import pytest
 
 from ali3.errors import FileError
-from hosts.catalogue.record import Line, Plot
+from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.report import write_report
 from hosts.catalogue.report.numbers import bounds, difference, shown, unit_shown
 from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import command_of
 from hosts.catalogue.report.thinning import MOST, thinned
+from hosts.measures.measure import Limit, Measure
 from tests.hosts.catalogue.synthetic_records import EVIL, record, synthetic
 
 COMMAND = ["ali3", "catalogue", "my car.fmu", "--tests=test_0", "--test-setting", "test_1.speed=80", "--jobs", "2"]
@@ -91,10 +92,36 @@ def test_everything_of_a_car_is_in_the_header(report):
 def test_limits_and_differences_are_told_by_words(report):
     _, document = report
     row = next(r for r in document.xpath("//tr") if "yaw_rate.overshoot" in "".join(r.itertext()))
-    assert texts(row)[1:] == ["0.12 kept", "0.22 not kept+0.1 (+83.3 %)", "0.32 not kept+0.2 (+167 %)", "at most 0.2"]
+    assert texts(row)[1:] == [
+        "0.12 kept",
+        "0.22 not kept+0.1 (+83.3 %)",
+        "0.32 not kept+0.2 (+167 %)",
+        "at most 0.2a rule, 5.2",
+    ]
     assert [s.get("class") for s in row.iter("span") if s.get("class")] == ["kept", "broken", "broken"]
     missing = next(r for r in document.xpath("//tr") if "roll.time" in "".join(r.itertext()))
-    assert texts(missing)[1] == "–The car has no output chassis.roll."
+    assert texts(missing)[0].endswith("roll.time, s The car has no output chassis.roll.")  # said once for all cars
+    assert texts(missing)[1:4] == ["–", "–", "–"]
+
+
+def test_limits_of_their_own_units_and_notes(fmu, tmp_path):
+    """Cars may differ in what they must keep, in units, and in what they lack."""
+    tests, cars, _ = synthetic(fmu, cars=3, tests=1)
+    made = [
+        Measure("a", 1.0, "m", "a", Limit("x", lowest=0.5), "one"),
+        Measure("a", 0.4, "rad", "a", Limit("x", lowest=0.3), "two"),
+    ]
+    records = {"test_0": {car.label: TestRecord([m], [], {}) for car, m in zip(cars, made, strict=False)}}
+    write_report(tmp_path / "r.html", tests, cars, records)
+    document = html5lib.parse((tmp_path / "r.html").read_text("utf-8"), "lxml", namespaceHTMLElements=False)
+    row = next(r for r in document.xpath("//tr") if texts(r)[0] == "a a, m")
+    assert texts(row)[1:] == [
+        "1 m keptone",
+        "0.4 rad kepthere at least 0.3 radin rad, the first in mtwo",
+        "–",
+        "at least 0.5 mx",
+    ]
+    assert "not asked for" in texts(document.xpath("//td"))
 
 
 def test_a_section_has_all_of_a_test(report):
@@ -190,7 +217,7 @@ def test_numbers_for_people():
     assert [shown(v) for v in (0.123456, 1e-7, 12345.6, float("nan"), float("-inf"))] == [
         "0.1235",
         "1e-7",
-        "1.235e+4",
+        "12350",
         "–",
         "-∞",
     ]

@@ -16,7 +16,7 @@ from hosts.study.analysis.data import study_data
 from hosts.study.analysis.effect_plots import failed_share
 from hosts.study.analysis.report import report_of
 from hosts.study.analysis.summary_plots import rank_correlations
-from hosts.study.analysis.tables import extremes, reasons, statistics
+from hosts.study.analysis.tables import extremes, reasons, said, statistics
 from tests.hosts.study.frames import frame_of
 
 UNITS = {"stiffness": "N/m", "mass": "kg", "surface": "", "peak": "m/s2"}
@@ -104,6 +104,16 @@ def test_extremes_reasons_and_statistics(frame: pd.DataFrame) -> None:
     assert reason == "The FMU refused the step at … s."
     assert runs == frame.index[frame["status"] == "failed"].tolist()
     assert statistics(peak)["5 %"] == pytest.approx(frame["peak"].quantile(0.05))
+
+
+def test_what_the_fmu_said(frame: pd.DataFrame, tmp_path: Path) -> None:
+    told = frame.iloc[:70].copy()
+    told["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(70)]
+    told.attrs = frame.attrs
+    assert said(study_data(told)) == [("The step … ms is coarse.", list(range(0, 70, 7)))]
+    text = report_of(told, tmp_path, commands)[0].read_text(encoding="utf-8")
+    assert "What the FMU said" in text
+    assert "The step … ms is coarse." in text
 
 
 def test_two_manoeuvres_are_two_responses() -> None:
