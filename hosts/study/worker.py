@@ -126,12 +126,13 @@ def run_chunk(key: str, chunk: Chunk) -> list[Outcome]:
         point, number = divmod(index, len(work.jobs))
         values = {name: column[k] for name, column in chunk.values.items()}
         tasks.append((work.jobs[number], values, seed_of(room.seed, point)))
-    if chunk.isolated:
+    alone = worker.state.nthreads == 1
+    if chunk.isolated or (work.time_limit is not None and not alone):
         return run_isolated(work, room.fmu, tasks)
-    bench, alone = room.bench(), worker.state.nthreads == 1
+    bench = room.bench()
     outcomes = []
     for task in tasks:
-        with _limited(work.time_limit if alone else None):
+        with _limited(work.time_limit):
             outcomes.append(bench.run(*task))
     return outcomes
 

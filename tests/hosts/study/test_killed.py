@@ -22,7 +22,7 @@ from hosts.study.parts import part_files
 from hosts.study.store import read_study
 
 ROOT = Path(__file__).parents[3]
-RUNS = 60
+RUNS = 140
 SLOW = """
 import time
 
