@@ -205,6 +205,26 @@ class Fmu:
 
         return set_values
 
+    @property
+    def follows_slopes(self) -> bool:
+        """Whether inputs may change during a step, by derivatives that are set before it."""
+        return self._can("canInterpolateInputs")
+
+    def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+        """A function that sets first derivatives by the time of real inputs, for the next step only."""
+        slave, count = self._slave, len(names)
+        references, orders = (fmi2ValueReference * count)(*self.references(names)), (fmi2Integer * count)(*count * [1])
+        buffer = (fmi2Real * count)()
+
+        def set_slopes(slopes: Sequence[float]) -> None:
+            buffer[:] = slopes
+            try:
+                slave.fmi2SetRealInputDerivatives(slave.component, references, count, orders, buffer)
+            except FMICallException as error:
+                raise HostError(f"A derivative of an input was refused: {self._last_message() or error}") from None
+
+        return set_slopes
+
     def getter(self, names: Sequence[str]) -> Callable[[], list[float]]:
         """A function that gives the values of variables; their references are prepared once."""
         slave = self._slave

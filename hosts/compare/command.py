@@ -27,6 +27,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.co
     parser.add_argument("--fmu-aliases", type=Path, metavar="FILE", help="alias file of an FMU with other names")
     parser.add_argument("--signals", metavar="NAME,...", help="compare only these; default: all outputs in the log")
     parser.add_argument("--ignore", metavar="NAME,...", help="inputs of the log that are not replayed")
+    parser.add_argument(
+        "--hold-speed", action="store_true", help="a driver holds the measured speed in place of the measured pedals"
+    )
     parser.add_argument("--from", dest="begin", type=number, metavar="T", help="replay the log from here, s")
     parser.add_argument("--to", dest="end", type=number, metavar="T", help="replay the log up to here, s")
     parser.add_argument("--skip", type=number, default=0.0, metavar="T", help="first seconds that are not compared")

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from hosts.co_simulation import Result
 from hosts.compare.alignment import Alignment, align
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import Deviations, deviations
@@ -52,19 +51,22 @@ class Comparison:
     common: Alignment
 
 
-def compare(outputs: Mapping[str, Signal], result: Result, longest_delay: float, skip: float = 0.0) -> Comparison:
-    """Compare measured signals with those of a run.
+def compare(
+    outputs: Mapping[str, Signal], curves: Mapping[str, Curve], longest_delay: float, skip: float = 0.0
+) -> Comparison:
+    """Compare measured signals with simulated ones.
 
     Parameters
     ----------
     outputs : mapping of str to Signal
-    result : Result
+    curves : mapping of str to Curve
+        Of these signals.
     longest_delay : float
         That is looked for, s.
     skip : float
         Seconds at the begin that are not compared.
     """
-    pairs = {n: (s.between(skip, float(result.time[-1])), Curve(result, n)) for n, s in outputs.items()}
+    pairs = {n: (s.between(skip, curves[n].end), curves[n]) for n, s in outputs.items()}
     signals = {n: _compared(s, c, longest_delay) for n, (s, c) in pairs.items()}
     return Comparison(signals, align(list(pairs.values()), longest_delay))
 

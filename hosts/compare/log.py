@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -74,7 +74,9 @@ class Log:
     notes: list[str]
 
 
-def log_for(fmu: AliasedFmu, raw: RawLog, aliases: LogAliases) -> Log:
+def log_for(
+    fmu: AliasedFmu, raw: RawLog, aliases: LogAliases, why_missing: Callable[[str], str] = lambda name: ""
+) -> Log:
     """The signals of a log that an FMU has too.
 
     Parameters
@@ -82,6 +84,8 @@ def log_for(fmu: AliasedFmu, raw: RawLog, aliases: LogAliases) -> Log:
     fmu : AliasedFmu
     raw : RawLog
     aliases : LogAliases
+    why_missing : callable
+        Why the FMU does not have one of our names, in a sentence; empty where nothing is known.
 
     Raises
     ------
@@ -89,7 +93,7 @@ def log_for(fmu: AliasedFmu, raw: RawLog, aliases: LogAliases) -> Log:
         A column is not there, is no signal of the FMU, or its unit or clock is wrong; one sentence.
     """
     inputs, outputs = fmu.names("input"), fmu.names("output")
-    columns = _columns(raw, aliases, fmu, inputs, outputs)
+    columns = _columns(raw, aliases, fmu, inputs, outputs, why_missing)
     notes: list[str] = []
     clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
     signals = {}
@@ -112,7 +116,12 @@ def log_for(fmu: AliasedFmu, raw: RawLog, aliases: LogAliases) -> Log:
 
 
 def _columns(
-    raw: RawLog, aliases: LogAliases, fmu: AliasedFmu, inputs: Collection[str], outputs: Collection[str]
+    raw: RawLog,
+    aliases: LogAliases,
+    fmu: AliasedFmu,
+    inputs: Collection[str],
+    outputs: Collection[str],
+    why_missing: Callable[[str], str],
 ) -> Mapping[str, Column]:
     there = [str(c) for c in raw.table.columns]
     for ours, column in aliases.columns.items():
@@ -125,7 +134,9 @@ def _columns(
                     f"{where} is a {causality} of {fmu.path.name}, which a column of a log cannot be{use}; "
                     "a column can be an input or an output."
                 )
-            raise HostError(f"{where} is no input or output of {fmu.path.name}{_near(ours, [*inputs, *outputs])}.")
+            why = why_missing(ours)
+            hint = f": {why.rstrip('.')}" if why else _near(ours, [*inputs, *outputs])
+            raise HostError(f"{where} is no input or output of {fmu.path.name}{hint}.")
         for name in (column.name, column.time):
             if name is not None and name not in there:
                 raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{_near(name, there)}.")
@@ -171,13 +182,14 @@ def _times(
         scale, seconds = 1.0, _moments(raw, name, clock.unit)
     else:
         seconds = raw.numbers(name)
-    seconds = scale * (seconds - clock.offset) / clock.factor
     rows = np.flatnonzero(np.isfinite(seconds))
     if len(rows) < FEWEST_SAMPLES:
         raise HostError(
             f"The log {raw.path} has {len(rows)} times in the column '{name}'; at least {FEWEST_SAMPLES} are needed."
         )
-    t = seconds[rows]
+    # Seconds since 1970 have few digits left for milliseconds: the first is taken off before the rest.
+    zero = scale * (float(seconds[rows[0]]) - clock.offset) / clock.factor
+    t = scale * (seconds[rows] - seconds[rows[0]]) / clock.factor
     back = np.flatnonzero(np.diff(t) < 0.0)
     if len(back):
         k = int(back[0])
@@ -195,8 +207,8 @@ def _times(
             f"The log {raw.path} has a sample every {interval:g} s in the column '{name}', if that is in seconds; for "
             f'other units the alias file says [time] unit = "ms" (or {", ".join(list(TIME_UNITS)[2:])}).'
         )
-    start = float(t[0]) if origin is None else origin
-    return (t[first] - start, rows[first]), start
+    start = zero if origin is None else origin
+    return (t[first] + (zero - start), rows[first]), start
 
 
 def _moments(raw: RawLog, name: str, unit: str | None) -> NDArray[np.float64]:

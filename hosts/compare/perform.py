@@ -4,43 +4,72 @@ from __future__ import annotations
 
 import argparse
 import math
-from pathlib import Path
+from collections.abc import Mapping
+from dataclasses import dataclass
 
-from ali3.files import check_writable
-from hosts.compare.comparison import Comparison, compare, measures
-from hosts.compare.page import comparison_figure, write_picture
+from hosts.co_simulation import Result
+from hosts.compare.comparison import Comparison, compare
+from hosts.compare.curve import Curve, SensedCurve
+from hosts.compare.fit import Fit, fit, overlapping
+from hosts.compare.fit_words import fit_notes, fit_problems, fit_table
+from hosts.compare.log import FEWEST_SAMPLES
 from hosts.compare.plausibility import odd_scale
 from hosts.compare.replay import Replay
-from hosts.compare.result_files import measure_records, write_json, write_signals
+from hosts.compare.residuals import NUISANCES, Unknown, nuisances
+from hosts.compare.results import Outcome, paths_of, write_outcome
 from hosts.compare.task import Task, prepare
+from hosts.compare.wanted import wanted_parameters
 from hosts.compare.words import common_words, table
 from hosts.errors import HostError
 
 
+@dataclass(frozen=True)
+class _Fitting:
+    """What is to be fitted, checked before anything is driven."""
+
+    parameters: list[Unknown]
+    nuisances: list[str]
+
+
 def perform(options: argparse.Namespace) -> int:
     """Compare as the options of the command say; gives the exit code."""
-    stem = options.out / options.log.stem
-    picture, signals = Path(f"{stem}.png"), Path(f"{stem}.csv")
-    for file in (picture, signals, *((options.json,) if options.json else ())):
-        check_writable(file)
+    paths = paths_of(options)
     task = prepare(options)
+    wanted = _wanted(options, task)
     for note in task.notes:
-        print(f"note: {note}")
-    with Replay(options.fmu, task.aliases, task.manoeuvre, task.step) as replay:
+        print(f"note: {note}", flush=True)
+    with Replay(options.fmu, task.aliases, task.manoeuvre, task.step, task.slopes, task.speed) as replay:
         before, problems = _first(options, task, replay)
-    print(table(before))
-    for line in [*common_words(before, task.step), *problems]:
-        print(line)
-    write_signals(before, None, signals)
-    write_picture(comparison_figure(before, None, f"{options.fmu.stem} and {options.log.name}", task.inputs), picture)
-    written = [signals, picture]
-    if options.json is not None:
-        write_json(
-            {"notes": task.notes, "problems": problems, "measures": measure_records(measures(before))}, options.json
-        )
-        written.append(options.json)
+        print(table(before))
+        for line in [*common_words(before), *problems]:
+            print(line, flush=True)
+        found, after = None, None
+        for message in replay.said:
+            print(f"FMU: {message}")
+        if wanted.parameters:
+            _refuse_odd(problems, options)
+            found, after = _fit(options, task, replay, before, wanted)
+    notes = task.notes + [f"In {n} of {replay.runs} runs the FMU said: {what}" for what, n in replay.said.items()]
+    if found is not None and after is not None:
+        print("with the fitted parameters" + (" and sensors:" if wanted.nuisances else ":"))
+        print(table(after))
+        print(fit_table(found))
+        problems, more = problems + fit_problems(found), fit_notes(found)
+        notes += more
+        for line in [*fit_problems(found), *(f"note: {note}" for note in more)]:
+            print(line)
+    written = write_outcome(options, task, Outcome(before, after, found, notes, problems), paths)
     print(f"written: {', '.join(map(str, written))}")
     return 1 if problems else 0
+
+
+def _wanted(options: argparse.Namespace, task: Task) -> _Fitting:
+    names = [n.strip() for n in options.nuisance.split(",") if n.strip()]
+    nuisances(names, task.outputs, {}, options.longest_delay)  # their names
+    if names and not options.fit:
+        raise HostError("--nuisance goes with --fit; delays and drift are estimated without both.")
+    begin = task.manoeuvre.start  # as set, or as measured
+    return _Fitting(wanted_parameters(options.fit, task.parameters, begin), names)
 
 
 def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Comparison, list[str]]:
@@ -51,11 +80,56 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
             f"The FMU refused a step at {result.simulated:.4g} s of {task.manoeuvre.stop_time:.4g} s"
             f"{f': {result.messages[-1]}' if result.messages else ''}; only what lies before is compared."
         )
-    usable = {n: s for n, s in task.outputs.items() if math.isfinite(float(result[n].sum()))}
-    if not usable or result.simulated <= options.skip + 10.0 * task.step:
-        raise HostError(
-            f"{problems[0] if problems else 'The FMU gives no finite outputs.'} That is too little to compare."
-        )
-    compared = compare(usable, result, options.longest_delay, options.skip)
-    problems += filter(None, (odd_scale(s.measured, s.simulated, s.alignment.delay) for s in compared.signals.values()))
-    return compared, problems
+    finite = {n: s for n, s in task.outputs.items() if math.isfinite(float(result[n].sum()))}
+    enough = {n: s for n, s in finite.items() if len(s.between(options.skip, result.simulated).time) >= FEWEST_SAMPLES}
+    if not enough:
+        why = problems[0] if problems else "No output of the FMU is finite and has samples to be compared with."
+        raise HostError(f"{why} That is too little to compare.")
+    for name in task.outputs:
+        if name not in enough:
+            problems.append(f"'{name}' is not compared: it is not finite, or has too few samples.")
+    compared = compare(enough, {n: Curve(result, n) for n in enough}, options.longest_delay, options.skip)
+    odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for s in compared.signals.values()]
+    return compared, problems + [line for line in odd if line]
+
+
+def _refuse_odd(problems: list[str], options: argparse.Namespace) -> None:
+    if problems and not options.anyway:
+        raise HostError(f"Nothing was fitted: {problems[0]} (--anyway fits all the same; --signals leaves signals out)")
+
+
+def _fit(
+    options: argparse.Namespace, task: Task, replay: Replay, before: Comparison, wanted: _Fitting
+) -> tuple[Fit, Comparison]:
+    from tqdm import tqdm
+
+    if not replay.check_reset():
+        print("note: the FMU does not repeat itself to the last bit.")
+    outputs = {n: task.outputs[n] for n in before.signals}
+    guesses = _delays(before, wanted.nuisances)
+    outputs = overlapping(outputs, task.manoeuvre.stop_time, options.skip, guesses)
+    unknowns = [*wanted.parameters, *nuisances(wanted.nuisances, outputs, guesses, options.longest_delay)]
+    with tqdm(desc="fit", unit="run", delay=2.0) as bar:
+
+        def simulate(values: Mapping[str, float]) -> Result | None:
+            bar.update()
+            result = replay.run(dict(values))
+            complete = not result.failed_steps and all(math.isfinite(float(result[n].sum())) for n in outputs)
+            return result if complete else None
+
+        found = fit(outputs, unknowns, simulate)
+        best = replay.run(dict(found.parameters))
+    curves = {n: SensedCurve(Curve(best, n), *found.sensor(n)) for n in outputs}
+    return found, compare(outputs, curves, options.longest_delay, options.skip)
+
+
+def _delays(before: Comparison, wanted: list[str]) -> dict[str, float]:
+    """First guesses of the delays that are sought; that of all signals under the empty name and under each."""
+    assert set(wanted) <= set(NUISANCES)
+    common = before.common.delay if math.isfinite(before.common.delay) else 0.0
+    if "delay" in wanted:
+        return {"": common} | dict.fromkeys(before.signals, common)
+    if "delays" in wanted:
+        own = {n: s.alignment.delay for n, s in before.signals.items()}
+        return {n: d if math.isfinite(d) else common for n, d in own.items()}
+    return {}

@@ -109,17 +109,19 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     """
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     found = deviations(signal.time, y, x)
-    if not math.isfinite(found.correlation) or abs(found.correlation) < _ALIKE:
-        return ""
     what = f"'{signal.source}' ({signal.name})"
+    # A wave of the other sign is also one that is late by half a period, but not as well.
+    still = deviations(signal.time, y, curve(signal.time)).correlation
+    if still < -_ALIKE and not found.correlation > 0.05 - still:
+        return (
+            f"{what} has the opposite sign of the simulation (correlation {still:.2f}): factor = -1.0 in the alias "
+            "file turns it."
+        )
+    if not abs(found.correlation) >= _ALIKE:
+        return ""
     # Of the spreads, not of the regression, which noise makes smaller.
     ratio = float(np.std(y) / np.std(x))
     for factor, words in _RATIOS:
         if factor / _CLOSE < ratio < factor * _CLOSE:
             return f"{what} is {ratio:.4g} times as large as in the simulation: {words}."
-    if found.correlation < -_ALIKE:
-        return (
-            f"{what} has the opposite sign of the simulation (correlation {found.correlation:.2f}): factor = -1.0 in "
-            "the alias file turns it."
-        )
     return ""

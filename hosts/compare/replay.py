@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from types import TracebackType
 
@@ -16,12 +16,19 @@ from hosts.compare.log import Signal
 from hosts.fmu import Fmu
 from hosts.manoeuvre import Manoeuvre
 from hosts.numbers import Value
+from hosts.pilots.speed_holder import SpeedHolder
 
 
 def inputs_of(
-    name: str, inputs: Mapping[str, Signal], start: Mapping[str, Value], end: float, step: float
+    name: str,
+    inputs: Mapping[str, Signal],
+    start: Mapping[str, Value],
+    end: float,
+    step: float,
+    held: bool = False,
+    whole: Collection[str] = (),
 ) -> Manoeuvre:
-    """The manoeuvre that gives an FMU the measured inputs.
+    """The manoeuvre that gives an FMU the measured inputs, with a row a step.
 
     Parameters
     ----------
@@ -33,17 +40,57 @@ def inputs_of(
         s.
     step : float
         Communication step, s.
-
-    Notes
-    -----
-    An FMU holds its inputs during a step: each has the measured value of the middle of the step, by linear
-    interpolation, so that on the whole nothing is late. The table has a row a step.
+    held : bool
+        Whether the FMU holds its inputs during a step. Each then has the measured value of the middle of the step, so
+        that on the whole nothing is late; else that of the begin.
+    whole : collection of str
+        Inputs that are whole numbers, which keep the value of a sample up to the next.
     """
     steps = max(1, round(end / step))
-    time: NDArray[np.float64] = step * np.arange(steps, dtype=np.float64)
-    middle = time + 0.5 * step
-    columns = {n: np.interp(middle, s.time, s.values) for n, s in inputs.items()}
+    time: NDArray[np.float64] = step * np.arange(steps + 1, dtype=np.float64)
+    at = time + 0.5 * step if held else time
+    columns = {
+        n: _kept(s, time) if n in whole else np.interp(at, s.time, s.values).astype(np.float64)
+        for n, s in inputs.items()
+    }
     return Manoeuvre(name, time, columns, steps * step, dict(start))
+
+
+def _kept(signal: Signal, time: NDArray[np.float64]) -> NDArray[np.float64]:
+    rows = np.searchsorted(signal.time, time + 1e-9, side="right") - 1
+    return np.asarray(np.round(signal.values[np.maximum(rows, 0)]))
+
+
+class _Sloping(AliasedFmu):
+    """An FMU whose inputs go straight to their values at the end of each step.
+
+    Parameters
+    ----------
+    fmu : Fmu
+    aliases : Aliases
+    manoeuvre : Manoeuvre
+        With a row a step.
+    """
+
+    def __init__(self, fmu: Fmu, aliases: Aliases, manoeuvre: Manoeuvre) -> None:
+        super().__init__(fmu, aliases)
+        ours = [n for n in manoeuvre.inputs if self.variables[n].type == "Real" and n in self.names("input")]
+        factors = {a.ours: a.factor for a in aliases.aliases}
+        theirs = {a.ours: a.theirs for a in aliases.aliases}
+        rates = [factors.get(n, 1.0) * np.diff(manoeuvre.inputs[n]) / np.diff(manoeuvre.time) for n in ours]
+        self._slopes = np.array(rates).T.tolist()
+        self._set_slopes = fmu.slope_setter([theirs.get(n, n) for n in ours])
+        self._step = float(manoeuvre.time[1] - manoeuvre.time[0])
+
+    def step(self, time: float, step: float) -> None:
+        """See `Fmu.step`."""
+        if self._slopes:
+            self._set_slopes(self._slopes[round(time / self._step)])
+        super().step(time, step)
+
+
+def _holder(speed: Signal) -> SpeedHolder:
+    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)))
 
 
 class Replay:
@@ -58,19 +105,34 @@ class Replay:
     manoeuvre : Manoeuvre
     step : float
         Communication step, s.
+    slopes : bool
+        Whether the inputs go straight from row to row, which the FMU must be able to follow; else they are held.
+    speed : Signal, optional
+        That a driver holds by the pedals.
 
     Attributes
     ----------
     runs : int
         That were made.
+    said : dict of str to int
+        What the FMU logged at warning or above, and in how many runs.
     """
 
-    def __init__(self, path: Path, aliases: Aliases, manoeuvre: Manoeuvre, step: float) -> None:
+    def __init__(
+        self,
+        path: Path,
+        aliases: Aliases,
+        manoeuvre: Manoeuvre,
+        step: float,
+        slopes: bool = False,
+        speed: Signal | None = None,
+    ) -> None:
         self._path, self._aliases = path, aliases
         self.manoeuvre, self.step = manoeuvre, step
+        self._slopes, self._speed = slopes, speed
+        self.said: dict[str, int] = {}
         self._fmu: Fmu | None = None
         self._can_reset: bool | None = None
-        self._first: tuple[Mapping[str, Value], NDArray[np.float64]] | None = None
         self.runs = 0
 
     def __enter__(self) -> Replay:
@@ -111,7 +173,16 @@ class Replay:
                 manoeuvre.name, manoeuvre.time, manoeuvre.inputs, manoeuvre.stop_time, {**manoeuvre.start, **values}
             )
         self.runs += 1
-        return run(AliasedFmu(self._fmu, self._aliases), manoeuvre, self.step)
+        fmu = _Sloping(self._fmu, self._aliases, manoeuvre) if self._slopes else AliasedFmu(self._fmu, self._aliases)
+        # A pilot has a memory: each run has its own.
+        driver = None if self._speed is None else _holder(self._speed)
+        self._fmu.messages.clear()
+        result = run(fmu, manoeuvre, self.step, driver)
+        if self._aliases.derived:
+            self._aliases.with_central_rates(result.names, result.time, result.values)
+        for message in dict.fromkeys(result.messages):
+            self.said[message] = self.said.get(message, 0) + 1
+        return result
 
     def check_reset(self) -> bool:
         """Drive twice; an FMU whose second drive after a reset is another is loaded anew for each drive from now on.

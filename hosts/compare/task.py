@@ -8,8 +8,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from hosts.aliased_fmu import AliasedFmu
-from hosts.aliases import Aliases, read_aliases
+from hosts.aliases import Aliases, find_aliases
 from hosts.co_simulation import check_columns, communication_step
 from hosts.compare.log import FEWEST_SAMPLES, Log, Signal, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases
@@ -25,6 +27,7 @@ from hosts.options import wishes
 from hosts.settings import settings_of
 from hosts.variables import Variable
 
+PEDALS = ("throttle", "brake")
 _STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"
 
 
@@ -41,11 +44,15 @@ class Task:
     manoeuvre : Manoeuvre
     step : float
         s.
+    slopes : bool
+        Whether inputs change during a step.
     parameters : dict of str to Variable
         Of the FMU, by our names.
     set_values : dict
         Start values that the user has set.
     notes : list of str
+    speed : Signal, optional
+        Measured, where a driver holds it in place of the measured pedals.
     """
 
     aliases: Aliases
@@ -53,9 +60,11 @@ class Task:
     outputs: dict[str, Signal]
     manoeuvre: Manoeuvre
     step: float
+    slopes: bool
     parameters: dict[str, Variable]
     set_values: dict[str, Value]
     notes: list[str]
+    speed: Signal | None = None
 
 
 def prepare(options: argparse.Namespace) -> Task:
@@ -69,22 +78,24 @@ def prepare(options: argparse.Namespace) -> Task:
     log_aliases = LogAliases() if options.aliases is None else read_log_aliases(options.aliases)
     raw = read_log(options.log, log_aliases.form)
     with Fmu(options.fmu) as opened:
-        aliases = Aliases() if options.fmu_aliases is None else read_aliases(options.fmu_aliases, opened.variables)
+        aliases = Aliases() if options.fmu_aliases is None else find_aliases(options.fmu_aliases, opened.table)
         fmu = AliasedFmu(opened, aliases)
-        log = log_for(fmu, raw, log_aliases)
+        log = log_for(fmu, raw, log_aliases, aliases.why_missing)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
         _add_steering(fmu, log, inputs, outputs, notes)
-        if not inputs:
+        pedals = _held_speed(fmu, log, inputs, notes) if options.hold_speed else None
+        if not inputs and pedals is None:
             raise HostError(
                 f"The log {options.log} has no input of {options.fmu.name}, so that there is nothing to replay; its "
                 f"inputs are {', '.join(fmu.names('input')) or 'none'}: the alias file of the log (--aliases) "
                 "names their columns."
             )
-        held = [n for n in fmu.names("input") if n not in inputs]
+        held = [n for n in fmu.names("input") if n not in inputs and not (pedals and n in PEDALS)]
         if held:
             notes.append(f"Not in the log, and held at their start values: {', '.join(held)}.")
         inputs, outputs, end = _window(inputs, outputs, options)
+        speed = None if pedals is None else _shifted({"speed": pedals}, options)["speed"]
         check_inputs(fmu, inputs, options.longest_gap, notes)
         note_gaps(outputs, notes)
         settings = settings_of(opened.table, wishes(options), {}, "")
@@ -93,18 +104,32 @@ def prepare(options: argparse.Namespace) -> Task:
         start, words = measured_start(fmu, outputs | log_at(log, options), given)
         notes += words
         everything = placed(options.fmu, aliases, start | given, start)
-        step = communication_step(
-            fmu, Manoeuvre("", next(iter(inputs.values())).time, {}, end), _step(fmu, inputs, options)
-        )
-        manoeuvre = inputs_of(options.log.stem, inputs, everything, end, step)
+        step = communication_step(fmu, Manoeuvre("", np.zeros(0), {}, end), _step(fmu, inputs, options))
+        whole = {n for n in inputs if fmu.variables[n].type == "Integer"}
+        slopes = opened.follows_slopes
+        manoeuvre = inputs_of(options.log.stem, inputs, everything, end, step, not slopes, whole)
         check_columns(fmu, manoeuvre)
         parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter"}
-    return Task(aliases, inputs, outputs, manoeuvre, step, parameters, given, notes)
+    return Task(aliases, inputs, outputs, manoeuvre, step, slopes, parameters, given, notes, speed)
 
 
 def log_at(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
     """All outputs of the log from time 0 on: the start needs also those that are not compared."""
     return {n: s for n, s in _shifted(log.outputs, options).items() if len(s.time) >= FEWEST_SAMPLES}
+
+
+def _held_speed(fmu: AliasedFmu, log: Log, inputs: dict[str, Signal], notes: list[str]) -> Signal:
+    """The measured speed that a driver is to hold; the pedals of the log are left out."""
+    name = next((n for n in ("speed", "chassis.vx") if n in log.outputs), None)
+    if name is None:
+        raise HostError("--hold-speed needs the speed in the log: an alias for 'speed'.")
+    missing = [n for n in (*PEDALS, "speed") if n not in fmu.variables]
+    if missing:
+        raise HostError(f"--hold-speed needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
+    for pedal in PEDALS:
+        inputs.pop(pedal, None)
+    notes.append(f"A driver holds the measured {name} by {' and '.join(PEDALS)}; those of the log are not used.")
+    return log.outputs[name]
 
 
 def _step(fmu: AliasedFmu, inputs: Mapping[str, Signal], options: argparse.Namespace) -> float | None:
@@ -113,7 +138,7 @@ def _step(fmu: AliasedFmu, inputs: Mapping[str, Signal], options: argparse.Names
         return float(options.step)
     experiment = fmu.description.defaultExperiment
     own = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
-    finest = min(s.interval for s in inputs.values())
+    finest = min((s.interval for s in inputs.values()), default=0.01)
     return own * max(1, math.floor(min(finest, 0.01) / own + 1e-6))
 
 
@@ -165,7 +190,7 @@ def _window(
     inputs: dict[str, Signal], outputs: dict[str, Signal], options: argparse.Namespace
 ) -> tuple[dict[str, Signal], dict[str, Signal], float]:
     """Signals between --from and --to, from time 0 on, and where the inputs end."""
-    last = max(float(s.time[-1]) for s in inputs.values())
+    last = max(float(s.time[-1]) for s in (inputs or outputs).values())
     for name, value in (("--from", options.begin), ("--to", options.end)):
         if value is not None and not 0.0 <= value <= last:
             raise HostError(f"{name} is {value:g} s; the log's inputs lie between 0 and {last:.6g} s.")
@@ -176,7 +201,7 @@ def _window(
                 f"The log has {len(signal.time)} samples of '{signal.source}' ({signal.name}) between --from and --to; "
                 f"at least {FEWEST_SAMPLES} are needed."
             )
-    end = min(max(float(s.time[-1]) for s in inputs.values()), max(float(s.time[-1]) for s in outputs.values()))
+    end = min(max(float(s.time[-1]) for s in signals.values()) for signals in (inputs or outputs, outputs))
     if not 0.0 <= options.skip < 0.9 * end:
         raise HostError(f"--skip is {options.skip:g} s; the log lasts {end:.6g} s.")
     return inputs, outputs, end

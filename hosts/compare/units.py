@@ -95,7 +95,7 @@ def unit_definition(text: str, where: str) -> UnitDefinition:
         near = difflib.get_close_matches(_plain(text), _UNITS, 3, 0.4)
         hint = f"; did you mean {' or '.join(near)}" if near else ""
         raise HostError(
-            f"{where}: the unit '{text}' is not known{hint}? Another can be given by a factor: "
+            f"{where}: the unit '{text}' is not known{hint}; another can be given by a factor: "
             "value in the log = factor * value in the FMU's unit + offset."
         )
     return found

@@ -32,7 +32,7 @@ def table(comparison: Comparison) -> str:
     return "\n".join("  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)).rstrip() for row in rows)
 
 
-def common_words(comparison: Comparison, step: float) -> list[str]:
+def common_words(comparison: Comparison) -> list[str]:
     """Sentences on delays, drift and what could not be computed."""
     lines = []
     for name, s in comparison.signals.items():

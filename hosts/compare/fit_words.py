@@ -1,0 +1,95 @@
+"""A fit in lines for the terminal, and what is not good about it in sentences."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from hosts.compare.fit import Fit, Found
+
+_WIDE = 0.5  # of the range, of half an interval that says little
+_TOGETHER = 0.95
+_BETTER = 0.98  # of the residuals before
+_CHANCE = 0.05
+_MISFIT = 3.0  # times the noise
+
+
+def fit_rows(fit: Fit) -> list[tuple[str, str, str, str, str]]:
+    """Name, start, value, half of the 95 % interval and unit of all that was sought."""
+    return [(f.unknown.name, f"{f.unknown.start:.6g}", *_value(f), f.unknown.unit) for f in fit.found]
+
+
+def _value(found: Found) -> tuple[str, str]:
+    if not math.isfinite(found.half_width):
+        return f"{found.value:.4g}", "not determined"
+    digits = 2 if found.half_width <= 0.0 else 1 - math.floor(math.log10(found.half_width))
+    value = f"{found.value:.{digits}f}" if 0 < digits < 12 else f"{found.value:.8g}"
+    return value, f"± {found.half_width:.2g}"
+
+
+def fit_table(fit: Fit) -> str:
+    """The fit for the terminal."""
+    rows = [("fitted", "start", "value", "95 %", "unit"), *fit_rows(fit)]
+    widths = [max(len(row[k]) for row in rows) for k in range(5)]
+    lines = ["  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+    lines.append(
+        f"residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; "
+        f"{fit.samples} samples count as {fit.effective:.0f} uncorrelated ones"
+    )
+    return "\n".join(lines)
+
+
+def fit_problems(fit: Fit) -> list[str]:
+    """What makes a fit no good, each in a sentence."""
+    problems = []
+    if not fit.converged:
+        problems.append("The fit has not converged; begin nearer (--set) or with fewer parameters.")
+    if fit.after > _BETTER * fit.before:
+        problems.append(
+            f"The fit is not better: what remains of the signals is {fit.after / fit.before:.3f} times what it was."
+        )
+    elif fit.chance > _CHANCE:
+        problems.append(
+            f"The fit is hardly better: noise alone would make it so with a probability of {100.0 * fit.chance:.0f} %."
+        )
+    for f in fit.found:
+        problems += _of(f)
+    return problems
+
+
+def _of(found: Found) -> list[str]:
+    u, lines = found.unknown, []
+    if found.bound:
+        limit = u.low if found.bound == "lower" else u.high
+        lines.append(
+            f"{u.name} lies at its {found.bound} bound, {limit:.6g} {u.unit}: its interval says nothing; give it a "
+            "wider range if that makes sense, or look for what else differs."
+        )
+    elif not math.isfinite(found.half_width):
+        lines.append(f"{u.name} cannot be identified: the compared signals do not determine it.")
+    elif math.isfinite(u.high - u.low) and found.half_width > _WIDE * (u.high - u.low) and u.kind == "parameter":
+        lines.append(
+            f"{u.name} cannot be identified: its interval of ± {found.half_width:.3g} {u.unit} is as wide as its range."
+        )
+    return lines
+
+
+def fit_notes(fit: Fit) -> list[str]:
+    """What is worth knowing of a fit, each in a sentence."""
+    notes = []
+    for i, j in _pairs(fit):
+        a, b = fit.found[i].unknown.name, fit.found[j].unknown.name
+        notes.append(f"{a} and {b} are known together only: their errors correlate by {fit.correlation[i, j]:.2f}.")
+    for name, left in fit.misfit.items():
+        if fit.noise[name] > 0.0 and left > _MISFIT * fit.noise[name]:
+            notes.append(
+                f"{name}: what remains is {left / fit.noise[name]:.3g} times the noise of the signal: the model "
+                "misses something there, which the intervals treat as slow noise."
+            )
+    return notes
+
+
+def _pairs(fit: Fit) -> Sequence[tuple[int, int]]:
+    count = len(fit.found)
+    pairs = [(i, j) for i in range(count) for j in range(i + 1, count)]
+    return [(i, j) for i, j in pairs if abs(fit.correlation[i, j]) > _TOGETHER]

@@ -1,0 +1,106 @@
+"""One page of HTML that tells a comparison, with its picture inside."""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Mapping, Sequence
+from html import escape
+from pathlib import Path
+
+from ali3.files import write_text
+from hosts.compare.comparison import Comparison
+from hosts.compare.fit import Fit
+from hosts.compare.fit_words import fit_rows
+
+_STYLE = """
+body { font: 15px/1.5 system-ui, sans-serif; max-width: 1200px; margin: 2rem auto; padding: 0 1rem; color: #222; }
+table { border-collapse: collapse; margin: 1rem 0; font-variant-numeric: tabular-nums; }
+th, td { padding: .25rem .7rem; border-bottom: 1px solid #ddd; text-align: right; }
+th:first-child, td:first-child { text-align: left; }
+.problem { border-left: 4px solid #d55e00; padding-left: .6rem; } .note { color: #555; }
+img { max-width: 100%; } footer { color: #777; font-size: .85rem; margin-top: 2rem; }
+@media (prefers-color-scheme: dark) { body { background: #16181c; color: #ddd; } th, td { border-color: #444; }
+  .note, footer { color: #aaa; } img { background: #fff; } }
+"""
+_COLUMNS = ("signal", "unit", "rms", "normalised", "mean", "largest", "at, s", "correlation", "rating",
+            "corridor", "phase", "magnitude", "slope", "delay, ms")  # fmt: skip
+_FOOT = (
+    "Deviations are simulated minus measured, at the samples of the log, with no delay taken out. Normalised: rms over "
+    "the standard deviation of the measured signal. The rating is like ISO/TS 18571, by public descriptions of it, at "
+    "no more than 1000 points; above 0.94 excellent, 0.80 good, 0.58 fair. Intervals are of 95 %; they take into "
+    "account that neighbouring residuals are alike, and hold as far as the model can be right at all."
+)
+
+
+def write_report(
+    title: str,
+    before: Comparison,
+    after: Comparison | None,
+    fit: Fit | None,
+    notes: Sequence[str],
+    problems: Sequence[str],
+    paths: Mapping[str, Path],
+) -> None:
+    """Write the page.
+
+    Parameters
+    ----------
+    title : str
+    before, after : Comparison
+    fit : Fit, optional
+    notes, problems : sequence of str
+    paths : mapping of str to Path
+        ``.html`` is written; ``.png`` is there and goes into it.
+    """
+    parts = [f"<h1>{escape(title)}</h1>"]
+    parts += [f'<p class="problem">{escape(line)}</p>' for line in problems]
+    parts.append("<h2>Deviations</h2>" if after is None else "<h2>Deviations before the fit</h2>")
+    parts.append(_table(_COLUMNS, _rows(before)))
+    if after is not None and fit is not None:
+        parts += ["<h2>Deviations with the fitted parameters and sensors</h2>", _table(_COLUMNS, _rows(after))]
+        parts += ["<h2>Fit</h2>", _table(("sought", "start", "value", "95 %", "unit"), fit_rows(fit))]
+        parts.append(
+            f"<p>Residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; {fit.samples} "
+            f"samples count as {fit.effective:.0f} uncorrelated ones.</p><h3>Correlation of the errors</h3>"
+        )
+        names = [f.unknown.name for f in fit.found]
+        rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
+        parts.append(_table(("", *names), rows))
+    c = before.common
+    if math.isfinite(c.delay):
+        parts.append(
+            f"<p>All signals together: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late, its clock "
+            f"{1e6 * c.drift:.3g} ± {1e6 * c.drift_error:.2g} ppm fast.</p>"
+        )
+    picture = base64.b64encode(paths[".png"].read_bytes()).decode()
+    parts.append(f'<img alt="{escape(title)}" src="data:image/png;base64,{picture}">')
+    parts += [f'<p class="note">{escape(line)}</p>' for line in notes]
+    parts.append(f"<footer>{_FOOT}</footer>")
+    head = f'<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{escape(title)}</title>'
+    body = "\n".join(parts)
+    top = f'<!doctype html>\n<html lang="en"><head>{head}<style>{_STYLE}</style></head>'
+    write_text(paths[".html"], f"{top}<body>\n{body}\n</body></html>\n")
+
+
+def _rows(comparison: Comparison) -> list[Sequence[str]]:
+    rows: list[Sequence[str]] = []
+    for name, s in comparison.signals.items():
+        d, r, a = s.deviations, s.rating, s.alignment
+        scores = [_number(x, ".3f") for x in (r.overall, r.corridor, r.phase, r.magnitude, r.slope)]
+        delay = f"{1e3 * a.delay:.3g} ± {1e3 * a.delay_error:.2g}" if math.isfinite(a.delay) else "–"
+        rows.append(
+            [name, s.measured.unit, f"{d.rms:.4g}", _number(d.normalised, ".3f"), f"{d.mean:.4g}", f"{d.largest:.4g}",
+             f"{d.time_of_largest:.4g}", _number(d.correlation, ".4f"), *scores, delay]
+        )  # fmt: skip
+    return rows
+
+
+def _table(heading: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    head = "".join(f"<th>{escape(c)}</th>" for c in heading)
+    body = "".join(f"<tr>{''.join(f'<td>{escape(c)}</td>' for c in row)}</tr>" for row in rows)
+    return f"<table><tr>{head}</tr>{body}</table>"
+
+
+def _number(value: float, form: str) -> str:
+    return format(value, form) if math.isfinite(value) else "–"

@@ -1,0 +1,200 @@
+"""Residuals of all compared signals as a function of parameters, and their Jacobian.
+
+Parameters of the FMU need a run each; delays, drift, bias and gain of the sensors do not: with them the simulated
+signal is bias + gain * simulated((t - delay) / (1 + drift)), whose derivatives are exact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.co_simulation import Result
+from hosts.compare.curve import Curve
+from hosts.compare.log import Signal
+from hosts.errors import HostError
+
+Array = NDArray[np.float64]
+NUISANCES = ("delay", "delays", "drift", "bias", "gain")
+_REFUSED = 1e3  # residual where the FMU refuses a step: far worse than any fit
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """A number that is sought.
+
+    Parameters
+    ----------
+    name, unit : str
+    start, low, high : float
+    scale : float
+        By how much it typically changes.
+    signal : str
+        Whose it is; empty: of the FMU, or of all signals.
+    kind : str
+        ``parameter``, or one of delay, drift, bias, gain.
+    """
+
+    name: str
+    unit: str
+    start: float
+    low: float
+    high: float
+    scale: float
+    signal: str = ""
+    kind: str = "parameter"
+
+
+def nuisances(
+    wanted: Sequence[str], outputs: Mapping[str, Signal], delays: Mapping[str, float], longest: float
+) -> list[Unknown]:
+    """The unknowns of sensors and clocks.
+
+    Parameters
+    ----------
+    wanted : sequence of str
+        Of `NUISANCES`.
+    outputs : mapping of str to Signal
+    delays : mapping of str to float
+        First guesses, s; "" for that in common.
+    longest : float
+        Largest delay, s.
+    """
+    for name in wanted:
+        if name not in NUISANCES:
+            raise HostError(f"--nuisance: '{name}' is not known; known are {', '.join(NUISANCES)}.")
+    if "delay" in wanted and "delays" in wanted:
+        raise HostError("--nuisance: 'delay' is one of all signals and 'delays' one of each; take one of them.")
+    interval = min(s.interval for s in outputs.values())
+    length = max(float(s.time[-1]) for s in outputs.values())
+    found = []
+    names = ("",) if "delay" in wanted else tuple(outputs) if "delays" in wanted else ()
+    for n in names:
+        guess, reach = delays.get(n, 0.0), longest + abs(delays.get(n, 0.0))
+        found.append(Unknown(f"{n}.delay".lstrip("."), "s", guess, -reach, reach, interval, n, "delay"))
+    if "drift" in wanted:
+        found.append(Unknown("drift", "1", 0.0, -0.05, 0.05, interval / length, "", "drift"))
+    for n, s in outputs.items():
+        spread = max(float(np.std(s.values)), 1e-12)
+        if "bias" in wanted:
+            found.append(Unknown(f"{n}.bias", s.unit, 0.0, -np.inf, np.inf, 0.1 * spread, n, "bias"))
+        if "gain" in wanted:
+            found.append(Unknown(f"{n}.gain", "1", 1.0, 0.1, 10.0, 0.1, n, "gain"))
+    return found
+
+
+@dataclass
+class Residuals:
+    """Simulated minus measured over the noise, of all signals one after the other.
+
+    Parameters
+    ----------
+    outputs : mapping of str to Signal
+        Of the samples that are compared.
+    unknowns : sequence of Unknown
+        Those of the FMU first.
+    noise : mapping of str to float
+        By signal, in its unit.
+    simulate : callable
+        Of the parameters of the FMU; None where it refuses a step.
+
+    Attributes
+    ----------
+    steps : ndarray of shape (p,)
+        Of the differences for parameters of the FMU.
+    """
+
+    outputs: Mapping[str, Signal]
+    unknowns: Sequence[Unknown]
+    noise: dict[str, float]
+    simulate: Callable[[Mapping[str, float]], Result | None]
+    steps: Array = field(default_factory=lambda: np.zeros(0))
+    _kept: dict[tuple[float, ...], dict[str, Curve] | None] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """Parameters of the FMU."""
+        return sum(u.kind == "parameter" for u in self.unknowns)
+
+    @property
+    def blocks(self) -> list[slice]:
+        """Rows of each signal."""
+        ends = np.cumsum([0] + [len(s.time) for s in self.outputs.values()])
+        return [slice(int(a), int(b)) for a, b in pairwise(ends)]
+
+    def __call__(self, p: Array) -> Array:
+        """Residuals of shape (n,)."""
+        curves = self._curves(p)
+        if curves is None:
+            return np.full(sum(len(s.time) for s in self.outputs.values()), _REFUSED)
+        return np.concatenate([self._of(n, curves[n], p) for n in self.outputs])
+
+    def _of(self, name: str, curve: Curve, p: Array) -> Array:
+        signal, bias, gain = self.outputs[name], self._own("bias", name, p), self._own("gain", name, p, 1.0)
+        return (bias + gain * curve(self._time(name, p)) - signal.values) / self.noise[name]
+
+    def _time(self, name: str, p: Array) -> Array:
+        delay, drift = self._own("delay", name, p), self._own("drift", name, p)
+        return (self.outputs[name].time - delay) / (1.0 + drift)
+
+    def _own(self, kind: str, signal: str, p: Array, otherwise: float = 0.0) -> float:
+        for u, value in zip(self.unknowns, p, strict=True):
+            if u.kind == kind and u.signal in ("", signal):
+                return float(value)
+        return otherwise
+
+    def jacobian(self, p: Array) -> Array:
+        """Derivatives of shape (n, p); central differences where both sides lie within the bounds."""
+        columns = [self._difference(p, k) for k in range(self.count)]
+        curves = self._curves(p)
+        assert curves is not None  # the solver asks at points that it has accepted
+        columns += [self._exact(p, k, curves) for k in range(self.count, len(self.unknowns))]
+        return np.column_stack(columns)
+
+    def _difference(self, p: Array, k: int) -> Array:
+        u, h = self.unknowns[k], self.steps[k]
+        ends = [min(max(p[k] + side * h, u.low), u.high) for side in (1.0, -1.0)]
+        values = []
+        for end in ends:
+            q = p.copy()
+            q[k] = end
+            values.append(self(q) if self._curves(q) is not None else None)
+        at = [(e, v) for e, v in zip(ends, values, strict=True) if v is not None]
+        if len(at) < 2:
+            at.append((float(p[k]), self(p)))
+        if len(at) < 2 or at[0][0] == at[1][0]:
+            raise HostError(
+                f"The FMU refuses steps on both sides of {u.name} = {p[k]:.6g} {u.unit}; give it another range."
+            )
+        return np.asarray((at[0][1] - at[1][1]) / (at[0][0] - at[1][0]))
+
+    def _exact(self, p: Array, k: int, curves: Mapping[str, Curve]) -> Array:
+        u, parts = self.unknowns[k], []
+        stretch = 1.0 + self._own("drift", "", p)
+        for name, signal in self.outputs.items():
+            if u.signal not in ("", name):
+                parts.append(np.zeros(len(signal.time)))
+                continue
+            t, gain = self._time(name, p), self._own("gain", name, p, 1.0)
+            if u.kind == "bias":
+                part = np.ones(len(t))
+            elif u.kind == "gain":
+                part = curves[name](t)
+            else:
+                part = -gain * curves[name].slope(t) / stretch * (t if u.kind == "drift" else 1.0)
+            parts.append(part / self.noise[name])
+        return np.concatenate(parts)
+
+    def _curves(self, p: Array) -> dict[str, Curve] | None:
+        key = tuple(float(v) for v in p[: self.count])
+        if key not in self._kept:
+            names = [u.name for u in self.unknowns]
+            result = self.simulate(dict(zip(names, key, strict=False)))
+            while len(self._kept) > 2 * self.count + 4:
+                del self._kept[next(iter(self._kept))]
+            self._kept[key] = None if result is None else {n: Curve(result, n) for n in self.outputs}
+        return self._kept[key]

@@ -1,0 +1,108 @@
+"""What a comparison yields, and its files."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ali3.files import check_writable
+from ali3.parameter_set import write_parameter_set
+from hosts.compare.comparison import Comparison, measures
+from hosts.compare.fit import Fit
+from hosts.compare.page import comparison_figure, write_picture
+from hosts.compare.report import write_report
+from hosts.compare.result_files import measure_records, write_json, write_signals
+from hosts.compare.task import Task
+from hosts.fmu import described
+from hosts.variables import Variables
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A comparison that was done.
+
+    Parameters
+    ----------
+    before, after : Comparison
+        With the parameters of the FMU and with fitted ones.
+    fit : Fit, optional
+    notes, problems : list of str
+        Sentences.
+    """
+
+    before: Comparison
+    after: Comparison | None
+    fit: Fit | None
+    notes: list[str]
+    problems: list[str]
+
+
+def paths_of(options: argparse.Namespace) -> dict[str, Path]:
+    """The files to be written by suffix; `FileError` at once, before the work, if they cannot be."""
+    kinds = [".html", ".png", ".csv", *([".ssv"] if options.fit else [])]
+    paths = {kind: options.out / f"{options.log.stem}{kind}" for kind in kinds}
+    if options.json is not None:
+        paths[".json"] = options.json
+    for file in paths.values():
+        check_writable(file)
+    if paths[".csv"].resolve() == options.log.resolve():
+        paths[".csv"] = options.out / f"{options.log.stem}_compared.csv"  # never over the log
+    return paths
+
+
+def write_outcome(options: argparse.Namespace, task: Task, outcome: Outcome, paths: dict[str, Path]) -> Sequence[Path]:
+    """Write all files of a comparison."""
+    title = f"{options.fmu.stem} and {options.log.name}"
+    write_signals(outcome.before, outcome.after, paths[".csv"])
+    write_picture(comparison_figure(outcome.before, outcome.after, title, task.inputs), paths[".png"])
+    write_report(title, outcome.before, outcome.after, outcome.fit, outcome.notes, outcome.problems, paths)
+    if outcome.fit is not None:
+        values = task.aliases.values(dict(task.set_values) | outcome.fit.parameters)
+        description = described(options.fmu)
+        parameters = Variables(description).parameter_set(description.modelName, values)
+        write_parameter_set(parameters, paths[".ssv"], as_built=False)
+    if ".json" in paths:
+        write_json(_record(outcome, task), paths[".json"])
+    return list(paths.values())
+
+
+def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
+    record: dict[str, Any] = {
+        "step_s": task.step,
+        "start": task.manoeuvre.start,
+        "notes": outcome.notes,
+        "problems": outcome.problems,
+        "measures": measure_records(measures(outcome.before)),
+    }
+    if outcome.fit is not None and outcome.after is not None:
+        f = outcome.fit
+        record["fitted_measures"] = measure_records(measures(outcome.after))
+        record["fit"] = {
+            "found": [
+                {
+                    "name": x.unknown.name,
+                    "unit": x.unknown.unit,
+                    "start": x.unknown.start,
+                    "value": x.value,
+                    "half_width_95": x.half_width if math.isfinite(x.half_width) else None,
+                    "bound": x.bound,
+                }
+                for x in f.found
+            ],
+            "correlation": f.correlation.tolist(),
+            "residual_before": f.before,
+            "residual_after": f.after,
+            "chance": f.chance,
+            "noise": f.noise,
+            "remains": f.misfit,
+            "computed_noise": f.computed_noise,
+            "samples": f.samples,
+            "effective_samples": f.effective,
+            "runs": f.runs,
+            "converged": f.converged,
+        }
+    return record

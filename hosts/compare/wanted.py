@@ -1,0 +1,85 @@
+"""The parameters that are to be fitted, as the command line names them."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Mapping, Sequence
+
+from hosts.compare.residuals import Unknown
+from hosts.errors import HostError
+from hosts.numbers import Value, parse_number
+from hosts.variables import Variable
+
+
+def wanted_parameters(
+    texts: Sequence[str], variables: Mapping[str, Variable], given: Mapping[str, Value]
+) -> list[Unknown]:
+    """Parameters to be fitted.
+
+    Parameters
+    ----------
+    texts : sequence of str
+        ``NAME`` or ``NAME=LOW:HIGH``.
+    variables : mapping of str to Variable
+        Parameters of the FMU.
+    given : mapping of str to float, int, bool or str
+        Values that the user sets: there the search begins.
+
+    Raises
+    ------
+    HostError
+        A name, kind or range is wrong.
+    """
+    found: list[Unknown] = []
+    for text in texts:
+        name, equals, limits = (part.strip() for part in text.partition("="))
+        if name in [u.name for u in found]:
+            raise HostError(f"--fit: '{name}' is given twice.")
+        variable = variables.get(name)
+        if variable is None:
+            near = difflib.get_close_matches(name, variables, 3)
+            near = near or [n for n in variables if name.lower() in n.lower()][:3]
+            hint = f"; did you mean {' or '.join(near)}?"[:-1] if near else "; ali3 parameters lists them"
+            raise HostError(f"--fit: the FMU has no parameter '{name}'{hint}.")
+        if variable.kind != "Real" or variable.start is None:
+            raise HostError(f"--fit: '{name}' is of the kind {variable.kind}; only real numbers can be fitted.")
+        start = float(given.get(name, variable.start))
+        low, high = _range(variable, start, limits) if equals else _usual_range(variable, start)
+        if not low <= start <= high:
+            raise HostError(
+                f"--fit: '{name}' begins at {variable.with_unit(start)}, which is not between {low:g} and {high:g}; "
+                f"--set {name}=VALUE begins elsewhere."
+            )
+        found.append(Unknown(name, variable.unit, start, low, high, 0.25 * (high - low)))
+    return found
+
+
+def _range(variable: Variable, start: float, text: str) -> tuple[float, float]:
+    low, colon, high = text.partition(":")
+    try:
+        if not colon:
+            raise ValueError(f"{text!r} is not of the form LOW:HIGH")
+        found = parse_number(low), parse_number(high)
+    except ValueError as error:
+        raise HostError(f"--fit: '{variable.name}': {error}.") from None
+    if not found[0] < found[1]:
+        raise HostError(f"--fit: '{variable.name}' from {found[0]:g} to {found[1]:g}; the first must be the smaller.")
+    if found[0] < variable.low or found[1] > variable.high:
+        raise HostError(
+            f"--fit: '{variable.name}' from {found[0]:g} to {found[1]:g}; the range of the FMU is {variable.range}."
+        )
+    return found
+
+
+def _usual_range(variable: Variable, start: float) -> tuple[float, float]:
+    if start == 0.0:
+        raise HostError(
+            f"--fit: '{variable.name}' is 0 in the FMU, so that no range can be guessed; write "
+            f"--fit {variable.name}=LOW:HIGH."
+        )
+    low, high = sorted((0.5 * start, 2.0 * start))
+    low, high = max(low, variable.low), min(high, variable.high)
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        raise HostError(f"--fit: '{variable.name}' needs a range; write --fit {variable.name}=LOW:HIGH.")
+    return low, high

@@ -1,0 +1,150 @@
+"""Logs of a car: made by the car's FMU at another step, with noise, delay and units of a data logger."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+from fmu_src.build import build_fmu
+from fmu_src.scene_registry import load_scene
+from hosts.co_simulation import Result, run
+from hosts.compare.command import main
+from hosts.fmu import Fmu
+from hosts.manoeuvre import Manoeuvre
+
+END = 5.0
+ALIASES = """
+[time]
+name = "Zeit"
+unit = "ms"
+[signals]
+throttle = "Gas"
+brake = "Bremse"
+steering_wheel_angle = "Lenkrad"
+speed = "v"
+"chassis.wz" = "Gierrate"
+"chassis.ay" = "ay"
+"chassis.x" = { name = "Ost", unit = "m" }
+"chassis.y" = { name = "Nord", unit = "m" }
+"chassis.yaw" = { name = "Kurs", unit = "deg" }
+"""
+LARGEST = 8.97597901025655  # rad of the steering wheel at steering 1
+
+
+@pytest.fixture(scope="module")
+def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    name, system = load_scene("prototype_car")
+    return build_fmu(system, name, tmp_path_factory.mktemp("car"), [fmpy.platform])
+
+
+def driven(car: Path, start: Mapping[str, float], **inputs: np.ndarray) -> Result:
+    t = np.arange(0.0, END + 0.01, 0.01)
+    zero = {"steering": 0.0 * t, "throttle": 0.2 + 0.0 * t, "brake": 0.0 * t}
+    with Fmu(car) as fmu:
+        return run(fmu, Manoeuvre("log", t, {**zero, **inputs}, END, dict(start)), 0.001)
+
+
+def logged(car: Path, folder: Path, start: Mapping[str, float], delay: float = 0.0, noise: float = 0.0) -> Path:
+    """A log at 100 Hz with the units of a data logger; what comes out is late by `delay`."""
+    times = np.arange(0.0, END + 0.01, 0.01)
+    steering = 0.1 * np.sin(2.0 * np.pi * 0.4 * times) * np.clip(times - 0.4, 0.0, 1.0)
+    result = driven(car, start, steering=steering)
+    t = np.arange(0.0, END - 0.05, 0.01)
+    rng = np.random.default_rng(7)
+
+    def out(name: str, unit: float, deviation: float = 0.0) -> np.ndarray:
+        # An input of the run stands for the step that begins with it, in which it counts at the end: 1 ms late.
+        values = np.interp(t - delay + 0.001, result.time, result[name])
+        return unit * (values + noise * deviation * rng.normal(size=len(t)))
+
+    columns = {
+        "Zeit": 1000.0 * t + 7e6,
+        "Gas [%]": 20.0 + 0.0 * t,
+        "Bremse [%]": 0.0 * t,
+        "Lenkrad [°]": np.degrees(LARGEST * np.interp(t, times, steering)),
+        "v [km/h]": out("speed", 3.6, 0.05),
+        "Gierrate [°/s]": out("chassis.wz", 180.0 / np.pi, 0.004),
+        "ay [g]": out("chassis.ay", 1.0 / 9.80665, 0.1),
+        "Ost": out("chassis.x", 1.0, 0.01),
+        "Nord": out("chassis.y", 1.0, 0.01),
+        "Kurs": out("chassis.yaw", 180.0 / np.pi, 0.002),
+    }
+    lines = [";".join(columns)]
+    lines += [";".join(f"{v:.7g}".replace(".", ",") for v in row) for row in np.column_stack(list(columns.values()))]
+    (folder / "fahrt.csv").write_text("\n".join(lines), encoding="latin-1")
+    (folder / "fahrt.toml").write_text(ALIASES, encoding="utf-8")
+    return folder / "fahrt.csv"
+
+
+def compared(car: Path, log: Path, *options: str, signals: str = "speed,chassis.wz,chassis.ay") -> tuple[int, dict]:
+    record = log.parent / "record.json"
+    arguments = [str(car), str(log), "--aliases", str(log.with_suffix(".toml")), "--out", str(log.parent / "out")]
+    status = main([*arguments, "--signals", signals, "--json", str(record), *options])
+    return status, json.loads(record.read_text())
+
+
+def values(record: dict, part: str = "measures") -> dict[str, float]:
+    return {m["name"]: m["value"] for m in record[part]}
+
+
+def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> None:
+    """Units, signs, clock, pose and speed at the start: all must be right for this."""
+    start = {"initial.speed": 15.0, "initial.x": 120.0, "initial.y": -40.0, "initial.yaw": 2.0}
+    log = logged(car, tmp_path, start)
+    signals = "speed,chassis.wz,chassis.ay,chassis.x,chassis.y,chassis.yaw"
+    status, record = compared(car, log, signals=signals)
+    assert status == 0
+    assert record["start"]["initial.speed"] == pytest.approx(15.0, abs=2e-3)
+    # The drawing's origin, not the reference point, starts there.
+    assert record["start"]["initial.x"] == pytest.approx(120.0, abs=0.02)
+    assert record["start"]["initial.y"] == pytest.approx(-40.0, abs=0.02)
+    assert record["start"]["initial.yaw"] == pytest.approx(2.0, abs=1e-3)
+    found = values(record)
+    for name, largest in (("speed", 0.01), ("chassis.wz", 0.004), ("chassis.ay", 0.08), ("chassis.x", 0.05)):
+        assert found[f"{name}.rms"] < largest
+        assert found[f"{name}.rating"] > 0.98
+    assert found["chassis.y.rms"] < 0.05
+    assert found["chassis.wz.delay"] == pytest.approx(0.0, abs=2e-3)
+
+
+def test_a_delay_of_the_log_is_found_with_its_sign(car: Path, tmp_path: Path) -> None:
+    _, record = compared(car, logged(car, tmp_path, {"initial.speed": 15.0}, delay=0.06))
+    assert values(record)["chassis.wz.delay"] == pytest.approx(0.06, abs=2e-3)
+    assert values(record)["chassis.ay.delay"] == pytest.approx(0.06, abs=4e-3)
+
+
+def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
+    true = {"front.tyre.grip": 0.85, "initial.speed": 15.0}
+    log = logged(car, tmp_path, true, delay=0.04, noise=1.0)
+    status, record = compared(
+        car, log, "--fit", "front.tyre.grip", "--fit", "initial.speed=12:18", "--nuisance", "delay"
+    )
+    assert status == 0
+    found = {f["name"]: f for f in record["fit"]["found"]}
+    for name, value in (*true.items(), ("delay", 0.04)):
+        assert abs(found[name]["value"] - value) < 1.5 * found[name]["half_width_95"], name
+    assert found["front.tyre.grip"]["half_width_95"] < 0.02
+    assert values(record, "fitted_measures")["chassis.wz.rms"] == pytest.approx(0.004, rel=0.15)
+
+
+def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path) -> None:
+    """With another drag the pedals of the log would lose the speed; the driver keeps it."""
+    log = logged(car, tmp_path, {"initial.speed": 15.0})
+    other = ("--set", "aerodynamics.drag_area=2")
+    pedals = values(compared(car, log, *other)[1])["speed.rms"]
+    held = values(compared(car, log, *other, "--hold-speed")[1])["speed.rms"]
+    assert pedals > 0.3
+    assert held < 0.2 * pedals
+
+
+def test_a_log_that_begins_in_a_turn_says_so(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    log = logged(car, tmp_path, {"initial.speed": 15.0})
+    compared(car, log, "--from", "2")
+    said = capsys.readouterr().out
+    assert "The start is as measured: initial.speed = " in said
+    assert "begins in a turn of" in said

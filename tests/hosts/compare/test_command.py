@@ -1,0 +1,173 @@
+"""The command, from a log to its files, and what it says of logs and wishes that are not right."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pendulum import measured, measured_pull, motion
+
+from hosts.compare.command import main
+from hosts.recorded import read_table
+
+TRUE = (123.0, 1.7)
+Columns = dict[str, np.ndarray]
+
+
+def log_columns(delay: float = 0.0) -> Columns:
+    signals = measured(motion(*TRUE), 1, 0.0, delay)
+    t = signals["bob.x"].time
+    pull = measured_pull()
+    return {
+        "time": t,
+        "pull": np.interp(t, pull.time, pull.values),
+        **{n: s.values for n, s in signals.items()},
+    }
+
+
+def write(file: Path, columns: Columns) -> Path:
+    lines = [",".join(columns)]
+    for row in np.column_stack(list(columns.values())):
+        lines.append(",".join("" if math.isnan(v) else repr(float(v)) for v in row))
+    file.write_text("\n".join(lines) + "\n")
+    return file
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write(tmp_path_factory.mktemp("log") / "drive.csv", log_columns())
+
+
+@pytest.mark.usefixtures("tuned")
+class TestCommand:
+    def test_compare_and_fit(self, tuned: Path, log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        arguments = [str(tuned), str(log), "--out", str(tmp_path), "--json", str(tmp_path / "all.json")]
+        assert (
+            main([*arguments, "--fit", "spring.stiffness", "--fit", "spring.damping=0.2:5", "--nuisance", "bias"]) == 0
+        )
+        said = capsys.readouterr().out
+        assert "residuals over noise" in said
+        record = json.loads((tmp_path / "all.json").read_text())
+        found = {f["name"]: f for f in record["fit"]["found"]}
+        for name, true in zip(("spring.stiffness", "spring.damping"), TRUE, strict=True):
+            assert abs(found[name]["value"] - true) < 1.5 * found[name]["half_width_95"]
+        rms = {m["name"]: m["value"] for m in record["fitted_measures"]}
+        assert rms["bob.x.rms"] == pytest.approx(0.01, rel=0.15)  # the noise, and nothing else
+        assert rms["bob.y.rms"] == pytest.approx(0.005, rel=0.15)
+        table = read_table(tmp_path / "drive.csv")
+        assert table.units["bob.x.fitted"] == "m"
+        assert np.std(table.columns["bob.x.fitted"] - table.columns["bob.x.measured"]) == pytest.approx(0.01, rel=0.15)
+        page = (tmp_path / "drive.html").read_text()
+        assert "spring.stiffness" in page
+        assert "data:image/png;base64" in page
+        assert (tmp_path / "drive.ssv").is_file()
+        # The parameter set gives the fitted run without a fit.
+        assert main([*arguments, "--parameters", str(tmp_path / "drive.ssv")]) == 0
+        again = {m["name"]: m["value"] for m in json.loads((tmp_path / "all.json").read_text())["measures"]}
+        assert again["bob.x.rms"] == pytest.approx(0.01, rel=0.15)
+
+    @pytest.mark.parametrize(
+        ("change", "words"),
+        [
+            (lambda c: c | {"bob.x": 1000.0 * c["bob.x"]}, "thousandths"),
+            (lambda c: c | {"bob.x": -c["bob.x"]}, "has the opposite sign"),
+            (lambda c: c | {"bob.x": np.degrees(c["bob.x"])}, "it looks like degrees"),
+            (lambda c: c | {"bob.x": c["bob.x"] / 9.81}, "it looks like g"),
+        ],
+    )
+    def test_a_wrong_unit_is_seen_and_nothing_is_fitted(
+        self,
+        tuned: Path,
+        tmp_path: Path,
+        capsys: pytest.CaptureFixture[str],
+        change: Callable[[Columns], Columns],
+        words: str,
+    ) -> None:
+        file = write(tmp_path / "odd.csv", change(log_columns()))
+        common = [str(tuned), str(file), "--out", str(tmp_path / "out"), "--set", "spring.stiffness=120"]
+        assert main(common) == 1
+        assert words in capsys.readouterr().out
+        assert main([*common, "--fit", "spring.stiffness"]) == 2
+        assert "Nothing was fitted" in capsys.readouterr().err
+
+    def test_a_constant_signal(self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        columns = log_columns()
+        file = write(tmp_path / "flat.csv", columns | {"bob.y": 0.0 * columns["bob.y"] - 1.0})
+        main([str(tuned), str(file), "--out", str(tmp_path)])
+        said = capsys.readouterr().out
+        assert "bob.y: the measured signal is constant: no correlation" in said
+
+    @pytest.mark.parametrize(
+        ("options", "words"),
+        [
+            (["--signals", "bob.z"], "--signals: 'bob.z' is no output of the FMU; did you mean"),
+            (["--signals", "solver.status"], "'solver.status' is not in the log"),
+            (
+                ["--fit", "spring.stifness"],
+                "the FMU has no parameter 'spring.stifness'; did you mean spring.st",
+            ),
+            (["--fit", "spring.stiffness=200:100"], "the first must be the smaller"),
+            (["--fit", "spring.stiffness=1:500"], "the range of the FMU is"),
+            (["--fit", "spring.stiffness=150:500"], "begins at 100 N/m, which is not between 150 and 500"),
+            (["--fit", "spring.stiffness=a:b"], "'a' is not a number"),
+            (["--fit", "bob.x"], "has no parameter 'bob.x'"),
+            (["--nuisance", "delay"], "--nuisance goes with --fit"),
+            (["--fit", "spring.damping", "--nuisance", "lag"], "'lag' is not known"),
+            (["--from", "20"], "--from is 20 s; the log's inputs lie between 0 and"),
+            (["--skip", "7"], "--skip is 7 s; the log lasts"),
+            (["--ignore", "pull"], "there is nothing to replay"),
+            (["--ignore", "pusch"], "'pusch' is no input in the log; it has pull"),
+            (["--set", "spring.stifness=2"], "spring.stifness"),
+            (["--step", "-1"], "must be positive"),
+            (["--fit", "solver.step_iterations=0:9"], "only real numbers can be fitted"),
+            (["--fit", "spring.damping", "--fit", "spring.damping"], "is given twice"),
+        ],
+    )
+    def test_wrong_wishes(
+        self, tuned: Path, log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str], words: str
+    ) -> None:
+        assert main([str(tuned), str(log), "--out", str(tmp_path), *options]) == 2
+        said = capsys.readouterr().err
+        assert words in said
+        assert said.count("\n") == 1
+        assert not list(tmp_path.iterdir())
+
+    def test_a_gap_in_an_input(self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        columns = log_columns()
+        hole = (columns["time"] > 2.0) & (columns["time"] < 3.0)
+        file = write(tmp_path / "gap.csv", columns | {"pull": np.where(hole, np.nan, columns["pull"])})
+        assert main([str(tuned), str(file), "--out", str(tmp_path)]) == 2
+        said = capsys.readouterr().err
+        assert "no samples of the input 'pull' (pull) from 2 s to 3 s (1 s; usual are 0.02 s)" in said
+        assert "--to 2" in said
+        assert main([str(tuned), str(file), "--out", str(tmp_path), "--longest-gap", "1.01"]) == 0
+        assert "is bridged by a straight line" in capsys.readouterr().out
+        assert main([str(tuned), str(file), "--out", str(tmp_path), "--to", "2"]) == 0
+
+    def test_an_input_beyond_its_range(self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        columns = log_columns()
+        file = write(tmp_path / "far.csv", columns | {"pull": 100.0 * columns["pull"]})
+        assert main([str(tuned), str(file), "--out", str(tmp_path)]) == 2
+        assert "the range of the FMU's input is -50 to 50 N" in capsys.readouterr().err
+
+    def test_parameters_that_the_log_does_not_tell(
+        self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        file = write(tmp_path / "few.csv", log_columns())
+        common = [str(tuned), str(file), "--out", str(tmp_path / "out"), "--signals", "bob.x"]
+        # True is 123: the best within this range is at its end.
+        assert main([*common, "--fit", "spring.stiffness=90:110"]) == 1
+        assert "lies at its upper bound, 110 N/m" in capsys.readouterr().out
+        assert main([*common, "--fit", "step_size=0.01:0.012"]) == 2
+        assert "does not change any of the compared signals" in capsys.readouterr().err
+
+    def test_the_log_is_never_written_over(self, tuned: Path, tmp_path: Path) -> None:
+        file = write(tmp_path / "own.csv", log_columns())
+        before = file.read_bytes()
+        assert main([str(tuned), str(file), "--out", str(tmp_path)]) == 0
+        assert file.read_bytes() == before
+        assert (tmp_path / "own_compared.csv").is_file()

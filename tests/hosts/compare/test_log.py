@@ -1,0 +1,184 @@
+"""Logs as data loggers write them: delimiters, decimals, units, clocks, several rates."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from hosts.aliased_fmu import AliasedFmu
+from hosts.aliases import Aliases
+from hosts.compare.log import Log, log_for
+from hosts.compare.log_aliases import LogAliases, read_log_aliases
+from hosts.compare.log_file import read_log
+from hosts.compare.units import unit_definition
+from hosts.errors import HostError
+from hosts.fmu import Fmu
+
+ROWS = 40
+
+
+@pytest.fixture(scope="module")
+def fmu(tuned: Path) -> Iterator[AliasedFmu]:
+    with Fmu(tuned) as opened:
+        yield AliasedFmu(opened, Aliases())
+
+
+def read(fmu: AliasedFmu, folder: Path, text: str, aliases: str = "", encoding: str = "utf-8") -> Log:
+    (folder / "log.csv").write_text(text, encoding=encoding)
+    (folder / "log.toml").write_text(aliases, encoding="utf-8")
+    named = read_log_aliases(folder / "log.toml") if aliases else LogAliases()
+    return log_for(fmu, read_log(folder / "log.csv", named.form), named)
+
+
+def rows(form: str) -> str:
+    return "\n".join(form.format(t=0.01 * k, ms=10 * k, f=0.5 * k, x=0.001 * k) for k in range(ROWS)) + "\n"
+
+
+def assert_read(log: Log) -> None:
+    assert log.inputs["pull"].values == pytest.approx(0.5 * np.arange(ROWS))
+    assert log.outputs["bob.x"].values == pytest.approx(0.001 * np.arange(ROWS))
+    assert log.outputs["bob.x"].time == pytest.approx(0.01 * np.arange(ROWS))
+
+
+def test_names_of_the_fmu_need_no_aliases(fmu: AliasedFmu, tmp_path: Path) -> None:
+    assert_read(read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}")))
+
+
+def test_german_logger(fmu: AliasedFmu, tmp_path: Path) -> None:
+    text = rows("{ms};{f};{x}").replace(".", ",")
+    text = text.replace("\n", ";\n")  # many loggers end a row with a delimiter
+    aliases = '[time]\nname = "Zeit"\nunit = "ms"\n[signals]\npull = { name = "Kräft" }\n"bob.x" = { name = "Weg" }'
+    heading = "Prüfstand 3;;;\nZeit;Kräft;Weg;\n[ms];[N];[m];\n"
+    assert_read(read(fmu, tmp_path, heading + text, aliases, "latin-1"))
+
+
+def test_units_of_the_heading_and_of_the_aliases(fmu: AliasedFmu, tmp_path: Path) -> None:
+    text = "t [ms]\tF [kN]\tx\n" + rows("{ms}\t{f}\t{x}")
+    log = read(fmu, tmp_path, text, '[signals]\npull = "F"\n"bob.x" = { name = "x", unit = "mm" }')
+    assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
+    assert log.outputs["bob.x"].values == pytest.approx(1e-6 * np.arange(ROWS))
+    assert log.outputs["bob.x"].time[-1] == pytest.approx(0.01 * (ROWS - 1))
+
+
+def test_factor_and_offset_are_those_of_other_alias_files(fmu: AliasedFmu, tmp_path: Path) -> None:
+    """The number in the log is factor * ours + offset, as in the alias file of an FMU."""
+    log = read(
+        fmu,
+        tmp_path,
+        "time,pull,bob.x\n" + rows("{t},{f},{x}"),
+        '[signals]\n"bob.x" = { name = "bob.x", unit = "cm", factor = -2.0, offset = 1.0 }',
+    )
+    assert log.outputs["bob.x"].values == pytest.approx((0.001 * np.arange(ROWS) - 1.0) / -2.0 / 100.0)
+
+
+def test_clock_with_factor_offset_and_its_own_column(fmu: AliasedFmu, tmp_path: Path) -> None:
+    text = "clock,imu,pull,bob.x\n" + rows("{ms},{t},{f},{x}")
+    aliases = (
+        '[time]\nname = "clock"\nunit = "s"\nfactor = 1000.0\noffset = -50.0\n'
+        '[signals]\npull = "pull"\n"bob.x" = "bob.x"'
+    )
+    assert_read(read(fmu, tmp_path, text, aliases))
+
+
+@pytest.mark.parametrize(("unit", "form"), [("epoch_ms", "{}"), ("iso", "{}")])
+def test_moments(fmu: AliasedFmu, tmp_path: Path, unit: str, form: str) -> None:
+    moments = pd.Timestamp("2024-05-03T12:00:00") + pd.to_timedelta(10.0 * np.arange(ROWS), unit="ms")
+    texts = [str(int(m.timestamp() * 1000)) if unit == "epoch_ms" else m.isoformat() for m in moments]
+    lines = [f"{t},{0.5 * k},{0.001 * k}" for k, t in enumerate(texts)]
+    text = "time,pull,bob.x\n" + "\n".join(lines) + "\n"
+    assert_read(read(fmu, tmp_path, text, f'[time]\nname = "time"\nunit = "{unit}"\n[signals]\npull = "pull"'))
+
+
+def test_several_rates_leave_cells_empty(fmu: AliasedFmu, tmp_path: Path) -> None:
+    lines = [f"{0.01 * k:.2f},{0.5 * k},{0.001 * k if k % 4 == 0 else ''}" for k in range(ROWS)]
+    log = read(fmu, tmp_path, "time,pull,bob.x\n" + "\n".join(lines))
+    assert log.outputs["bob.x"].interval == pytest.approx(0.04)
+    assert log.inputs["pull"].interval == pytest.approx(0.01)
+    assert len(log.outputs["bob.x"].values) == ROWS // 4
+
+
+def test_parquet_with_units(fmu: AliasedFmu, tmp_path: Path) -> None:
+    k = np.arange(ROWS)
+    table = pd.DataFrame({"time": 0.01 * k, "pull": 0.5 * k, "bob.x": 0.001 * k})
+    table.to_parquet(tmp_path / "log.parquet")
+    assert_read(log_for(fmu, read_log(tmp_path / "log.parquet", LogAliases().form), LogAliases()))
+
+
+@pytest.mark.parametrize(
+    ("unit", "si"),
+    [
+        ("km/h", 1.0 / 3.6),
+        ("deg", math.pi / 180.0),
+        ("°/s", math.pi / 180.0),
+        ("g", 9.80665),
+        ("m/s^2", 1.0),
+        ("[m/s²]", 1.0),
+        ("1/min", math.pi / 30.0),
+        ("bar", 1e5),
+        ("%", 0.01),
+        ("Nm", 1.0),
+        ("mph", 1609.344 / 3600.0),
+        ("psi", 6894.757293168),
+        ("lbf.ft", 1.3558179483314),
+    ],
+)
+def test_units(unit: str, si: float) -> None:
+    assert unit_definition(unit, "").factor == pytest.approx(si, rel=1e-12)
+
+
+BAD = [
+    ("time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.2,", "0.05,", 1), "", "goes back from 0.19 s to 0.05 s"),
+    ("time,pull,bob.x\n" + rows("{ms},{f},{x}"), "", '[time] unit = "ms"'),
+    ("time,Pull,bob_x\n" + rows("{t},{f},{x}"), "", "has no column with the name of an input or output"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = "f"', "has no column 'f'; did you mean 'F'"),
+    (
+        "time,F,x\n" + rows("{t},{f},{x}"),
+        '[signals]\n"bob.X" = "x"',
+        "'bob.X' is no input or output of Tuned",
+    ),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\n"spring.damping" = "x"', "is a parameter of Tuned.fmu"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "deg" }', "is in 'deg'; 'pull' of"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "kNn" }', "or kN"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { nam = "F" }', "must be a column of the log"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), "[signals]\nbob.x = 'x'", "a name with a dot needs quotation marks"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[time]\nunit = "hours"', "[time] unit is 'hours'; known are"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), "[sensors]\na = 'x'", "has 'sensors'; known are the tables"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), "[signals]\npull = 'F'\n[time]\nname = 'Time'", "did you mean 'time'"),
+    ("a,pull,bob.x\n" + rows("{t},{f},{x}"), "", "has no column of times"),
+    ("time,pull,bob.x\n0,1,2\n0.1,2,3\n", "", "at least 10 are needed"),
+    ("", "", "is empty"),
+    ("time pull bob.x\n" + rows("{t} {f} {x}"), "", "is no table of numbers"),
+    (
+        "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("19.5,", "high,"),
+        "",
+        "line 41, column 'pull': 'high' is",
+    ),
+    ("time;pull;bob.x\n" + rows("{t};{f};{x}"), "[file]\ndelimiter = ','", "is no table of numbers"),
+    (rows("{t},{f},{x}"), "", "has no line of 3 names"),
+]
+
+
+@pytest.mark.parametrize(("text", "aliases", "words"), BAD)
+def test_bad_logs_are_told_in_a_sentence(fmu: AliasedFmu, tmp_path: Path, text: str, aliases: str, words: str) -> None:
+    with pytest.raises(HostError) as told:
+        read(fmu, tmp_path, text, aliases)
+    assert words in str(told.value)
+    assert "\n" not in str(told.value)
+
+
+def test_a_file_of_another_kind(tmp_path: Path) -> None:
+    for name, content, words in (
+        ("a.mf4", b"MDF     4.10", "asammdf"),
+        ("a.parquet", b"PAR1 no", "is no Parquet file"),
+        ("a.csv", b"\x00\x01\x02", "is no text"),
+        ("b.csv", None, "does not exist"),
+    ):
+        if content is not None:
+            (tmp_path / name).write_bytes(content)
+        with pytest.raises(HostError, match=words):
+            read_log(tmp_path / name, LogAliases().form)
