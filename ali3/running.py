@@ -16,6 +16,8 @@ GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED = 0, 1, 2, 130
 """Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT)."""
 
 _EXTRAS = {
+    "dask": "study",
+    "distributed": "study",
     "exudyn": "peers",
     "fmpy": "hosts",
     "imageio": "pictures",
@@ -39,6 +41,9 @@ _EXTRAS = {
     "tqdm": "hosts",
     "trimesh": "pictures",
     "websockets": "simulator",
+    "xarray": "study",
+    "zarr": "study",
+    "SALib": "study",
     "ziglang": "fmu",
 }
 """The extra of ``pip install "ali3[...]"`` that brings a package."""

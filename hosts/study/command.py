@@ -79,7 +79,8 @@ def _report(folder: Path) -> int:
         if not (error.name or "").startswith("hosts.study"):
             raise
         return 0
-    print(f"written: {', '.join(str(file) for file in report.write_report(folder))}")
+    files = report.write_report(folder)
+    print(f"written: {files[0]}" + (f" and {len(files) - 1} files beside it" if len(files) > 1 else ""))
     return 0
 
 

@@ -169,3 +169,13 @@ def test_tangent_and_bending_of_the_way(car, axle):
     bend = link.bends(at, way[:, None])[:, 0]
     np.testing.assert_allclose(bend, (ahead - 2.0 * at.q + behind) / step**2, atol=2e-3)
     assert np.abs(bend).max() > 1.0
+
+
+def test_wheelbase_of_trailing_arms_and_of_a_strut():
+    """In parallel travel the arms turn about their pivots: a wheel that comes up beyond their height comes forwards."""
+    link = linkage("hatchback", "rear")
+    x, _, z = np.subtract(link.data.wheel.centre, link.data.suspension.points.pivot)
+    back = np.sqrt(x**2 + z**2 - (z + TRAVEL) ** 2) + x  # of the centres against the drawing
+    np.testing.assert_allclose(travel_curve(link, "parallel", TRAVEL)["wheelbase_change"], back, atol=1e-12)
+    front = travel_curve(linkage("hatchback", "front"), "parallel", TRAVEL)
+    np.testing.assert_allclose(front["wheelbase_change"], front["contact_centre_x_left"], atol=1e-12)
