@@ -18,7 +18,7 @@ from hosts.study.study_file import ParameterEntry, SamplingEntry
 from hosts.variables import Variable
 
 _MOST = 10**9
-_DIGESTED = 256  # points at both ends that tell one plan from another
+_DIGESTED = 256  # drawn points at both ends that tell one plan from another
 
 
 class Points(Protocol):
@@ -163,8 +163,9 @@ def _cell(text: str, variable: Variable, unit: str | None, where: str) -> Value:
 
 
 def digest(points: Points) -> str:
-    """A hash of the first and last points, by which the points of two programs are told apart."""
-    ends = [points.block(0, min(points.count, _DIGESTED))]
-    if points.count > _DIGESTED:
+    """A hash of all points of a table, of the first and last where a rule draws them, which tells two plans apart."""
+    whole = points.count if isinstance(points, TablePoints) else _DIGESTED  # any row of a table can change by itself
+    ends = [points.block(0, min(points.count, whole))]
+    if points.count > whole:
         ends.append(points.block(points.count - _DIGESTED, _DIGESTED))
     return hashlib.sha256(json.dumps([dict(end) for end in ends]).encode()).hexdigest()

@@ -10,7 +10,7 @@ from typing import Any
 from hosts.errors import HostError
 from hosts.study.isolated import Task, run_isolated
 from hosts.study.plan import Plan
-from hosts.study.work import FAILED, Job, Outcome, seed_of
+from hosts.study.work import FAILED, INCOMPLETE, Job, Outcome, seed_of
 
 _LONGEST = 2.0  # s of a run that is repeated for the test of reuse
 _ROW = 60.0  # bytes of a row in a part beside its numbers
@@ -64,6 +64,8 @@ def try_out(plan: Plan) -> Trial:
         if outcome.status == FAILED:
             numbers = ", ".join(str(p * len(work.jobs) + number) for p in points)
             raise HostError(f"No run of {job.label} that was tried ({numbers}) came to its end: {outcome.reason}")
+        if outcome.status == INCOMPLETE:
+            notes.append(f"Run {point * len(work.jobs) + number}, {job.label}, is incomplete: {outcome.reason}")
         columns |= outcome.units
         seconds += outcome.wall / len(work.jobs)
         good.append((number, job, point, outcome))

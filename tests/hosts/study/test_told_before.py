@@ -1,0 +1,20 @@
+"""What the trial before a study tells of a measure that cannot be computed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from hosts.study.campaign import run_study
+
+
+def test_a_function_that_raises_is_told_before_the_study(
+    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "own.py").write_text("def value(result):\n    raise ArithmeticError('no such number')\n")
+    run_study(study_file(more='own = "own.py:value"\n'), tmp_path / "out", None, None, dry=True)
+    said = capsys.readouterr().err
+    assert "note: Run 0, fall, is incomplete: " in said
+    assert "no such number" in said
