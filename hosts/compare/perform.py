@@ -13,7 +13,7 @@ from hosts.compare.curve import Curve, SensedCurve
 from hosts.compare.fit import Fit, fit, overlapping
 from hosts.compare.fit_words import fit_notes, fit_problems, fit_table
 from hosts.compare.log import FEWEST_SAMPLES
-from hosts.compare.plausibility import odd_scale
+from hosts.compare.plausibility import odd_scale, odd_speed
 from hosts.compare.replay import Replay
 from hosts.compare.residuals import NUISANCES, Unknown, nuisances
 from hosts.compare.results import Outcome, paths_of, write_outcome
@@ -96,7 +96,7 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
             problems.append(f"'{name}' is not compared: it is not finite, or has too few samples.")
     compared = compare(enough, {n: Curve(result, n) for n in enough}, options.longest_delay, options.skip)
     odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for s in compared.signals.values()]
-    return compared, problems + [line for line in odd if line]
+    return compared, problems + [line for line in (odd_speed(task.outputs), *odd) if line]
 
 
 def _refuse_odd(problems: list[str], options: argparse.Namespace) -> None:
