@@ -41,8 +41,10 @@ COMMANDS = (
     Command("simulator", "hosts.simulator.command", "drive an FMU in real time, from a page or by a steering wheel"),
     Command("parameters", "hosts.parameters", "show the parameters of an FMU, or write them as a parameter set"),
     Command("check", "hosts.check", "check an FMU and print a verdict"),
-    Command("catalogue", "hosts.catalogue.command", "do standard tests with cars and report their measures"),
-    Command("study", "hosts.study.command", "drive many variants of a car, on one machine or many"),
+    Command(
+        "catalogue", "hosts.catalogue.command", "do standard tests with cars side by side and report their measures"
+    ),
+    Command("study", "hosts.study.command", "drive many variants of a car or another FMU, on one machine or a cluster"),
     Command("compare", "hosts.compare.command", "hold an FMU against a log of a test drive, and fit parameters"),
     Command("kinematics", "mbs.vehicle.kinematics.command", "draw the wheel travel and steer curves of a car"),
     Command("kerb", "hosts.kerb", "run the paper's kerb test and draw the moments of the frame"),

@@ -66,7 +66,7 @@ def test_they_come_back_within_their_confidence(replay: Replay) -> None:
     assert inside(replay, 6, 0.8).sum() >= 15
 
 
-@pytest.mark.slow
+@pytest.mark.proof
 @pytest.mark.parametrize("memory", [0.0, 0.8])
 def test_coverage_is_near_95_percent(replay: Replay, memory: float) -> None:
     count = 100
