@@ -33,14 +33,14 @@ class Ended:
     Parameters
     ----------
     folder : Path
-    complete : bool
-        Whether every run has a row.
+    good : bool
+        Whether every run has a row, and one at least of those made now has all its measures.
     failed : int
         Of the runs that were made now.
     """
 
     folder: Path
-    complete: bool
+    good: bool
     failed: int
 
 
@@ -239,7 +239,10 @@ def _make(
     for line in progress.said():
         print(line)
     print(f"{words}; written: {folder}")
-    return Ended(folder, True, progress.failed)
+    bare = progress.made > 0 and progress.failed + progress.incomplete == progress.made
+    if bare:
+        print("No run has yielded all its measures; the column reason says why.", file=sys.stderr)
+    return Ended(folder, not bare, progress.failed)
 
 
 def _kept(plan: Plan, folder: Path) -> str:

@@ -45,12 +45,12 @@ def _study(options: argparse.Namespace, prog: str) -> int:
         raise HostError(_of_folder(options.study, prog))
     from hosts.study.campaign import run_study
 
-    good = run_study(options.study, options.out, options.scheduler, options.workers, options.dry_run, options.again)
-    if good is None:
+    ended = run_study(options.study, options.out, options.scheduler, options.workers, options.dry_run, options.again)
+    if ended is None:
         return 0
     if not options.no_report:
-        _report(good.folder)
-    return 0 if good.complete else NOT_GOOD
+        _report(ended.folder)
+    return 0 if ended.good else NOT_GOOD
 
 
 def _repeat(options: argparse.Namespace) -> int:

@@ -60,7 +60,7 @@ def made(study_file: Callable[..., Path], tmp_path: Path, scheduler: str) -> Cal
     def make(*replaced: tuple[str, str], more: str = "", out: str = "out", again: bool = False) -> Path:
         ended = run_study(study_file(*replaced, more=more), tmp_path / out, scheduler, None, again=again)
         assert ended is not None
-        assert ended.complete
+        assert ended.good
         return ended.folder
 
     return make

@@ -61,7 +61,7 @@ def test_runs_that_raise_crash_or_hang_are_rows(study_file: Callable[..., Path],
     file = table_study(study_file, tmp_path)
     ended = run_study(file, tmp_path / "out", None, 2)
     assert ended is not None
-    assert (ended.complete, ended.failed) == (True, 3)
+    assert (ended.good, ended.failed) == (True, 3)
     table = read_study(ended.folder)
     good = [0, 1, 7, 8, 9]
     assert (
@@ -104,3 +104,14 @@ def test_a_refused_step_is_a_reason(tmp_path: Path) -> None:
     bench.close()
     assert bench.run(job, {"none": 1.0}, 0).reason.startswith("The FMU has no parameter or input 'none'")
     bench.close()
+
+
+def test_a_study_without_a_measure_is_not_good(
+    study_file: Callable[..., Path], tmp_path: Path, scheduler: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "none.py").write_text("def value(result):\n    return float('nan')\n")
+    file = study_file(('"max(bob.y)"', '"max(bob.y)"\nown = "none.py:value"'))
+    ended = run_study(file, tmp_path / "out", scheduler, None)
+    assert ended is not None
+    assert (ended.good, ended.failed) == (False, 0)
+    assert "No run has yielded all its measures" in capsys.readouterr().err

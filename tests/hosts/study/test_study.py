@@ -29,7 +29,7 @@ def folder(spring: Path, scheduler: str, tmp_path_factory: pytest.TempPathFactor
     (place / "study.toml").write_text(STUDY.format(fmu=spring) + signals)
     ended = run_study(place / "study.toml", place / "out", scheduler, None)
     assert ended is not None
-    assert ended.complete
+    assert ended.good
     return ended.folder
 
 
