@@ -1,8 +1,14 @@
-"""What every test needs: the compiled kernel, and commands as they are before the first."""
+"""What every test needs: the compiled kernel, commands as they are before the first, and Ctrl-C."""
 
 from __future__ import annotations
 
+import signal
+
 import pytest
+
+# Where a shell runs the tests in the background Ctrl-C is ignored; programs that the tests start would inherit that.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session", autouse=True)
