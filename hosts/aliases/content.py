@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ali3.files import reason
+from hosts.aliases.toml_file import read_toml
 from hosts.errors import HostError
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 CONSTANTS = "constants"
 """The table of an alias file that says what the FMU does not tell of its car, such as ``vehicle.wheelbase``."""
@@ -27,7 +21,6 @@ PARTIAL = "partial"
 """The key that says that names which the FMU lacks are left out; else they are errors."""
 
 SHIPPED = Path(__file__).parents[1] / "alias_files"
-_LARGEST = 1_000_000
 _MOST_FILES = 10
 
 
@@ -79,7 +72,7 @@ class Content:
 
 def read_content(file: Path, depth: int = 0) -> Content:
     """Read a file and those that it extends; `HostError` with the file and the key."""
-    table = _read(file)
+    table = read_toml(file)
     made = Content(str(file))
     base = table.pop(EXTENDS, None)
     if base is not None:
@@ -122,17 +115,6 @@ def _found(base: str, file: Path) -> Path:
         f"{file}: {EXTENDS} is '{base}': there is neither a file {path} nor one of that name in the package, which "
         f"has {', '.join(shipped_names())}."
     )
-
-
-def _read(file: Path) -> dict[str, Any]:
-    try:
-        if file.stat().st_size > _LARGEST:
-            raise HostError(f"{file} has more than {_LARGEST} bytes; an alias file is small.")
-        return tomllib.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise HostError(f"The alias file {file} cannot be read: {reason(error)}.") from None
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise HostError(f"The alias file {file} is not TOML: {' '.join(str(error).split())}.") from None
 
 
 def _numbers(table: Any, file: Path) -> dict[str, float]:

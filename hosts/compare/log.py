@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from hosts.aliased_fmu import AliasedFmu
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
-from hosts.compare.units import known_unit, unit_definition
 from hosts.errors import HostError
+from hosts.unit_names import known_unit, unit_definition
 from hosts.unit_of import unit_of
 
 FEWEST_SAMPLES = 10

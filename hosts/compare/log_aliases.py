@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ali3.files import reason
+from hosts.aliases.toml_file import read_toml
 from hosts.errors import HostError
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 TIME_UNITS: Mapping[str, float | None] = {
     "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "epoch": 1.0, "epoch_ms": 1e-3,
@@ -26,7 +20,6 @@ _TABLES = ("file", "time", "signals")
 _FILE = ("delimiter", "decimal", "encoding", "heading", "units")
 _TIME = ("name", "unit", "factor", "offset")
 _SIGNAL = ("name", "unit", "factor", "offset", "time")
-_LARGEST = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -105,7 +98,7 @@ def read_log_aliases(file: Path) -> LogAliases:
     HostError
         With the file, the key and what would be right.
     """
-    content = _read(file)
+    content = read_toml(file)
     unknown = next((key for key in content if key not in _TABLES), None)
     if unknown is not None:
         raise HostError(f"{file} has '{unknown}'; known are the tables [file], [time] and [signals].")
@@ -175,14 +168,3 @@ def _number(value: Any, where: str) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise HostError(f"{where} is {value!r}; it must be a finite number.")
     return float(value)
-
-
-def _read(file: Path) -> dict[str, Any]:
-    try:
-        if file.stat().st_size > _LARGEST:
-            raise HostError(f"{file} has more than {_LARGEST} bytes; an alias file is small.")
-        return tomllib.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise HostError(f"The alias file {file} cannot be read: {reason(error)}.") from None
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise HostError(f"The alias file {file} is not TOML: {' '.join(str(error).split())}.") from None

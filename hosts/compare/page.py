@@ -14,21 +14,9 @@ from matplotlib.figure import Figure
 
 from hosts.compare.comparison import Comparison
 from hosts.compare.log import Signal
-from hosts.result_plots import BLUE, COLOURS, RED, save_picture
+from hosts.result_plots import BLUE, COLOURS, RED, STYLE, save_picture
 
-_STYLE: dict[Any, Any] = {
-    "font.size": 9,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#e3e3e3",
-    "axes.titlesize": 10,
-    "axes.titlelocation": "left",
-    "axes.titleweight": "bold",
-    "legend.frameon": False,
-    "legend.fontsize": 8,
-    "lines.linewidth": 1.3,
-}
+_STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}
 _MEASURED = "#8a8a8a"
 _MOST = 12  # signals of a page
 _POINTS = 4000

@@ -53,7 +53,7 @@ def find_fmu(given: Path | None, tell: Callable[[str], None]) -> FoundFmu:
     if DIST.is_file():
         return FoundFmu(DIST)
     room = cache_folder("simulator")
-    kept = room / f"{_version()}" / NAME
+    kept = room / program_version() / NAME
     if kept.is_file():
         os.utime(kept.parent)
         return FoundFmu(kept)
@@ -70,7 +70,3 @@ def _build(folder: Path) -> None:
     build_fmu("the car", ("--poses", "all"), folder)
     if not (folder / NAME).is_file():
         raise HostError(f"The FMU of the car cannot be built: the build left no {NAME}.")
-
-
-def _version() -> str:
-    return program_version()

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from importlib.resources import files
 from pathlib import Path
-
-from lxml import html
 
 from ali3.files import write_text
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
+from hosts.catalogue.report.document import document
 from hosts.catalogue.report.elements import element
 from hosts.catalogue.report.overview import head, overview
 from hosts.catalogue.report.section import section
@@ -63,16 +61,4 @@ def write_report(
         *overview(tests, labels, records),
         *(section(test, by_car[test.name], settings.get(test.name, {}), command) for test in tests),
     )
-    page = element(
-        "html",
-        element(
-            "head",
-            element("meta", charset="utf-8"),
-            element("title", title),
-            element("meta", name="viewport", content="width=device-width, initial-scale=1"),
-            element("style", files(__package__).joinpath("page.css").read_text("utf-8")),
-        ),
-        element("body", body),
-        lang="en",
-    )
-    write_text(file, html.tostring(page, encoding="unicode", doctype="<!DOCTYPE html>", method="html") + "\n")
+    write_text(file, document(title, body))

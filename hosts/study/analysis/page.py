@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Iterable, Sequence
-from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from lxml import html
-
+from hosts.catalogue.report import document as shell
 from hosts.catalogue.report import elements
 from hosts.catalogue.report.elements import Content, element
 
@@ -24,20 +22,7 @@ table.small, .wide table { font-size: 0.85rem; } td { min-width: 0; }
 
 def document(title: str, body: Iterable[HtmlElement]) -> str:
     """The whole file."""
-    style = files("hosts.catalogue.report").joinpath("page.css").read_text("utf-8") + _STYLE
-    page = element(
-        "html",
-        element(
-            "head",
-            element("meta", charset="utf-8"),
-            element("title", title),
-            element("meta", name="viewport", content="width=device-width, initial-scale=1"),
-            element("style", style),
-        ),
-        element("body", element("main", *body)),
-        lang="en",
-    )
-    return str(html.tostring(page, encoding="unicode", doctype="<!DOCTYPE html>", method="html")) + "\n"
+    return shell.document(title, element("main", *body), _STYLE)
 
 
 def paragraph(text: str, kind: str = "") -> HtmlElement:

@@ -15,9 +15,9 @@ from hosts.aliases import Aliases
 from hosts.compare.log import Log, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases
 from hosts.compare.log_file import read_log
-from hosts.compare.units import unit_definition
 from hosts.errors import HostError
 from hosts.fmu import Fmu
+from hosts.unit_names import unit_definition
 
 ROWS = 40
 

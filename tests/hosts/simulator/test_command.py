@@ -304,7 +304,7 @@ def test_without_an_fmu_one_is_built_and_kept(fmus, told, tmp_path, monkeypatch)
     assert "(cold: the FMU was built in 0.0 s of it)" in out
     assert "(warm: the FMU was there)" in told("--headless", "--seconds", 0.1)[1]
     assert len(built) == 1
-    monkeypatch.setattr(fmu_file, "_version", lambda: "other")
+    monkeypatch.setattr(fmu_file, "program_version", lambda: "other")
     assert "(cold: " in told("--headless", "--seconds", 0.1)[1]
     (tmp_path / "dist").mkdir()
     shutil.copy(fmus["reach"], tmp_path / "dist" / fmu_file.NAME)
