@@ -16,6 +16,7 @@ GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED = 0, 1, 2, 130
 """Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT)."""
 
 _EXTRAS = {
+    "cryptography": "study",
     "dask": "study",
     "distributed": "study",
     "exudyn": "peers",

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Sequence
+from html import escape
 from typing import Any
 
+from ali3 import html
 from fmu_src.variables import Variable
 
 _STYLE = (
@@ -47,18 +48,18 @@ def documentation(
     columns = ("name", "causality", "variability", "unit", "start", "min", "max", "description")
     head = "".join(f"<th>{c}</th>" for c in columns)
     rows = "\n".join("<tr>" + "".join(f"<td>{_cell(getattr(v, c))}</td>" for c in columns) + "</tr>" for v in table)
-    words = "\n".join(f"<p>{html.escape(p)}</p>" for p in paragraphs)
-    return (
-        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{html.escape(name)}</title>'
-        f"<style>{_STYLE}</style></head>\n<body><h1>{html.escape(name)}</h1><p>{html.escape(description)}</p>\n"
-        f"<p>Made by ALi3 {html.escape(version)}. Default step {step_size:g} s. Inputs are held over a communication "
+    words = "\n".join(f"<p>{escape(p)}</p>" for p in paragraphs)
+    body = (
+        f"<h1>{escape(name)}</h1><p>{escape(description)}</p>\n"
+        f"<p>Made by ALi3 {escape(version)}. Default step {step_size:g} s. Inputs are held over a communication "
         "step or follow the derivatives that are set; outputs belong to its end. A step that fails is refused and the "
         f"last good state is kept.</p>\n{words}\n<h2>Axes</h2>\n{_AXES}\n"
         "<p>Earth axes with z up; a vehicle's axes are those of ISO 8855: x forward, y left, z up, angles "
         "Z-Y'-X'' (yaw, pitch, roll), quaternions scalar first (qw). SI units throughout.</p>\n"
-        f"<h2>Variables</h2>\n<table><tr>{head}</tr>\n{rows}\n</table></body></html>\n"
+        f"<h2>Variables</h2>\n<table><tr>{head}</tr>\n{rows}\n</table>"
     )
+    return html.page(name, body, _STYLE)
 
 
 def _cell(value: Any) -> str:
-    return "" if value is None else html.escape(f"{value:g}" if isinstance(value, float) else str(value))
+    return "" if value is None else escape(f"{value:g}" if isinstance(value, float) else str(value))

@@ -7,9 +7,11 @@ import shutil
 import sys
 import webbrowser
 from collections.abc import Iterable, Iterator
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3 import html
 from ali3.errors import UserError
 
 if TYPE_CHECKING:
@@ -103,6 +105,26 @@ def open_address(address: str) -> bool:
         return False
 
 
+def open_secretly(address: str, folder: str | os.PathLike[str]) -> bool:
+    """Show what is at an address that nobody else may know; see `open_address`.
+
+    The command line of a browser is seen by all users of a machine; it names a page that leads on.
+
+    Parameters
+    ----------
+    address : str
+    folder : path
+        That only this user can read; it must stay until the browser has read the page.
+    """
+    target = escape(address, quote=True)
+    page = html.page(
+        "ALi3", f'<a href="{target}">Go on</a>', head=f'<meta http-equiv="refresh" content="0;url={target}">'
+    )
+    file = Path(folder, "open.html")
+    file.write_text(page, encoding="utf-8")
+    return open_in_browser(file)
+
+
 def screenshot(
     page: str | os.PathLike[str], times: Iterable[float], size: tuple[int, int] = (1280, 720), camera: str | None = None
 ) -> Iterator[bytes]:
@@ -174,8 +196,10 @@ def _places() -> Iterator[Path]:
 
 def _pictures(view: Page, file: Path, times: Iterable[float], camera: str | None) -> Iterator[bytes]:
     view.goto(file.resolve().as_uri())
-    view.wait_for_function("window.player && window.player.ready", timeout=60_000)
-    problem = view.evaluate("async () => { await window.player.ready; return window.player.problem || ''; }")
+    problem = view.evaluate(
+        "async () => { if (!window.player) return document.body.innerText;"
+        " await window.player.ready; return window.player.problem || ''; }"
+    )
     if problem:
         raise BrowserError(f"{file} cannot be drawn: {problem}")
     if camera is not None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import difflib
-import html
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ali3 import html
 from ali3.files import check_writable, whole_file
 from viewer.bundle import bundle
 from viewer.errors import ViewerError
@@ -16,11 +16,8 @@ from viewer.page_data import json_in_html, page_data
 from viewer.player_options import check_options
 from viewer.recording import MOST_TIMES, Recording
 
-# Nothing is fetched: what a page needs stands in it; `connect` is where one may talk to besides.
-_POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
-    "img-src data: blob:; media-src data: blob:; connect-src data: blob:{connect}; worker-src blob:"
-)
+# FMUs are WebAssembly and run in a worker that is made from the script of the page.
+_SOURCES = {"script-src": "'wasm-unsafe-eval'", "worker-src": "blob:", "img-src": "blob:"}
 _STYLE = "html,body{margin:0;height:100%;overflow:hidden;font:14px/1.4 system-ui,sans-serif}#view{height:100%}"
 
 
@@ -129,24 +126,13 @@ def html_document(title: str, data: object, function: str, connect: str = "") ->
         "try{window.player=" + function + "(view,JSON.parse(document.getElementById('data').textContent));}"
         "catch(error){view.textContent='This page cannot be shown: '+(error&&error.message||error);}})();"
     )
-    policy = _POLICY.format(connect=f" {connect}" if connect else "")
-    return "\n".join(
-        (
-            "<!DOCTYPE html>",
-            '<html lang="en"><head><meta charset="utf-8">',
-            f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
-            '<meta name="viewport" content="width=device-width, initial-scale=1, viewport-fit=cover">',
-            '<link rel="icon" href="data:,">',
-            f"<title>{html.escape(' '.join(title.split()))}</title>",
-            f"<style>{_STYLE}</style></head>",
-            '<body><div id="view"></div>',
-            "<noscript>This page draws with JavaScript, which is switched off in this browser.</noscript>",
-            f'<script type="application/json" id="data">{json_in_html(data)}</script>',
-            f"<script>{script()}</script>",
-            f"<script>{start}</script></body></html>",
-            "",
-        )
+    body = (
+        '<div id="view"></div>\n'
+        "<noscript>This page draws with JavaScript, which is switched off in this browser.</noscript>\n"
+        f'<script type="application/json" id="data">{json_in_html(data)}</script>'
     )
+    sources = _SOURCES | ({"connect-src": connect} if connect else {})
+    return html.page(title, body, _STYLE, scripts=(script(), start), sources=sources)
 
 
 def script() -> str:
@@ -158,12 +144,9 @@ def script() -> str:
         It is not there and cannot be built.
     """
     try:
-        text = bundle().read_text(encoding="utf-8")
+        return bundle().read_text(encoding="utf-8")
     except RuntimeError as error:
         raise ViewerError(str(error)) from None
-    if "</script" in text.lower():
-        raise ViewerError("The script of the viewer holds the end of a script element; build it anew.")
-    return text
 
 
 def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES) -> list[Recording]:

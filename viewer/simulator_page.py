@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from viewer.page_file import html_document
 
-_CONNECT = "'self' ws: wss:"
+_CONNECT = "'self'"
 
 
 def simulator_html(title: str) -> str:

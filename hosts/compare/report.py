@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 
+from ali3 import html
 from ali3.files import write_text
 from hosts.compare.comparison import Comparison
 from hosts.compare.fit import Fit
@@ -77,10 +78,7 @@ def write_report(
     parts.append(f'<img alt="{escape(title)}" src="data:image/png;base64,{picture}">')
     parts += [f'<p class="note">{escape(line)}</p>' for line in notes]
     parts.append(f"<footer>{_FOOT}</footer>")
-    head = f'<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{escape(title)}</title>'
-    body = "\n".join(parts)
-    top = f'<!doctype html>\n<html lang="en"><head>{head}<style>{_STYLE}</style></head>'
-    write_text(paths[".html"], f"{top}<body>\n{body}\n</body></html>\n")
+    write_text(paths[".html"], html.page(title, "\n".join(parts), _STYLE))
 
 
 def _rows(comparison: Comparison) -> list[Sequence[str]]:

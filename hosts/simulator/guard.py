@@ -1,4 +1,4 @@
-"""Who may talk to the server: programs of this machine, and whoever has the token where it is opened to others."""
+"""Who may talk to the server: whoever has the token, and of pages those that came from it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Guard:
     address : str
         That the server listens on.
     token : str
-        Empty where only this machine can reach the server.
+        Other users of this machine reach its ports too.
     """
 
     address: str
@@ -29,8 +29,13 @@ class Guard:
 
     @classmethod
     def of(cls, address: str) -> Guard:
-        """The guard of an address: a token wherever others can reach it."""
-        return cls(address, "" if _is_local(address) else secrets.token_urlsafe(24))
+        """The guard of an address, with a new token."""
+        return cls(address, secrets.token_urlsafe(24))
+
+    @property
+    def is_local(self) -> bool:
+        """Whether only this machine reaches the server."""
+        return _is_local(self.address)
 
     def refusal(self, path: str, headers: Mapping[str, str]) -> str:
         """Why a request is refused, one sentence; empty where it is not.
@@ -50,7 +55,7 @@ class Guard:
         if origin is not None and origin.lower() != f"http://{host.lower()}":
             return f"Only pages of this server may talk to it; the request is of a page from {origin[:80]!r}."
         given = parse_qs(urlsplit(path).query).get("token", [""])
-        if self.token and not secrets.compare_digest(given[0].encode(), self.token.encode()):
+        if not secrets.compare_digest(given[0].encode(), self.token.encode()):
             return "This server is guarded; open the address with the token that it printed when it was started."
         return ""
 
@@ -61,7 +66,7 @@ class Guard:
             return False
         if _is_local(name):
             return True
-        if not self.token:
+        if self.is_local:
             return False
         names = (socket.gethostname().lower(), socket.getfqdn().lower())
         return name == self.address or name in names or _address(name) is not None

@@ -21,8 +21,8 @@ from hosts.errors import HostError
 from hosts.simulator.guard import Guard
 
 DRIVE = "/drive"
-MOST_CONNECTIONS = 64
-"""Connections of all kinds; a further one is closed at once."""
+MOST_STRANGERS = 64
+"""Connections that have not shown the token; a further one ends the oldest."""
 MOST_PAGES = 8
 DEFAULT_PORT = 8765
 _PORTS_TRIED = 100
@@ -88,7 +88,7 @@ class Web:
             "/": ("text/html; charset=utf-8", _packed(page)),
             "/world": ("application/json", _packed(json.dumps(world, allow_nan=False))),
         }
-        self._connections = 0
+        self._strangers: dict[ServerConnection, None] = {}  # the oldest first
 
     def answer(self, connection: ServerConnection, request: Request, pages: int) -> Response | None:
         """What a request gets; None: it becomes a WebSocket.
@@ -107,6 +107,7 @@ class Web:
         refusal = refusal or self._guard.refusal(request.path, {name: v[0] for name, v in found.items() if v})
         if refusal:
             return connection.respond(http.HTTPStatus.FORBIDDEN, f"{refusal}\n")
+        self._strangers.pop(connection, None)
         path = urlsplit(request.path).path
         if path == DRIVE:
             if pages < MOST_PAGES:
@@ -119,21 +120,23 @@ class Web:
         return _response(kind, body, "gzip" in ",".join(headers.get_all("Accept-Encoding")))
 
     def connection_type(self) -> type[ServerConnection]:
-        """Connections that are counted from their first byte on; one too many is closed at once."""
+        """Connections that are counted until they have shown the token; who floods the server ends its own."""
         web = self
 
-        class Counted(ServerConnection):
+        class Known(ServerConnection):
             def connection_made(self, transport: asyncio.BaseTransport) -> None:
                 super().connection_made(transport)
-                web._connections += 1
-                if web._connections > MOST_CONNECTIONS:
-                    self.transport.abort()
+                web._strangers[self] = None
+                if len(web._strangers) > MOST_STRANGERS:
+                    oldest = next(iter(web._strangers))
+                    del web._strangers[oldest]
+                    oldest.transport.abort()
 
             def connection_lost(self, exc: Exception | None) -> None:
-                web._connections -= 1
+                web._strangers.pop(self, None)
                 super().connection_lost(exc)
 
-        return Counted
+        return Known
 
 
 def _packed(text: str) -> bytes:

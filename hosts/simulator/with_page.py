@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import signal
 import socket
+import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -18,7 +19,7 @@ from hosts.simulator.guard import Guard
 from hosts.simulator.hands import Hands
 from hosts.simulator.server import Server
 from hosts.simulator.server_needs import Content
-from viewer.browser import open_address
+from viewer.browser import open_secretly
 
 if TYPE_CHECKING:
     from hosts.simulator.run_report import RunReport
@@ -55,7 +56,7 @@ class Opened:
         if host in _EVERYWHERE:
             host = socket.gethostname()
         name = f"[{host}]" if ":" in host else host
-        return f"http://{name}:{port}/" + (f"?token={self.guard.token}" if self.guard.token else "")
+        return f"http://{name}:{port}/?token={self.guard.token}"
 
 
 def drive_with_pages(
@@ -85,9 +86,9 @@ def drive_with_pages(
     def told_ready() -> None:
         report.ready()
         report.tell(f"Drive at {opened.address}")
-        if opened.guard.token:
+        if not opened.guard.is_local:
             report.tell("Whoever has this address can drive; its traffic is not encrypted.")
-        if opened.browser and not open_address(opened.address):
+        if opened.browser and not open_secretly(opened.address, folder):
             report.tell("No browser could be opened from here; open the address in one, on this machine.")
         report.tell("Ctrl-C ends with the report.")
 
@@ -101,6 +102,7 @@ def drive_with_pages(
             await server.run(opened.listening, stop, told_ready, seen)
 
     with ExitStack() as stack:
+        folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="drive_", ignore_cleanup_errors=True))
         if opened.devices:
             _add_devices(stack, server, hands, car)
         asyncio.run(work())

@@ -5,14 +5,16 @@ from __future__ import annotations
 import logging
 import os
 import shutil
+import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import cryptography  # noqa: F401 - Security.temporary needs it
 import dask
-from distributed import Client, LocalCluster
+from distributed import Client, LocalCluster, Security
 
 from ali3.cache import cache_folder
 from hosts.errors import HostError
@@ -21,6 +23,7 @@ from hosts.study.worker import StudyPlugin, why_wrong
 
 _PATIENCE = 20.0  # s for an answer of a scheduler
 _DEATHS = 1  # of workers by a chunk, until its runs are made in processes of their own
+_ENCRYPTED = ("tls://", "wss://")
 
 
 @contextmanager
@@ -30,9 +33,10 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
     Parameters
     ----------
     scheduler : str, optional
-        Address.
+        Address; certificates are those of the configuration of Dask. Where traffic is not secured, that is told.
     workers : int, optional
-        Of a local cluster, one process each; by default as many as cores this process may use.
+        Of a local cluster, one process each; by default as many as cores this process may use. Only programs that
+        have the key of this cluster, which stands in memory alone, can talk to its scheduler, workers and nannies.
 
     Raises
     ------
@@ -60,11 +64,35 @@ def available_cores() -> int:
 
 
 def _client(address: str) -> Client:
+    _check_encryption(address)
     try:
         return Client(address, timeout=_PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
         words = " ".join(str(error).split())
         raise HostError(f"No scheduler of Dask answers at {address}: {words[:200]}") from None
+
+
+def _check_encryption(address: str) -> None:
+    """Refuse an address that does not go with the certificates of Dask's configuration; say where there are none."""
+    settings = Security()
+    if address.startswith(_ENCRYPTED):
+        try:
+            context = settings.get_connection_args("client")["ssl_context"]
+        except (OSError, ValueError) as error:
+            raise HostError(f"The certificates in the configuration of Dask cannot be used: {error}.") from None
+        if context is None:
+            raise HostError(
+                f"The scheduler {address} needs certificates, and the configuration of Dask has none: "
+                "distributed.comm.tls.ca-file, .client.cert and .client.key."
+            )
+    elif settings.require_encryption:
+        raise HostError(f"The configuration of Dask demands encryption; {address} has none, tls://... has.")
+    else:
+        print(
+            f"note: The scheduler {address} is used without TLS: whoever reaches it or its workers can run programs as "
+            "their user. docs/studies.md says how certificates are set.",
+            file=sys.stderr,
+        )
 
 
 def _work_folder() -> Path:
@@ -100,6 +128,8 @@ def _local_cluster(workers: int, folder: Path) -> Iterator[LocalCluster]:
             threads_per_worker=1,
             processes=True,
             host="127.0.0.1",
+            protocol="tls://",  # every user of this machine reaches 127.0.0.1
+            security=Security.temporary(),
             dashboard_address="127.0.0.1:0",  # None would take the port 8787
             scheduler_kwargs={"dashboard": False},
             local_directory=str(folder),

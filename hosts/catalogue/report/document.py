@@ -5,9 +5,10 @@ from __future__ import annotations
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from lxml import html
+import lxml.html
 
-from hosts.catalogue.report.elements import element
+from ali3 import html
+from hosts.catalogue.report.elements import clean
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -24,16 +25,5 @@ def document(title: str, main: HtmlElement, style: str = "") -> str:
     style : str
         CSS besides that of all reports.
     """
-    page = element(
-        "html",
-        element(
-            "head",
-            element("meta", charset="utf-8"),
-            element("title", title),
-            element("meta", name="viewport", content="width=device-width, initial-scale=1"),
-            element("style", files(__package__).joinpath("page.css").read_text("utf-8") + style),
-        ),
-        element("body", main),
-        lang="en",
-    )
-    return str(html.tostring(page, encoding="unicode", doctype="<!DOCTYPE html>", method="html")) + "\n"
+    body = str(lxml.html.tostring(main, encoding="unicode", method="html"))
+    return html.page(clean(title), body, files(__package__).joinpath("page.css").read_text("utf-8") + style)

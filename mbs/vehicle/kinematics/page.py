@@ -7,6 +7,7 @@ import io
 from html import escape
 from typing import TYPE_CHECKING
 
+from ali3 import html
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
 from mbs.vehicle.kinematics.compliance import Compliance
 from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
@@ -36,9 +37,7 @@ def page(found: Kinematics, gives: Compliance) -> str:
     """
     title = f"Kinematics of the car '{found.car}'"
     lines = [
-        "<!doctype html>",
-        f'<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>',
-        f"<style>{STYLE}</style></head><body><h1>{escape(title)}</h1>",
+        f"<h1>{escape(title)}</h1>",
         "<p>The chassis is held, rigid; the wheel centres move. Terms of ISO 8855: x forward, y left, z up.</p>",
         *(f"<p>{escape(text)}</p>" for text in (*found.notes, gives.sentence) if text),
         "<table><tr><td></td><td>front</td><td>rear</td><td></td><td></td></tr>",
@@ -52,7 +51,7 @@ def page(found: Kinematics, gives: Compliance) -> str:
     for figure in (travel_figure(found, "front"), travel_figure(found, "rear"), steer_figure(found)):
         words = escape(figure.get_suptitle())
         lines.append(f'<img alt="{words}" src="data:image/png;base64,{_png(figure)}">')
-    return "\n".join([*lines, "</body></html>", ""])
+    return html.page(title, "\n".join(lines), STYLE)
 
 
 def _png(figure: Figure) -> str:

@@ -81,7 +81,8 @@ def serving(car: Any, guard: Guard | None = None, address: str = "127.0.0.1") ->
     hands, told = Hands(car.want, car.inputs), []
     hello = {"columns": [*car.inputs, "speed"], "step": car.step, "recording": ""}
     content = Content("<!DOCTYPE html><title>page</title>", WORLD, hello, PLACES)
-    server = Server(car, hands, content, guard or Guard.of(address), lambda kind, text: told.append(text))
+    guard = guard or Guard.of(address)
+    server = Server(car, hands, content, guard, lambda kind, text: told.append(text))
     listening: socket.socket = listening_socket(address, 0)
     port = listening.getsockname()[1]
     ready, error = threading.Event(), []
@@ -102,9 +103,9 @@ def serving(car: Any, guard: Guard | None = None, address: str = "127.0.0.1") ->
     running.start()
     try:
         assert ready.wait(10)
-        yield SimpleNamespace(
-            server=server, port=port, hands=hands, told=told, url=f"ws://127.0.0.1:{port}/drive", error=error
-        )
+        key = f"?token={guard.token}"
+        url = f"ws://127.0.0.1:{port}/drive{key}"
+        yield SimpleNamespace(server=server, port=port, hands=hands, told=told, key=key, url=url, error=error)
     finally:
         if not error:
             ends["loop"].call_soon_threadsafe(ends["stop"].set)

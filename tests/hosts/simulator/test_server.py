@@ -9,12 +9,12 @@ import select
 import struct
 import time
 import urllib.request
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from websockets.exceptions import ConnectionClosed
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from hosts.errors import HostError
@@ -86,7 +86,7 @@ def test_a_page_gets_words_first_and_then_frames_with_every_number(served, car):
 
 
 def test_the_same_by_a_client_of_raw_bytes(served):
-    with RawClient(served.port) as page:
+    with RawClient(served.port, f"/drive{served.key}") as page:
         assert json.loads(page.receive())["type"] == "hello"
         first = page.receive()
         assert struct.unpack_from("<I", first) == (0x31463341,)
@@ -219,10 +219,10 @@ def test_a_second_page_may_drive_too(car, served):
 
 
 def test_page_and_world_are_handed_out_packed_where_the_client_can(served):
-    with urllib.request.urlopen(f"http://127.0.0.1:{served.port}/", timeout=10) as answer:
+    with urllib.request.urlopen(f"http://127.0.0.1:{served.port}/{served.key}", timeout=10) as answer:
         assert answer.read() == b"<!DOCTYPE html><title>page</title>"
         assert answer.headers["Content-Type"] == "text/html; charset=utf-8"
-    status, headers, body = request(served.port, "/world", {"Accept-Encoding": "gzip, br"})
+    status, headers, body = request(served.port, f"/world{served.key}", {"Accept-Encoding": "gzip, br"})
     assert status == 200
     assert headers["content-encoding"] == "gzip"
     assert json.loads(gzip.decompress(body)) == WORLD
@@ -245,46 +245,61 @@ def test_page_and_world_are_handed_out_packed_where_the_client_can(served):
 @pytest.mark.parametrize("path", ["/", "/drive"])
 def test_foreign_pages_and_names_are_refused(served, path, headers, words):
     sent = {name: value.format(port=served.port) for name, value in headers.items()}
-    status, _, body = request(served.port, path, sent, upgrade=path == "/drive")
+    status, _, body = request(served.port, path + served.key, sent, upgrade=path == "/drive")
     assert status == 403
     assert words in body.decode()
 
 
 def test_a_header_that_stands_twice_is_refused(served):
-    status, _, body = request(served.port, "/", {}, more=[("Host", "127.0.0.1")])
+    status, _, body = request(served.port, f"/{served.key}", {}, more=[("Host", "127.0.0.1")])
     assert (status, body) == (403, b"The request says Host several times.\n")
 
 
 @pytest.mark.parametrize("name", ["127.0.0.1", "localhost", "LOCALHOST"])
 def test_its_own_page_is_taken(served, name):
     headers = {"Host": f"{name}:{served.port}", "Origin": f"http://{name.lower()}:{served.port}"}
-    assert request(served.port, "/drive", headers, upgrade=True)[0] == 101
+    assert request(served.port, f"/drive{served.key}", headers, upgrade=True)[0] == 101
 
 
 def test_what_is_not_there_and_what_is_no_websocket(served):
-    assert request(served.port, "/etc/passwd", {})[0] == 404
-    assert request(served.port, "/../world", {})[0] == 404
-    assert request(served.port, "/drive", {})[0] == 426
+    assert request(served.port, f"/etc/passwd{served.key}", {})[0] == 404
+    assert request(served.port, f"/../world{served.key}", {})[0] == 404
+    assert request(served.port, f"/drive{served.key}", {})[0] == 426
 
 
-def test_others_need_the_token():
-    guard = Guard.of("0.0.0.0")
+@pytest.mark.parametrize("address", ["127.0.0.1", "0.0.0.0"])
+def test_nobody_is_answered_without_the_token(address):
+    """Other users of this machine reach 127.0.0.1 too."""
+    guard = Guard.of(address)
     assert len(guard.token) >= 32
+    assert Guard.of(address).token != guard.token
     with serving(FakeCar(), guard) as served:
-        for path in ("/", "/world", "/drive", "/?token=", f"/?token={guard.token}x", "/?token=%C3%A9"):
-            status, _, body = request(served.port, path, {})
+        for path in (
+            "/",
+            "/world",
+            "/drive",
+            "/?token=",
+            f"/?token={guard.token}x",
+            "/?token=%C3%A9",
+            f"/?x={guard.token}",
+        ):
+            status, _, body = request(served.port, path, {}, upgrade=path == "/drive")
             assert status == 403
             assert b"guarded" in body
-        assert request(served.port, f"/?token={guard.token}", {})[0] == 200
-        assert request(served.port, f"/?token={guard.token}", {"Host": "192.168.1.5:80"})[0] == 200
-        assert request(served.port, f"/?token={guard.token}", {"Host": "evil.example"})[0] == 403
-        with connect(f"{served.url}?token={guard.token}") as page:
+        for path in ("/drive", "/drive?token=", f"/drive?token={guard.token[:-1]}"):
+            with pytest.raises(InvalidStatus, match="403"):
+                connect(f"ws://127.0.0.1:{served.port}{path}")
+        assert request(served.port, f"/{served.key}", {})[0] == 200
+        elsewhere = 403 if guard.is_local else 200
+        assert request(served.port, f"/{served.key}", {"Host": "192.168.1.5:80"})[0] == elsewhere
+        assert request(served.port, f"/{served.key}", {"Host": "evil.example"})[0] == 403
+        with connect(served.url) as page:
             assert json.loads(page.recv(timeout=10))["type"] == "hello"
 
 
-def test_this_machine_alone_needs_none():
-    assert [Guard.of(name).token for name in ("127.0.0.1", "::1", "localhost", "127.3.2.1")] == [""] * 4
-    assert all(Guard.of(name).token for name in ("0.0.0.0", "::", "192.168.0.2", "carbox"))
+def test_addresses_that_only_this_machine_reaches():
+    assert all(Guard.of(name).is_local for name in ("127.0.0.1", "::1", "localhost", "127.3.2.1"))
+    assert not any(Guard.of(name).is_local for name in ("0.0.0.0", "::", "192.168.0.2", "carbox"))
 
 
 @pytest.mark.parametrize(
@@ -376,22 +391,31 @@ def test_one_page_too_many_is_refused_with_a_sentence(served):
         pages = [opened.enter_context(connect(served.url)) for _ in range(web.MOST_PAGES)]
         for page in pages:
             texts(page, "hello")
-        status, _, body = request(served.port, "/drive", {}, upgrade=True)
+        status, _, body = request(served.port, f"/drive{served.key}", {}, upgrade=True)
         assert status == 503
         assert b"8 pages are connected" in body
         pages[3].close()
-        until(lambda: request(served.port, "/drive", {}, upgrade=True)[0] == 101)
+        until(lambda: request(served.port, f"/drive{served.key}", {}, upgrade=True)[0] == 101)
 
 
-def test_connections_that_say_nothing_are_bounded(served):
-    with RawClient(served.port) as page, ExitStack() as opened:
-        silent = [opened.enter_context(RawClient.silent(served.port)) for _ in range(2 * web.MOST_CONNECTIONS)]
-        until(lambda: len(select.select(silent, [], [], 0)[0]) > web.MOST_CONNECTIONS)  # closed ones can be read
-        assert len(select.select(silent, [], [], 0)[0]) == web.MOST_CONNECTIONS + 1
+@pytest.mark.parametrize("said", [b"", b"GET / HTTP/1.1\r\n"])
+def test_connections_that_say_nothing_are_bounded_and_keep_nobody_away(served, said):
+    """The oldest are ended; who has the token is served at once, and stays."""
+    most = web.MOST_STRANGERS
+    with RawClient(served.port, f"/drive{served.key}") as page, ExitStack() as opened:
+        silent = [opened.enter_context(RawClient.silent(served.port)) for _ in range(2 * most)]
+        for line in silent:
+            with suppress(OSError):
+                line.sendall(said)
+        until(lambda: len(select.select(silent, [], [], 0)[0]) >= most)  # closed ones can be read
+        assert select.select(silent, [], [], 0)[0] == silent[:most]
+        assert request(served.port, f"/{served.key}", {})[0] == 200
+        with connect(served.url) as another:
+            texts(another, "hello")
+        assert len(select.select(silent, [], [], 0)[0]) <= most + 2  # the others were not waited for
         page.send('{"type":"report"}')
         while not (isinstance(data := page.receive(), str) and '"report"' in data):
             pass
-    until(lambda: request(served.port, "/", {})[0] == 200)
 
 
 def test_a_car_that_has_ended_ends_the_server(car):

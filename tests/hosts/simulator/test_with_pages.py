@@ -56,7 +56,7 @@ class Program:
             if found := re.search(r"Drive at (http://\S+:(\d+)/\S*)", line):
                 self.address, self.port = found[1], int(found[2])
                 self.url = self.address.replace("http", "ws").replace("/?", "/drive?")
-                self.url = self.url if "?" in self.url else self.url + "drive"
+                self.key = f"?{self.address.partition('?')[2]}"
                 return
         raise AssertionError("".join(self.lines))
 
@@ -114,9 +114,9 @@ class Page:
 
 def test_a_drive_from_a_page_and_the_report_at_ctrl_c(sledge, tmp_path):
     with program(sledge, "--port", 0, "--step", STEP, "--json", tmp_path / "r.json") as running:
-        assert request(running.port, "/", {})[0] == 200
-        assert b"ALi3Viewer.simulate" in request(running.port, "/", {})[2]
-        world = json.loads(request(running.port, "/world", {})[2])
+        assert request(running.port, f"/{running.key}", {})[0] == 200
+        assert b"ALi3Viewer.simulate" in request(running.port, f"/{running.key}", {})[2]
+        world = json.loads(request(running.port, f"/world{running.key}", {})[2])
         assert (world["name"], world["scenery"], world["places"]) == ("", [], [])
         with connect(running.url) as connection:
             page = Page(connection)
@@ -152,7 +152,7 @@ def hostile(port, url, until, faults):
     with ExitStack() as opened:
         for _ in range(15):
             opened.enter_context(RawClient.silent(port))
-        deaf = opened.enter_context(RawClient(port))  # reads nothing
+        deaf = opened.enter_context(RawClient(port, f"/drive?{url.partition('?')[2]}"))  # reads nothing
         deaf.send(json.dumps({"type": "want", "source": "keys", "values": {"brake": [1.0, None]}}))
         while time.monotonic() < until:
             with suppress(WebSocketException, EOFError, OSError), connect(url, close_timeout=1) as one:
@@ -205,13 +205,14 @@ def test_hostile_clients_do_not_stop_the_car(sledge):
     assert "Traceback" not in running.said
 
 
-def test_opened_to_others_it_needs_the_token(sledge):
-    with program(sledge, "--port", 0, "--listen", "0.0.0.0") as running:
-        token = running.address.partition("token=")[2]
+@pytest.mark.parametrize("address", ["127.0.0.1", "0.0.0.0"])
+def test_it_needs_the_token(sledge, address):
+    with program(sledge, "--port", 0, "--listen", address) as running:
         assert request(running.port, "/", {})[0] == 403
-        assert request(running.port, f"/?token={token}", {})[0] == 200
+        assert request(running.port, "/drive", {}, upgrade=True)[0] == 403
+        assert request(running.port, f"/{running.key}", {})[0] == 200
         assert running.end() == 0
-        assert "not encrypted" in running.said
+        assert ("not encrypted" in running.said) == (address == "0.0.0.0")
 
 
 def test_a_port_that_is_taken_is_one_sentence(sledge):

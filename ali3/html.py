@@ -1,0 +1,77 @@
+"""The frame of every HTML page that is written: one file, in which nothing runs but the scripts that it was given."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+from collections.abc import Mapping, Sequence
+
+
+def page(
+    title: str,
+    body: str,
+    style: str = "",
+    head: str = "",
+    scripts: Sequence[str] = (),
+    sources: Mapping[str, str] | None = None,
+) -> str:
+    """A whole page.
+
+    Its content security policy lets it fetch nothing, show pictures that stand in it, and take only this style and
+    these scripts, which it knows by their SHA-256. Markup that a text has smuggled into the body can thus neither run,
+    nor load, nor send anything.
+
+    Parameters
+    ----------
+    title : str
+        Any text.
+    body : str
+        Markup, in which texts are escaped.
+    style : str, optional
+        CSS.
+    head : str, optional
+        More markup of the head.
+    scripts : sequence of str, optional
+        JavaScript, at the end of the body.
+    sources : mapping of str to str, optional
+        What else the policy allows: sources by directive, such as ``{"connect-src": "'self'"}``.
+
+    Raises
+    ------
+    ValueError
+        A script or the style would end its element before its end, and its hash were that of another text.
+    """
+    for text, end in [(style, "</style"), *((script, "</script") for script in scripts)]:
+        if end in text.lower() or "<!--" in text or "\r" in text or "\0" in text:
+            raise ValueError(f"A script or style of the page '{title}' holds {end}, <!--, a carriage return or a zero.")
+    allowed = {
+        "default-src": "'none'",
+        "script-src": " ".join(map(_hash, scripts)) or "'none'",
+        "style-src": _hash(style) if style else "'none'",
+        "img-src": "data:",
+        "base-uri": "'none'",
+        "form-action": "'none'",
+    }
+    for directive, more in (sources or {}).items():
+        allowed[directive] = f"{allowed.get(directive, '')} {more}".removeprefix("'none' ").strip()
+    policy = "; ".join(f"{directive} {value}" for directive, value in allowed.items())
+    lines = [
+        "<!DOCTYPE html>",
+        '<html lang="en"><head><meta charset="utf-8">',
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1, viewport-fit=cover">',
+        '<link rel="icon" href="data:,">',
+        f"<title>{html.escape(' '.join(title.split()))}</title>",
+        *([head] if head else []),
+        *([f"<style>{style}</style>"] if style else []),
+        f"</head><body>{body}",
+        *(f"<script>{script}</script>" for script in scripts),
+        "</body></html>",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def _hash(text: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode('utf-8')).digest()).decode('ascii')}'"

@@ -1,0 +1,142 @@
+"""Only who has the key talks to the scheduler and workers of a study; of other schedulers it is said."""
+
+from __future__ import annotations
+
+import asyncio
+import ssl
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import dask
+import psutil
+import pytest
+from distributed import Client, LocalCluster, Security
+from distributed.core import connect
+
+from hosts.errors import HostError
+from hosts.study.campaign import run_study
+from hosts.study.cluster import connected
+from hosts.study.store import read_study
+
+ROLES = ("scheduler", "worker", "nanny")
+PAGES = (
+    "/",
+    "/status",
+    "/health",
+    "/metrics",
+    "/info/main/workers.html",
+    "/json/counts.json",
+    "/api/v1/retire_workers",
+)
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[Client]:
+    with connected(None, 1) as client:
+        yield client
+
+
+def address_of(client: Client, role: str) -> str:
+    assert client.scheduler is not None
+    ((worker, known),) = client.scheduler_info()["workers"].items()
+    return str({"scheduler": client.scheduler.address, "worker": worker, "nanny": known["nanny"]}[role])
+
+
+async def identity(address: str, **given: Any) -> str:
+    """What a server says it is, to any client that gets as far as to ask."""
+    line = await connect(address, timeout=1, **given)
+    try:
+        await line.write({"op": "identity", "reply": True})
+        return str((await line.read())["type"])
+    finally:
+        await line.close()
+
+
+@pytest.mark.parametrize("role", ROLES)
+def test_who_has_the_key_is_answered(cluster: Client, role: str) -> None:
+    assert isinstance(cluster.security, Security)
+    given = cluster.security.get_connection_args("client")
+    assert asyncio.run(identity(address_of(cluster, role), **given)).lower() == role
+
+
+def stranger(key: str) -> ssl.SSLContext:
+    """A client that trusts any server; with no key, or with one of another cluster."""
+    context = ssl.create_default_context()
+    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+    if key == "another":
+        other = Security.temporary().get_connection_args("client")["ssl_context"]
+        other.check_hostname, other.verify_mode = False, ssl.CERT_NONE
+        return other
+    return context
+
+
+@pytest.mark.parametrize("role", ROLES)
+@pytest.mark.parametrize("key", ["none", "another"])
+def test_others_on_this_machine_are_refused(cluster: Client, role: str, key: str) -> None:
+    address = address_of(cluster, role)
+    assert address.startswith("tls://127.0.0.1:")
+    with pytest.raises(OSError, match="(?i)ssl|tls|closed"):
+        asyncio.run(identity(address, ssl_context=stranger(key), require_encryption=True))
+    with pytest.raises(OSError, match="(?i)closed|timed out"):
+        asyncio.run(identity(address.replace("tls:", "tcp:")))
+
+
+def test_every_port_is_of_this_machine_and_its_pages_show_nothing(cluster: Client) -> None:
+    """The encrypted ones answer no HTTP; those of HTTP, which Dask opens in any case, have no page."""
+    own = psutil.Process()
+    encrypted = {int(address_of(cluster, role).rpartition(":")[2]) for role in ROLES}
+    found = set()
+    for process in (own, *own.children(recursive=True)):
+        for line in process.net_connections("inet"):
+            if line.status == psutil.CONN_LISTEN:
+                assert line.laddr.ip == "127.0.0.1"
+                found.add(line.laddr.port)
+    assert encrypted < found
+    for port in found:
+        for page in PAGES:
+            refused = OSError if port in encrypted else urllib.error.HTTPError
+            with pytest.raises(refused) as caught:
+                urllib.request.urlopen(f"http://127.0.0.1:{port}{page}", timeout=5)
+            if isinstance(caught.value, urllib.error.HTTPError):
+                assert caught.value.code == 404
+                caught.value.close()
+
+
+def test_another_scheduler_with_certificates_of_the_configuration(
+    study_file, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    made = Security.temporary()
+    names = {"ca-file": "tls_ca_file"}
+    names |= {
+        f"{role}.{part}": f"tls_{role}_{part}" for role in ("client", "scheduler", "worker") for part in ("key", "cert")
+    }
+    settings = {}
+    for name, field in names.items():
+        file = tmp_path / f"{name}.pem"
+        file.write_text(getattr(made, field))
+        settings[f"distributed.comm.tls.{name}"] = str(file)
+    with (
+        dask.config.set(settings | {"distributed.comm.require-encryption": True}),
+        LocalCluster(
+            n_workers=1, threads_per_worker=1, host="127.0.0.1", protocol="tls://", security=Security(),
+            dashboard_address="127.0.0.1:0", scheduler_kwargs={"dashboard": False}, silence_logs=50,
+        ) as cluster,
+    ):  # fmt: skip
+        ended = run_study(study_file(), tmp_path / "out", cluster.scheduler_address, None)
+        with pytest.raises(HostError, match="demands encryption; tcp://127.0.0.1:9 has none"):
+            run_study(study_file(), tmp_path / "other", "tcp://127.0.0.1:9", None)
+    assert ended is not None
+    assert ended.good
+    assert len(read_study(ended.folder)) == 16
+    assert "without TLS" not in capfd.readouterr().err
+
+
+def test_certificates_that_are_missing_are_one_sentence(tmp_path: Path) -> None:
+    with pytest.raises(HostError, match=r"tls://127.0.0.1:9 needs certificates, .* has none: distributed.comm.tls"):
+        connected("tls://127.0.0.1:9", None).__enter__()
+    files = {"distributed.comm.tls.ca-file": str(tmp_path / "none"), "distributed.comm.tls.client.cert": "none"}
+    with dask.config.set(files), pytest.raises(HostError, match="certificates in .* cannot be used: .*No such file"):
+        connected("tls://127.0.0.1:9", None).__enter__()
