@@ -11,10 +11,14 @@ from pydantic import BaseModel, ValidationError
 
 from viewer import road_types, scenery_types
 from viewer import scene_types as types
-from viewer.scene_values import Part
+from viewer.scene_values import NAME, UNIT, Part
 
 UNKNOWN, MISSING = "extra_forbidden", "missing"
 _LONGEST = 60
+_PATTERNS = {
+    NAME: "a name without control characters, '<' and '>'",
+    UNIT: "a unit such as 'N.m', without control characters, quotes, '&', '<' and '>', of at most 40 characters",
+}
 _MODELS: dict[str, type[BaseModel]] = {
     name: model
     for module in (types, road_types, scenery_types)
@@ -142,7 +146,10 @@ def _sentence(
         many = f"; it must have {'at least ' if kind == 'too_short' and 'min_length' in limit else ''}{wanted}"
         return f"{place(path)} has {len(whole)} entries{many if wanted is not None else ', too few'}."
     if kind == "string_pattern_mismatch":
-        return f"{place(path)} is {value_words(value)}; it must be a colour such as '#3366cc'."
+        words = _PATTERNS.get(item["ctx"]["pattern"], "a colour such as '#3366cc'")
+        if item["loc"][-1] == "[key]":
+            return f"{place(path[:-1])} has the key {value_words(value)}; it must be {words}."
+        return f"{place(path)} is {value_words(value)}; it must be {words}."
     if path and "[key]" in item["loc"]:
         known = message.replace("Input should be ", "") if kind == "literal_error" else "a text that is not empty"
         return f"{place(path[:-1])} has the key {value_words(value)}; it must be {known}."

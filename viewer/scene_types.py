@@ -22,6 +22,8 @@ from viewer.scene_values import (
     Quaternion,
     Share,
     Text,
+    Title,
+    Unit,
     Vector,
     Whole,
 )
@@ -104,8 +106,8 @@ Frame = Annotated[
 class Shape(Part):
     """What all shapes have."""
 
-    name: Text | None = None
-    body: Text | None = None
+    name: Title | None = None
+    body: Title | None = None
     """Name of the model's body."""
     material: Material | None = None
     color: Color | None = None
@@ -235,12 +237,12 @@ class Stress(Part):
     """(beams, 2, fibres, modes)."""
     constant: Floats | None = None
     """(beams, 2, fibres)."""
-    unit: Text = "Pa"
+    unit: Unit = "Pa"
     range: Positive | None = None
     """Stress of the last colour; by default the largest of the run."""
     limit: Positive | None = None
     """A mark in the legend."""
-    limit_name: Text | None = None
+    limit_name: Title | None = None
     """What the limit is, such as yield stress."""
 
 
@@ -248,9 +250,9 @@ class Flexible(Part):
     """A framework of beams whose nodes move by modes."""
 
     frame: Name
-    name: Text | None = None
+    name: Title | None = None
     nodes: Annotated[list[Vector], Field(min_length=1)]
-    names: list[Text] | None = None
+    names: list[Title] | None = None
     """Of the nodes."""
     beams: list[tuple[Whole, Whole]]
     """Indices of their nodes."""
@@ -273,7 +275,7 @@ class Arrow(Part):
     """What all arrows have."""
 
     name: Name
-    unit: Text = "N"
+    unit: Unit = "N"
 
 
 class LineArrow(Arrow):
@@ -338,7 +340,7 @@ class Scene(Part):
 
     format: Literal["ALi3 scene"]
     version: Literal[1]
-    name: Text
+    name: Title
     description: Text = ""
     up: Vector = (0.0, 0.0, 1.0)
     """Against gravity, in earth axes."""

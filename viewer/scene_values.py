@@ -11,7 +11,12 @@ Positive = Annotated[Number, Field(gt=0.0)]
 Share = Annotated[Number, Field(ge=0.0, le=1.0)]
 Whole = Annotated[int, Field(strict=True, ge=0, lt=2**32)]
 Text = Annotated[str, Field(strict=True)]
-Name = Annotated[str, Field(strict=True, min_length=1)]
+# plain_names.js of the page has the same patterns.
+NAME = r"^[^\u0000-\u001f<>\u007f-\u009f\u2028\u2029]*$"
+UNIT = r"""^[^\u0000-\u001f"&'<>`\u007f-\u009f\u2028\u2029]{0,40}$"""
+Title = Annotated[str, Field(strict=True, pattern=NAME)]
+Name = Annotated[str, Field(strict=True, min_length=1, pattern=NAME)]
+Unit = Annotated[str, Field(strict=True, pattern=UNIT)]
 Vector = tuple[Number, Number, Number]
 Quaternion = tuple[Number, Number, Number, Number]
 Axes = tuple[Vector, Vector, Vector]

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tests.in_browser import wait_until
 from viewer.recording import Recording
 from viewer.simulator_page import simulator_html
 
@@ -87,7 +88,7 @@ class Program:
         self.page.route(f"{ADDRESS}/world*", lambda route: route.fulfill(body=json.dumps(self._world)))
         self.page.route_web_socket("**/drive*", self._connected)
         self.page.goto(f"{ADDRESS}/{query}")
-        self.page.wait_for_function("window.player?.cockpit")
+        wait_until(self.page, "window.player?.cockpit")
 
     def _connected(self, socket: Any) -> None:
         self.sockets.append(socket)

@@ -21,6 +21,7 @@ from hosts import page, run
 from hosts.fmu import Fmu
 from hosts.geometry import scene_of
 from mbs.scenes import prototype_car
+from tests.in_browser import wait_until
 from viewer.browser import BrowserError, find_chromium, launch_arguments
 
 SCENES = Path(__file__).parents[1] / "fmu" / "scenes.py"
@@ -85,7 +86,7 @@ class Page:
         return str(self.page.locator(f'[data-a3="{what}"]').first.inner_text())
 
     def until(self, expression: str) -> None:
-        self.page.wait_for_function(expression)
+        wait_until(self.page, expression)
 
     def close(self) -> None:
         self.context.close()

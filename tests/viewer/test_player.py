@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from tests.in_browser import wait_until
 from tests.viewer.hand_scenes import crank
 from viewer.browser import BrowserError, find_chromium, launch_arguments
 from viewer.notebook import html_of
@@ -171,7 +172,7 @@ def test_it_plays_in_time_and_stands_when_it_is_told(pair: Opened) -> None:
     pair("player.seek(0)")
     pair("player.speed(0.2)")
     pair.page.keyboard.press(" ")
-    pair.page.wait_for_function("player.time > 0.05")
+    wait_until(pair.page, "player.time > 0.05")
     pair.page.keyboard.press(" ")
     stands = pair("player.time")
     pair.page.wait_for_timeout(200)
@@ -299,7 +300,7 @@ def test_in_a_notebook_it_runs_in_its_frame(browser: Any, tmp_path: Path) -> Non
     page.on("pageerror", lambda error: said.append(str(error)))
     page.goto((tmp_path / "cell.html").as_uri())
     frame = page.frames[1]
-    frame.wait_for_function("window.player !== undefined")
+    wait_until(frame, "window.player !== undefined")
     assert frame.evaluate("async () => { await player.ready; await player.seek(1.5); return player.problem; }") == ""
     assert frame.evaluate("player.time") == 1.5
     frame.evaluate("player.pause()")

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from benchmarks.car import manoeuvres
+from tests.in_browser import wait_until
 from tests.viewer.simulator_program import BEHIND, REFUSED, RUNNING, Program
 from viewer.recording import Recording
 
@@ -56,11 +57,11 @@ def picture(program: Program) -> np.ndarray:
 def shown(program: Program, time: float, flags: int = 0, **header: float) -> None:
     """A frame of a car that stands at a time of the run, drawn."""
     program.send(time, flags, **header)
-    program.page.wait_for_function(
-        "count => player.frames.newest?.count === count", arg=round(time / 0.002) + 1e6 * program.epoch
+    wait_until(
+        program.page, "count => player.frames.newest?.count === count", arg=round(time / 0.002) + 1e6 * program.epoch
     )
     now = program.ask("performance.now() / 1000")
-    program.page.wait_for_function("now => player.cockpit._timed > now", arg=now)  # figures come after the picture
+    wait_until(program.page, "now => player.cockpit._timed > now", arg=now)  # figures come after the picture
 
 
 def at(recording: Recording, name: str, time: float) -> float:
@@ -199,9 +200,7 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
     program.page.wait_for_timeout(100)
     assert "throttle let go." in program.text("events")
     assert "There is no command 'fly'." in program.text("events")
-    program.page.wait_for_function(
-        "!document.querySelector('[data-a3=\"flag stalled\"]')?.hidden === true", timeout=5000
-    )
+    wait_until(program.page, "!document.querySelector('[data-a3=\"flag stalled\"]')?.hidden === true", timeout=5.0)
     assert "this is the last that came" in program.text("flag stalled")
 
 
@@ -209,8 +208,8 @@ def test_a_broken_wire_is_said_and_mended(program: Program) -> None:
     shown(program, 1.0, RUNNING)
     program.sockets[-1].close()
     said = "document.querySelector('[data-a3=\"flag lost\"]')?.textContent || ''"
-    assert "Trying again" in program.page.wait_for_function(said).json_value()
-    program.page.wait_for_function(f"player.cockpit && !({said})", timeout=8000)
+    assert "Trying again" in wait_until(program.page, said)
+    wait_until(program.page, f"player.cockpit && !({said})", timeout=8.0)
     assert len(program.sockets) == 2
     program.epoch = 2
     shown(program, 0.5, RUNNING)
@@ -225,7 +224,7 @@ def test_a_world_that_comes_with_the_second_connection_is_no_longer_missed(progr
     for missed in (True, False):
         page.evaluate(before)
         program.sockets[-1].close()
-        page.wait_for_function(later, timeout=8000)
+        wait_until(page, later, timeout=8.0)
         assert (words in program.text("events")) is missed
     program.errors.clear()  # the browser tells of the answer too
 
@@ -302,7 +301,7 @@ def test_a_rewind_is_not_driven_through(program: Program, lane_change: Recording
     program.drive(4.0, 5.0, 0.05)
     program.epoch = 2
     program.send(1.0, RUNNING)
-    program.page.wait_for_function("player.frames.newest.epoch === 2")
+    wait_until(program.page, "player.frames.newest.epoch === 2")
     times = program.ask("""() => new Promise(done => {
       const seen = [];
       const look = () => {

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.in_browser import wait_until
 from viewer.browser import BrowserError, find_chromium, launch_arguments
 
 WORLDS = ("plane", "kerb", "washboard", "rough", "split")
@@ -93,7 +94,7 @@ class Driver:
         self.page.on("pageerror", lambda error: self.wrong.append(str(error)))
         self.page.on("console", lambda m: m.type == "error" and self.wrong.append(m.text))
         self.page.goto(address)
-        self.page.wait_for_function("window.player?.frames.newest?.running")
+        wait_until(self.page, "window.player?.frames.newest?.running")
 
     def ask(self, expression: str, *values: Any) -> Any:
         return self.page.evaluate(expression, *values)
@@ -130,7 +131,7 @@ class Driver:
     def still(self) -> None:
         """Time stands, and the picture with it."""
         self.page.keyboard.press("p")
-        self.page.wait_for_function("!player.frames.newest.running")
+        wait_until(self.page, "!player.frames.newest.running")
         self.ask("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
     def point(self, *names: str) -> list[float]:
@@ -169,7 +170,7 @@ def test_every_world_is_driven_and_seen(fmu, browser, world):
     with running(fmu("prototype_car"), world) as address:
         driver = Driver(browser, address, world)
         driver.page.keyboard.down("ArrowUp")
-        driver.page.wait_for_function("player.get('speed') > 5", timeout=60_000)
+        wait_until(driver.page, "player.get('speed') > 5", timeout=60.0)
         for camera in CAMERAS:
             driver.look(camera)
             driver.picture(camera)
@@ -199,10 +200,10 @@ def test_a_minute_on_the_proving_ground(fmu, browser):
             place, camera = places[tour % len(places)], CAMERAS[tour % len(CAMERAS)]
             epoch = driver.ask("player.frames.newest.epoch")
             driver.ask("name => player.cockpit.act.place(name)", place)
-            driver.page.wait_for_function("epoch => player.frames.newest.epoch > epoch", arg=epoch)
+            wait_until(driver.page, "epoch => player.frames.newest.epoch > epoch", arg=epoch)
             driver.look(camera)
             keyboard.down("ArrowUp")
-            driver.page.wait_for_function("player.get('speed') > 4", timeout=60_000)
+            wait_until(driver.page, "player.get('speed') > 4", timeout=60.0)
             key = "ArrowLeft" if tour % 2 else "ArrowRight"
             keyboard.down(key)
             driver.page.wait_for_timeout(500)
@@ -215,7 +216,7 @@ def test_a_minute_on_the_proving_ground(fmu, browser):
         # one goes two seconds back, and drives on
         before = driver.ask("({epoch: player.frames.newest.epoch, time: player.frames.newest.time})")
         keyboard.press("Backspace")
-        driver.page.wait_for_function("epoch => player.frames.newest.epoch > epoch", arg=before["epoch"])
+        wait_until(driver.page, "epoch => player.frames.newest.epoch > epoch", arg=before["epoch"])
         assert driver.ask("player.frames.newest.time") < before["time"] + 60.0
         driver.ask("name => player.cockpit.act.place(name)", "slalom")
         driver.page.wait_for_timeout(800)

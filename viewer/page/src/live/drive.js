@@ -1,5 +1,6 @@
 // An FMU that runs in the page: it is driven by keys, gamepads, fingers and sliders, drawn, plotted and recorded.
 import { decoded } from "../player/decode.js";
+import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
 import { el, short } from "./dom.js";
 import { BACK } from "./engine.js";
@@ -38,7 +39,8 @@ class Drive {
     this.container = container;
     const parts = (fmus ?? [one]).map((f) => ({ ...f, title: f.title ?? f.description.modelName }));
     this.root = el("div.a3", { tabIndex: -1 });
-    container.append(el("style", {}, style), this.root);
+    styled(style);
+    container.append(this.root);
     const lacking = missingParts();
     if (lacking) {
       this.root.append(el("p.a3-notice", { data: "notice" }, lacking));

@@ -1,6 +1,7 @@
 // Plots of chosen outputs, in step with the run.
 import uPlot from "uplot";
 import uplotCss from "uplot/dist/uPlot.min.css";
+import { styled } from "../styles.js";
 import { el } from "./dom.js";
 import { section } from "./panel.js";
 
@@ -32,8 +33,8 @@ export class Plots {
       this._span = Number(span.value);
       this.stale = true;
     });
-    const style = el("style", {}, uplotCss);
-    this.element = section("Plots", true, style, el("div.a3-control", {}, choice, span), this._list);
+    styled(uplotCss);
+    this.element = section("Plots", true, el("div.a3-control", {}, choice, span), this._list);
     this._first = first;
     this.stale = true;
   }

@@ -2,7 +2,7 @@
 
 /**
  * @param {string} tag
- * @param {object} [attributes] `text` is its content, `on...` a listener, all others are attributes
+ * @param {object} [attributes] `text` is its content, `style` its style, `on...` a listener, all others are attributes
  * @param {(Node | string)[]} [children]
  * @returns {HTMLElement}
  */
@@ -10,6 +10,7 @@ export function element(tag, attributes = {}, children = []) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (name === "text") made.textContent = value;
+    else if (name === "style") made.style = value; // as an attribute the policy of the page forbids it
     else if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
     else if (value === true) made.setAttribute(name, "");
     else if (value !== false && value !== undefined) made.setAttribute(name, value);
@@ -35,10 +36,4 @@ export function icon(name) {
   path.setAttribute("d", ICONS[name]);
   svg.append(path);
   return svg;
-}
-
-/** Put styles into the page, once. @param {string} id @param {string} css */
-export function styled(id, css) {
-  if (document.getElementById(id)) return;
-  document.head.append(element("style", { id, text: css }));
 }

@@ -1,9 +1,10 @@
 // Plays recordings: the picture, the bar below it and the diagrams beside it, all at one time.
 import uplotStyle from "uplot/dist/uPlot.min.css";
 import { SceneView } from "../scene/scene_view.js";
+import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
 import { Clock } from "./clock.js";
-import { element, styled } from "./elements.js";
+import { element } from "./elements.js";
 import { keys } from "./keys.js";
 import { fromHash, toHash } from "./link.js";
 import { Plots } from "./plots.js";
@@ -28,8 +29,8 @@ export const play = (container, given) => new Player(container, given);
 /** A page of recordings; `seek`, `camera`, `view` and `ready` are for programs. */
 export class Player {
   constructor(container, { runs, options = {} }) {
-    styled("ali3-uplot", uplotStyle);
-    styled("ali3-style", style);
+    styled(uplotStyle);
+    styled(style);
     this.id = count++;
     this.runs = runs;
     this.options = { ...options, ...(options.controls === false ? {} : fromHash(location.hash)) };

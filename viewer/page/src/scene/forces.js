@@ -68,8 +68,11 @@ export function niceStep(length) {
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "u"]]; // prettier-ignore
 
 /** A number with its unit for people: 2.5e8 Pa is "250 MPa". @param {number} value @param {string} unitName */
-export function worded(value, unitName) {
-  if (value === 0) return `0 ${unitName}`;
+export const worded = (value, unitName) => parted(value, unitName).join(" ");
+
+/** The number and the unit of `worded`. @param {number} value @param {string} unitName @returns {[number, string]} */
+export function parted(value, unitName) {
+  if (value === 0) return [0, unitName];
   const [size, prefix] = PREFIXES.find(([factor]) => Math.abs(value) >= factor * 0.9999999) ?? PREFIXES[PREFIXES.length - 1];
-  return `${Number((value / size).toPrecision(3))} ${prefix}${unitName.replaceAll(".", "\u00b7")}`;
+  return [Number((value / size).toPrecision(3)), `${prefix}${unitName.replaceAll(".", "\u00b7")}`];
 }

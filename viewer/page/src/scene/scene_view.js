@@ -5,6 +5,7 @@ import { add, dot, middle, rotate, subtract, transpose, unit } from "./math.js";
 import { Legends, arrowLegend, stressLegend } from "./legends.js";
 import { Notes } from "./notes.js";
 import { Parts } from "./parts.js";
+import { wrongName } from "./plain_names.js";
 import { makeRenderer } from "./renderer.js";
 import { makeLook } from "../looks/index.js";
 
@@ -40,6 +41,11 @@ export class SceneView {
     this.ghosts = [];
     this.up = unit(scene.up ?? [0, 0, 1]) ?? [0, 0, 1];
     this.#measure();
+    const wrong = wrongName(scene);
+    if (wrong) {
+      this.#fail(wrong);
+      return;
+    }
     const { renderer, software, problem } = makeRenderer(container, {
       antialias: options.antialias ?? (options.quality === "high" || scene.planar ? true : undefined),
       keep: options.keep,
@@ -156,11 +162,11 @@ export class SceneView {
     const { unit: name, limit, limitName } = stressed[0]?.bending ?? {};
     const known = stressed.some((body) => body.stressed);
     const state = { known, most: bending.most || 1, unit: name, limit, limitName, factor: bending.factor };
-    this.legends.put("stress", stressed.length > 0 && bending.coloured ? stressLegend(state) : "");
+    this.legends.put("stress", stressed.length > 0 && bending.coloured ? state : null, stressLegend);
     const units = [...new Set(arrows.now.map((force) => force.unit))];
     const scales = units.map((of) => ({ unit: of, ...arrows.scaleOf(of), colour: arrows.colourOf(of) }));
-    this.legends.put("arrows", arrowLegend(scales));
-    this.legends.put("grid", this.notes.worded ? (this.look?.caption ?? "") : "");
+    this.legends.put("arrows", scales.length > 0 ? scales : null, arrowLegend);
+    this.legends.put("grid", (this.notes.worded && this.look?.caption) || null, (caption) => [caption]);
   }
 
   /**

@@ -5,7 +5,7 @@ import { forcesOf, niceAbove, niceStep } from "../scene/forces.js";
 import { add, length, scale, subtract, unit } from "../scene/math.js";
 import { stretch } from "./place.js";
 
-const COLOURS = { N: "#f4511e", "N.m": "#8e24aa" };
+const COLOURS = new Map([["N", "#f4511e"], ["N.m", "#8e24aa"]]); // prettier-ignore
 const OTHER = "#00897b";
 /** Length of the longest arrow beside the size of the drawing. */
 const LONGEST = 0.35;
@@ -53,7 +53,7 @@ export class Arrows {
 
   /** @param {string} name of the unit @returns {string} */
   colourOf(name) {
-    return COLOURS[name] ?? OTHER;
+    return COLOURS.get(name) ?? OTHER;
   }
 
   /** @param {number[]} origin of the picture */

@@ -1,6 +1,7 @@
 // The panel of the host's devices: their axes as bars, what each drives, calibration, force.
 import { el, short } from "../live/dom.js";
 import { section } from "../live/panel.js";
+import { styled } from "../styles.js";
 import style from "./calibration.css";
 import { barOf, changed, chosen, drivenBy, isPedal, movingWords, PARTS, partOf, pressedWords, shapeOf, sourcesFor } from "./device_words.js";
 
@@ -23,11 +24,12 @@ export class CalibrationPanel {
    * @param {(message: object) => void} options.send - Takes messages to the host.
    */
   constructor({ send }) {
+    styled(style);
     this._send = send;
     this._parts = new Map();
     this._none = el("p.a3-hint", { data: "no devices" }, NONE);
     this._list = el("div", {}, this._none);
-    this.element = section("Devices", true, el("style", {}, style), el("div.a3-devices", {}, this._list));
+    this.element = section("Devices", true, el("div.a3-devices", {}, this._list));
   }
 
   /**
@@ -78,7 +80,7 @@ class DevicePart {
       this._draw(device);
       for (const part of this._body.querySelectorAll("details")) part.open = open.get(part.getAttribute("data-a3")) ?? part.open;
       const again = focused?.getAttribute("data-a3");
-      if (again) this._body.querySelector(`[data-a3="${again}"]`)?.focus();
+      if (again) this._body.querySelector(`[data-a3="${CSS.escape(again)}"]`)?.focus();
     }
     this._move(device);
   }

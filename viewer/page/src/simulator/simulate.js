@@ -1,5 +1,6 @@
 // The page of the driving simulator: the car is driven by a program elsewhere, seen and steered here.
 import { el } from "../live/dom.js";
+import { styled } from "../styles.js";
 import { Cockpit } from "./cockpit.js";
 import { Frames } from "./frames.js";
 import { Link } from "./link.js";
@@ -23,7 +24,8 @@ class Simulator {
   constructor(container, { url, token = new URLSearchParams(location.search).get("token") ?? "" }) {
     this.container = container;
     this.root = el("div.a3-sim", { tabIndex: -1 }, el("p.a3-wait", { data: "waiting" }, "Waiting for the program that drives the car …"));
-    container.append(el("style", {}, style), this.root);
+    styled(style);
+    container.append(this.root);
     this.frames = new Frames();
     this.cockpit = null;
     this.problem = "";

@@ -1,0 +1,29 @@
+// Names and units of a scene; viewer/scene_values.py has the same patterns.
+
+/** A name: no control characters, no < and >. */
+export const NAME = /^[^\u0000-\u001f<>\u007f-\u009f\u2028\u2029]*$/;
+/** A unit: besides, no quotes and no &. */
+export const UNIT = /^[^\u0000-\u001f"&'<>`\u007f-\u009f\u2028\u2029]{0,40}$/;
+
+/**
+ * The first name or unit that is none.
+ * @param {object} scene
+ * @returns {string} a sentence; empty where all are good
+ */
+export function wrongName(scene) {
+  const { shapes = [], flexible = [], arrows = [] } = scene;
+  const stresses = flexible.map(({ stress }) => stress).filter(Boolean);
+  const units = [...arrows, ...stresses].map(({ unit }) => unit);
+  const names = [
+    ...[scene, ...shapes, ...flexible, ...arrows].map(({ name }) => name),
+    ...shapes.map(({ body }) => body),
+    ...flexible.flatMap((part) => part.names ?? []),
+    ...stresses.map((stress) => stress.limit_name),
+    ...Object.keys(scene.frames ?? {}),
+  ];
+  const wrong = (kind, pattern, texts) => {
+    const found = texts.find((text) => text !== undefined && text !== null && !pattern.test(text));
+    return found === undefined ? "" : `The scene has the ${kind} ${JSON.stringify(found).slice(0, 80)}, which is none.`;
+  };
+  return wrong("unit", UNIT, units) || wrong("name", NAME, names);
+}
