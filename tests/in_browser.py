@@ -1,9 +1,12 @@
-"""Waits for a page of ours: `wait_for_function` of playwright has its texts evaluated, which the pages forbid."""
+"""What playwright does by means that the policy of our pages forbids: waits, and pictures without instruments."""
 
 from __future__ import annotations
 
+import io
 import time
 from typing import Any
+
+import numpy as np
 
 
 def wait_until(page: Any, expression: str, arg: Any = None, timeout: float = 30.0) -> Any:
@@ -24,3 +27,19 @@ def wait_until(page: Any, expression: str, arg: Any = None, timeout: float = 30.
         assert time.monotonic() < end, f"not within {timeout:g} s: {expression}"
         page.wait_for_timeout(20)
     return value
+
+
+def picture_of_simulator(page: Any) -> np.ndarray:
+    """Pixels of the page of the simulator (height, width, 3), without instruments."""
+    from PIL import Image
+
+    page.evaluate(
+        """() => {
+          window.hiding = new CSSStyleSheet();
+          hiding.replaceSync(".a3-sim > :not(.a3-picture):not(.a3-map) { visibility: hidden }");
+          document.adoptedStyleSheets = [...document.adoptedStyleSheets, hiding];
+        }"""
+    )
+    shot = page.screenshot()
+    page.evaluate("document.adoptedStyleSheets = document.adoptedStyleSheets.filter((sheet) => sheet !== hiding)")
+    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)

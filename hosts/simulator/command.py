@@ -69,8 +69,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "--listen",
         default=_LOCAL,
         metavar="ADDRESS",
-        help="address that the server listens on; default: 127.0.0.1, which only this machine reaches; others need the "
-        "token that is then printed",
+        help="address that the server listens on; default: 127.0.0.1, which only this machine reaches",
     )
     page.add_argument("--no-open", action="store_true", help="do not open a browser")
     page.add_argument("--no-devices", action="store_true", help="do not read wheels and gamepads of this machine")

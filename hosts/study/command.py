@@ -21,7 +21,11 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.st
     )
     parser.add_argument("study", type=Path, metavar="STUDY", help="a study file, or the folder of a study's results")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder of the results; default: out/ and the name")
-    parser.add_argument("--scheduler", metavar="ADDRESS", help="a scheduler of Dask; default: workers on this machine")
+    parser.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="a scheduler of Dask, tls://HOST:PORT with the certificates of its configuration; default: workers here",
+    )
     parser.add_argument("--workers", type=int, metavar="N", help="processes here; default: one for each core")
     parser.add_argument("--dry-run", "--list", action="store_true", help="check all, print the plan and stop")
     parser.add_argument("--again", action="store_true", help="make failed runs again")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Iterator
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.car import manoeuvres
-from tests.in_browser import wait_until
+from tests.in_browser import picture_of_simulator, wait_until
 from tests.viewer.simulator_program import BEHIND, REFUSED, RUNNING, Program
 from viewer.recording import Recording
 
@@ -41,17 +40,6 @@ def program(chromium: Any, lane_change: Recording) -> Iterator[Program]:
     yield made
     context.close()
     assert made.errors == []
-
-
-def picture(program: Program) -> np.ndarray:
-    """Pixels of the page (height, width, 3), without instruments."""
-    from PIL import Image
-
-    style = ".a3-sim > :not(.a3-picture):not(.a3-map) { visibility: hidden }"
-    tag = program.page.add_style_tag(content=style)
-    shot = program.page.screenshot()
-    tag.evaluate("tag => tag.remove()")
-    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
 
 
 def shown(program: Program, time: float, flags: int = 0, **header: float) -> None:
@@ -244,7 +232,7 @@ def test_the_car_is_where_its_frame_says_in_every_camera(chromium: Any, lane_cha
         program.epoch += 1
         for time in (2.0, 4.5):
             shown(program, time)
-            pixels = picture(program)
+            pixels = picture_of_simulator(program.page)
             r, g, b = (pixels[..., k] for k in range(3))
             seen = (r > g + 25) & (b > g + 25)
             for wheel in ("FL", "FR", "RL", "RR"):
@@ -268,7 +256,7 @@ def test_the_steering_wheel_turns_before_the_driver(chromium: Any, lane_change: 
     for angle in (0.0, 0.8):
         program.values = {"steering_wheel_angle": angle}
         shown(program, 1.0 + angle)
-        pixels = picture(program)
+        pixels = picture_of_simulator(program.page)
         r, g, b = (pixels[..., k] for k in range(3))
         rows, columns = np.nonzero((r > 150) & (g < 110) & (b < 90) & (r > 2 * b))
         marks.append(np.array([columns.mean(), rows.mean()]))
@@ -281,7 +269,7 @@ def test_the_map_shows_the_car_its_trail_and_places(program: Program, lane_chang
     program.drive(0.0, 2.0, 0.05)
     program.page.keyboard.press("5")
     shown(program, 3.0)
-    pixels = picture(program)
+    pixels = picture_of_simulator(program.page)
     where = [at(lane_change, f"chassis.{c}", 3.0) for c in "xy"]
     x, y = program.page.evaluate("point => player.cockpit.map.pixel(point)", where)
     assert np.allclose(pixels[int(y), int(x)], [229, 53, 43], atol=30)  # the car
@@ -360,7 +348,7 @@ def test_instruments_map_and_keys_work_without_a_picture(chromium: Any, lane_cha
     x, y = page.evaluate(
         "point => player.cockpit.map.pixel(point)", [at(lane_change, f"chassis.{c}", 3.1) for c in "xy"]
     )
-    assert np.allclose(picture(program)[int(y), int(x)], [229, 53, 43], atol=30)
+    assert np.allclose(picture_of_simulator(program.page)[int(y), int(x)], [229, 53, 43], atol=30)
     assert program.errors == []
     context.close()
 

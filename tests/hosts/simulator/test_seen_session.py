@@ -6,7 +6,6 @@ environment variable ``ALI3_SESSION_PICTURES`` names keeps the pictures.
 
 from __future__ import annotations
 
-import io
 import json
 import os
 import re
@@ -21,7 +20,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.in_browser import wait_until
+from tests.in_browser import picture_of_simulator, wait_until
 from viewer.browser import BrowserError, find_chromium, launch_arguments
 
 WORLDS = ("plane", "kerb", "washboard", "rough", "split")
@@ -94,7 +93,7 @@ class Driver:
         self.page.on("pageerror", lambda error: self.wrong.append(str(error)))
         self.page.on("console", lambda m: m.type == "error" and self.wrong.append(m.text))
         self.page.goto(address)
-        wait_until(self.page, "window.player?.frames.newest?.running")
+        wait_until(self.page, "window.player?.frames.newest?.running", timeout=120.0)
 
     def ask(self, expression: str, *values: Any) -> Any:
         return self.page.evaluate(expression, *values)
@@ -106,16 +105,11 @@ class Driver:
 
     def picture(self, keep: str = "") -> np.ndarray:
         """Pixels without instruments; kept with them under a name."""
-        from PIL import Image
-
         folder = os.environ.get("ALI3_SESSION_PICTURES")
         if folder and keep:
             Path(folder).mkdir(parents=True, exist_ok=True)
             self.page.screenshot(path=str(Path(folder, f"{self.name}_{keep.replace(' ', '_')}.png")))
-        tag = self.page.add_style_tag(content=".a3-sim > :not(.a3-picture):not(.a3-map) { visibility: hidden }")
-        shot = self.page.screenshot()
-        tag.evaluate("tag => tag.remove()")
-        return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
+        return picture_of_simulator(self.page)
 
     def say(self, what: str) -> None:
         """Print how it goes."""
