@@ -17,7 +17,7 @@ from viewer.player_options import check_options
 from viewer.recording import MOST_TIMES, Recording
 
 # FMUs are WebAssembly and run in a worker that is made from the script of the page.
-_SOURCES = {"script-src": "'wasm-unsafe-eval'", "worker-src": "blob:", "img-src": "blob:"}
+_SOURCES = {"script-src": "'wasm-unsafe-eval'", "worker-src": "blob:"}
 _STYLE = "html,body{margin:0;height:100%;overflow:hidden;font:14px/1.4 system-ui,sans-serif}#view{height:100%}"
 
 

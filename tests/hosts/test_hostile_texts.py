@@ -34,7 +34,7 @@ from viewer.scene import scene_errors
 MARK = "<img src=x onerror=globalThis.ran=1><script>globalThis.ran=2</script>"
 MARKUP = f"</title></style></script>-->{MARK}<svg onload=globalThis.ran=3>'\"&lt;"
 NAME = "&lt;b onload='globalThis.ran=4'&gt; \"name\""  # a scene has no names with < and >
-SIGNAL = f"bob.y {MARKUP}"
+SIGNAL = "bob.y <b onclick=globalThis.ran=8>'\"&lt;"
 TEXTS = ("description", "author", "copyright", "version")
 ANCHORS = [["ground", [0, 0, 0]], ["ground", [0, 1, 0]]]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ import pytest
 from tests.viewer.hand_scenes import everything, floats, octets
 from viewer.errors import SceneError
 from viewer.scene import SCHEMA_FILE, check_scene, json_schema, read_scene, scene_errors, schema_text
+from viewer.scene_values import NAME, UNIT
 
 VALIDATOR = jsonschema.Draft202012Validator(json_schema())
 
@@ -203,3 +205,15 @@ def test_checking_changes_nothing() -> None:
     before = copy.deepcopy(scene)
     check_scene(scene)
     assert scene == before
+
+
+def test_the_page_checks_names_and_units_by_the_same_patterns() -> None:
+    text = (Path(__file__).parents[2] / "viewer/page/src/scene/plain_names.js").read_text(encoding="utf-8")
+    assert re.findall(r"const (\w+) = /(.+)/;", text) == [("NAME", NAME), ("UNIT", UNIT)]
+
+
+@pytest.mark.parametrize("unit", ["N", "N.m", "rad/s2", "1", "%", "°C", "l/(100 km)", "µm", "kg·m²", "N*m/rad", ""])
+def test_units_that_are_used_are_units(unit: str) -> None:
+    scene = everything()
+    scene["arrows"][0]["unit"] = unit
+    assert scene_errors(scene) == []

@@ -19,7 +19,7 @@ export function missingParts(scope = globalThis) {
   }
   if (typeof scope.DecompressionStream === "undefined") {
     return (
-      "This browser has no DecompressionStream, by which the page is unpacked; use Chrome or Edge 80, Firefox 113, " +
+      "This browser has no DecompressionStream, by which the page is unpacked; use Chrome or Edge 97, Firefox 113, " +
       "Safari 16.4 or newer."
     );
   }
