@@ -13,13 +13,13 @@ from fmpy.model_description import ModelDescription
 from ali3.files import check_writable, make_folder
 from ali3.running import command_name
 from hosts.aliases import Aliases, find_aliases
+from hosts.description_record import description_record
 from hosts.errors import HostError
 from hosts.fmu import described
 from hosts.geometry import scene_of
 from hosts.manoeuvre import Manoeuvre, with_names_of
 from hosts.numbers import Value
 from hosts.options import Wishes
-from hosts.page_parts import description_record
 from hosts.road import PARAMETER as ROAD
 from hosts.settings import Settings
 from hosts.simulator.drivable import not_drivable

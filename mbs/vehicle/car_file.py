@@ -12,7 +12,8 @@ from typing import Any
 from pydantic import ValidationError
 
 from mbs.checks import shown
-from mbs.errors import ModelError, SimulationError
+from mbs.errors import ModelError
+from mbs.simulation_error import SimulationError
 from mbs.vehicle.car import Car
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import settled
