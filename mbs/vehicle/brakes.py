@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from mbs.elements.brake import Brake
-from mbs.model.spin import Spin
+from mbs.model.carried import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
 from mbs.vehicle.quantities import Balance, BrakeTorque, HandBrakeTorque, StickStiffness

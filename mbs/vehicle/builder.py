@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
 from mbs.model import Model
-from mbs.model.inputs import Input
 from mbs.model.parameters import Owner
+from mbs.model.records import Input
 from mbs.vehicle.quantities import Quantity
 from mbs.vehicle.section import Section
 

@@ -13,9 +13,9 @@ from pydantic import Field, PrivateAttr
 from mbs.elements.road import Road
 from mbs.errors import ModelError
 from mbs.model import Model
+from mbs.model.carried import Spin
 from mbs.model.ends import End
-from mbs.model.guides import Guide
-from mbs.model.spin import Spin
+from mbs.model.records import Guide
 from mbs.roads import RoadFile
 from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle

@@ -7,7 +7,7 @@ import numpy as np
 from mbs.affine import Affine, AffineVector
 from mbs.model import Model
 from mbs.model.body import Body
-from mbs.model.spin import Spin
+from mbs.model.carried import Spin
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT

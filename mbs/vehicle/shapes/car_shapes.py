@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from mbs.model.carried import Spin
 from mbs.model.flexible import FlexibleBody
-from mbs.model.spin import Spin
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.chassis.frames.tubes import TubesFrame

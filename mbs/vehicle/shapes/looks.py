@@ -11,8 +11,8 @@ import numpy as np
 
 from mbs.model import Model
 from mbs.model.body import Body
+from mbs.model.carried import Spin
 from mbs.model.shapes import Owner
-from mbs.model.spin import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.side import Point
 
