@@ -58,7 +58,11 @@ MOST_FAULTS = 8
 
 
 class Car(CarContent):
-    """A car that can be built."""
+    """A car file.
+
+    SI units. Drawing axes after ISO 8855: x forward, y left, z up; the origin on level ground under the centre of the
+    front axle, the car in static equilibrium. Points are those of the left side; the right side mirrors y.
+    """
 
     @cached_property
     def flexible_frame(self) -> FlexibleFrame:

@@ -42,11 +42,7 @@ class Vehicle(Section):
 
 
 class CarContent(Section):
-    """A car file.
-
-    SI units. Drawing axes after ISO 8855: x forward, y left, z up; the origin on level ground under the centre of the
-    front axle, the car in static equilibrium. Points are those of the left side; the right side mirrors y.
-    """
+    """The tables of a car file, typed."""
 
     schema_version: Annotated[Literal[1], Field(alias="schema")]
     """Version of the form of this file."""
