@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from hosts.manoeuvre import Manoeuvre, read_manoeuvre
+from hosts.simulator.last_drive import recorded_manoeuvre
 from hosts.simulator.recorded_drive import is_recording, read_recording
-from hosts.simulator.to_manoeuvre import recorded_manoeuvre
 
 
 def load_manoeuvre(manoeuvre: str) -> Manoeuvre:

@@ -24,7 +24,8 @@ from hosts.road import PARAMETER as ROAD
 from hosts.settings import Settings
 from hosts.simulator.drivable import not_drivable
 from hosts.simulator.fmu_file import FoundFmu, find_fmu
-from hosts.simulator.recording import DESCRIPTION, check_new
+from hosts.simulator.recording import check_new
+from hosts.simulator.recording_format import DESCRIPTION
 from hosts.simulator.world_files import DEFAULT_WORLD, World, make_world, no_world
 from hosts.variables import Variables
 
