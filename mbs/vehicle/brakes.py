@@ -45,10 +45,9 @@ class Brakes(Section):
         spin : Spin
             Of the wheel.
         """
-        axle = corner.side.axle
-        behind = axle == "rear"
+        behind = corner.side.axle == "rear"
         stiffness = (self.rear if behind else self.front).stick_stiffness
-        damping = 2.0 * math.sqrt(stiffness * getattr(b.car, axle).wheel.spin_inertia)
+        damping = 2.0 * math.sqrt(stiffness * spin.spin_inertia)
         share = 1.0 - self.balance if behind else self.balance
         brake = Brake(self.torque, stiffness, damping, share, self.hand_torque if behind else 0.0)
         hand = b.inputs["hand_brake"].index if behind else None
