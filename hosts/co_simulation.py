@@ -10,12 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.aliased_fmu import AliasedFmu
 from hosts.driver import ACTS, SENSES, Driver, make_driver
 from hosts.errors import HostError
-from hosts.fmu import Fmu, StepRefusedError
+from hosts.fmu import StepRefusedError
 from hosts.manoeuvre import Manoeuvre, with_names_of
 from hosts.pilots.pilot import Pilot
+from hosts.simulated_fmu import SimulatedFmu
 
 # Bytes a run may record: more would fill the memory before the disk.
 _LARGEST_RECORD = 4e9
@@ -61,12 +61,12 @@ class Result:
         return np.asarray(self.values[:, self.names.index(name)])
 
 
-def communication_step(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
+def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
     """The step of a run: the one that was asked for, else that of the FMU.
 
     Parameters
     ----------
-    fmu : Fmu
+    fmu : SimulatedFmu
     manoeuvre : Manoeuvre
     step : float, optional
         s.
@@ -97,7 +97,7 @@ def communication_step(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre, step: float 
     return step
 
 
-def run_with_bar(fmu: Fmu, manoeuvre: Manoeuvre, step: float, driver: Driver | None = None) -> Result:
+def run_with_bar(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Driver | None = None) -> Result:
     """`run` with a progress bar on the terminal."""
     from tqdm import tqdm
 
@@ -106,7 +106,7 @@ def run_with_bar(fmu: Fmu, manoeuvre: Manoeuvre, step: float, driver: Driver | N
         return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
 
 
-def driver_of(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre) -> Driver | None:
+def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:
     """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
 
     Raises
@@ -120,14 +120,14 @@ def driver_of(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre) -> Driver | None:
     return make_driver(manoeuvre.driver, fmu.constants())
 
 
-def _check_drivable(fmu: Fmu | AliasedFmu) -> None:
+def _check_drivable(fmu: SimulatedFmu) -> None:
     inputs, outputs = fmu.names("input"), fmu.names("output")
     missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
     if missing:
         raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
 
 
-def check_columns(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre) -> None:
+def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
     """Refuse a table with a column that is no input and no tunable parameter of the FMU, or not of its kind.
 
     Raises
@@ -156,7 +156,7 @@ def check_columns(fmu: Fmu | AliasedFmu, manoeuvre: Manoeuvre) -> None:
                 fmu.table[name].check(value, f"The manoeuvre '{manoeuvre.name}'")
 
 
-def _setter(fmu: Fmu | AliasedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
     """Sets inputs, and those of the parameters that have changed: a parameter may be dear."""
     tunable = set(fmu.tunable)
     inputs = [k for k, n in enumerate(names) if n not in tunable]
@@ -188,7 +188,7 @@ def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, flo
 
 
 def run(
-    fmu: Fmu | AliasedFmu,
+    fmu: SimulatedFmu,
     manoeuvre: Manoeuvre,
     step: float,
     driver: Pilot | None = None,
@@ -200,7 +200,7 @@ def run(
 
     Parameters
     ----------
-    fmu : Fmu or AliasedFmu
+    fmu : SimulatedFmu
         Not yet initialised.
     manoeuvre : Manoeuvre
     step : float

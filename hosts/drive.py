@@ -48,11 +48,12 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.dr
 def _drive(options: argparse.Namespace) -> int:
     from hosts.co_simulation import check_columns, communication_step, driver_of, run_with_bar
     from hosts.fmu import Fmu
-    from hosts.manoeuvre import load_manoeuvre, with_names_of
+    from hosts.load_manoeuvre import load_manoeuvre
+    from hosts.manoeuvre import with_names_of
+    from hosts.manoeuvre_settings import set_in
     from hosts.result_files import print_result, result_paths, write_csv, write_record
     from hosts.result_plots import plot_page
     from hosts.run_summary import energy_balance, summary
-    from hosts.settings import set_in
 
     path, known = options.fmu, dict(options.driver)
     manoeuvre = load_manoeuvre(options.manoeuvre)

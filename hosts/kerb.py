@@ -48,8 +48,8 @@ def _kerb(path: Path, fidelity: float | None, step: float, out: Path, given: Wis
     from hosts.co_simulation import communication_step, run_with_bar
     from hosts.fmu import Fmu
     from hosts.manoeuvre import Manoeuvre
+    from hosts.manoeuvre_settings import set_in
     from hosts.result_files import print_result, result_paths, write_csv, write_record
-    from hosts.settings import set_in
 
     if not 0.0 < step < 0.5 / FREQUENCY:
         raise HostError(f"The step is {step:g} s; it must be positive and below {0.5 / FREQUENCY:g} s for the filter.")

@@ -105,7 +105,7 @@ def with_names_of(manoeuvre: Manoeuvre, names: Collection[str]) -> Manoeuvre:
     return replace(manoeuvre, start=start)
 
 
-def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
+def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
     """Read a manoeuvre by name or path.
 
     Parameters
@@ -114,8 +114,7 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
         Name of a manoeuvre of the host, or a CSV file; a file of the same name that ends in ``.ini`` adds to it:
         ``[start]`` values, a ``[driver]``, ``stop_time`` in ``[run]``. Behind a table that a page has recorded stands a
         line ``# outputs from: NAME``: that column and those after it are what came out, and are not read. A line
-        ``# state: FILE at TIME`` names a saved state of the FMU to begin with, beside the table. A folder that holds a
-        recording of the simulator is its last drive.
+        ``# state: FILE at TIME`` names a saved state of the FMU to begin with, beside the table.
 
     Returns
     -------
@@ -127,11 +126,6 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
         With the line and the reason.
     """
     path = Path(manoeuvre)
-    if path.is_dir() and (path / "recording.json").is_file():
-        from hosts.simulator.recorded_drive import read_recording
-        from hosts.simulator.to_manoeuvre import recorded_manoeuvre
-
-        return recorded_manoeuvre(read_recording(path))
     if path.suffix not in (".csv", ".ini"):
         if manoeuvre not in manoeuvre_names():
             names = ", ".join(manoeuvre_names())

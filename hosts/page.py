@@ -110,7 +110,8 @@ def _manoeuvre(fmus: Sequence[FmuParts], given: str | None) -> Manoeuvre | None:
     """Inputs over time, checked."""
     if given is None:
         return None
-    from hosts.manoeuvre import load_manoeuvre, with_names_of
+    from hosts.load_manoeuvre import load_manoeuvre
+    from hosts.manoeuvre import with_names_of
     from hosts.page_text import script_of
 
     names = [name for fmu in fmus for name in fmu.variables.names]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import gzip
 import json
-import math
 import re
 import zipfile
 from concurrent.futures import ThreadPoolExecutor
@@ -16,12 +15,13 @@ from typing import Any
 from fmpy.model_description import ModelDescription
 
 from ali3.running import command_name
+from hosts.description_record import description_record
 from hosts.errors import HostError
 from hosts.fmu import described
 from hosts.geometry import RESOURCE, scene_of
 from hosts.numbers import Value
 from hosts.road import PARAMETER as ROAD
-from hosts.variables import Variable, Variables
+from hosts.variables import Variables
 
 PLATFORM = "wasm32"
 _ROOM = "resources/"
@@ -153,42 +153,3 @@ def _check_kind(path: Path, description: ModelDescription) -> None:
 def packed(content: bytes) -> str:
     """Bytes as text of a page: base64 of gzip."""
     return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
-
-
-def description_record(description: ModelDescription, variables: Variables) -> dict[str, Any]:
-    """What `modelDescription.xml` says, as the page reads it.
-
-    Parameters
-    ----------
-    description : ModelDescription
-    variables : Variables
-        Of it.
-    """
-    experiment = description.defaultExperiment
-    times = {"startTime": "startTime", "stopTime": "stopTime", "stepSize": "stepSize"}
-    found = {key: getattr(experiment, name, None) for key, name in times.items()}
-    references = {v.name: int(v.valueReference) for v in description.modelVariables}
-    return {
-        "modelName": description.modelName,
-        "guid": description.guid,
-        "description": description.description or "",
-        **{key: float(value) for key, value in found.items() if value is not None},
-        "variables": [_variable(variables[name], references[name]) for name in variables.names],
-    }
-
-
-def _variable(v: Variable, reference: int) -> dict[str, Any]:
-    record = {
-        "name": v.name,
-        "reference": reference,
-        "type": "Integer" if v.kind == "Enumeration" else v.kind,
-        "causality": v.causality,
-        "variability": v.variability,
-        "unit": v.unit,
-        "start": v.start,
-        "min": v.low if math.isfinite(v.low) else None,
-        "max": v.high if math.isfinite(v.high) else None,
-        "description": v.description,
-        "items": v.items or None,
-    }
-    return {key: value for key, value in record.items() if value is not None}

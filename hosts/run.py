@@ -46,10 +46,10 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
 def _run(options: argparse.Namespace) -> int:
     from hosts.co_simulation import check_columns, communication_step, run_with_bar
     from hosts.fmu import Fmu
+    from hosts.manoeuvre_settings import set_in
     from hosts.result_files import print_result, result_paths, write_csv, write_record
     from hosts.result_plots import plot_page
     from hosts.run_summary import summary
-    from hosts.settings import set_in
 
     path = options.fmu
     with Fmu(path) as fmu:
@@ -84,7 +84,8 @@ def run_manoeuvre(fmu: Fmu, table: Path | None, stop_time: float | None) -> Mano
     """
     import numpy as np
 
-    from hosts.manoeuvre import Manoeuvre, load_manoeuvre
+    from hosts.load_manoeuvre import load_manoeuvre
+    from hosts.manoeuvre import Manoeuvre
 
     if table is not None:
         if table.suffix not in (".csv", ".ini"):

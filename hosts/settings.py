@@ -8,15 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from ali3.parameter_set import Entry, ParameterSet, UnitDefinition, read_parameter_set
-from hosts.driver import ACTS
 from hosts.errors import HostError
-from hosts.fmu import Fmu
-from hosts.manoeuvre import Manoeuvre
 from hosts.numbers import Value
 from hosts.options import Wishes
 from hosts.variables import Variable, Variables
 
-_START = "start of "
+START_OF = "start of "
+"""How the source of a start value of a manoeuvre begins."""
 _MOST_IN_TITLE = 2
 
 
@@ -158,7 +156,7 @@ class Settings:
         name : str
             Of the run.
         """
-        mine = [s for s in self.changes if not s.source.startswith(_START)]
+        mine = [s for s in self.changes if not s.source.startswith(START_OF)]
         shown = [f"{s.variable.name} {s.variable.with_unit(s.value)}" for s in mine[:_MOST_IN_TITLE]]
         more = [f"{len(mine) - len(shown)} more"] if len(mine) > len(shown) else []
         return ", ".join([name, *shown, *more])
@@ -252,33 +250,3 @@ def settings_of(
         settings.add_set(file)
     settings.add_texts(wishes.values, "--set")
     return settings
-
-
-def set_in(fmu: Fmu, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | None = None) -> tuple[Manoeuvre, Settings]:
-    """The manoeuvre with all that the user sets, and what to say of it.
-
-    Parameters
-    ----------
-    fmu : Fmu
-        Not yet initialised.
-    manoeuvre : Manoeuvre
-        Its start values come first.
-    wishes : Wishes
-        Of the command line.
-    fidelity : float, optional
-        Of the option ``--fidelity``.
-
-    Raises
-    ------
-    HostError
-        A name, value, kind or unit is wrong.
-    """
-    settings = settings_of(fmu.table, wishes, manoeuvre.start, f"{_START}{manoeuvre.name}")
-    if fidelity is not None:
-        if "fidelity" in dict(wishes.values):
-            raise HostError("The fidelity is given by --fidelity and by --set; give it once.")
-        settings.add_numbers({"fidelity": fidelity}, "--fidelity")
-    settings.overwritten(manoeuvre.inputs, f"it is a column of the manoeuvre {manoeuvre.name}")
-    if manoeuvre.driver:
-        settings.overwritten(ACTS, f"the driver of the manoeuvre {manoeuvre.name} acts on it")
-    return replace(manoeuvre, start=settings.start), settings

@@ -201,9 +201,10 @@ def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[s
     from hosts.co_simulation import check_columns, communication_step, driver_of, run_with_bar
     from hosts.driver import ACTS, SENSES
     from hosts.fmu import Fmu
-    from hosts.manoeuvre import load_manoeuvre, with_names_of
+    from hosts.load_manoeuvre import load_manoeuvre
+    from hosts.manoeuvre import with_names_of
+    from hosts.manoeuvre_settings import set_in
     from hosts.run import run_manoeuvre
-    from hosts.settings import set_in
 
     told = []
     with Fmu(path) as fmu:

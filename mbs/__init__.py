@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from mbs.accuracy import Accuracy, AccuracyWarning
     from mbs.animation import Animation, animate
     from mbs.control import Control
-    from mbs.errors import SimulationError
     from mbs.kinks import LinearisationWarning
     from mbs.large_bending import BendingWarning
     from mbs.linear_model import LinearModel, linearise
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
     from mbs.roads import RoadFile, RoadFileError, read_road, write_road
     from mbs.settings import Settings
     from mbs.simulation import Pose, Simulation, simulate
+    from mbs.simulation_error import SimulationError
     from mbs.trajectory import Trajectory
 
 # what needs the compiled kernel is imported when it is first asked for
@@ -42,7 +42,7 @@ _LAZY = {
     "write_road": "mbs.roads",
     "Settings": "mbs.settings",
     "Simulation": "mbs.simulation",
-    "SimulationError": "mbs.errors",
+    "SimulationError": "mbs.simulation_error",
     "Trajectory": "mbs.trajectory",
     "FloquetModel": "mbs.periodic_motion",
     "BendingWarning": "mbs.large_bending",

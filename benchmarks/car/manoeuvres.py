@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from benchmarks.shared.timing import step_time
 from hosts.driver import make_driver
-from hosts.manoeuvre import Manoeuvre, load_manoeuvre, with_names_of
+from hosts.load_manoeuvre import load_manoeuvre
+from hosts.manoeuvre import Manoeuvre, with_names_of
 from mbs import Pose, Settings, Simulation, System, Trajectory, compile, simulate
 from mbs.elements.road import GridRoad
 from mbs.input_signals import Signal

@@ -13,10 +13,9 @@ from benchmarks.shared.timing import step_time
 from mbs import Model, Simulation, compile
 from mbs.checks import direction
 from mbs.model.body import Body
+from mbs.model.carried import SlidingPoint, Spin
 from mbs.model.joints.joint import Joint
 from mbs.model.perpendicular import perpendicular
-from mbs.model.slide import SlidingPoint
-from mbs.model.spin import Spin
 from mbs.scenes import double_four_bar, prototype_car
 from mbs.vehicle import car
 

@@ -120,7 +120,7 @@ def _check(options: argparse.Namespace) -> None:
 def _manoeuvre(options: argparse.Namespace) -> Manoeuvre | None:
     if options.manoeuvre is None:
         return None
-    from hosts.manoeuvre import load_manoeuvre
+    from hosts.load_manoeuvre import load_manoeuvre
 
     return load_manoeuvre(options.manoeuvre)
 

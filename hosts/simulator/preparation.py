@@ -13,18 +13,19 @@ from fmpy.model_description import ModelDescription
 from ali3.files import check_writable, make_folder
 from ali3.running import command_name
 from hosts.aliases import Aliases, find_aliases
+from hosts.description_record import description_record
 from hosts.errors import HostError
 from hosts.fmu import described
 from hosts.geometry import scene_of
 from hosts.manoeuvre import Manoeuvre, with_names_of
 from hosts.numbers import Value
 from hosts.options import Wishes
-from hosts.page_parts import description_record
 from hosts.road import PARAMETER as ROAD
 from hosts.settings import Settings
 from hosts.simulator.drivable import not_drivable
 from hosts.simulator.fmu_file import FoundFmu, find_fmu
-from hosts.simulator.recording import DESCRIPTION, check_new
+from hosts.simulator.recording import check_new
+from hosts.simulator.recording_format import DESCRIPTION
 from hosts.simulator.world_files import DEFAULT_WORLD, World, make_world, no_world
 from hosts.variables import Variables
 

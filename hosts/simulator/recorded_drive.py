@@ -13,7 +13,7 @@ import numpy as np
 from ali3.files import reason
 from hosts.errors import HostError
 from hosts.numbers import Value
-from hosts.simulator.recording import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, VERSION
+from hosts.simulator.recording_format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, VERSION
 from hosts.simulator.recording_tables import Rows, blocks_of, joined
 
 _KEYS = {"fmu": str, "guid": str, "inputs": int, "step": (int, float), "start": dict, "columns": list, "units": dict}

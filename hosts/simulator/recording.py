@@ -22,14 +22,8 @@ from ali3.files import make_folder, whole_file, write_text
 from ali3.running import missing_package
 from hosts.errors import HostError
 from hosts.numbers import Value
+from hosts.simulator.recording_format import DESCRIPTION, EVENTS, FORMAT, STATE, VERSION
 from hosts.simulator.recording_tables import CsvTable, ParquetTable, Rows, Table
-
-FORMAT, VERSION = "ALi3 recording", 1
-DESCRIPTION, EVENTS, STATE = "recording.json", "events.jsonl", "start.state"
-
-RESTARTS = ("reset", "upright")
-"""Kinds of events with which the FMU starts anew."""
-REWIND, REFUSED = "rewind", "refused"
 
 _MOST_ROWS = 2000  # in memory before they are written
 _MOST_WAIT = 2.0  # s of the clock before they are written

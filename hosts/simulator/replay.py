@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from hosts.errors import HostError
 from hosts.fmu import Fmu, State, StepRefusedError
 from hosts.simulator.recorded_drive import RecordedDrive, RowKey
-from hosts.simulator.recording import REFUSED
+from hosts.simulator.recording_format import REFUSED
 from hosts.simulator.recording_tables import Rows
 
 

@@ -13,7 +13,8 @@ import numpy as np
 from hosts.co_simulation import check_columns, communication_step, driver_of
 from hosts.driver import ACTS
 from hosts.errors import HostError
-from hosts.manoeuvre import Manoeuvre, load_manoeuvre, with_names_of
+from hosts.load_manoeuvre import load_manoeuvre
+from hosts.manoeuvre import Manoeuvre, with_names_of
 from hosts.manoeuvres import manoeuvre_names
 from hosts.numbers import Value
 from hosts.study.study_file import ManoeuvreEntry, StudyFile

@@ -9,7 +9,7 @@ from mbs.checks import flag, positive
 from mbs.compiler.polynomial import RowTerms
 from mbs.kernel.header import ParameterTarget
 from mbs.model.model import Model
-from mbs.model.parameters import Parameter
+from mbs.model.records import Parameter
 
 
 def _built_in_road(model: Model, parameter: Parameter) -> dict[str, int]:

@@ -16,7 +16,7 @@ from mbs.kernel.header import SensorType
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.reactions import MOST_FACTORS
-from mbs.model.sensors import Sensor
+from mbs.model.sensor import Sensor
 
 Arrays = dict[str, NDArray[Any]]
 

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 
 from mbs.checks import numbers
 from mbs.errors import ModelError
+from mbs.flexible.beam_frame import node_labels
 from mbs.flexible.fe_model import FiniteElementModel
-from mbs.flexible.fe_model_checks import check_free, check_masses, check_symmetric, check_units
-from mbs.flexible.frame import node_labels
+from mbs.flexible.fe_model_checks import check_free, check_symmetric, check_units
 from mbs.flexible.lumping import lumped_masses
-from mbs.flexible.mass_points import nodal_mass_points
+from mbs.flexible.mass_points import check_masses, nodal_mass_points
 from mbs.flexible.sparse import Sparse
 
 

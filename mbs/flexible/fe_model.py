@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.sparse as sp
@@ -12,10 +11,8 @@ from scipy.linalg import qr
 
 from mbs.checks import flag, is_finite, shown
 from mbs.errors import ModelError
+from mbs.flexible.beam_frame import BeamFrame
 from mbs.flexible.mass_points import MassPoints
-
-if TYPE_CHECKING:
-    from mbs.flexible.frame import Frame
 
 ON_ONE_LINE = 1e-6  # of the extent of the three reference nodes
 Reference = str | int | Sequence[str | int]
@@ -38,7 +35,7 @@ class FiniteElementModel:
         Stiffness, symmetric, of the free model: six rigid motions and nothing else cost no energy.
     mass : MassPoints
         Mass.
-    frame : Frame, optional
+    frame : BeamFrame, optional
         Beams it was made of, with its nodes; None for models of other programs.
     """
 
@@ -47,7 +44,7 @@ class FiniteElementModel:
     dof: np.ndarray
     K: sp.csc_array
     mass: MassPoints
-    frame: Frame | None = None
+    frame: BeamFrame | None = None
 
     @property
     def n_dof(self) -> int:

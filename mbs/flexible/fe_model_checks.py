@@ -38,13 +38,6 @@ def check_symmetric(matrix: Sparse, what: str) -> None:
         raise ModelError(f"The {what} matrix is not symmetric: entries ({i}, {j}) and ({j}, {i}) differ by {gap:g}.")
 
 
-def check_masses(masses: np.ndarray, names: tuple[str, ...]) -> None:
-    """Refuse masses that are negative or not finite, one per node."""
-    wrong = np.flatnonzero(~(np.isfinite(masses) & (masses >= 0.0)))
-    if wrong.size:
-        raise ModelError(f"The mass at node {names[wrong[0]]!r} is {masses[wrong[0]]:g} kg; it cannot be negative.")
-
-
 def check_units(model: FiniteElementModel) -> None:
     """Refuse totals that no body on wheels or benches has in kilograms and metres."""
     total, size = float(model.mass.masses.sum()), float(np.ptp(model.positions, axis=0).max())

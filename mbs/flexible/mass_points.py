@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from mbs.errors import ModelError
+
 
 @dataclass(frozen=True)
 class MassPoints:
@@ -58,3 +60,10 @@ def nodal_mass_points(positions: np.ndarray, masses: np.ndarray, translation: np
     rows = np.arange(3 * heavy.size)
     pick = sp.csr_array((np.ones(rows.size), (rows, translation[heavy].ravel())), shape=(rows.size, n_dof))
     return MassPoints(positions[heavy], masses[heavy], pick)
+
+
+def check_masses(masses: np.ndarray, names: tuple[str, ...]) -> None:
+    """Refuse masses that are negative or not finite, one per node."""
+    wrong = np.flatnonzero(~(np.isfinite(masses) & (masses >= 0.0)))
+    if wrong.size:
+        raise ModelError(f"The mass at node {names[wrong[0]]!r} is {masses[wrong[0]]:g} kg; it cannot be negative.")

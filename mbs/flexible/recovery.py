@@ -9,12 +9,12 @@ import scipy.sparse as sp
 
 from mbs.checks import instance_of, is_finite, shown
 from mbs.errors import ModelError
-from mbs.flexible.frame import Frame
+from mbs.flexible.beam_frame import BeamFrame
 
 FORCES = ("N", "Vy", "Vz", "T", "My", "Mz")
 
 
-def end_forces(frame: Frame, element: int) -> np.ndarray:
+def end_forces(frame: BeamFrame, element: int) -> np.ndarray:
     """Forces and moments on the two ends of a beam in its local axes, shape (12, 12) on its local freedoms' globals.
 
     Columns are the twelve degrees of freedom `Frame.element_freedoms`.
@@ -23,7 +23,7 @@ def end_forces(frame: Frame, element: int) -> np.ndarray:
     return frame.element_stiffness(element) @ T
 
 
-def section_forces(frame: Frame, element: int, xi: float) -> sp.csr_array:
+def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
     """Section forces at ``x = xi * length`` per unit nodal displacement.
 
     They act on the face whose normal is +x: N pulls, T twists about x, positive My stretches the fibres at +z,
@@ -31,7 +31,7 @@ def section_forces(frame: Frame, element: int, xi: float) -> sp.csr_array:
 
     Parameters
     ----------
-    frame : Frame
+    frame : BeamFrame
         The beams.
     element : int
         Number of the beam.
@@ -48,7 +48,7 @@ def section_forces(frame: Frame, element: int, xi: float) -> sp.csr_array:
     ModelError
         The place is outside the beam, or there is no such beam.
     """
-    instance_of(Frame, frame, "The frame of the section forces", "a Frame")
+    instance_of(BeamFrame, frame, "The frame of the section forces", "a Frame")
     if not is_finite(xi) or not 0.0 <= xi <= 1.0:
         raise ModelError(f"The place {shown(xi)} on beam {element} is outside the beam: 0 is its start and 1 its end.")
     length, _ = frame.element_axes(element)
@@ -62,7 +62,7 @@ def section_forces(frame: Frame, element: int, xi: float) -> sp.csr_array:
     return sp.csr_array(sp.coo_array((rows.ravel(), indices), shape=(6, 6 * len(frame.positions))))
 
 
-def fibre_stresses(frame: Frame, element: int, xi: float, fibres: np.ndarray | None = None) -> sp.csr_array:
+def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray | None = None) -> sp.csr_array:
     """Normal stress at points of a section, N/A + My z/Iy - Mz y/Iz, shape (n_fibres, n_dof), Pa per m and rad.
 
     Parameters
@@ -101,12 +101,12 @@ class StrainGauge:
     xi: float = 0.5
     fibre: tuple[float, float] | None = None
 
-    def bending_moment(self, frame: Frame) -> sp.csr_array:
+    def bending_moment(self, frame: BeamFrame) -> sp.csr_array:
         """Moment about the axis across the fibre, positive when the fibre is stretched; My for the highest fibre.
 
         Parameters
         ----------
-        frame : Frame
+        frame : BeamFrame
             The beams.
 
         Returns
@@ -119,12 +119,12 @@ class StrainGauge:
         forces = section_forces(frame, self.element, self.xi)
         return sp.csr_array(forces[[4]] * (z / size) - forces[[5]] * (y / size))
 
-    def half_bridge(self, frame: Frame) -> sp.csr_array:
+    def half_bridge(self, frame: BeamFrame) -> sp.csr_array:
         """Stress of the fibre minus that of the opposite one; blind to pull and twist.
 
         Parameters
         ----------
-        frame : Frame
+        frame : BeamFrame
             The beams.
 
         Returns
@@ -136,12 +136,12 @@ class StrainGauge:
         both = fibre_stresses(frame, self.element, self.xi, np.array([(y, z), (-y, -z)]))
         return sp.csr_array(both[[0]] - both[[1]])
 
-    def fibre_stress(self, frame: Frame) -> sp.csr_array:
+    def fibre_stress(self, frame: BeamFrame) -> sp.csr_array:
         """Bending stress of the fibre, half of the half-bridge.
 
         Parameters
         ----------
-        frame : Frame
+        frame : BeamFrame
             The beams.
 
         Returns
@@ -151,12 +151,12 @@ class StrainGauge:
         """
         return sp.csr_array(self.half_bridge(frame) * 0.5)
 
-    def quarter_bridge(self, frame: Frame) -> sp.csr_array:
+    def quarter_bridge(self, frame: BeamFrame) -> sp.csr_array:
         """Normal stress of the fibre, by pull and by bending: Young's modulus times the strain that one gauge reads.
 
         Parameters
         ----------
-        frame : Frame
+        frame : BeamFrame
             The beams.
 
         Returns
@@ -166,12 +166,12 @@ class StrainGauge:
         """
         return fibre_stresses(frame, self.element, self.xi, np.array([self._point(frame)]))
 
-    def axial_force(self, frame: Frame) -> sp.csr_array:
+    def axial_force(self, frame: BeamFrame) -> sp.csr_array:
         """N, positive when the beam is pulled.
 
         Parameters
         ----------
-        frame : Frame
+        frame : BeamFrame
             The beams.
 
         Returns
@@ -181,12 +181,12 @@ class StrainGauge:
         """
         return sp.csr_array(section_forces(frame, self.element, self.xi)[[0]])
 
-    def axial_stress(self, frame: Frame) -> sp.csr_array:
+    def axial_stress(self, frame: BeamFrame) -> sp.csr_array:
         """Mean normal stress, N / A.
 
         Parameters
         ----------
-        frame : Frame
+        frame : BeamFrame
             The beams.
 
         Returns
@@ -196,12 +196,12 @@ class StrainGauge:
         """
         return sp.csr_array(self.axial_force(frame) * (1.0 / frame.beams[int(self.element)].section.area))
 
-    def torque(self, frame: Frame) -> sp.csr_array:
+    def torque(self, frame: BeamFrame) -> sp.csr_array:
         """T, positive when it turns the far side of the section right-handed about the beam from start to end.
 
         Parameters
         ----------
-        frame : Frame
+        frame : BeamFrame
             The beams.
 
         Returns
@@ -211,12 +211,12 @@ class StrainGauge:
         """
         return sp.csr_array(section_forces(frame, self.element, self.xi)[[3]])
 
-    def shear_stress(self, frame: Frame) -> sp.csr_array:
+    def shear_stress(self, frame: BeamFrame) -> sp.csr_array:
         """Shear stress of the torque at the fibre of a round section, T r / J.
 
         Parameters
         ----------
-        frame : Frame
+        frame : BeamFrame
             The beams.
 
         Returns
@@ -234,16 +234,16 @@ class StrainGauge:
             raise ModelError(f"The section of beam {self.element} is not round: its shear stress is not T r / J.")
         return sp.csr_array(self.torque(frame) * (float(np.hypot(*self._point(frame))) / section.J))
 
-    def _point(self, frame: Frame) -> tuple[float, float]:
+    def _point(self, frame: BeamFrame) -> tuple[float, float]:
         return frame.beams[int(self.element)].section.fibres[0] if self.fibre is None else self.fibre
 
 
-def gauge_rows(frame: Frame, gauges: tuple[StrainGauge, ...]) -> tuple[np.ndarray, np.ndarray]:
+def gauge_rows(frame: BeamFrame, gauges: tuple[StrainGauge, ...]) -> tuple[np.ndarray, np.ndarray]:
     """Bending moments and half-bridge stresses of several gauges.
 
     Parameters
     ----------
-    frame : Frame
+    frame : BeamFrame
         The beams.
     gauges : tuple of StrainGauge
         The gauges.
@@ -258,18 +258,18 @@ def gauge_rows(frame: Frame, gauges: tuple[StrainGauge, ...]) -> tuple[np.ndarra
     return moments, bridges
 
 
-def section_force_field(frame: Frame) -> sp.csr_array:
+def section_force_field(frame: BeamFrame) -> sp.csr_array:
     """Section forces at both ends of every element, shape (12 n_elements, n_dof): six at the start, six at the end."""
     parts = [section_forces(frame, e, xi) for e in range(len(frame.beams)) for xi in (0.0, 1.0)]
     return sp.csr_array(sp.vstack(parts))
 
 
-def stress_field(frame: Frame) -> tuple[sp.csr_array, np.ndarray]:
+def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
     """Fibre stresses at both ends of every element as one constant matrix.
 
     Parameters
     ----------
-    frame : Frame
+    frame : BeamFrame
         The beams.
 
     Returns
@@ -287,7 +287,7 @@ def stress_field(frame: Frame) -> tuple[sp.csr_array, np.ndarray]:
     return sp.csr_array(sp.vstack(parts)), np.array(where)
 
 
-def peak_tube_stress(frame: Frame, forces: np.ndarray) -> np.ndarray:
+def peak_tube_stress(frame: BeamFrame, forces: np.ndarray) -> np.ndarray:
     """Largest |normal stress| round each round section, |N|/A + r sqrt(My2 + Mz2)/I, Pa.
 
     Parameters

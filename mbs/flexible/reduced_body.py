@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mbs.checks import shown
 from mbs.errors import ModelError
+from mbs.flexible.beam_frame import BeamFrame
 from mbs.flexible.sparse import Sparse
-
-if TYPE_CHECKING:
-    from mbs.flexible.frame import Frame
 
 
 @dataclass(frozen=True)
@@ -70,7 +67,7 @@ class ReducedBody:
         The first modes are the static ones.
     frequencies : ndarray, shape (m - n_static,)
         Fixed-interface frequencies of the dynamic modes, Hz.
-    frame : Frame, optional
+    frame : BeamFrame, optional
         Beams of the finite-element model, with its nodes; None where it was given as matrices.
     """
 
@@ -90,7 +87,7 @@ class ReducedBody:
     interfaces: Mapping[str, InterfaceModes]
     n_static: int
     frequencies: np.ndarray
-    frame: Frame | None = None
+    frame: BeamFrame | None = None
 
     @property
     def n_modes(self) -> int:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.errors import ModelError
-from mbs.flexible.frame import Beam, Frame
+from mbs.flexible.beam_frame import Beam, BeamFrame
 from mbs.flexible.recovery import fibre_stresses, section_force_field
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.section import Section
@@ -114,7 +114,7 @@ def _points(count: int) -> tuple[NDArray[np.int64], dict[str, Any]]:
 
 
 def _beams(
-    body: ReducedBody, frame: Frame, group: NDArray[np.int64], rule: str, entry: Any, scale: float | None
+    body: ReducedBody, frame: BeamFrame, group: NDArray[np.int64], rule: str, entry: Any, scale: float | None
 ) -> dict[str, Any]:
     beams = [frame.beams[k] for k in group]
     nodes, ends = np.unique([[beam.i, beam.j] for beam in beams], return_inverse=True)
@@ -146,7 +146,7 @@ def _radius(beam: Beam) -> float:
     return float(np.sqrt(half[0] * half[1]))
 
 
-def _round_rows(body: ReducedBody, frame: Frame, group: NDArray[np.int64]) -> Array:
+def _round_rows(body: ReducedBody, frame: BeamFrame, group: NDArray[np.int64]) -> Array:
     """Axial stress and two bending stresses per mode, shape (beams, 2, 3, modes)."""
     forces = body.recovery(section_force_field(frame)).reshape(len(frame.beams), 2, 6, body.n_modes)[group]
     sections = [frame.beams[k].section for k in group]
@@ -155,7 +155,7 @@ def _round_rows(body: ReducedBody, frame: Frame, group: NDArray[np.int64]) -> Ar
     return np.stack([forces[:, :, 0] / area, forces[:, :, 4] * bending, forces[:, :, 5] * bending], axis=2)
 
 
-def _fibre_rows(body: ReducedBody, frame: Frame, group: NDArray[np.int64]) -> Array:
+def _fibre_rows(body: ReducedBody, frame: BeamFrame, group: NDArray[np.int64]) -> Array:
     """Stress of each fibre per mode, shape (beams, 2, fibres, modes); a section with fewer fibres repeats its first."""
     most = max(len(frame.beams[k].section.fibres) for k in group)
     rows = np.empty((len(group), 2, most, body.n_modes))

@@ -2,15 +2,12 @@
 
 from mbs.errors import ModelError
 from mbs.model.body import Body, PointMass
-from mbs.model.core import Coordinate
-from mbs.model.guides import Guide
-from mbs.model.inputs import Input
+from mbs.model.carried import SlidingPoint, Spin
+from mbs.model.coordinate import Coordinate
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
-from mbs.model.parameters import Parameter
-from mbs.model.sensors import Sensor
-from mbs.model.slide import SlidingPoint
-from mbs.model.spin import Spin
+from mbs.model.records import Guide, Input, Parameter
+from mbs.model.sensor import Sensor
 
 __all__ = [
     "Body",

@@ -9,7 +9,7 @@ from mbs.checks import direction, number
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import Coordinate
+from mbs.model.coordinate import Coordinate
 from mbs.model.ends import different
 from mbs.model.equation import AnglePart, Equation, dot_products
 from mbs.model.joints.joint import Joint, Turn

@@ -12,10 +12,11 @@ from mbs.checks import Vector, array, capital, direction, is_number, mapping, po
 from mbs.errors import ModelError
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.model.body import Body, Ground, PointMass
+from mbs.model.carried import Payload
 from mbs.model.core import ModelCore
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.inertia import inertia_matrix
-from mbs.model.payload import Payload, new_payload
+from mbs.model.payload import new_payload
 from mbs.model.ports import PortedBody
 
 SIZES = (1e-12, 1e8)
@@ -221,7 +222,7 @@ class BodyVocabulary(ModelCore):
         if not given:
             raise ModelError(f"The ports of body '{body.name}' are {shown(ports)}; it needs one at least.")
         places = {n: vector(p, 3, f"the port {shown(n)} of body '{body.name}'") for n, p in given.items()}
-        return PortedBody(body, places)
+        return PortedBody(self, body, places)
 
     def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
         """Start velocity of a body: of its centre of mass, its angular velocity, or both.

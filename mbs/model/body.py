@@ -7,18 +7,14 @@ of it is affine in these, and its mass matrix is constant (pseudo-inertia).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.affine import Affine, AffineVector
 from mbs.checks import Vector, vector
 from mbs.errors import ModelError
-from mbs.model.core import CoordinateInfo
-
-if TYPE_CHECKING:
-    from mbs.model.bodies import BodyVocabulary
+from mbs.model.coordinate import CoordinateInfo
+from mbs.model.register import Register
 
 
 class Body:
@@ -37,12 +33,13 @@ class Body:
     is_point = False
     is_flexible = False
 
-    def __init__(self, model: BodyVocabulary, name: str, com: Vector, start: int) -> None:
+    def __init__(self, model: Register, name: str, com: Vector, start: int) -> None:
         self.model = model
         self.name = name
         self.com = com
         self.start = start
         self.number = -1
+        self.owner: Body = self  # whose coordinates it has
         self.joint_points: list[Vector] = []
         self.joint_axes: list[Vector] = []
         # zeroth, first and second moments of mass about `com` in the body axes

@@ -9,9 +9,11 @@ from mbs.checks import number, one_of, shown
 from mbs.checks import text as checked_text
 from mbs.errors import ModelError
 from mbs.kernel.header import GuideType, SensorType, SolverValue
-from mbs.model.guides import Guide, owned_guide
-from mbs.model.inputs import Input, owned_input
-from mbs.model.sensors import Sensor, SensorBase, order_number
+from mbs.model.guides import owned_guide
+from mbs.model.inputs import owned_input
+from mbs.model.records import Guide, Input
+from mbs.model.sensor import Sensor
+from mbs.model.sensors import SensorBase, order_number
 
 SOLVER = tuple(value.name.lower() for value in SolverValue)
 SOLVER_UNITS = {SolverValue.VIOLATION: "m", SolverValue.RESIDUAL: "m", SolverValue.ENERGY_ERROR: "J"}

@@ -2,30 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from mbs.checks import number, shown, text
 from mbs.model.core import ModelCore
-
-
-@dataclass(frozen=True)
-class Constant:
-    """A number that is stated, not computed.
-
-    Parameters
-    ----------
-    name : str
-        Unique, such as ``vehicle.wheelbase``.
-    value : float
-        In `unit`.
-    unit : str
-    description : str
-    """
-
-    name: str
-    value: float
-    unit: str
-    description: str
+from mbs.model.records import Constant
 
 
 def new_constant(model: ModelCore, name: str, value: float, unit: str, description: str) -> Constant:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from mbs.checks import shown
 from mbs.errors import ModelError
 from mbs.model.body import Body, PointMass
-from mbs.model.slide import SlidingPoint
+from mbs.model.carried import SlidingPoint
 
 FixedEnd: TypeAlias = "tuple[Body, ArrayLike] | PointMass"
 """A point of a body, earth axes in the reference configuration, m; or a particle."""

@@ -8,8 +8,6 @@ rows.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -20,12 +18,10 @@ from mbs.flexible.fe_model_checks import check_turning_inertia
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.shape_integrals import ShapeIntegrals, shape_integrals
 from mbs.model.body import Body
-from mbs.model.core import CoordinateInfo
+from mbs.model.coordinate import CoordinateInfo
+from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, Product
 from mbs.model.joints.joint import Joint
-
-if TYPE_CHECKING:
-    from mbs.model.bodies import BodyVocabulary
 
 SAME_PLACE = 1e-6
 """A point belongs to a node if it is no farther from it, m."""
@@ -50,9 +46,11 @@ class FlexibleBody(Body):
 
     is_flexible = True
 
+    model: ModelCore
+
     def __init__(
         self,
-        model: BodyVocabulary,
+        model: ModelCore,
         name: str,
         reduced: ReducedBody,
         origin: Vector,
@@ -141,7 +139,9 @@ class FlexibleBody(Body):
     @property
     def frame(self) -> Body:
         """The floating frame in the part of a rigid body: its points do not take part in the deformation."""
-        return Body(self.model, f"{self.name}.frame", self.com, self.start)
+        body = Body(self.model, f"{self.name}.frame", self.com, self.start)
+        body.owner = self
+        return body
 
     def interface(self, node: str | int) -> Interface:
         """A node as something that joints, forces and sensors take like a body.
@@ -341,6 +341,9 @@ class Interface(Body):
     """
 
     is_flexible = True
+
+    owner: FlexibleBody
+    model: ModelCore
 
     def __init__(self, owner: FlexibleBody, node: int) -> None:
         name = f"{owner.name}.{owner.reduced.node_names[node]}"

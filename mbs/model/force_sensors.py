@@ -14,7 +14,8 @@ from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.kernel.header import SensorType
 from mbs.model.flexible import FlexibleBody
 from mbs.model.ports import PortedBody
-from mbs.model.sensors import Sensor, SensorBase
+from mbs.model.sensor import Sensor
+from mbs.model.sensors import SensorBase
 
 WORKS = ("work", "nonconservative")
 ENERGIES = ("kinetic", "gravity", "elastic", "total")

@@ -25,12 +25,12 @@ from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import Coordinate
+from mbs.model.carried import Spin
+from mbs.model.coordinate import Coordinate
 from mbs.model.ends import FixedEnd, body_and_point, different
 from mbs.model.flexible import FlexibleBody
-from mbs.model.inputs import Input, owned_input
-from mbs.model.parameters import RoadFileParameter
-from mbs.model.spin import Spin
+from mbs.model.inputs import owned_input
+from mbs.model.records import Input, RoadFileParameter
 from mbs.roads.road_file import RoadFile
 
 

@@ -4,7 +4,6 @@ filter.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,21 +14,8 @@ from mbs.checks import LARGEST, array, number, positive, shown, text
 from mbs.errors import ModelError
 from mbs.kernel.header import GuideType
 from mbs.model.core import ModelCore
-from mbs.model.inputs import Input, owned_input
-
-
-@dataclass(frozen=True)
-class Guide:
-    """A prescribed motion; `reals` as in the System file, `second` the number of a second input or -1."""
-
-    name: str
-    index: int
-    type: GuideType
-    input: int
-    reals: tuple[float, ...]
-    start: float
-    unit: str
-    second: int = -1
+from mbs.model.inputs import owned_input
+from mbs.model.records import Guide, Input
 
 
 def guide_input(model: ModelCore, name: str, input: Input, gain: float, frequency: float, unit: str) -> Guide:

@@ -3,26 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from mbs.checks import flag, limit, number, shown, text
 from mbs.elements.record_checks import MOST
 from mbs.errors import ModelError
 from mbs.model.core import ModelCore
-
-
-@dataclass(frozen=True)
-class Input:
-    """A number that a host sets at every step; `index` is its place in the System."""
-
-    name: str
-    index: int
-    start: float
-    min: float
-    max: float
-    unit: str
-    description: str
-    whole: bool = False
+from mbs.model.records import Input
 
 
 def new_input(

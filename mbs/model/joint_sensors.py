@@ -13,10 +13,12 @@ from mbs.checks import number, shown
 from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
-from mbs.model.guides import Guide, owned_guide
+from mbs.model.guides import owned_guide
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.reactions import Term, folded, force_on_first, guide_terms, moment_terms, rod_terms
-from mbs.model.sensors import Sensor, SensorBase, component_number
+from mbs.model.records import Guide
+from mbs.model.sensor import Sensor
+from mbs.model.sensors import SensorBase, component_number
 
 
 class JointSensorVocabulary(SensorBase):

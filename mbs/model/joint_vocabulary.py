@@ -7,9 +7,9 @@ from numpy.typing import ArrayLike
 from mbs.affine import Affine
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import Coordinate
+from mbs.model.carried import Spin
+from mbs.model.coordinate import Coordinate
 from mbs.model.ends import End, PointPair
-from mbs.model.guides import Guide
 from mbs.model.joints.distance import distance
 from mbs.model.joints.drive import drive
 from mbs.model.joints.joint import Joint
@@ -17,7 +17,7 @@ from mbs.model.joints.pin import pin
 from mbs.model.joints.points import revolute, spherical, universal
 from mbs.model.joints.rolling import rolling, skate
 from mbs.model.joints.sliding import cylindrical, point_on_line, prismatic, weld
-from mbs.model.spin import Spin
+from mbs.model.records import Guide
 
 
 class JointVocabulary(BodyVocabulary):

@@ -13,21 +13,22 @@ from mbs.elements.record import ElementRecord
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
 from mbs.model.body import Body
+from mbs.model.carried import SlidingPoint, Spin
 from mbs.model.channel_sensors import ChannelSensorVocabulary
-from mbs.model.constants import Constant, new_constant
-from mbs.model.core import Coordinate
+from mbs.model.constants import new_constant
+from mbs.model.coordinate import Coordinate
 from mbs.model.flexible import FlexibleBody
 from mbs.model.force_sensors import ForceSensorVocabulary
 from mbs.model.forces import ForceVocabulary
-from mbs.model.guides import Guide, guide_input, guide_inputs, guide_time, owned_guide
-from mbs.model.inputs import Input, new_input
+from mbs.model.guides import guide_input, guide_inputs, guide_time, owned_guide
+from mbs.model.inputs import new_input
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
-from mbs.model.parameters import Parameter, Target, new_parameter
-from mbs.model.slide import SlidingPoint
+from mbs.model.parameters import Target, new_parameter
+from mbs.model.records import Constant, Guide, Input, Parameter
 from mbs.model.sliding_shapes import SlidingVocabulary
-from mbs.model.spin import Spin, spin
+from mbs.model.spin import spin
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
 
 

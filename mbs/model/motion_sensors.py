@@ -11,9 +11,10 @@ from mbs.elements.spin_angle import SpinAngle
 from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
-from mbs.model.core import Coordinate
-from mbs.model.sensors import RATE_UNITS, SIGNALS, Sensor, SensorBase, component_number, order_number, spatial
-from mbs.model.spin import Spin
+from mbs.model.carried import Spin
+from mbs.model.coordinate import Coordinate
+from mbs.model.sensor import Sensor
+from mbs.model.sensors import RATE_UNITS, SIGNALS, SensorBase, component_number, order_number, spatial
 
 
 class MotionSensorVocabulary(SensorBase):

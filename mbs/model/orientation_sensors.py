@@ -9,7 +9,8 @@ from mbs.checks import one_of
 from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
-from mbs.model.sensors import Sensor, SensorBase, component_number, spatial
+from mbs.model.sensor import Sensor
+from mbs.model.sensors import SensorBase, component_number, spatial
 
 
 class OrientationSensorVocabulary(SensorBase):

@@ -10,10 +10,10 @@ from mbs.checks import flag, not_negative, not_zero, number, positive, shown, te
 from mbs.elements.record import ElementRecord
 from mbs.errors import ModelError
 from mbs.kernel.header import GuideType, ParameterTarget
+from mbs.model.carried import Payload
 from mbs.model.core import ModelCore
-from mbs.model.guides import Guide
 from mbs.model.payload import REALS as PAYLOAD_REALS
-from mbs.model.payload import Payload
+from mbs.model.records import Guide, Parameter
 
 _OF_INPUT: dict[str, Callable[[object, str], float]] = {"frequency": positive, "gain": number, "start": number}
 GUIDE_REALS = {
@@ -24,66 +24,6 @@ Owner: TypeAlias = "ElementRecord | Guide | Payload | str | tuple[str, int]"
 """An element, a guide, a payload or the name of one; or ("road", number)."""
 Target: TypeAlias = "tuple[Owner, str | int, float] | tuple[Owner, str | int, float, float]"
 """Owner, its real, scale, and an offset if there is one."""
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A number that writes value * scale + offset to data of elements, guides, roads or payloads, or a switch.
-
-    Parameters
-    ----------
-    name : str
-        Unique among the parameters.
-    value, min, max : float
-        As compiled, and its limits.
-    unit, description : str
-        For hosts.
-    targets : tuple of (int, int, int, float, float)
-        Family, index in the family, index of the real, scale, offset.
-    tunable : bool
-        Whether it may be set while the model moves.
-    """
-
-    name: str
-    value: float
-    min: float
-    max: float
-    unit: str
-    description: str
-    targets: tuple[tuple[int, int, int, float, float], ...]
-    tunable: bool = True
-
-    @property
-    def whole(self) -> bool:
-        """Whether its values are whole numbers: it turns a switch."""
-        return any(where[0] == ParameterTarget.SWITCH for where in self.targets)
-
-
-@dataclass(frozen=True)
-class RoadFileParameter:
-    """A parameter that is text: the file in place of a road.
-
-    Parameters
-    ----------
-    name : str
-        Unique among the parameters.
-    road : int
-        Number of the road.
-    start : str
-        Path of the file; empty: none, the road of the model.
-    """
-
-    name: str
-    road: int
-    start: str
-
-    @property
-    def description(self) -> str:
-        """One sentence for hosts."""
-        return (
-            "File of the road (made by ali3 road, or a table .csv with coordinates) in place of the built-in one, "
-            "which an empty text means: a path, or the name of one in the folder roads of the resources"
-        )
 
 
 @dataclass(frozen=True)

@@ -2,49 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.affine import AffineVector
-from mbs.checks import Vector, not_negative, shown, vector
+from mbs.checks import not_negative, shown, vector
 from mbs.errors import ModelError
 from mbs.model.body import Body
+from mbs.model.carried import Payload
 from mbs.model.core import ModelCore
 from mbs.model.flexible import FlexibleBody
 
 REALS = ("mass",)
 SAME_PLACE = 1e-6
 """How far a point may be drawn from where it is said to be, m."""
-
-
-@dataclass(frozen=True)
-class Payload:
-    """A point mass that sits on a body; made by `Model.payload`.
-
-    Parameters
-    ----------
-    name : str
-        Unique among the payloads.
-    body : Body
-        What it sits on.
-    position : ndarray, shape (dimension,)
-        In earth axes in the reference configuration, m.
-    point : AffineVector
-        The point of the body as expressions of coordinates, m.
-    mass : float
-        kg.
-    shared : bool
-        Whether several points carry it.
-    """
-
-    name: str
-    body: Body
-    position: Vector
-    point: AffineVector
-    mass: float
-    shared: bool = False
 
 
 def new_payload(

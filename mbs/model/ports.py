@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from mbs.affine import Affine, AffineVector
 from mbs.checks import Vector, vector
 from mbs.model.body import Body
+from mbs.model.core import ModelCore
 from mbs.model.joints.joint import Joint, equal_vectors
 
 SAME_PLACE = 1e-6
@@ -29,20 +30,21 @@ class PortedBody(Body):
         The rows of each port; force on the body: plus the multipliers, earth axes, N.
     """
 
-    def __init__(self, owner: Body, places: Mapping[str, Vector]) -> None:
-        super().__init__(owner.model, f"{owner.name} with ports", owner.com, owner.start)
+    def __init__(self, model: ModelCore, owner: Body, places: Mapping[str, Vector]) -> None:
+        super().__init__(model, f"{owner.name} with ports", owner.com, owner.start)
+        self.owner = owner
         self.ports: dict[str, Joint] = {}
         self._points: list[tuple[Vector, AffineVector]] = []
         for name, place in places.items():
             what = f"{owner.name}.{name}"
             # from the centre of mass, so that the rows lose no digits far from the origin of the earth
             arm = place - owner.com
-            numbers = [self.model.new_coordinate(f"{what}.{'xyz'[k]}", "vector", float(arm[k]), k) for k in range(3)]
+            numbers = [model.new_coordinate(f"{what}.{'xyz'[k]}", "vector", float(arm[k]), k) for k in range(3)]
             free = AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
             joint = Joint(what, "port", equal_vectors(what, "point", free, owner.vector(arm)), rows_weight=1.0)
             joint.as_rows = True
-            self.model.unique("joint", what)
-            self.model.joints.append(joint)
+            model.unique("joint", what)
+            model.joints.append(joint)
             self.ports[name] = joint
             self._points.append((place, owner.point(owner.com) + free))
 

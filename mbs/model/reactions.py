@@ -6,18 +6,14 @@ a row u . v of vectors of both bodies turns the first one with the moment -lam u
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mbs.affine import Affine, AffineVector
-from mbs.model.equation import Equation, dot_products
-
-if TYPE_CHECKING:
-    from mbs.model.body import Body
-    from mbs.model.joints.joint import Joint
+from mbs.model.body import Body
+from mbs.model.joints.joint import Joint
+from mbs.model.turning import Turning
 
 MOST_FACTORS = 3
 
@@ -33,26 +29,6 @@ class Term:
     factors: tuple[Affine, ...] = ()
     guide: int = -1
     joint: Joint | None = None
-
-
-@dataclass(frozen=True)
-class Turning:
-    """What a joint holds of the turning of its bodies.
-
-    Parameters
-    ----------
-    points : pair of AffineVector
-        Of the first and the second body, where the joint is.
-    pairs : sequence of (u, v, value)
-        Vectors of the first and the second body whose product keeps the value.
-    """
-
-    points: tuple[AffineVector, AffineVector]
-    pairs: Sequence[tuple[AffineVector, AffineVector, float]]
-
-    def equations(self, name: str) -> list[Equation]:
-        """One per pair."""
-        return [Equation(name, "turning", dot_products(u, v), Affine({}, -value)) for u, v, value in self.pairs]
 
 
 def force_on_first(joint: Joint) -> list[tuple[int, float, AffineVector]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from mbs.affine import Affine, AffineVector
 from mbs.checks import flag, shown, text, whole
@@ -12,53 +11,11 @@ from mbs.kernel.header import SensorType
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.joints.joint import Joint
 from mbs.model.reactions import Term
+from mbs.model.sensor import Sensor
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 SIGNALS = (SensorType.SIGNAL, SensorType.SIGNAL_RATE, SensorType.SIGNAL_SECOND_RATE)
 RATE_UNITS = {"m": ("m", "m/s", "m/s2"), "rad": ("rad", "rad/s", "rad/s2")}
-
-
-@dataclass(frozen=True)
-class Sensor:
-    """One output.
-
-    Parameters
-    ----------
-    name, unit, description : str
-        For files, plots and hosts.
-    type : SensorType
-        Sensor type of the System file.
-    signals : sequence of Affine
-        Its signals; their numbers are put after `integers`.
-    integers, reals : sequence
-        The rest of its data.
-    joint : Joint, optional
-        For joint forces: the joint whose rows are weighted; ``integers`` are then numbers of its equations.
-    joints : sequence of Joint
-        Joints whose three rows each come last among the integers.
-    terms : sequence of Term
-        Products with multipliers of `joint`, which make up all integers and reals.
-    whole : bool
-        Whether its values are whole numbers.
-    display_unit : str
-        What engineers read it in, if that is not `unit`.
-    notice : str
-        What a run reports when the value is not zero; empty: nothing.
-    """
-
-    name: str
-    unit: str
-    description: str
-    type: SensorType
-    signals: Sequence[Affine] = ()
-    integers: Sequence[int] = ()
-    reals: Sequence[float] = ()
-    joint: Joint | None = None
-    joints: Sequence[Joint] = ()
-    terms: Sequence[Term] = ()
-    whole: bool = False
-    display_unit: str = ""
-    notice: str = ""
 
 
 def component_number(component: str, dimension: int, what: str) -> int:

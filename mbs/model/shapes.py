@@ -29,10 +29,10 @@ from mbs.checks import (
 from mbs.errors import ModelError
 from mbs.model.bodies import ROTATION, BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import Coordinate
+from mbs.model.carried import Spin
+from mbs.model.coordinate import Coordinate
 from mbs.model.flexible import Interface
 from mbs.model.ports import PortedBody
-from mbs.model.spin import Spin
 
 Kind: TypeAlias = Literal[
     "box", "sphere", "cylinder", "tube", "plate", "mesh", "spring", "damper", "wheel", "steering_wheel", "none"

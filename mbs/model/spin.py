@@ -2,49 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import Affine, AffineVector
 from mbs.checks import direction, not_negative, positive, vector
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import Coordinate
+from mbs.model.carried import Spin
 from mbs.model.perpendicular import perpendicular
-
-
-@dataclass(frozen=True)
-class Spin(Coordinate):
-    """A wheel on its carrier.
-
-    The coordinate is a quasi coordinate: its rate is the absolute angular velocity of the wheel along `axis`; its
-    value has no meaning. Mass and diametral inertia are lumped on the carrier, with zero axial inertia.
-
-    Attributes
-    ----------
-    centre, axis, f, g : AffineVector
-        Wheel centre and unit vectors of the carrier with axis = f x g.
-    rolling_radius : float
-        Radius, m, that gives the spin of a pose with a speed (positive speed along +x); 0: none.
-    """
-
-    carrier: Body
-    centre: AffineVector
-    axis: AffineVector
-    f: AffineVector
-    g: AffineVector
-    spin_inertia: float
-    rolling_radius: float
-    axis_reference: tuple[float, ...]
-
-    @property
-    def coordinate(self) -> Affine:
-        """The spin coordinate; its rate is the absolute axial angular velocity, rad/s."""
-        return self.affine
 
 
 def spin(

@@ -2,22 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from mbs.checks import shown
 from mbs.errors import ModelError
 from mbs.model.core import ModelCore
-
-
-@dataclass(frozen=True)
-class Switch:
-    """A switch by name; `index` is its place in the System."""
-
-    name: str
-    index: int
-    on: bool
+from mbs.model.records import Switch
 
 
 def new_switch(model: ModelCore, name: str, on: bool) -> Switch:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from mbs.model.body import Body
-from mbs.model.core import Coordinate
+from mbs.model.coordinate import Coordinate
 from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.joints.drop_link import drop_link
 from mbs.model.joints.gear import gear

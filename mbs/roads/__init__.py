@@ -1,7 +1,8 @@
 """Roads as files: the format that kernel and FMU read while they run, and what it is made of."""
 
 from mbs.roads.read_road import read_road
-from mbs.roads.road_file import RoadFile, RoadFileError
+from mbs.roads.road_file import RoadFile
+from mbs.roads.road_header import RoadFileError
 from mbs.roads.write_road import write_road
 
 __all__ = ["RoadFile", "RoadFileError", "read_road", "write_road"]

@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header import ROAD_FRICTION
 from mbs.roads.grid_files import read_grid
-from mbs.roads.road_file import RoadFileError
+from mbs.roads.road_header import RoadFileError
 from mbs.roads.rough_road import ISO_8608, rough_heights
 
 Length = Annotated[float, Field(gt=0.0, le=1e5)]

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.roads.road_file import RoadFileError
+from mbs.roads.road_header import RoadFileError
 
 REGULAR = 1e-6
 """Coordinates of a table may be off a regular grid by this part of its spacing."""

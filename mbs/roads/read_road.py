@@ -6,7 +6,8 @@ import os
 from pathlib import Path
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
-from mbs.roads.road_file import RoadFile, RoadFileError
+from mbs.roads.road_file import RoadFile
+from mbs.roads.road_header import RoadFileError
 
 SUFFIXES = (".road", ".toml", ".csv", ".txt", ".npy", ".npz", ".png")
 

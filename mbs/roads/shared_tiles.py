@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.kernel.header import ROAD_SHARED, ROAD_TILE, RoadType
-from mbs.roads.road_file import HEADER, Header, RoadFileError, check_grid
+from mbs.roads.road_header import HEADER, Header, RoadFileError, check_grid
 
 ENTRY = struct.Struct("<qiIII")
 RECORD = struct.Struct("<iiii")

@@ -15,7 +15,7 @@ from scipy.interpolate import PPoly
 
 from mbs.elements.road import KerbRoad
 from mbs.model import Model
-from mbs.model.guides import Guide
+from mbs.model.records import Guide
 from mbs.scenes import prototype_car
 from mbs.vehicle import Car
 from mbs.vehicle.fidelity import OFFERED, Fidelity

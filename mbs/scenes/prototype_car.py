@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from mbs.elements.road import Road
 from mbs.model import Model
-from mbs.model.guides import Guide
+from mbs.model.records import Guide
 from mbs.vehicle import Car, Fidelity, load
 
 

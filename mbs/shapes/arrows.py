@@ -8,7 +8,7 @@ from typing import Any
 from mbs.affine import Affine
 from mbs.kernel.header import ElementType, SensorType
 from mbs.model.model import Model
-from mbs.model.sensors import Sensor
+from mbs.model.sensor import Sensor
 from mbs.shapes.frames import FrameNames, place_drawn
 from mbs.shapes.joint_points import Line
 
@@ -94,7 +94,7 @@ def _of_joints(model: Model, names: FrameNames) -> list[Arrow]:
             continue
         # in the plane the third component is a place that is always 0
         moving = next(b for b in ends.bodies if not b.is_ground)
-        vector = [read.get(k) or names.columns[f"{names.owner(moving).name}.z"] for k in range(3)]
+        vector = [read.get(k) or names.columns[f"{moving.owner.name}.z"] for k in range(3)]
         at = list(names.anchor(ends.bodies[0], place_drawn(model, ends.points[0])))
         found.append({"name": name, "unit": "N", "vector": vector, "axes": "ground", "at": at})
     return found

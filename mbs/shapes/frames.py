@@ -14,11 +14,11 @@ from mbs.affine import Affine, AffineVector
 from mbs.checks import Vector
 from mbs.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace
 from mbs.model.body import Body
-from mbs.model.flexible import FlexibleBody, Interface
+from mbs.model.carried import Spin
+from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import Owner, Turning, in_space, origin_of
 from mbs.model.sliding_shapes import Sliding
-from mbs.model.spin import Spin
 
 Anchor = tuple[str, list[float]]
 """Frame and place in it, m."""
@@ -65,16 +65,7 @@ class FrameNames:
 
     def of_body(self, body: Body) -> str:
         """Frame of a body, of the node of a flexible one or of a body with ports."""
-        return "ground" if body.is_ground else self.bodies[self.owner(body).number]
-
-    @staticmethod
-    def owner(body: Body) -> Body:
-        """The body of the model that has the coordinates of this one."""
-        if body.is_ground or body.number >= 0:
-            return body
-        return (
-            body.owner if isinstance(body, Interface) else next(b for b in body.model.bodies if b.start == body.start)
-        )
+        return "ground" if body.is_ground else self.bodies[body.owner.number]
 
     def of_owner(self, owner: Owner) -> str:
         """Frame of what has a shape."""
@@ -82,7 +73,7 @@ class FrameNames:
 
     def anchor(self, body: Body, place: Vector) -> Anchor:
         """A place of the drawing, m, as an anchor of a body."""
-        origin = np.zeros(3) if body.is_ground else origin_of(self.owner(body))
+        origin = np.zeros(3) if body.is_ground else origin_of(body.owner)
         return self.of_body(body), numbers(in_space(place) - origin)
 
 
@@ -157,7 +148,7 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
         )
         row = add((weights @ T).tocsr(), np.asarray(weights @ constant) + angle.constant)
         column = names.columns[f"{turn.name}.angle"]
-        carrier, axis = names.owner(turn.carrier).name, tuple(numbers(turn.axis_reference))
+        carrier, axis = turn.carrier.owner.name, tuple(numbers(turn.axis_reference))
         turns.append(TurnPlace(turn.name, row, carrier, axis, isinstance(turn, Spin), column))
     matrix = sparse.vstack(rows).tocsr() if rows else sparse.csr_matrix((0, T.shape[1]))
     matrix.sort_indices()

@@ -13,10 +13,10 @@ from mbs.checks import Vector
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header import ElementType, SensorType
 from mbs.model.body import Body
+from mbs.model.carried import SlidingPoint
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.shapes import in_space, origin_of
-from mbs.model.slide import SlidingPoint
 from mbs.shapes.frames import Anchor, FrameNames, anchors_of_difference, numbers, place_drawn
 
 SAME = 1e-6  # parts of the extent: nearer points are one

@@ -7,10 +7,10 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from mbs.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
-from mbs.errors import PoseError
 from mbs.kernel.header import Status
 from mbs.settings import Settings
 from mbs.simulation.state import Pose
+from mbs.simulation_error import PoseError
 from mbs.system import System
 
 LATEST = 1e10

@@ -14,7 +14,6 @@ from mbs.accuracy import AccuracyWarning
 from mbs.branch_warning import BranchWarning
 from mbs.checks import array, shown
 from mbs.control import ALLOWED, Control
-from mbs.errors import SimulationError
 from mbs.input_signals import Signal
 from mbs.kernel.binding import KernelError, Status
 from mbs.progress import Progress, progress_for
@@ -29,6 +28,7 @@ from mbs.simulation.refusal import refusal
 from mbs.simulation.run_roads import run_roads
 from mbs.simulation.step_choice import StepChoice, choose_step
 from mbs.simulation.stepping import Simulation
+from mbs.simulation_error import SimulationError
 from mbs.trajectory import Trajectory
 
 Array = NDArray[np.float64]

@@ -7,13 +7,13 @@ from collections.abc import Callable, Mapping
 
 from mbs import accuracy
 from mbs.branch_warning import BranchWarning
-from mbs.errors import SimulationError
 from mbs.input_signals import Signal
 from mbs.progress import progress_for
 from mbs.simulation import repeat
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.march import march
 from mbs.simulation.stepping import Simulation
+from mbs.simulation_error import SimulationError
 from mbs.system import System
 from mbs.trajectory import Trajectory
 

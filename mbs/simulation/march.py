@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,18 +26,16 @@ from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
 from mbs.simulation.run_roads import run_roads
+from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system import System
 from mbs.trajectory import Trajectory
-
-if TYPE_CHECKING:
-    from mbs.simulation.stepping import Simulation
 
 Array = NDArray[np.float64]
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
 def march(
-    simulation: Simulation,
+    simulation: SteppedSystem,
     t_end: float,
     h: float,
     inputs: Mapping[str, Signal] | None,
@@ -122,7 +119,7 @@ def notices_of(system: System, t: Array, values: Array) -> list[str]:
 
 @contextmanager
 def _inputs(
-    simulation: Simulation, signals: InputSignals, t0: float, t_end: float, tolerance: float
+    simulation: SteppedSystem, signals: InputSignals, t0: float, t_end: float, tolerance: float
 ) -> Iterator[Callable[[Array], Array | None]]:
     """Inputs of a run: a table at the ends of its steps, or the kernel asks at the times of its stages."""
     if simulation.settings.looks_at_ends:
@@ -135,7 +132,7 @@ def _inputs(
         simulation.instance.set_input_function(None)
 
 
-def _input_table(simulation: Simulation, signals: InputSignals, t: Array, tolerance: float) -> Array | None:
+def _input_table(simulation: SteppedSystem, signals: InputSignals, t: Array, tolerance: float) -> Array | None:
     """Values (n, nu) of all inputs at the ends of the steps; None keeps them as they are."""
     columns = signals.columns()
     if not columns:
@@ -147,7 +144,7 @@ def _input_table(simulation: Simulation, signals: InputSignals, t: Array, tolera
 
 
 def _trajectory(
-    simulation: Simulation,
+    simulation: SteppedSystem,
     t0: float,
     interval: float,
     values: Array,

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbs.errors import SimulationError
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.header import GuideType
 from mbs.methods import METHOD_TABLE
@@ -15,6 +14,7 @@ from mbs.settings import Settings
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepping import Simulation
+from mbs.simulation_error import SimulationError
 from mbs.system import System
 
 FINE = 2e-3  # tolerance below which the rule of order eight is the cheaper one in relative coordinates

@@ -3,29 +3,26 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
-from mbs.errors import SimulationError
 from mbs.input_signals import unit_text
 from mbs.kernel.binding import KernelError, Status, open_row
 from mbs.simulation.prepared_system import prepared
+from mbs.simulation.stepped_system import SteppedSystem
+from mbs.simulation_error import SimulationError
 from mbs.trajectory import Trajectory
-
-if TYPE_CHECKING:
-    from mbs.simulation.stepping import Simulation
 
 MOST_NAMED = 3  # changed parameters in one sentence
 STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
 
 
 def refusal(
-    simulation: Simulation, what: str, error: KernelError, trajectory: Trajectory | None = None
+    simulation: SteppedSystem, what: str, error: KernelError, trajectory: Trajectory | None = None
 ) -> SimulationError:
     """An error of the kernel as a SimulationError.
 
     Parameters
     ----------
-    simulation : Simulation
+    simulation : SteppedSystem
         In the last good state.
     what : str
         The beginning of the sentence: what was tried.
@@ -56,7 +53,7 @@ def refusal(
     return SimulationError(message, simulation.time, error.status, trajectory)
 
 
-def _remedy(simulation: Simulation, status: int) -> str:
+def _remedy(simulation: SteppedSystem, status: int) -> str:
     """The remedy that follows from the status alone."""
     if status in (Status.WRONG_METHOD, Status.NO_TREE):
         method, words = simulation.settings.method, simulation.instance.method_excludes()
@@ -83,7 +80,7 @@ def _remedy(simulation: Simulation, status: int) -> str:
     return ""
 
 
-def _farthest_changed(simulation: Simulation) -> str:
+def _farthest_changed(simulation: SteppedSystem) -> str:
     """The parameters that were changed by most of their ranges."""
     changed = []
     for k, entry in enumerate(prepared(simulation.system)[1]["parameters"]):
@@ -97,7 +94,7 @@ def _farthest_changed(simulation: Simulation) -> str:
     return f" {said}{more}: set them nearer to the values that the model was compiled with." if said else ""
 
 
-def _worst_equations(simulation: Simulation, report: dict[str, float]) -> str:
+def _worst_equations(simulation: SteppedSystem, report: dict[str, float]) -> str:
     """The constraint row and the balance that are farthest from zero."""
     meta, said = prepared(simulation.system)[1], ""
     worst = open_row(report, [row["name"] for row in meta["rows"]])

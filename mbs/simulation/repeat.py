@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mbs import accuracy
 from mbs.accuracy import Accuracy
-from mbs.errors import SimulationError
+from mbs.simulation_error import SimulationError
 from mbs.system import System
 from mbs.trajectory import Trajectory
 

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.errors import SimulationError
 from mbs.input_signals import Signal
 from mbs.methods import METHOD_TABLE
 from mbs.progress import Progress
 from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.stepping import Simulation
+from mbs.simulation_error import SimulationError
 from mbs.system import System
 
 Array = NDArray[np.float64]

@@ -15,10 +15,8 @@ from mbs import accuracy
 from mbs.accuracy import AccuracyWarning
 from mbs.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.input_signals import InputSignals, Signal, unit_text
-from mbs.kernel.binding import Instance, KernelError, Status
-from mbs.large_bending import BendingWatch
+from mbs.kernel.binding import KernelError, Status
 from mbs.roads.shipped import road_path
-from mbs.run_report import Report
 from mbs.settings import Settings
 from mbs.simulation.arguments import (
     check_pose,
@@ -30,9 +28,9 @@ from mbs.simulation.arguments import (
     check_values,
 )
 from mbs.simulation.march import march
-from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
-from mbs.simulation.state import Pose, State
+from mbs.simulation.state import Pose
+from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system import System
 from mbs.trajectory import Trajectory
 
@@ -40,7 +38,7 @@ SINGULAR = {"switches": "switch"}
 MOST_ITERATIONS = 10**6
 
 
-class Simulation:
+class Simulation(SteppedSystem):
     """A System in motion.
 
     Parameters
@@ -78,17 +76,12 @@ class Simulation:
         pose: Pose | None = None,
         t0: float = 0.0,
     ) -> None:
-        self.system = check_system(system, "The system of a Simulation")
-        self.settings = check_settings(settings)
+        system, settings = check_system(system, "The system of a Simulation"), check_settings(settings)
         start = check_time(t0, "The start t0")
-        self.bending = BendingWatch(system.frames)
-        self._warned, self.step_tried = False, 0.0  # whether it has warned, the last step tried
-        loaded, self._meta = prepared(system)
-        self.instance = Instance(loaded)
-        self.instance.set_settings(**self.settings.kernel_fields())
+        super().__init__(system, settings)
+        self._warned = False
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
         self._started = False
-        self.road_paths: dict[int, str] = {}  # of files in place of roads
         for name, entry in self._road_files.items():
             if entry["start"] and name not in check_values(parameters, "The parameters"):
                 self.set_parameter(name, entry["start"])
@@ -101,31 +94,6 @@ class Simulation:
             self._call(f"The starting {placed} was refused", lambda: self.instance.set_pose(*astuple(placed)))
         self._call("The start could not be made consistent", lambda: self.instance.initialise(start))
         self._started = True
-
-    @property
-    def time(self) -> float:
-        """Time of the state, s."""
-        return float(self.instance.time)
-
-    @property
-    def sensors(self) -> dict[str, float]:
-        """Sensor values at the state, by name."""
-        return {s["name"]: v for s, v in zip(self._meta["sensors"], self.instance.sensors(), strict=True)}
-
-    @property
-    def report(self) -> Report:
-        """Counters since the start and residuals of the last step."""
-        return Report.from_kernel(self.instance.report())
-
-    @property
-    def branch_change(self) -> str:
-        """A sentence about the first change of the assembly mode of a closed loop since the start; empty: none."""
-        return self.instance.branch_text()
-
-    @property
-    def state(self) -> State:
-        """A copy of the state."""
-        return State(*(np.array(part, float) for part in self.instance.get_state()))
 
     def set_input(self, name: str, value: float) -> None:
         """Value of an input from now on.

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from mbs.vehicle.axes import FORWARD, UP
+from mbs.vehicle.axle import Axle
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import AirDensity, Area, LiftArea
+from mbs.vehicle.quantities import AirDensity, Area, LiftArea, Point
 from mbs.vehicle.section import Section
 
 
@@ -20,24 +23,28 @@ class Aerodynamics(Section):
     lift_area_rear: LiftArea | None = None
     """Lift coefficient of the rear axle times frontal area; negative: downforce; without it none is computed."""
 
-    def build(self, b: CarBuilder) -> None:
-        """Add the drag at the vehicle's reference point and the lift of the axles that have one.
+    def build(self, b: CarBuilder, centre: Point, axles: Mapping[str, Axle]) -> None:
+        """Add the drag and the lift of the axles that have one.
 
         Parameters
         ----------
         b : CarBuilder
             The car so far.
+        centre : tuple of float
+            Where the drag acts, m.
+        axles : mapping of str to Axle
+            "front" and "rear".
         """
         drag = b.m.drag(
             "drag",
             b.chassis.frame,
-            b.car.vehicle.reference_point,
+            centre,
             drag_area=self.drag_area,
             air_density=self.air_density,
         )
         b.tie(self, "drag_area", drag, "drag_area")
         frame = b.chassis.frame
-        for name, axle in (("front", b.car.front), ("rear", b.car.rear)):
+        for name, axle in axles.items():
             area = getattr(self, f"lift_area_{name}")
             if area is None:
                 continue

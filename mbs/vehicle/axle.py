@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from pydantic import Field
 
-from mbs.model.spin import Spin
+from mbs.model.carried import Spin
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from mbs.elements.brake import Brake
-from mbs.model.spin import Spin
+from mbs.model.carried import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
 from mbs.vehicle.quantities import Balance, BrakeTorque, HandBrakeTorque, StickStiffness
@@ -45,10 +45,9 @@ class Brakes(Section):
         spin : Spin
             Of the wheel.
         """
-        axle = corner.side.axle
-        behind = axle == "rear"
+        behind = corner.side.axle == "rear"
         stiffness = (self.rear if behind else self.front).stick_stiffness
-        damping = 2.0 * math.sqrt(stiffness * getattr(b.car, axle).wheel.spin_inertia)
+        damping = 2.0 * math.sqrt(stiffness * spin.spin_inertia)
         share = 1.0 - self.balance if behind else self.balance
         brake = Brake(self.torque, stiffness, damping, share, self.hand_torque if behind else 0.0)
         hand = b.inputs["hand_brake"].index if behind else None

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from mbs.model import Model
-from mbs.model.inputs import Input
 from mbs.model.parameters import Owner
+from mbs.model.records import Input
+from mbs.vehicle.chassis.mount import Mount
 from mbs.vehicle.quantities import Quantity
 from mbs.vehicle.section import Section
-
-if TYPE_CHECKING:
-    from mbs.vehicle.car import Car
-    from mbs.vehicle.chassis.mount import Mount
 
 Target: TypeAlias = "tuple[Owner, str | int, float, float]"
 
@@ -36,8 +33,6 @@ class CarBuilder:
 
     Attributes
     ----------
-    car : Car
-        The file.
     m : Model
         Gets bodies, joints and elements.
     road : int
@@ -48,7 +43,6 @@ class CarBuilder:
         What the rest of the car is fixed to; set once the chassis is there.
     """
 
-    car: Car
     m: Model
     road: int
     inputs: Mapping[str, Input]
@@ -101,9 +95,15 @@ class CarBuilder:
         tied = self._tied.setdefault(section.key(name), _Tied(section, name, quantity, start))
         tied.targets.append((owner, real, scale, offset))
 
-    def parameters(self) -> None:
-        """Write what was tied into the model, in the order of the file's type."""
-        for path, tied in sorted(self._tied.items(), key=lambda item: self.car.order(item[0])):
+    def parameters(self, order: Callable[[str], int]) -> None:
+        """Write what was tied into the model.
+
+        Parameters
+        ----------
+        order : callable
+            Place of a key path in the file's type.
+        """
+        for path, tied in sorted(self._tied.items(), key=lambda item: order(item[0])):
             q = tied.quantity
             self.m.parameter(
                 path,

@@ -1,26 +1,26 @@
-"""A car: the typed content of a car file, and the model of it."""
+"""A car: the content of a car file, checked, and the model of it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import numpy as np
-from pydantic import Field, PrivateAttr
+from pydantic import ValidationError
 
 from mbs.elements.road import Road
 from mbs.errors import ModelError
 from mbs.model import Model
+from mbs.model.carried import Spin
 from mbs.model.ends import End
-from mbs.model.guides import Guide
-from mbs.model.spin import Spin
+from mbs.model.records import Guide
 from mbs.roads import RoadFile
-from mbs.vehicle.aerodynamics import Aerodynamics
-from mbs.vehicle.axle import Axle
-from mbs.vehicle.brakes import Brakes
+from mbs.simulation_error import SimulationError
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.changes import changed_content
 from mbs.vehicle.chassis.amplitudes import amplitude_outputs
 from mbs.vehicle.chassis.attachments import attachments
@@ -28,17 +28,15 @@ from mbs.vehicle.chassis.build import build_chassis, stress_outputs
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.frame_joints import JointFinder
 from mbs.vehicle.chassis.frame_mass import check_mass
-from mbs.vehicle.chassis.frames.frame_section import FrameSection
-from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.chassis.ground_contact import ground_contact
-from mbs.vehicle.chassis.section import Chassis
-from mbs.vehicle.chassis.tubular_frame import TubularFrame
+from mbs.vehicle.chassis.stress_scene import flexible_part
+from mbs.vehicle.checks.car_checks import car_faults, car_oddities
+from mbs.vehicle.checks.equilibrium import settled
 from mbs.vehicle.constants import vehicle_constants
 from mbs.vehicle.corner import TieRodEnd
-from mbs.vehicle.drives import Drive
 from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
-from mbs.vehicle.names import CarName, Name, Text
 from mbs.vehicle.outputs import (
     chassis_outputs,
     health_outputs,
@@ -48,91 +46,23 @@ from mbs.vehicle.outputs import (
     wheel_poses,
     work_outputs,
 )
-from mbs.vehicle.payload import Payload
-from mbs.vehicle.quantities import Length, Mass, Point
-from mbs.vehicle.road import RoadSection, level_within
-from mbs.vehicle.section import Section, sections_of
+from mbs.vehicle.road import level_within
+from mbs.vehicle.schema_version import check_version
+from mbs.vehicle.sentences import Sentences, one_line
 from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
-from mbs.vehicle.steering import Steering
 from mbs.vehicle.steering.steered import Steered
-from mbs.vehicle.suspensions.twist_beam import TwistBeam
+
+MOST_FAULTS = 8
 
 
-class Vehicle(Section):
-    """The car as a whole."""
-
-    mass: Mass
-    """Mass of the whole car without payloads, to be checked against the sum of its parts."""
-    reference_point: Point
-    """Origin of the vehicle axes: the centre of mass of the whole car."""
-    length: Length
-    """Length of the outline."""
-    width: Length
-    """Width of the outline without mirrors."""
-
-
-class Car(Section):
+class Car(CarContent):
     """A car file.
 
     SI units. Drawing axes after ISO 8855: x forward, y left, z up; the origin on level ground under the centre of the
     front axle, the car in static equilibrium. Points are those of the left side; the right side mirrors y.
     """
-
-    schema_version: Annotated[Literal[1], Field(alias="schema")]
-    """Version of the form of this file."""
-    name: CarName
-    """Name of the car, for files: lower-case letters, digits and underscores."""
-    description: Text
-    """What car it is."""
-    vehicle: Vehicle
-    """The car as a whole."""
-    chassis: Chassis
-    """Chassis with all that is fixed to it."""
-    payload: dict[Name, Payload] = Field(default_factory=dict)
-    """Persons and luggage by name."""
-    front: Axle
-    """Front axle."""
-    rear: Axle
-    """Rear axle."""
-    steering: Steering
-    """Steering of the front axle."""
-    brakes: Brakes
-    """Brakes."""
-    drive: Drive
-    """Engine or motor and what is between it and the wheels."""
-    aerodynamics: Aerodynamics
-    """Forces of the air."""
-    road: RoadSection
-    """Road under the car where no other is given."""
-
-    _folder: Path = PrivateAttr(Path())
-    _data: dict[str, Any] = PrivateAttr(default_factory=dict)
-
-    @property
-    def folder(self) -> Path:
-        """Of the file and its tables."""
-        return self._folder
-
-    @property
-    def wheelbase(self) -> float:
-        """Distance between the axles as drawn, m."""
-        return self.front.wheel.centre[0] - self.rear.wheel.centre[0]
-
-    @property
-    def tubular_frame(self) -> TubularFrame:
-        """Tables of the frame.
-
-        Raises
-        ------
-        ModelError
-            The car has no frame of tubes.
-        """
-        frame = self._frame()
-        if not isinstance(frame, TubesFrame):
-            raise ModelError(f"The frame of the car '{self.name}' is not of tubes.")
-        return TubularFrame(frame, self._folder)
 
     @cached_property
     def flexible_frame(self) -> FlexibleFrame:
@@ -143,7 +73,7 @@ class Car(Section):
         ModelError
             The car has no flexible frame, or its files do not describe one that fits the car.
         """
-        frame = self._frame()
+        frame = self.frame_section
         structure = frame.structure(self._folder)
         check_mass(structure.model, self.chassis)
         points: dict[Coordinates, str] = {
@@ -154,7 +84,7 @@ class Car(Section):
         b = self._builder(None)
         b.chassis = build_chassis(b.m, self.chassis, None, Fidelity.RIGID)
         driven = ("front", "rear").index(self.drive.wheels)
-        joints = JointFinder(frame, structure, attachments(b), points).joints(self.chassis, driven)
+        joints = JointFinder(frame, structure, attachments(b, self.mechanism), points).joints(self.chassis, driven)
         return FlexibleFrame(frame, self._folder, structure, joints)
 
     @cached_property
@@ -174,11 +104,6 @@ class Car(Section):
     def has_frame(self) -> bool:
         """Whether it has a flexible frame that fits it."""
         return self.chassis.frame is not None and not self.misfit
-
-    def _frame(self) -> FrameSection:
-        if self.chassis.frame is None:
-            raise ModelError(f"The car '{self.name}' has no flexible frame: its file has no table chassis.frame.")
-        return self.chassis.frame
 
     def model(
         self,
@@ -228,13 +153,14 @@ class Car(Section):
         (steered, front), (_, rear) = self.mechanism(b)
         spins = front | rear
         self.drive.build(b, spins, neutral=guide is not None)
-        self.aerodynamics.build(b)
-        b.parameters()
+        axles = {"front": self.front, "rear": self.rear}
+        self.aerodynamics.build(b, self.vehicle.reference_point, axles)
+        b.parameters(self.order)
         self.road.parameters(m, road, b.road, self.front.tyre.nominal_load)
         self._outputs(b, steered, spins, fidelity)
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
-        car_shapes(b, spins)
+        car_shapes(b, self, spins)
         if Fidelity.DYNAMIC in self.fidelities():
             m.more_poses.append(partial(self._frame_poses, b))
         return m
@@ -245,20 +171,19 @@ class Car(Section):
         shift = np.subtract(self.vehicle.reference_point, b.chassis.frame.com)
         return [
             part | {"nodes": [[float(x) for x in np.add(node, shift)] for node in part["nodes"]]}
-            for part in self._flexible_parts
+            for part in self.flexible_parts
         ]
 
     @cached_property
-    def _flexible_parts(self) -> list[dict[str, Any]]:
-        from mbs.vehicle.chassis.stress_scene import flexible_part  # it compiles a car
-
-        return flexible_part(self)
+    def flexible_parts(self) -> list[dict[str, Any]]:
+        """The list `flexible` of the scene of the car: its frame, deformed and coloured by stress."""
+        return flexible_part(self.flexible_frame, self.model(fidelity=Fidelity.DYNAMIC), self.vehicle.reference_point)
 
     def _builder(self, road: Road | RoadFile | None) -> CarBuilder:
         """An empty model with road and inputs."""
         m = Model(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
         m.floating = True
-        m.start_in_equilibrium = level_within(road, self._footprint())
+        m.start_in_equilibrium = level_within(road, self.footprint)
         m.stop_time, m.step = 10.0, 0.002
         inputs = {
             "steering": m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left"),
@@ -274,7 +199,7 @@ class Car(Section):
                 whole=True,
             ),
         }
-        return CarBuilder(self, m, m.road(road or self.road.default(), file="road.file"), inputs)
+        return CarBuilder(m, m.road(road or self.road.default(), file="road.file"), inputs)
 
     def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add steering and front axle, then the rear axle.
@@ -292,12 +217,6 @@ class Car(Section):
         steered = self.steering.build(b, self.rack_way)
         yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
-
-    def faults(self) -> Iterator[str]:
-        """The front axle steers."""
-        if isinstance(self.front.suspension, TwistBeam):
-            kind = self.front.suspension.kind
-            yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
 
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
         """The models an FMU offers by its parameter `fidelity`.
@@ -325,56 +244,9 @@ class Car(Section):
         CarFileError
             A key path does not exist, or with the values it is no car; the car that there was is unchanged.
         """
-        from mbs.vehicle.car_file import car_from
-
         what = f"car '{self.name}'"
         data = changed_content(self._data, values, what)
         return car_from(data, self._folder, what)
-
-    def values(self) -> dict[str, float]:
-        """Numbers that a finished FMU of the car has as parameters, by key path."""
-        found = {}
-        for section in sections_of(self):
-            for field in type(section).model_fields:
-                quantity, value = section.quantity(field), getattr(section, field)
-                if quantity is not None and quantity.change is not None and value is not None:
-                    found[section.key(field)] = float(value)
-        return found
-
-    def order(self, path: str) -> int:
-        """Place of a key path in the file's type.
-
-        Parameters
-        ----------
-        path : str
-            Of a number.
-        """
-        return self._paths.index(path)
-
-    @cached_property
-    def _paths(self) -> list[str]:
-        return [section.key(field) for section in sections_of(self) for field in type(section).model_fields]
-
-    @property
-    def rack_ends(self) -> Coordinates:
-        """Inner end of the left tie rod of the front axle, m."""
-        suspension = self.front.suspension
-        assert not isinstance(suspension, TwistBeam), "refused with the file"
-        return suspension.steering_arm_inner
-
-    @property
-    def rack_way(self) -> float:
-        """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
-        suspension = self.front.suspension
-        assert not isinstance(suspension, TwistBeam), "refused with the file"
-        return 1.0 if suspension.steering_arm[0] > self.front.wheel.centre[0] else -1.0
-
-    def _footprint(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Least and largest x and y of the car as drawn, with a hand's breadth around."""
-        margin = 0.13
-        x = self.rear.wheel.centre[0] - self.rear.tyre.radius, self.front.wheel.centre[0] + self.front.tyre.radius
-        half = 0.5 * self.vehicle.width
-        return (x[0] - margin, x[1] + margin), (-half - margin, half + margin)
 
     @staticmethod
     def _fixed_end(b: CarBuilder) -> TieRodEnd:
@@ -385,7 +257,7 @@ class Car(Section):
 
     def _outputs(self, b: CarBuilder, steered: Steered, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
         m = b.m
-        chassis_outputs(b)
+        chassis_outputs(b, self)
         steered.outputs()
         self.drive.outputs(b)
         used_inputs(b)
@@ -395,10 +267,74 @@ class Car(Section):
         if self.has_frame:
             stress_outputs(m, b.chassis, self.flexible_frame, fidelity)
         if self.chassis.ground_contact is not None:
-            ground_contact(b, self.chassis.ground_contact)
+            ground_contact(
+                b, self.chassis.ground_contact, self.vehicle.mass, lambda: self.flexible_frame.structure.joints
+            )
         work_outputs(m)
-        vehicle_constants(b)
+        vehicle_constants(m, self)
         steered.torque_outputs()
         for name, spin in spins.items():
             wheel_poses(b, spin, name)
         lever_outputs(b)
+
+
+def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool = True, warn: bool = False) -> Car:
+    """The car that the content of a file describes.
+
+    Parameters
+    ----------
+    data : mapping
+        Tables of the file.
+    folder : Path
+        Where its tables lie.
+    what : str
+        How messages call it.
+    at_rest : bool
+        Whether the car must be seen to come to rest.
+    warn : bool
+        Whether to warn of what is odd.
+
+    Raises
+    ------
+    CarFileError
+        It does not describe a car.
+    """
+    check_version(data, what)
+    try:
+        car = Car.model_validate(data)
+    except ValidationError as error:
+        raise CarFileError(_told(what, Sentences(Car, data).of(error))) from None
+    car.locate("")
+    car._folder = folder
+    car._data = dict(data)
+    faults = car_faults(car)
+    if faults:
+        raise CarFileError(_told(what, faults))
+    if not at_rest:
+        return car
+    if car.has_frame:
+        try:
+            frame = car.flexible_frame
+            if Fidelity.LOAD_PATHS in car.fidelities():
+                frame.recorded_loads()
+        except ModelError as error:
+            raise CarFileError(_told(what, [str(error)])) from error
+    try:
+        rest = settled(car.model(), car)
+    except (ValueError, SimulationError) as error:
+        raise CarFileError(_told(what, [f"as drawn it makes no car. {error}"])) from error
+    faults = list(rest.faults(car))
+    if faults:
+        raise CarFileError(_told(what, faults))
+    if warn:
+        misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
+        for sentence in (*misfit, *car_oddities(car, rest)):
+            warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=3)
+    return car
+
+
+def _told(what: str, faults: Sequence[str]) -> str:
+    told = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
+    if len(faults) > MOST_FAULTS:
+        told.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")
+    return "\n".join(told)

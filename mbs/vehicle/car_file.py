@@ -3,24 +3,14 @@
 from __future__ import annotations
 
 import sys
-import warnings
-from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from mbs.checks import shown
-from mbs.errors import ModelError, SimulationError
-from mbs.vehicle.car import Car
-from mbs.vehicle.checks.car_checks import car_faults, car_oddities
-from mbs.vehicle.checks.equilibrium import settled
-from mbs.vehicle.errors import CarFileError, CarWarning
-from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.car import Car, car_from
+from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import text_of
-from mbs.vehicle.schema_version import check_version
-from mbs.vehicle.sentences import Sentences, one_line
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -29,7 +19,6 @@ else:
 
 FILE = "car.toml"
 CARS = Path(__file__).parent / "cars"
-MOST_FAULTS = 8
 
 
 def car_names() -> list[str]:
@@ -109,65 +98,3 @@ def _content(path: Path) -> dict[str, Any]:
         raise CarFileError(f"{path} is no car file: its lists or tables are nested too deep.") from None
     except ValueError as error:
         raise CarFileError(f"{path} is no TOML file: {str(error).rstrip('.')}.") from error
-
-
-def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool = True, warn: bool = False) -> Car:
-    """The car that the content of a file describes.
-
-    Parameters
-    ----------
-    data : mapping
-        Tables of the file.
-    folder : Path
-        Where its tables lie.
-    what : str
-        How messages call it.
-    at_rest : bool
-        Whether the car must be seen to come to rest.
-    warn : bool
-        Whether to warn of what is odd.
-
-    Raises
-    ------
-    CarFileError
-        It does not describe a car.
-    """
-    check_version(data, what)
-    try:
-        car = Car.model_validate(data)
-    except ValidationError as error:
-        raise CarFileError(_told(what, Sentences(Car, data).of(error))) from None
-    car.locate("")
-    car._folder = folder
-    car._data = dict(data)
-    faults = car_faults(car)
-    if faults:
-        raise CarFileError(_told(what, faults))
-    if not at_rest:
-        return car
-    if car.has_frame:
-        try:
-            frame = car.flexible_frame
-            if Fidelity.LOAD_PATHS in car.fidelities():
-                frame.recorded_loads()
-        except ModelError as error:
-            raise CarFileError(_told(what, [str(error)])) from error
-    try:
-        rest = settled(car)
-    except (ValueError, SimulationError) as error:
-        raise CarFileError(_told(what, [f"as drawn it makes no car. {error}"])) from error
-    faults = list(rest.faults(car))
-    if faults:
-        raise CarFileError(_told(what, faults))
-    if warn:
-        misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
-        for sentence in (*misfit, *car_oddities(car, rest)):
-            warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=3)
-    return car
-
-
-def _told(what: str, faults: Sequence[str]) -> str:
-    told = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
-    if len(faults) > MOST_FAULTS:
-        told.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")
-    return "\n".join(told)

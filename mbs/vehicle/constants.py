@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from mbs.vehicle.builder import CarBuilder
+from mbs.model import Model
+from mbs.vehicle.car_content import CarContent
 
 
-def vehicle_constants(b: CarBuilder) -> None:
+def vehicle_constants(m: Model, car: CarContent) -> None:
     """Dimensions of the car and its steering.
 
     Parameters
     ----------
-    b : CarBuilder
-        The car so far.
+    m : Model
+    car : CarContent
+        The file.
     """
-    car = b.car
     turned, angle = car.steering.wheel_angle_max, car.steering.front_wheel_angle_max
     for name, value, unit, text in (
         ("wheelbase", car.wheelbase, "m", "distance between the axles"),
@@ -25,4 +26,4 @@ def vehicle_constants(b: CarBuilder) -> None:
         ("front_wheel_angle_max", angle, "rad", "mean steering angle of the front wheels at steering = 1"),
         ("steering_ratio", turned / angle, "1", "angle of the steering wheel over that of the front wheels, both full"),
     ):
-        b.m.constant(f"vehicle.{name}", value, unit, text)
+        m.constant(f"vehicle.{name}", value, unit, text)

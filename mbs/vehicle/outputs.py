@@ -7,22 +7,25 @@ import numpy as np
 from mbs.affine import Affine, AffineVector
 from mbs.model import Model
 from mbs.model.body import Body
-from mbs.model.spin import Spin
+from mbs.model.carried import Spin
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
 from mbs.vehicle.suspensions.anti_roll_bar import LINK
 
 
-def chassis_outputs(b: CarBuilder) -> None:
+def chassis_outputs(b: CarBuilder, car: CarContent) -> None:
     """Pose, velocity and acceleration of the reference point; accelerometers.
 
     Parameters
     ----------
     b : CarBuilder
         The car so far.
+    car : CarContent
+        The file.
     """
-    m, chassis, origin = b.m, b.chassis.frame, b.car.vehicle.reference_point
+    m, chassis, origin = b.m, b.chassis.frame, car.vehicle.reference_point
     for c in "xyz":
         m.sense_position(
             f"chassis.{c}",
@@ -70,7 +73,7 @@ def chassis_outputs(b: CarBuilder) -> None:
         chassis.vector(LEFT),
         description="direction of travel from the heading, positive to the left; 0 below 0.1 m/s",
     )
-    for corner, point in b.car.chassis.accelerometers.items():
+    for corner, point in car.chassis.accelerometers.items():
         for c in "xyz":
             m.sense_acceleration(
                 f"accelerometer_{corner}.a{c}",

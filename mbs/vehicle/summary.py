@@ -16,7 +16,7 @@ def summary(car: Car) -> str:
     car : Car
         Its equilibrium is found.
     """
-    rest = settled(car)
+    rest = settled(car.model(), car)
     load = {axle: 2.0 * rest.load[axle] for axle in ("front", "rear")}
     total = load["front"] + load["rear"]
     rows = [

@@ -14,7 +14,7 @@ from fmpy.util import read_csv
 import mbs
 from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
-from hosts.manoeuvre import load_manoeuvre
+from hosts.load_manoeuvre import load_manoeuvre
 from mbs.simulation import Pose
 
 ROOT = Path(__file__).parents[2]

@@ -18,7 +18,7 @@ from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
 from hosts.co_simulation import run
 from hosts.fmu import Fmu, StepRefusedError
-from hosts.manoeuvre import load_manoeuvre
+from hosts.load_manoeuvre import load_manoeuvre
 from hosts.simulator.recorded_drive import read_recording
 from hosts.simulator.replay import replay
 from hosts.soak import drive as drive_module

@@ -77,12 +77,12 @@ def code(text: str) -> str:
     return re.sub(r'/\*.*?\*/|"(?:\\.|[^"\\])*"', " ", text, flags=re.DOTALL)
 
 
-def calls(texts: Mapping[str, str]) -> dict[str, dict[str, str]]:
+def calls(texts: Mapping[str, str], prefix: str = "ali3_") -> dict[str, dict[str, str]]:
     """Functions and descriptions of other files by using file, with the file that defines them."""
     codes = {file: code(text) for file, text in texts.items() if file.endswith(".c")}
-    pattern = re.compile(r"^(?!static)\w[\w *]*?\b(ali3_\w+)(?:\([^;{}]*\)\s*| = )\{", re.MULTILINE)
+    pattern = re.compile(rf"^(?!static)\w[\w *]*?\b({prefix}\w+)(?:\([^;{{}}]*\)\s*| = )\{{", re.MULTILINE)
     home = {name: file for file, text in codes.items() for name in pattern.findall(text)}
-    used = {file: set(re.findall(r"\bali3_\w+", text)) & home.keys() for file, text in codes.items()}
+    used = {file: set(re.findall(rf"\b{prefix}\w+", text)) & home.keys() for file, text in codes.items()}
     return {file: {name: home[name] for name in names if home[name] != file} for file, names in used.items()}
 
 

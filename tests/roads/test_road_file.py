@@ -15,7 +15,7 @@ from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
 from mbs.kernel.header import ROAD_TILE
 from mbs.roads import RoadFile, RoadFileError, read_road, write_road
-from mbs.roads.road_file import HEADER
+from mbs.roads.road_header import HEADER
 from mbs.scenes import prototype_car
 
 H = 0.002

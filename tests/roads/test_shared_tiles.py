@@ -11,7 +11,7 @@ import pytest
 import mbs
 from mbs.elements import GridRoad
 from mbs.roads import RoadFile, RoadFileError, read_road, write_road
-from mbs.roads.road_file import HEADER
+from mbs.roads.road_header import HEADER
 from mbs.roads.shared_tiles import ENTRY, RECORD, TOLERANCE
 from mbs.scenes import prototype_car
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 
 from mbs.vehicle import Car, load
-from mbs.vehicle.car_file import car_from
+from mbs.vehicle.car import car_from
 
 COLUMN = {
     "kind": "column",

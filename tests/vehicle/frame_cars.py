@@ -12,7 +12,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbs.vehicle import Car, load
-from mbs.vehicle.car_file import CARS, car_from
+from mbs.vehicle.car import car_from
+from mbs.vehicle.car_file import CARS
 from mbs.vehicle.changes import changed_content
 from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.chassis.gauges.reading import Reading

@@ -9,7 +9,7 @@ import pytest
 
 from ali3.command import main
 from mbs.vehicle import Car, CarFileError, CarWarning, car_names, load
-from mbs.vehicle.car_file import car_from
+from mbs.vehicle.car import car_from
 from mbs.vehicle.changes import changed_content
 from mbs.vehicle.key_paths import annotation_at, by_name, keys_of, table_at
 from tests.vehicle.content import numbers, sentences, tables

@@ -9,7 +9,7 @@ import pytest
 
 from mbs import Pose, compile, simulate
 from mbs.vehicle import car_names, load
-from mbs.vehicle.car_file import car_from
+from mbs.vehicle.car import car_from
 from mbs.vehicle.changes import changed_content
 from mbs.vehicle.section import sections_of
 

@@ -13,7 +13,6 @@ from mbs import Simulation, Trajectory, compile
 from mbs.model.flexible import FlexibleBody
 from mbs.scenes import kerb_test, prototype_car
 from mbs.shapes.pose_outputs import pose_outputs
-from mbs.vehicle.chassis.stress_scene import flexible_part
 from tests.scene_numbers import amplitudes, places, rows_of_stress, stress, turned
 
 NODES = ("TFL", "D3c", "S2R", "B3L")
@@ -23,7 +22,7 @@ PLACE = 1e-9  # m
 
 @pytest.fixture(scope="module")
 def part() -> dict[str, Any]:
-    (found,) = json.loads(json.dumps(flexible_part(prototype_car.car())))
+    (found,) = json.loads(json.dumps(prototype_car.car().flexible_parts))
     return dict(found)
 
 
@@ -106,4 +105,4 @@ def test_colours_end_at_twice_the_stress_of_the_standing_car_and_the_yield_stren
 
 def test_a_car_without_a_frame_has_no_flexible_part() -> None:
     car = prototype_car.car()
-    assert flexible_part(car.model_copy(update={"chassis": car.chassis.model_copy(update={"frame": None})})) == []
+    assert car.model_copy(update={"chassis": car.chassis.model_copy(update={"frame": None})}).model().more_poses == []

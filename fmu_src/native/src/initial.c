@@ -7,11 +7,6 @@
 
 enum { POSE_HEIGHT = 2, POSE_YAW, POSE_SPEED }; /* places in a pose */
 
-void slave_stale(slave *s) {
-  s->calls.initialised = 0;
-  s->outputs_fresh = false;
-}
-
 /* " Worst constraint: ..." or nothing. */
 const char *slave_worst_row(slave *s, char *text, size_t size) {
   ali3_report report;

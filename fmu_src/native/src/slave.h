@@ -150,9 +150,14 @@ slave_status slave_exit(slave *s);
 slave_status slave_terminate(slave *s);
 slave_status slave_reset(slave *s);
 
+/* What was computed is no longer that of the values: the start is sought again, outputs are computed again. */
+static inline void slave_stale(slave *s) {
+  s->calls.initialised = 0;
+  s->outputs_fresh = false;
+}
+
 /* initial.c */
 bool slave_initialise(slave *s);
-void slave_stale(slave *s);
 const char *slave_worst_row(slave *s, char *text, size_t size);
 
 /* values.c: n numbers of variables and as many values */

@@ -12,7 +12,6 @@ from hosts.errors import HostError
 from hosts.simulator.devices.calibration import Assignment, Calibration
 from hosts.simulator.devices.device import Device
 from hosts.simulator.devices.mapping import DeviceMapping, drivable, read_input, read_settings
-from hosts.simulator.devices.messages import obey
 from hosts.simulator.devices.reader import HandsLike, Reader
 from hosts.simulator.devices.reading import Source
 from hosts.simulator.devices.steering import ANGLE_MAX, Steering
@@ -184,7 +183,26 @@ class Devices:
         HostError
             It cannot be done; nothing changes.
         """
-        obey(self, message)
+        kind, device = message.get("type"), message.get("device")
+        if not isinstance(device, str):
+            raise HostError(f"A message about devices has the device {device!r}; it needs the id of one.")
+        name, on = message.get("input"), bool(message.get("on", True))
+        if kind in ("assign", "assign by moving") and not isinstance(name, str):
+            raise HostError(f"A message “{kind}” has the input {name!r}; it needs the name of one.")
+        if kind == "assign":
+            self.assign(device, str(name), message.get("mapping"))
+        elif kind == "assign by moving":
+            self.assign_by_moving(device, str(name), on)
+        elif kind == "calibrate":
+            self.calibrate(device, on, bool(message.get("keep", True)))
+        elif kind == "reset mapping":
+            self.reset_mapping(device)
+        elif kind == "device settings":
+            self.set_settings(device, message.get("settings", {}))
+        elif kind == "test force":
+            self.test_force(device)
+        else:
+            raise HostError(f"A message about devices has the type {kind!r}, which is unknown.")
 
     def _device(self, device: str) -> Device:
         found = self._reader.devices.get(device)

@@ -10,11 +10,11 @@ from mbs.checks import positive
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
+from mbs.model.carried import SlidingPoint
 from mbs.model.ends import End, body_and_point, different
 from mbs.model.equation import Equation, GuideTerm, dot_products
 from mbs.model.flexible import FlexibleBody
 from mbs.model.joints.joint import Drawing, Joint, JointEnds
-from mbs.model.slide import SlidingPoint
 
 ENDS = "(body, point), a point mass or a sliding point"
 

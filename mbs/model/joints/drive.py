@@ -6,12 +6,13 @@ from mbs.affine import Affine
 from mbs.checks import shown
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
-from mbs.model.core import Coordinate
+from mbs.model.coordinate import Coordinate
 from mbs.model.ends import End
 from mbs.model.equation import Equation, GuideTerm
-from mbs.model.guides import Guide, owned_guide
+from mbs.model.guides import owned_guide
 from mbs.model.joints.distance import distance
 from mbs.model.joints.joint import Joint
+from mbs.model.records import Guide
 from mbs.model.switches import new_switch
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from mbs.checks import not_zero
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
-from mbs.model.core import Coordinate
+from mbs.model.carried import Spin
+from mbs.model.coordinate import Coordinate
 from mbs.model.equation import Equation
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.transmission import turned, turning_rate, wheel
-from mbs.model.spin import Spin
 
 
 def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordinate, ratio: float) -> Joint:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,15 +12,12 @@ from numpy.typing import ArrayLike
 from mbs.affine import AffineVector
 from mbs.checks import Vector, array, is_number
 from mbs.errors import ModelError
+from mbs.model.body import Body
+from mbs.model.carried import SlidingPoint, Spin
+from mbs.model.ends import PointPair
 from mbs.model.equation import Equation
-from mbs.model.reactions import Turning
-
-if TYPE_CHECKING:
-    from mbs.model.body import Body
-    from mbs.model.ends import PointPair
-    from mbs.model.slide import SlidingPoint
-    from mbs.model.spin import Spin
-    from mbs.model.switches import Switch
+from mbs.model.records import Switch
+from mbs.model.turning import Turning
 
 FORCE_KINDS = ("point", "line", "distance", "drive", "driven_distance", "gear", "rack", "thread")
 """Kinds of equations whose multipliers are a force or a torque that can be read."""

@@ -15,7 +15,7 @@ from mbs.model.equation import Equation, dot_products
 from mbs.model.flexible import bends, located
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.perpendicular import perpendicular
-from mbs.model.reactions import Turning
+from mbs.model.turning import Turning
 
 _BIG = 1.0 - 1e-12
 

@@ -8,12 +8,12 @@ from mbs.checks import not_zero
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import Coordinate
+from mbs.model.carried import Spin
+from mbs.model.coordinate import Coordinate
 from mbs.model.ends import different
 from mbs.model.equation import Equation, dot_products
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.transmission import turned, turning_rate, wheel
-from mbs.model.spin import Spin
 
 
 def rack(

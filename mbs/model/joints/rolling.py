@@ -22,10 +22,10 @@ from mbs.checks import Vector, direction, number, positive
 from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
+from mbs.model.carried import Spin
 from mbs.model.equation import Equation
 from mbs.model.joints.joint import Joint, RollingBody, RollingSpin
 from mbs.model.perpendicular import perpendicular
-from mbs.model.spin import Spin
 from mbs.model.switches import new_switch
 
 GAP = 1e-3  # of the radius: a drawing that misses the plane by less is closed by compile

@@ -11,7 +11,7 @@ from mbs.errors import ModelError
 from mbs.model.angle import relative_angle
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.core import Coordinate
+from mbs.model.coordinate import Coordinate
 from mbs.model.equation import Equation, dot_products
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.sliding import cylindrical

@@ -16,7 +16,7 @@ from mbs.model.flexible import Interface, bends, located
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.joints.points import may_share, points_of, shared_axis, shared_point, turning_about
 from mbs.model.perpendicular import perpendicular
-from mbs.model.reactions import Turning
+from mbs.model.turning import Turning
 
 
 def _normals(model: BodyVocabulary, body: Body, axis: ArrayLike, what: str) -> list[AffineVector]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from mbs.affine import Affine
 from mbs.model.bodies import BodyVocabulary
-from mbs.model.core import Coordinate
+from mbs.model.carried import Spin
+from mbs.model.coordinate import Coordinate
 from mbs.model.equation import Product
-from mbs.model.spin import Spin
 
 ONE = Affine({}, 1.0)
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from mbs.roads.road_file import RoadFileError
+from mbs.roads.road_header import RoadFileError
 from mbs.roads.worlds.world_types import Segment
 
 Float = NDArray[np.float64]

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.roads.road_file import RoadFileError
+from mbs.roads.road_header import RoadFileError
 from mbs.roads.worlds.centre_line import CentreLine, of_segments, through
 from mbs.roads.worlds.layers import CourseLayer, HeightOf
 from mbs.roads.worlds.world_types import Course

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates, spline_filter
 
-from mbs.roads.road_file import RoadFileError
+from mbs.roads.road_header import RoadFileError
 from mbs.roads.worlds.profiles import spaced
 from mbs.roads.worlds.world_types import WorldDescription
 

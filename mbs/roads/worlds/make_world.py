@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mbs.roads.road_file import CHECKED_FROM, HEADER, RoadFileError
+from mbs.roads.road_header import CHECKED_FROM, HEADER, RoadFileError
 from mbs.roads.worlds.world_file import read_table
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ali3.files import whole_file
 from mbs.kernel.header import ROAD_TILE
-from mbs.roads.road_file import RoadFileError, check_grid
+from mbs.roads.road_header import RoadFileError, check_grid
 from mbs.roads.shared_tiles import TILE_PLACES, TOLERANCE, SharedWriter, simplest
 from mbs.roads.worlds.profiles import spaced
 from mbs.roads.worlds.terrain import Terrain

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.roads.road_file import RoadFileError
+from mbs.roads.road_header import RoadFileError
 from mbs.roads.worlds.layers import CourseLayer
 from mbs.roads.worlds.terrain import Terrain
 from mbs.roads.worlds.world_types import Cones, Line

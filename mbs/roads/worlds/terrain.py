@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.roads.road_file import RoadFileError
+from mbs.roads.road_header import RoadFileError
 from mbs.roads.worlds.course_file import course_layer
 from mbs.roads.worlds.ground import Surface, ground_of
 from mbs.roads.worlds.layers import FAR, AreaLayer, Layer, weight

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from mbs.roads.road_file import RoadFileError
+from mbs.roads.road_header import RoadFileError
 
 if sys.version_info >= (3, 11):
     import tomllib

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,10 +12,8 @@ from numpy.typing import ArrayLike
 from mbs.affine import AffineVector
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
+from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.side import Point
-
-if TYPE_CHECKING:
-    from mbs.vehicle.builder import CarBuilder
 
 SAME = 1e-9  # m
 
@@ -53,22 +50,24 @@ class _Noted(Body):
         return super().point(position)
 
 
-def attachments(b: CarBuilder) -> Attachments:
+def attachments(b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> Attachments:
     """Build the mechanism of a car and note its points on the chassis.
 
     Parameters
     ----------
     b : CarBuilder
         With a rigid chassis and nothing else.
+    parts : callable
+        Adds the parts of the mechanism in turn: front axle and steering, then rear axle.
     """
     noted = _Noted(b.chassis.body, b.chassis.origin)
     b.chassis = replace(b.chassis, body=noted)
     at = []
-    for _ in b.car.mechanism(b):
+    for _ in parts(b):
         at.append(len(noted.points))
     points = list(noted.points)
-    parts = (points[: at[0]], points[at[0] : at[1]])
-    axles = tuple(tuple(p for p in part if p[1] >= 0.0) for part in parts)
+    found = (points[: at[0]], points[at[0] : at[1]])
+    axles = tuple(tuple(p for p in part if p[1] >= 0.0) for part in found)
     return Attachments((axles[0], axles[1]), tuple(_held(noted, b.m.joints)))
 
 

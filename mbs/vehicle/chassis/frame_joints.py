@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from mbs.errors import ModelError
 from mbs.vehicle.chassis.attachments import Attachments
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
+from mbs.vehicle.chassis.section import Chassis
 from mbs.vehicle.side import Point
-
-if TYPE_CHECKING:
-    from mbs.vehicle.chassis.section import Chassis
 
 SAME_PLACE = 1e-5
 """A hard point is a joint of the frame if it is no farther from it, m: coordinates printed with six digits pass."""

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from mbs.errors import ModelError
 from mbs.flexible import FiniteElementModel
-
-if TYPE_CHECKING:
-    from mbs.vehicle.chassis.section import Chassis
+from mbs.vehicle.chassis.section import Chassis
 
 MASS, INERTIA = 0.005, 0.02  # of the mass, of the largest moment of inertia
 CENTRE = 0.005  # m

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
+from numpy.typing import NDArray
 
 from mbs.elements.contact_points import ContactPoints
 from mbs.errors import ModelError
@@ -14,7 +17,9 @@ from mbs.vehicle.side import Point
 NAME = "ground contact"
 
 
-def ground_contact(b: CarBuilder, data: GroundContact) -> None:
+def ground_contact(
+    b: CarBuilder, data: GroundContact, mass: float, joints: Callable[[], Mapping[str, NDArray[np.float64]]]
+) -> None:
     """Add the points and what they report.
 
     Parameters
@@ -23,17 +28,21 @@ def ground_contact(b: CarBuilder, data: GroundContact) -> None:
         The car so far.
     data : GroundContact
         Of the car's file.
+    mass : float
+        Of the car, kg.
+    joints : callable
+        Gives the places of the joints of the frame by name, m, where a point is the name of one.
     """
     m = b.m
     contact = ContactPoints.for_mass(
-        0.25 * b.car.vehicle.mass,
+        0.25 * mass,
         data.depth,
         loss=data.loss,
         friction_factor=data.friction_factor,
         radius=data.radius,
         gravity=GRAVITY,
     )
-    left = [_place(b, data, point) for point in data.points]
+    left = [_place(data, point, joints) for point in data.points]
     points = np.array([(x, sign * y, z) for x, y, z in left for sign in ((1.0, -1.0) if y else (1.0,))])
     origin, axes, place = b.chassis.contact_frame
     m.add(contact.record(NAME, origin, axes, points - place, b.road))
@@ -52,11 +61,11 @@ def ground_contact(b: CarBuilder, data: GroundContact) -> None:
     )
 
 
-def _place(b: CarBuilder, data: GroundContact, point: Point | str) -> Point:
+def _place(data: GroundContact, point: Point | str, joints: Callable[[], Mapping[str, NDArray[np.float64]]]) -> Point:
     if not isinstance(point, str):
         return point
-    joints = b.car.flexible_frame.structure.joints
-    if point not in joints:
+    known = joints()
+    if point not in known:
         raise ModelError(f"{data.key('points')} names {point!r}; the frame has no such joint.")
-    x, y, z = (float(v) for v in joints[point])
+    x, y, z = (float(v) for v in known[point])
     return x, y, z

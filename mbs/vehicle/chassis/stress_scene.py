@@ -3,42 +3,41 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from mbs.compiler import compile
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.flexible.scene_part import flexible_parts
+from mbs.model import Model
 from mbs.simulation import Simulation
 from mbs.vehicle.chassis.amplitudes import COMPUTED, amplitude_names
-from mbs.vehicle.fidelity import Fidelity
-
-if TYPE_CHECKING:
-    from mbs.vehicle.car import Car
+from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
+from mbs.vehicle.side import Point
 
 OVER_REST = 2.0
 """Colours end at the largest stress of the standing car times this, rounded up: kerbs and lane changes stay below."""
 
 
-def flexible_part(car: Car) -> list[dict[str, Any]]:
-    """The list `flexible` of a scene of a car, for the outputs of `amplitude_outputs`; empty where it is rigid only.
+def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point) -> list[dict[str, Any]]:
+    """The list `flexible` of a scene of a car, for the outputs of `amplitude_outputs`.
 
     Parameters
     ----------
-    car : Car
-        Of a file. Its chassis is the frame "chassis" of the scene, with the origin at `vehicle.reference_point` and
-        the axes of the car.
+    flexible : FlexibleFrame
+        Of the car.
+    model : Model
+        The car with fidelity `Fidelity.DYNAMIC`.
+    reference_point : tuple of float
+        Origin of the frame "chassis" of the scene, which has the axes of the car, m.
 
     Raises
     ------
     ModelError
-        The car has a frame that does not fit it.
+        The frame does not fit the car.
     """
-    if Fidelity.DYNAMIC not in car.fidelities():
-        return []
-    flexible = car.flexible_frame
-    body, start, full_scale = flexible.drawn, _standing(car), None
+    body, start, full_scale = flexible.drawn, _standing(flexible, model), None
     if body.frame is not None:
         largest = float(peak_tube_stress(body.frame, body.recovery(section_force_field(body.frame)) @ start).max())
         full_scale = _rounded_up(OVER_REST * largest) if largest > 0.0 else None
@@ -46,19 +45,19 @@ def flexible_part(car: Car) -> list[dict[str, Any]]:
         body,
         "chassis",
         amplitude_names(flexible),
-        origin=body.origin - np.array(car.vehicle.reference_point),
+        origin=body.origin - np.array(reference_point),
         start=start,
         computed=COMPUTED,
         full_scale=full_scale,
     )
 
 
-def _standing(car: Car) -> np.ndarray:
+def _standing(flexible: FlexibleFrame, model: Model) -> np.ndarray:
     """Amplitudes of the car as it stands at the start."""
-    system = compile(car.model(fidelity=Fidelity.DYNAMIC))
+    system = compile(model)
     names = list(system.meta["coordinates"])
     state = Simulation(system).state
-    return np.array([state.q[names.index(f"chassis.{mode}")] for mode in car.flexible_frame.drawn.mode_names])
+    return np.array([state.q[names.index(f"chassis.{mode}")] for mode in flexible.drawn.mode_names])
 
 
 def _rounded_up(value: float) -> float:

@@ -6,17 +6,14 @@ from collections.abc import Container
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mbs.errors import ModelError
 from mbs.flexible import Beam, Frame, Material, Section, StrainGauge, tube
 from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
+from mbs.vehicle.chassis.tube_tables import TubeTables
 from mbs.vehicle.table import Row, read_table
-
-if TYPE_CHECKING:
-    from mbs.vehicle.chassis.frames.tubes import TubesFrame
 
 IMAGE = {"L": "R", "R": "L", "c": "c"}
 REACH, MOST_ELEMENTS, MOST_MASS = 9.0, 50, 2000.0  # m, of a tube, kg
@@ -38,13 +35,13 @@ class TubularFrame:
 
     Attributes
     ----------
-    section : TubesFrame
+    section : TubeTables
         As in the car's file.
     folder : Path
         Of the tables.
     """
 
-    section: TubesFrame
+    section: TubeTables
     folder: Path
 
     @property

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from mbs.errors import ModelError
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.dimensions import dimension_faults
+from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import mass_faults, mass_oddities
 from mbs.vehicle.checks.places import place_faults, place_oddities
 from mbs.vehicle.checks.rates import rate_oddities
@@ -14,23 +15,19 @@ from mbs.vehicle.checks.steered_angle import steering_oddities
 from mbs.vehicle.checks.tyres import tyre_faults, tyre_oddities
 from mbs.vehicle.section import sections_of
 
-if TYPE_CHECKING:
-    from mbs.vehicle.car import Car
-    from mbs.vehicle.checks.equilibrium import Rest
 
-
-def car_faults(car: Car) -> list[str]:
+def car_faults(car: CarContent) -> list[str]:
     """A sentence for each fault, without the equilibrium, which `settled` looks for.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Each number of it is in its range.
     """
     return list(_faults(car))
 
 
-def _faults(car: Car) -> Iterator[str]:
+def _faults(car: CarContent) -> Iterator[str]:
     for section in sections_of(car):
         yield from section.faults()
     yield from dimension_faults(car)
@@ -44,12 +41,12 @@ def _faults(car: Car) -> Iterator[str]:
             yield str(error)
 
 
-def car_oddities(car: Car, rest: Rest) -> list[str]:
+def car_oddities(car: CarContent, rest: Rest) -> list[str]:
     """A sentence for each thing that is odd.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Without faults.
     rest : Rest
         The car at rest.

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from mbs.vehicle.car import Car
+from mbs.vehicle.car_content import CarContent
 
 LEAST_WHEELBASE, LEAST_TRACK = 1.0, 0.6  # m
 OVERHANG, BESIDE = 3.0, 0.9  # m: most that the outline has beyond both axles, and beyond both wheels' centres
 
 
-def dimension_faults(car: Car) -> Iterator[str]:
+def dimension_faults(car: CarContent) -> Iterator[str]:
     """A sentence for each fault.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Each number of it is in its range.
     """
     front, rear = car.front.wheel, car.rear.wheel

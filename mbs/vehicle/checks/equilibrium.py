@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from mbs.compiler import compile
+from mbs.model import Model
 from mbs.simulation import Simulation
-
-if TYPE_CHECKING:
-    from mbs.vehicle.axle import Axle
-    from mbs.vehicle.car import Car
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.car_content import CarContent
 
 ODD, TOO_FAR = 0.02, 0.15  # m: a wheel's travel between drawing and rest
 LEAST_LENGTH = 0.4  # of the free length: a coil spring that is shorter is a block
@@ -43,12 +41,12 @@ class Rest:
     spring_length: dict[str, float]
     lean: float
 
-    def faults(self, car: Car) -> Iterator[str]:
+    def faults(self, car: CarContent) -> Iterator[str]:
         """A sentence for each axle far from where it is drawn.
 
         Parameters
         ----------
-        car : Car
+        car : CarContent
             At rest.
         """
         yield from self._moved(car, TOO_FAR, math.inf)
@@ -60,12 +58,12 @@ class Rest:
                     f"between its points; it must be {length / LEAST_LENGTH:.3g} m or less."
                 )
 
-    def oddities(self, car: Car) -> Iterator[str]:
+    def oddities(self, car: CarContent) -> Iterator[str]:
         """A sentence for each difference from the drawing.
 
         Parameters
         ----------
-        car : Car
+        car : CarContent
             At rest.
         """
         yield from self._moved(car, ODD, TOO_FAR)
@@ -84,7 +82,7 @@ class Rest:
                 "a spring is soft."
             )
 
-    def _moved(self, car: Car, low: float, high: float) -> Iterator[str]:
+    def _moved(self, car: CarContent, low: float, high: float) -> Iterator[str]:
         for name, axle in _axles(car):
             travel = self.travel[name]
             if low < abs(travel) <= high:
@@ -99,12 +97,14 @@ class Rest:
                 )
 
 
-def settled(car: Car) -> Rest:
+def settled(model: Model, car: CarContent) -> Rest:
     """Compile the car and let the kernel find its equilibrium.
 
     Parameters
     ----------
-    car : Car
+    model : Model
+        Of the car.
+    car : CarContent
         Without faults.
 
     Raises
@@ -112,7 +112,7 @@ def settled(car: Car) -> Rest:
     ModelError, SimulationError
         Its parts refuse a number, or it has no equilibrium.
     """
-    at_rest = Simulation(compile(car.model())).sensors
+    at_rest = Simulation(compile(model)).sensors
 
     def mean(name: str, axle: str) -> float:
         return 0.5 * sum(at_rest[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
@@ -130,5 +130,5 @@ def settled(car: Car) -> Rest:
     )
 
 
-def _axles(car: Car) -> tuple[tuple[str, Axle], tuple[str, Axle]]:
+def _axles(car: CarContent) -> tuple[tuple[str, Axle], tuple[str, Axle]]:
     return ("front", car.front), ("rear", car.rear)

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mbs.vehicle.axle import Wheel
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.places import parts_of
-
-if TYPE_CHECKING:
-    from mbs.vehicle.axle import Wheel
-    from mbs.vehicle.car import Car
 
 MASS_TOLERANCE = 0.005  # of the car's mass
 REFERENCE_TOLERANCE = 0.1  # m, between the reference point and the centre of mass that it is
@@ -23,12 +20,12 @@ SMALL_PRODUCT = 1e-4  # of the largest moment
 BODY_RADII = 0.1, 0.5  # of the car's width about x, of its length about y and z; all mass at the ends: 0.5
 
 
-def mass_faults(car: Car) -> Iterator[str]:
+def mass_faults(car: CarContent) -> Iterator[str]:
     """A sentence for each fault.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Each number of it is in its range.
     """
     yield from _sum(car)
@@ -47,12 +44,12 @@ def mass_faults(car: Car) -> Iterator[str]:
         yield from _wheel(axle.wheel, axle.tyre.radius)
 
 
-def mass_oddities(car: Car) -> Iterator[str]:
+def mass_oddities(car: CarContent) -> Iterator[str]:
     """A sentence for each thing that is odd.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Without faults.
     """
     least = SMALL_PRODUCT * max(car.chassis.inertia)
@@ -64,12 +61,12 @@ def mass_oddities(car: Car) -> Iterator[str]:
             )
 
 
-def weighed_points(car: Car, payloads: bool) -> list[tuple[float, tuple[float, float, float]]]:
+def weighed_points(car: CarContent, payloads: bool) -> list[tuple[float, tuple[float, float, float]]]:
     """Masses with their places as drawn, of both sides.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Each number of it is in its range.
     payloads : bool
         Whether with the payloads.
@@ -84,7 +81,7 @@ def weighed_points(car: Car, payloads: bool) -> list[tuple[float, tuple[float, f
     return found + [(mass, (x, side * y, z)) for mass, (x, y, z) in left for side in (1.0, -1.0)]
 
 
-def _sum(car: Car) -> Iterator[str]:
+def _sum(car: CarContent) -> Iterator[str]:
     total = sum(mass for mass, _ in weighed_points(car, payloads=False))
     given = car.vehicle.mass
     if abs(total - given) > MASS_TOLERANCE * given:
@@ -116,7 +113,7 @@ def _sum(car: Car) -> Iterator[str]:
         )
 
 
-def _centre(car: Car, payloads: bool) -> list[float]:
+def _centre(car: CarContent, payloads: bool) -> list[float]:
     """Centre of mass, m."""
     weighed = weighed_points(car, payloads)
     total = sum(mass for mass, _ in weighed)
@@ -128,7 +125,7 @@ def _tensor(key: str, inertia: tuple[float, float, float]) -> Iterator[str]:
         yield f"{key} is {list(inertia)} kg.m2; no moment of inertia is larger than the sum of the two others."
 
 
-def _chassis(car: Car) -> Iterator[str]:
+def _chassis(car: CarContent) -> Iterator[str]:
     chassis = car.chassis
     size = car.vehicle.width, car.vehicle.length, car.vehicle.length
     for axis, moment, extent in zip("xyz", chassis.inertia, size, strict=True):

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.part import Part
 from mbs.vehicle.section import Section, sections_of
-
-if TYPE_CHECKING:
-    from mbs.vehicle.axle import Axle
-    from mbs.vehicle.car import Car
 
 REACH = 1.2  # m: no point of a suspension is farther from the centre of its wheel
 CARRIER = 0.45  # m: no point on what carries the wheel is farther
@@ -24,12 +21,12 @@ TYRE = 0.05  # m: half the width of a narrow tyre
 Point = tuple[float, float, float]
 
 
-def place_faults(car: Car) -> Iterator[str]:
+def place_faults(car: CarContent) -> Iterator[str]:
     """A sentence for each fault.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Each number of it is in its range.
     """
     for axle in (car.front, car.rear):
@@ -53,12 +50,12 @@ def place_faults(car: Car) -> Iterator[str]:
                 yield f"{key} lies in the tyre of {axle.wheel.key('centre')}, {away:.3g} m from the wheel's axis."
 
 
-def place_oddities(car: Car) -> Iterator[str]:
+def place_oddities(car: CarContent) -> Iterator[str]:
     """A sentence for each thing that is odd.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Without faults.
     """
     of_the_body = _points_of_the_body(car)
@@ -137,7 +134,7 @@ def _parts(axle: Axle) -> Iterator[str]:
                 )
 
 
-def _points_of_the_body(car: Car) -> dict[str, Point]:
+def _points_of_the_body(car: CarContent) -> dict[str, Point]:
     chassis = car.chassis
     points: dict[str, Point] = {chassis.key("com"): chassis.com, chassis.key("reference"): chassis.reference}
     points |= {load.key("point"): load.point for load in car.payload.values()}
@@ -150,7 +147,7 @@ def _points_of_the_body(car: Car) -> dict[str, Point]:
     return points
 
 
-def _within_the_outline(car: Car, key: str, point: Point) -> Iterator[str]:
+def _within_the_outline(car: CarContent, key: str, point: Point) -> Iterator[str]:
     middle, half = car.vehicle.reference_point[0], 0.5 * car.vehicle.length + OUTSIDE
     aside = 0.5 * car.vehicle.width + OUTSIDE
     for axis, value, low, high in (

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.places import parts_of
 from mbs.vehicle.environment import GRAVITY
-
-if TYPE_CHECKING:
-    from mbs.vehicle.car import Car
-    from mbs.vehicle.checks.equilibrium import Rest
 
 RIDE = 0.7, 6.0  # Hz, from soft to racing
 DAMPING = 0.05, 1.5  # of the critical damping
 BRAKING = 0.3, 4.0  # of the weight, at full pedal
 
 
-def rate_oddities(car: Car, rest: Rest) -> Iterator[str]:
+def rate_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
     """A sentence for each thing that is odd.
 
     The motion ratio of a spring is the load that it carries, wheel load less unsprung weight, over its force: virtual
@@ -26,7 +23,7 @@ def rate_oddities(car: Car, rest: Rest) -> Iterator[str]:
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Without faults.
     rest : Rest
         The car at rest.

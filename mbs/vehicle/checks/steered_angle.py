@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from mbs.vehicle.car import Car
+from mbs.vehicle.car_content import CarContent
 
 FACTOR = 1.6  # the estimate leaves out the angle of the tie rods and the inclination of the steering axis
 
 
-def steering_oddities(car: Car) -> Iterator[str]:
+def steering_oddities(car: CarContent) -> Iterator[str]:
     """A sentence where the angle at full travel is not that of the rack on the steering arms.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Without faults.
     """
     arm = getattr(car.front.suspension, "steering_arm", None)

@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from mbs.vehicle.axle import Axle
-    from mbs.vehicle.car import Car
-    from mbs.vehicle.checks.equilibrium import Rest
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.checks.equilibrium import Rest
 
 LARGEST_DEFLECTION = 0.25  # of the free radius of a tyre at rest
 FRICTION = 0.2, 3.0  # largest force over the load
 LOADS = 0.2, 5.0  # load at rest over the nominal load
 
 
-def tyre_faults(car: Car) -> Iterator[str]:
+def tyre_faults(car: CarContent) -> Iterator[str]:
     """A sentence for each fault.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Each number of it is in its range.
     """
     for axle in (car.front, car.rear):
@@ -28,12 +26,12 @@ def tyre_faults(car: Car) -> Iterator[str]:
         yield from _friction(axle)
 
 
-def tyre_oddities(car: Car, rest: Rest) -> Iterator[str]:
+def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
     """A sentence for each thing that is odd.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Without faults.
     rest : Rest
         The car at rest.

@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mbs.elements.automatic_drive import AutomaticDrive
-from mbs.model.spin import Spin
+from mbs.model.carried import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import (
     AngularSpeed,

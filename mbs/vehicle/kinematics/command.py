@@ -46,7 +46,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all numbers")
     options = parser.parse_args(arguments)
-    from mbs.errors import ModelError, SimulationError
+    from mbs.errors import ModelError
+    from mbs.simulation_error import SimulationError
 
     return run_command(lambda: _work(options), (ModelError, SimulationError))
 

@@ -64,7 +64,7 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
     m.start_in_equilibrium = False
     m.floating = True
     steering = m.input("steering", min=-1.0, max=1.0)
-    b = CarBuilder(car, m, m.road(PlaneRoad()), {"steering": steering})
+    b = CarBuilder(m, m.road(PlaneRoad()), {"steering": steering})
     b.chassis = build_chassis(m, car.chassis, None if fidelity is Fidelity.RIGID else car.flexible_frame, fidelity)
 
     def fixed(side: Side, point: Point) -> End:

@@ -94,7 +94,7 @@ class Linkage:
     def __init__(self, car: Car, axle: str) -> None:
         self.car, self.name, self.data = car, axle, getattr(car, axle)
         m = Model(f"{car.name} {axle} suspension", gravity=(0.0, 0.0, 0.0))
-        b = CarBuilder(car, m, m.road(PlaneRoad()), {})
+        b = CarBuilder(m, m.road(PlaneRoad()), {})
         b.chassis = _held(m, car)
         ramp = PPoly(np.array([[1.0], [-FARTHEST]]), np.array([-FARTHEST, FARTHEST]))  # the rack's travel is the time
         rack = m.guide_time("rack", ramp, unit="m")

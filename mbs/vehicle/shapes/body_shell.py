@@ -7,16 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.loft import interpolated, loft
 from mbs.vehicle.shapes.looks import ACCENT, DARK, Looks, Paint
-
-if TYPE_CHECKING:
-    from mbs.vehicle.car import Car
 
 GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
 LAMP: Paint = {"material": "glass", "color": "#eef4ff"}
@@ -70,11 +68,11 @@ class BodyShell:
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Its outline.
     """
 
-    car: Car
+    car: CarContent
 
     @property
     def height(self) -> float:
@@ -195,7 +193,7 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     clear : bool
         Whether one sees through it, onto the frame in it.
     """
-    car, chassis, m = looks.b.car, looks.chassis, looks.m
+    car, chassis, m = looks.car, looks.chassis, looks.m
     shell = BodyShell(car)
     panels, glass = (ACCENT | {"opacity": 0.30}, GLASS | {"opacity": 0.18}) if clear else (ACCENT, GLASS)
     m.mesh_shape(chassis, *shell.lower_body(), name="body", **panels)
@@ -220,7 +218,7 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
 
 def _details(looks: Looks, shell: BodyShell, side: float, details: Sequence[Detail]) -> None:
     """Lamps, a grille and a mirror."""
-    chassis, half = looks.chassis, 0.5 * looks.b.car.vehicle.width
+    chassis, half = looks.chassis, 0.5 * looks.car.vehicle.width
     for share, across, height, size, paint in details:
         place = float(shell.place(share)), side * across * half, height * shell.height
         looks.m.shape(chassis, "box", at=place, size=size, **paint)

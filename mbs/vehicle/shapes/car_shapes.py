@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from mbs.model.carried import Spin
 from mbs.model.flexible import FlexibleBody
-from mbs.model.spin import Spin
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.shapes.anti_roll_bar import anti_roll_bar_shapes
 from mbs.vehicle.shapes.body_shell import body_shell_shapes
@@ -30,19 +31,20 @@ SUSPENSIONS: Mapping[str, Callable[[Looks, str, Axle], None]] = {
 """Looks of suspensions by their kind."""
 
 
-def car_shapes(b: CarBuilder, spins: Mapping[str, Spin]) -> None:
+def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
     """Draw a car whose model has all bodies and sensors.
 
     Parameters
     ----------
     b : CarBuilder
         The whole car.
+    car : CarContent
+        The file.
     spins : mapping of str to Spin
         Its wheels by name.
     """
-    car = b.car
     b.m.default_shapes = False
-    looks = Looks(b, spins, rack_of(b))
+    looks = Looks(b, car, spins, rack_of(b, car))
     for name, axle in (("front", car.front), ("rear", car.rear)):
         SUSPENSIONS[axle.suspension.kind](looks, name, axle)
         anti_roll_bar_shapes(looks, name, axle)

@@ -28,7 +28,7 @@ def knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], a
     arm : (body, point) or None
         Outer end of the rod that steers it.
     """
-    axle = getattr(looks.b.car, side.axle)
+    axle = getattr(looks.car, side.axle)
     centre = side.point(axle.wheel.centre)
     length, radius = (looks.scale * size for size in HUB)
     hub = inboard(centre, length)

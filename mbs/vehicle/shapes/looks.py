@@ -11,9 +11,10 @@ import numpy as np
 
 from mbs.model import Model
 from mbs.model.body import Body
+from mbs.model.carried import Spin
 from mbs.model.shapes import Owner
-from mbs.model.spin import Spin
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.side import Point
 
 Paint: TypeAlias = "dict[str, Any]"
@@ -40,6 +41,8 @@ class Looks:
     ----------
     b : CarBuilder
         With all its bodies.
+    car : CarContent
+        The file.
     spins : mapping of str to Spin
         Wheels by name.
     rack : Owner
@@ -47,6 +50,7 @@ class Looks:
     """
 
     b: CarBuilder
+    car: CarContent
     spins: Mapping[str, Spin]
     rack: Owner
     steered: tuple[str, ...] = field(default=("front",))
@@ -64,7 +68,7 @@ class Looks:
     @cached_property
     def scale(self) -> float:
         """Thickness of parts over that of a small car's."""
-        return float(np.cbrt(self.b.car.vehicle.mass / SMALL_CAR))
+        return float(np.cbrt(self.car.vehicle.mass / SMALL_CAR))
 
     def body(self, name: str) -> Body:
         """A body by its name in the model."""

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.looks import CLOTH, Looks, Paint
 from mbs.vehicle.side import Point
-
-if TYPE_CHECKING:
-    from mbs.vehicle.car import Car
 
 SKIN: Paint = {"material": "plastic", "color": "#c99b7d"}
 SHIRT: Paint = {"material": "plastic", "color": "#35618f"}
@@ -21,7 +18,7 @@ COS, SIN = math.cos(RECLINE), math.sin(RECLINE)
 PERSON = 30.0  # kg: a payload of so much and more is drawn as a person
 
 
-def driver_place(car: Car) -> Point:
+def driver_place(car: CarContent) -> Point:
     """Centre of mass of the driver: that of the payload of this name, or opposite to the passenger."""
     if "driver" in car.payload:
         return car.payload["driver"].point
@@ -40,7 +37,7 @@ def occupant_shapes(looks: Looks) -> None:
     looks : Looks
         Draws.
     """
-    car = looks.b.car
+    car = looks.car
     _person(looks, driver_place(car), driver=True)
     for name, payload in car.payload.items():
         if name == "driver" or payload.mass <= 0.0:

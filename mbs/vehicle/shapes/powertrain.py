@@ -18,7 +18,7 @@ def powertrain_shapes(looks: Looks) -> None:
     looks : Looks
         Draws.
     """
-    car, chassis = looks.b.car, looks.chassis
+    car, chassis = looks.car, looks.chassis
     name = car.drive.wheels
     axle = getattr(car, name)
     x, _, z = axle.wheel.centre

@@ -7,6 +7,7 @@ import math
 from mbs.model.shapes import Owner
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.looks import BARE, DARK, POLISHED, Looks
 from mbs.vehicle.shapes.occupants import driver_place
 
@@ -15,9 +16,9 @@ HANDS = 0.42, 0.26  # m: steering wheel before and above the driver's centre of 
 RADIUS = 0.185  # m, of the steering wheel
 
 
-def rack_of(b: CarBuilder) -> Owner:
+def rack_of(b: CarBuilder, car: CarContent) -> Owner:
     """What the inner ends of the tie rods move with: a slide by the travel of the rack, which is always an output."""
-    inner = b.car.rack_ends
+    inner = car.rack_ends
     name = "sliding rack" if any(body.name == "rack" for body in b.m.bodies) else "rack"
     return b.m.sliding(name, b.chassis.frame, at=(inner[0], 0.0, inner[2]), direction=LEFT, way="steering_rack")
 
@@ -30,7 +31,7 @@ def steering_shapes(looks: Looks) -> None:
     looks : Looks
         Draws.
     """
-    car, chassis = looks.b.car, looks.chassis
+    car, chassis = looks.car, looks.chassis
     x, y, z = car.rack_ends
     looks.cylinder(looks.rack, ((x, -y, z), (x, y, z)), 0.010 * looks.scale, **POLISHED)
     looks.cylinder(chassis, ((x, -0.55 * y, z), (x, 0.55 * y, z)), 0.022 * looks.scale, **BARE)

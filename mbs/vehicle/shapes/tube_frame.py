@@ -26,7 +26,7 @@ def tube_frame_shapes(looks: Looks, frame: TubularFrame, *, bends: bool) -> None
         Whether the chassis of the model is a flexible body, whose beams are drawn.
     """
     joints = frame.joint_places()
-    paint = PAINT if looks.b.car.chassis.body in ("auto", "open") else CAST
+    paint = PAINT if looks.car.chassis.body in ("auto", "open") else CAST
     if not bends:
         for tube in frame.frame(carried_masses=False)[1]:
             points = [(looks.chassis, joints[name]) for name in (tube.start, tube.end)]

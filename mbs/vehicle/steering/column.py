@@ -11,10 +11,9 @@ from mbs.elements.spring_damper import EndStops
 from mbs.elements.torsion_bar import TorsionBar
 from mbs.model import Model
 from mbs.model.body import Body
-from mbs.model.core import Coordinate
+from mbs.model.coordinate import Coordinate
 from mbs.model.ends import End
-from mbs.model.guides import Guide
-from mbs.model.inputs import Input
+from mbs.model.records import Guide, Input
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import (

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from mbs.model import Model
-from mbs.model.guides import Guide
-from mbs.model.inputs import Input
+from mbs.model.records import Guide, Input
 
 WHEEL_TORQUE = "torque of the driver's hands on the steering wheel, positive to the left"
 WHEEL_SPEED = "angular velocity of the steering wheel, positive to the left"

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from mbs.model import Model
-from mbs.model.guides import Guide
 from mbs.model.joints.joint import Joint
+from mbs.model.records import Guide
 from mbs.vehicle.corner import TieRodEnd
 
 

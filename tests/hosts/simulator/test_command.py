@@ -23,7 +23,7 @@ from fmu_src.scene_registry import load_scene
 from hosts import built_fmu
 from hosts.aliases import Aliases, read_aliases
 from hosts.errors import HostError
-from hosts.manoeuvre import load_manoeuvre
+from hosts.load_manoeuvre import load_manoeuvre
 from hosts.options import Wishes
 from hosts.simulator import fmu_file
 from hosts.simulator.aliased_car import AliasedCar

@@ -20,7 +20,7 @@ from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
 from hosts.errors import HostError
 from hosts.fmu import Fmu
-from hosts.manoeuvre import load_manoeuvre
+from hosts.load_manoeuvre import load_manoeuvre
 from hosts.options import Wishes
 from hosts.recording import main
 from hosts.simulator.recorded_drive import read_recording

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import mbs
-from mbs.roads.road_file import RoadFileError
+from mbs.roads.road_header import RoadFileError
 from mbs.roads.world_command import main
 from mbs.roads.worlds.course_file import read_course
 from mbs.roads.worlds.make_world import read_world

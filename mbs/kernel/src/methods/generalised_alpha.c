@@ -3,10 +3,8 @@
 
 #include "../instance.h"
 #include "../method.h"
-#include "energy_balance.h"
 #include "generalised_alpha.h"
 #include "history.h"
-#include "steps.h"
 
 enum { DAMPED_STEPS = 6 };
 static const double UNRESOLVED = 2.0; /* step times frequency of a mode, rad */
@@ -72,9 +70,3 @@ void ali3_alpha_accept(ali3_instance *in, double h) {
     in->next.own[i] = first ? (in->D[i] - in->d0[i]) / in->rule.c
                             : (in->D[i] - h * in->now.qd[i] - (0.5 - beta) * h * h * in->now.own[i]) / (beta * h * h);
 }
-
-const ali3_method ali3_method_generalised_alpha = {.step = ali3_augmented_lagrangian,
-                                                   .motion = ali3_balance_step,
-                                                   .has_balance = ali3_projects,
-                                                   .owner = ALI3_METHOD_GENERALISED_ALPHA,
-                                                   .round_off = ALI3_ROUND_OFF_INDEX_3};

@@ -4,7 +4,5 @@
 #include "../instance.h"
 
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth);
-ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h);
-bool ali3_projects(const ali3_instance *in);
 ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double share, bool reported);
 #endif

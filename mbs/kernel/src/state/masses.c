@@ -2,6 +2,7 @@
  * mass matrix, m C'g to the force of gravity and -m g.c to its energy. Whatever reads masses reads these sums. */
 #include <string.h>
 
+#include "../system/check.h"
 #include "../system/loading.h"
 #include "../tree/tree.h"
 #include "masses.h"

@@ -15,4 +15,5 @@ ali3_status ali3_check_pointers(ali3_message m, const char *name, const int32_t 
                                 int64_t total);
 ali3_status ali3_check_indices(ali3_message m, const char *name, const int32_t *v, int64_t n, int64_t low,
                                int64_t high);
+int32_t ali3_find(const int32_t *sorted, int32_t n, int32_t value); /* position or -1 */
 #endif

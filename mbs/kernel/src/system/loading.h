@@ -22,5 +22,4 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m);
 /* A mass matrix in front storage, its diagonal, and what massless coordinates lack; each may be that of an instance. */
 void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front, double *floor, double *floor_inverse,
                          double *missing);
-int32_t ali3_find(const int32_t *sorted, int32_t n, int32_t value); /* position or -1 */
 #endif

@@ -8,6 +8,7 @@
 #include "../elements/element.h"
 #include "../system.h"
 #include "../tree/tree.h"
+#include "check.h"
 #include "loading.h"
 #include "message.h"
 #include "pool.h"

@@ -1,6 +1,4 @@
 /* The container of a System file: header, directory, copies; the content is checked in system_check.c. */
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,16 +28,6 @@ static const char *const optional[] = {
     ALI3_OPTIONAL_ARRAYS(ALI3_NAME)
 #undef ALI3_NAME
 };
-
-ali3_status ali3_bad(ali3_message m, const char *format, ...) {
-  if (m.text != NULL && m.size > 0) {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(m.text, m.size, format, arguments);
-    va_end(arguments);
-  }
-  return ALI3_BAD_FILE;
-}
 
 static uint32_t read_u32(const unsigned char *p) {
   uint32_t v;

@@ -137,7 +137,7 @@ static void trapezoidal(ali3_instance *in, double h) {
 }
 
 /* Also of generalised-alpha. */
-ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
+static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const double alpha = ali3_penalty(in, h);
@@ -194,10 +194,16 @@ ali3_status ali3_augmented_lagrangian(ali3_instance *in, double t, double h) {
   return ali3_accept(in);
 }
 
-bool ali3_projects(const ali3_instance *in) { return in->settings.project; }
+static bool projects(const ali3_instance *in) { return in->settings.project; }
 
-const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
+const ali3_method ali3_method_ali3p = {.step = augmented_lagrangian,
                                        .motion = ali3_balance_step,
-                                       .has_balance = ali3_projects,
+                                       .has_balance = projects,
                                        .owner = ALI3_METHOD_ALI3P,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};
+
+const ali3_method ali3_method_generalised_alpha = {.step = augmented_lagrangian,
+                                                   .motion = ali3_balance_step,
+                                                   .has_balance = projects,
+                                                   .owner = ALI3_METHOD_GENERALISED_ALPHA,
+                                                   .round_off = ALI3_ROUND_OFF_INDEX_3};

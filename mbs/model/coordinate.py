@@ -1,0 +1,53 @@
+"""Full coordinates of a model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbs.affine import Affine
+
+
+@dataclass(frozen=True)
+class CoordinateInfo:
+    """What a full coordinate is.
+
+    Parameters
+    ----------
+    name : str
+        For messages and for the list of coordinates.
+    kind : {"point", "vector", "angle", "spin", "mode"}
+        What it is a component of.
+    component : int
+        0, 1 or 2: along which earth axis.
+    reference : float
+        Its value in the reference configuration; m, rad or without unit.
+    """
+
+    name: str
+    kind: str
+    component: int
+    reference: float
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """A scalar coordinate a model added: an unwrapped relative angle or a spin.
+
+    Parameters
+    ----------
+    name : str
+        Name of the angle or of the spin.
+    index : int
+        Number of the full coordinate.
+    unit : str
+        Unit of its value, rad.
+    """
+
+    name: str
+    index: int
+    unit: str
+
+    @property
+    def affine(self) -> Affine:
+        """The coordinate as an expression."""
+        return Affine({self.index: 1.0})

@@ -1,0 +1,124 @@
+"""What a model registers besides bodies, joints and elements: inputs, guides, parameters, switches, constants."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbs.kernel.header import GuideType, ParameterTarget
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A number that is stated, not computed.
+
+    Parameters
+    ----------
+    name : str
+        Unique, such as ``vehicle.wheelbase``.
+    value : float
+        In `unit`.
+    unit : str
+    description : str
+    """
+
+    name: str
+    value: float
+    unit: str
+    description: str
+
+
+@dataclass(frozen=True)
+class Input:
+    """A number that a host sets at every step; `index` is its place in the System."""
+
+    name: str
+    index: int
+    start: float
+    min: float
+    max: float
+    unit: str
+    description: str
+    whole: bool = False
+
+
+@dataclass(frozen=True)
+class Switch:
+    """A switch by name; `index` is its place in the System."""
+
+    name: str
+    index: int
+    on: bool
+
+
+@dataclass(frozen=True)
+class Guide:
+    """A prescribed motion; `reals` as in the System file, `second` the number of a second input or -1."""
+
+    name: str
+    index: int
+    type: GuideType
+    input: int
+    reals: tuple[float, ...]
+    start: float
+    unit: str
+    second: int = -1
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number that writes value * scale + offset to data of elements, guides, roads or payloads, or a switch.
+
+    Parameters
+    ----------
+    name : str
+        Unique among the parameters.
+    value, min, max : float
+        As compiled, and its limits.
+    unit, description : str
+        For hosts.
+    targets : tuple of (int, int, int, float, float)
+        Family, index in the family, index of the real, scale, offset.
+    tunable : bool
+        Whether it may be set while the model moves.
+    """
+
+    name: str
+    value: float
+    min: float
+    max: float
+    unit: str
+    description: str
+    targets: tuple[tuple[int, int, int, float, float], ...]
+    tunable: bool = True
+
+    @property
+    def whole(self) -> bool:
+        """Whether its values are whole numbers: it turns a switch."""
+        return any(where[0] == ParameterTarget.SWITCH for where in self.targets)
+
+
+@dataclass(frozen=True)
+class RoadFileParameter:
+    """A parameter that is text: the file in place of a road.
+
+    Parameters
+    ----------
+    name : str
+        Unique among the parameters.
+    road : int
+        Number of the road.
+    start : str
+        Path of the file; empty: none, the road of the model.
+    """
+
+    name: str
+    road: int
+    start: str
+
+    @property
+    def description(self) -> str:
+        """One sentence for hosts."""
+        return (
+            "File of the road (made by ali3 road, or a table .csv with coordinates) in place of the built-in one, "
+            "which an empty text means: a path, or the name of one in the folder roads of the resources"
+        )

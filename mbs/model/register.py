@@ -1,0 +1,253 @@
+"""The register of a model: names, coordinates, and what undoes a call that is refused."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.affine import Affine, AffineVector
+from mbs.checks import Vector, named, positive, shown, vector, whole
+from mbs.errors import ModelError
+from mbs.model.coordinate import Coordinate, CoordinateInfo
+
+
+def _whole_or_not(method: Callable[..., Any]) -> Callable[..., Any]:
+    """A method of a model that leaves the model as it was when it raises."""
+
+    @functools.wraps(method)
+    def call(self: Register, *args: Any, **kwargs: Any) -> Any:
+        if self._undo is not None:  # part of another one
+            return method(self, *args, **kwargs)
+        self._undo = []
+        self.remember(self)
+        try:
+            return method(self, *args, **kwargs)
+        except BaseException:
+            undo, self._undo = self._undo, None
+            for restore in reversed(undo or []):
+                restore()
+            raise
+        finally:
+            self._undo = None
+
+    return call
+
+
+class Register:
+    """Names and coordinates of a model.
+
+    A public method of a model either does all it says or raises and changes nothing: every class of the vocabulary is
+    made so when it is defined.
+
+    Parameters
+    ----------
+    name : str
+        Name of the model; it goes into the System and into messages.
+    dimension : {2, 3}
+        Planar (x, y) or spatial.
+    gravity : array_like, shape (dimension,), optional
+        Acceleration of gravity in earth axes, m/s2; by default 9.81 along -y (planar) or -z (spatial).
+    length : float, optional
+        What the tolerance of a run is relative to, m; by default the extent of the drawing.
+
+    Raises
+    ------
+    ModelError
+        The name is empty, the dimension is neither 2 nor 3, or a number is not one.
+    """
+
+    def __init__(
+        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
+    ) -> None:
+        self.name = named(name, "a model")
+        what = f"model '{self.name}'"
+        self.dimension = whole(dimension, f"The dimension of {what}", 2, 3)
+        fall = np.array([0.0, -9.81]) if self.dimension == 2 else np.array([0.0, 0.0, -9.81])
+        self.gravity: Vector = fall if gravity is None else vector(gravity, self.dimension, f"the gravity of {what}")
+        self.length = None if length is None else positive(length, f"The length of {what}")
+        self.coordinates: list[CoordinateInfo] = []
+        self._names: set[tuple[str, str]] = set()
+        self._undo: list[Callable[[], None]] | None = None
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        for name, method in list(vars(cls).items()):
+            if callable(method) and not name.startswith("_"):
+                setattr(cls, name, _whole_or_not(method))
+
+    def remember(self, thing: object) -> None:
+        """Note the attributes of what is about to change, so that a refused call can restore them.
+
+        Parameters
+        ----------
+        thing : object
+            The model, or a body or a joint of it.
+        """
+        if self._undo is None:
+            return
+        attributes = vars(thing)
+        before = {
+            name: value.copy() if isinstance(value, dict) else value
+            for name, value in attributes.items()
+            if name not in ("_undo", "_names")  # names are many, and `unique` notes its own
+        }
+        # Lists of a register only grow: their lengths say what they were, at a cost that does not grow with them.
+        lengths = {name: len(value) for name, value in before.items() if isinstance(value, list)}
+
+        def restore() -> None:
+            for name in [name for name in attributes if name not in ("_undo", "_names", *before)]:
+                del attributes[name]
+            attributes.update(before)
+            for name, length in lengths.items():
+                del attributes[name][length:]
+
+        self._undo.append(restore)
+
+    def unique(self, family: str, name: str) -> str:
+        """Claim a name among the things of a family.
+
+        Parameters
+        ----------
+        family : str
+            What the name is for: body, joint, element, sensor ...
+        name : str
+            The name.
+
+        Returns
+        -------
+        str
+            The name.
+
+        Raises
+        ------
+        ModelError
+            The name is empty, cannot be written to a file, or is taken.
+        """
+        key = family, named(name, f"a {family}")
+        if key in self._names:
+            raise ModelError(f"The model '{self.name}' already has a {family} named '{name}'; names must be unique.")
+        self._names.add(key)
+        if self._undo is not None:
+            self._undo.append(lambda: self._names.discard(key))
+        return key[1]
+
+    def new_coordinate(self, name: str, kind: str, reference: float, component: int = 0) -> int:
+        """Register a scalar full coordinate.
+
+        Parameters
+        ----------
+        name, kind, reference, component
+            See `CoordinateInfo`.
+
+        Returns
+        -------
+        int
+            Its number.
+        """
+        self.coordinates.append(CoordinateInfo(name, kind, component, reference))
+        return len(self.coordinates) - 1
+
+    def drawn(self) -> Vector:
+        """Full coordinates in the reference configuration.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            In the order of `coordinates`.
+        """
+        return np.array([c.reference for c in self.coordinates])
+
+    def owned_coordinate(self, coordinate: Coordinate, what: str) -> Coordinate:
+        """A coordinate, if it is one of this model.
+
+        Parameters
+        ----------
+        coordinate : Coordinate
+            A relative angle or a spin.
+        what : str
+            What needs it, for the message.
+
+        Returns
+        -------
+        Coordinate
+            The same.
+
+        Raises
+        ------
+        ModelError
+            It is none, or one of another model.
+        """
+        if not isinstance(coordinate, Coordinate):
+            raise ModelError(f"{what} needs a relative angle or a spin, got {shown(coordinate)}.")
+        i = coordinate.index
+        if i >= len(self.coordinates) or self.coordinates[i].name != coordinate.name:
+            raise ModelError(f"{what}: the coordinate '{coordinate.name}' is not one of model '{self.name}'.")
+        return coordinate
+
+    def expression(self, given: Coordinate | Affine, what: str) -> Affine:
+        """A coordinate or an expression of coordinates, as an expression.
+
+        Parameters
+        ----------
+        given : Coordinate or Affine
+            Of this model.
+        what : str
+            What needs it, for the message.
+
+        Returns
+        -------
+        Affine
+            The expression.
+
+        Raises
+        ------
+        ModelError
+            It is neither, or of another model.
+        """
+        if isinstance(given, Coordinate):
+            return self.owned_coordinate(given, what).affine
+        if not isinstance(given, Affine):
+            raise ModelError(f"{what} needs a coordinate or an expression, got {shown(given)}.")
+        if max(given.terms, default=0) >= max(len(self.coordinates), 1):
+            raise ModelError(f"{what} has an expression of coordinates that model '{self.name}' does not have.")
+        return given
+
+    def expressions(self, given: AffineVector, what: str, sizes: tuple[int, ...] = ()) -> AffineVector:
+        """A point or vector of bodies, if its coordinates are those of this model.
+
+        Parameters
+        ----------
+        given : AffineVector
+            Such as ``body.point((0, 0, 1))``.
+        what : str
+            What needs it, for the message.
+        sizes : tuple of int
+            How many components it may have; by default the dimension of the model.
+
+        Returns
+        -------
+        AffineVector
+            The same.
+
+        Raises
+        ------
+        ModelError
+            It is none, has another number of components, or is of another model.
+        """
+        sizes = sizes or (self.dimension,)
+        if not isinstance(given, AffineVector):
+            raise ModelError(
+                f"{what} needs a point or a vector of a body, such as body.point(...), got {shown(given)}."
+            )
+        if len(given) not in sizes:
+            raise ModelError(
+                f"{what} has a point or a vector of {len(given)} components; it needs "
+                f"{' or '.join(str(n) for n in sizes)}."
+            )
+        for component in given.components:
+            self.expression(component, what)
+        return given

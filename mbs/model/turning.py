@@ -1,0 +1,29 @@
+"""What a joint holds of the turning of its bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mbs.affine import Affine, AffineVector
+from mbs.model.equation import Equation, dot_products
+
+
+@dataclass(frozen=True)
+class Turning:
+    """What a joint holds of the turning of its bodies.
+
+    Parameters
+    ----------
+    points : pair of AffineVector
+        Of the first and the second body, where the joint is.
+    pairs : sequence of (u, v, value)
+        Vectors of the first and the second body whose product keeps the value.
+    """
+
+    points: tuple[AffineVector, AffineVector]
+    pairs: Sequence[tuple[AffineVector, AffineVector, float]]
+
+    def equations(self, name: str) -> list[Equation]:
+        """One per pair."""
+        return [Equation(name, "turning", dot_products(u, v), Affine({}, -value)) for u, v, value in self.pairs]

@@ -1,0 +1,164 @@
+"""The typed content of a car file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, PrivateAttr
+
+from mbs.errors import ModelError
+from mbs.vehicle.aerodynamics import Aerodynamics
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.brakes import Brakes
+from mbs.vehicle.chassis.frames.frame_section import FrameSection
+from mbs.vehicle.chassis.frames.tubes import TubesFrame
+from mbs.vehicle.chassis.section import Chassis
+from mbs.vehicle.chassis.tubular_frame import TubularFrame
+from mbs.vehicle.drives import Drive
+from mbs.vehicle.names import CarName, Name, Text
+from mbs.vehicle.payload import Payload
+from mbs.vehicle.quantities import Length, Mass, Point
+from mbs.vehicle.road import RoadSection
+from mbs.vehicle.section import Section, sections_of
+from mbs.vehicle.side import Point as Coordinates
+from mbs.vehicle.steering import Steering
+from mbs.vehicle.suspensions.twist_beam import TwistBeam
+
+
+class Vehicle(Section):
+    """The car as a whole."""
+
+    mass: Mass
+    """Mass of the whole car without payloads, to be checked against the sum of its parts."""
+    reference_point: Point
+    """Origin of the vehicle axes: the centre of mass of the whole car."""
+    length: Length
+    """Length of the outline."""
+    width: Length
+    """Width of the outline without mirrors."""
+
+
+class CarContent(Section):
+    """The tables of a car file, typed."""
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")]
+    """Version of the form of this file."""
+    name: CarName
+    """Name of the car, for files: lower-case letters, digits and underscores."""
+    description: Text
+    """What car it is."""
+    vehicle: Vehicle
+    """The car as a whole."""
+    chassis: Chassis
+    """Chassis with all that is fixed to it."""
+    payload: dict[Name, Payload] = Field(default_factory=dict)
+    """Persons and luggage by name."""
+    front: Axle
+    """Front axle."""
+    rear: Axle
+    """Rear axle."""
+    steering: Steering
+    """Steering of the front axle."""
+    brakes: Brakes
+    """Brakes."""
+    drive: Drive
+    """Engine or motor and what is between it and the wheels."""
+    aerodynamics: Aerodynamics
+    """Forces of the air."""
+    road: RoadSection
+    """Road under the car where no other is given."""
+
+    _folder: Path = PrivateAttr(Path())
+    _data: dict[str, Any] = PrivateAttr(default_factory=dict)
+
+    @property
+    def folder(self) -> Path:
+        """Of the file and its tables."""
+        return self._folder
+
+    @property
+    def wheelbase(self) -> float:
+        """Distance between the axles as drawn, m."""
+        return self.front.wheel.centre[0] - self.rear.wheel.centre[0]
+
+    @property
+    def tubular_frame(self) -> TubularFrame:
+        """Tables of the frame.
+
+        Raises
+        ------
+        ModelError
+            The car has no frame of tubes.
+        """
+        frame = self.frame_section
+        if not isinstance(frame, TubesFrame):
+            raise ModelError(f"The frame of the car '{self.name}' is not of tubes.")
+        return TubularFrame(frame, self._folder)
+
+    @property
+    def frame_section(self) -> FrameSection:
+        """Description of the flexible frame.
+
+        Raises
+        ------
+        ModelError
+            The car has none.
+        """
+        if self.chassis.frame is None:
+            raise ModelError(f"The car '{self.name}' has no flexible frame: its file has no table chassis.frame.")
+        return self.chassis.frame
+
+    def faults(self) -> Iterator[str]:
+        """The front axle steers."""
+        if isinstance(self.front.suspension, TwistBeam):
+            kind = self.front.suspension.kind
+            yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
+
+    def values(self) -> dict[str, float]:
+        """Numbers that a finished FMU of the car has as parameters, by key path."""
+        found = {}
+        for section in sections_of(self):
+            for field in type(section).model_fields:
+                quantity, value = section.quantity(field), getattr(section, field)
+                if quantity is not None and quantity.change is not None and value is not None:
+                    found[section.key(field)] = float(value)
+        return found
+
+    def order(self, path: str) -> int:
+        """Place of a key path in the file's type.
+
+        Parameters
+        ----------
+        path : str
+            Of a number.
+        """
+        return self._paths.index(path)
+
+    @cached_property
+    def _paths(self) -> list[str]:
+        return [section.key(field) for section in sections_of(self) for field in type(section).model_fields]
+
+    @property
+    def rack_ends(self) -> Coordinates:
+        """Inner end of the left tie rod of the front axle, m."""
+        suspension = self.front.suspension
+        assert not isinstance(suspension, TwistBeam), "refused with the file"
+        return suspension.steering_arm_inner
+
+    @property
+    def rack_way(self) -> float:
+        """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
+        suspension = self.front.suspension
+        assert not isinstance(suspension, TwistBeam), "refused with the file"
+        return 1.0 if suspension.steering_arm[0] > self.front.wheel.centre[0] else -1.0
+
+    @property
+    def footprint(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Least and largest x and y of the car as drawn, with a hand's breadth around."""
+        margin = 0.13
+        x = self.rear.wheel.centre[0] - self.rear.tyre.radius, self.front.wheel.centre[0] + self.front.tyre.radius
+        half = 0.5 * self.vehicle.width
+        return (x[0] - margin, x[1] + margin), (-half - margin, half + margin)
