@@ -127,7 +127,8 @@ static slave_status end(detour *d, fmi2Status status) {
 
 slave_status fmi2_setup(slave *s, double start_time, bool stop_defined, double stop_time) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->setup(d->inner, 0, 0.0, start_time, stop_defined, stop_time)) : AT_ONCE(slave_setup(s, start_time, stop_defined, stop_time));
+  return d != NULL ? end(d, py->setup(d->inner, 0, 0.0, start_time, stop_defined, stop_time))
+                   : AT_ONCE(slave_setup(s, start_time, stop_defined, stop_time));
 }
 
 slave_status fmi2_enter(slave *s) {
@@ -171,10 +172,12 @@ slave_status fmi2_set(slave *s, const uint32_t *reference, size_t n, const doubl
 
 slave_status fmi2_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->get_integer(d->inner, reference, n, value)) : AT_ONCE(slave_get_whole(s, reference, n, value));
+  return d != NULL ? end(d, py->get_integer(d->inner, reference, n, value))
+                   : AT_ONCE(slave_get_whole(s, reference, n, value));
 }
 
 slave_status fmi2_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->set_integer(d->inner, reference, n, value)) : AT_ONCE(slave_set_whole(s, reference, n, value));
+  return d != NULL ? end(d, py->set_integer(d->inner, reference, n, value))
+                   : AT_ONCE(slave_set_whole(s, reference, n, value));
 }

@@ -35,7 +35,7 @@ static bool python_is_there(void) { return true; } /* else the library does not 
 
 static void *python(void) { return (void *)GetModuleHandleA("python3.dll"); }
 
-static void end_safely(void *library) { (void)library; } /* there it unloads in a right order */
+static void keep_python(const pythonfmu *py) { (void)py; } /* PythonFMU leaves it alone there */
 
 static const char *const SUFFIX = "-pythonfmu.dll";
 #else
@@ -68,16 +68,15 @@ static bool python_is_there(void) {
 /* PythonFMU ends an interpreter that it started, under instances and threads that are still there, and releases its own
  * record of that twice: when the process deletes what is static and when it unloads the library. So the interpreter is
  * started here, for good, and the record is released before both. */
-static void end_safely(void *library) {
-  int (*const is_initialized)(void) = (int (*)(void))find(python(), "Py_IsInitialized");
+static void keep_python(const pythonfmu *py) {
   void (*const initialize)(int) = (void (*)(int))find(python(), "Py_InitializeEx");
   void *(*const unlock)(void) = (void *(*)(void))find(python(), "PyEval_SaveThread");
-  void (*const release)(void) = (void (*)(void))find(library, "finalizePythonInterpreter");
-  if (initialize != NULL && unlock != NULL && !is_initialized()) {
+  if (!py->is_initialized()) {
     initialize(0); /* without handlers of signals: they are the host's */
     unlock();
   }
-  if (release != NULL) atexit(release);
+  atexit(
+      py->release_record); /* later than the library was loaded: so it comes before what the library does at the end */
 }
 
 static const char *const SUFFIX = "-pythonfmu.so";
@@ -100,6 +99,7 @@ static bool fill(pythonfmu *py, void *library) {
       {(void **)&py->set_real, "fmi2SetReal"},
       {(void **)&py->get_integer, "fmi2GetInteger"},
       {(void **)&py->set_integer, "fmi2SetInteger"},
+      {(void **)&py->release_record, "finalizePythonInterpreter"},
       {(void **)&py->is_initialized, "Py_IsInitialized"},
       {(void **)&py->enter_python, "PyGILState_Ensure"},
       {(void **)&py->leave_python, "PyGILState_Release"},
@@ -130,7 +130,7 @@ const pythonfmu *pythonfmu_load(char *problem, size_t size) {
              "PythonFMU's library beside the FMU's own could not be loaded; on Windows python3.dll must be on PATH.");
   if (library == NULL) return NULL;
   if (fill(&py, library)) {
-    end_safely(library);
+    keep_python(&py);
     return &py;
   }
   snprintf(problem, size, "PythonFMU's library beside the FMU's own is not complete.");

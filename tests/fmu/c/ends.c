@@ -1,5 +1,6 @@
 /* A host without Python that ends in one of many ways: ends END LIBPYTHON (LIBRARY RESOURCES_URI GUID)...
  * LIBPYTHON is loaded first, as the loader's path would have it. */
+#define _GNU_SOURCE
 #include <pthread.h>
 #include <sys/wait.h>
 #include <unistd.h>
