@@ -75,8 +75,7 @@ static void keep_python(const pythonfmu *py) {
     initialize(0); /* without handlers of signals: they are the host's */
     unlock();
   }
-  atexit(
-      py->release_record); /* later than the library was loaded: so it comes before what the library does at the end */
+  atexit(py->release_record); /* registered last, so called before what the library does at the end */
 }
 
 static const char *const SUFFIX = "-pythonfmu.so";
