@@ -51,9 +51,13 @@ static bool has_module(slave *s) {
   return true;
 }
 
+/* The slave then answers at once: a host may call from exit handlers and destructors that come after the interpreter. */
+static bool python_has_ended(void) { return py != NULL && !py->is_initialized(); }
+
 static bool start_python(detour *d) {
   slave *s = d->link.s;
   char address[32], uri[SLAVE_PATH + 16], problem[SLAVE_TEXT / 2];
+  if (python_has_ended()) return true;
   if (!has_module(s)) return false;
   if (py == NULL) py = pythonfmu_load(problem, sizeof problem);
   if (py == NULL) {
@@ -91,19 +95,28 @@ slave *fmi2_new(fmi2_face *face, const ali3_memory *memory, slave_logger *logger
 void fmi2_free(fmi2_face *face) {
   detour *d = face->detour;
   slave *s = face->s;
-  if (d != NULL && d->inner != NULL) py->free_instance(d->inner);
+  if (d != NULL && d->inner != NULL && !python_has_ended()) {
+    /* At its end the interpreter ends threads that wait for it; in PythonFMU's destructor that would abort the host. */
+    const int state = py->enter_python();
+    py->free_instance(d->inner);
+    py->leave_python(state);
+  }
   if (d != NULL) s->memory.release(d);
   slave_free(s);
 }
 
-/* PythonFMU's instance behind a slave, or NULL, said, if there is none any more. */
+/* PythonFMU's instance behind a slave, or NULL if the interpreter has ended or, said, an exception of Python. */
 static detour *begin(slave *s) {
   detour *d = ((fmi2_face *)s->host)->detour;
   d->link.answer = SLAVE_ERROR; /* unless Python brings another one */
+  if (python_has_ended()) return NULL;
   if (d->inner != NULL) return d;
   slave_say(s, SLAVE_ERROR, "An exception has ended the Python part of this instance; it can only be freed.");
   return NULL;
 }
+
+/* Of a call that did not go to Python. */
+#define AT_ONCE(call) (python_has_ended() ? (call) : SLAVE_ERROR)
 
 /* PythonFMU frees its instance after an exception. */
 static slave_status end(detour *d, fmi2Status status) {
@@ -114,33 +127,34 @@ static slave_status end(detour *d, fmi2Status status) {
 
 slave_status fmi2_setup(slave *s, double start_time, bool stop_defined, double stop_time) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->setup(d->inner, 0, 0.0, start_time, stop_defined, stop_time)) : SLAVE_ERROR;
+  return d != NULL ? end(d, py->setup(d->inner, 0, 0.0, start_time, stop_defined, stop_time))
+                   : AT_ONCE(slave_setup(s, start_time, stop_defined, stop_time));
 }
 
 slave_status fmi2_enter(slave *s) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->enter(d->inner)) : SLAVE_ERROR;
+  return d != NULL ? end(d, py->enter(d->inner)) : AT_ONCE(slave_enter(s));
 }
 
 slave_status fmi2_exit(slave *s) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->exit(d->inner)) : SLAVE_ERROR;
+  return d != NULL ? end(d, py->exit(d->inner)) : AT_ONCE(slave_exit(s));
 }
 
 slave_status fmi2_step(slave *s, double time, double step) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->step(d->inner, time, step, 0)) : SLAVE_ERROR;
+  return d != NULL ? end(d, py->step(d->inner, time, step, 0)) : AT_ONCE(slave_step(s, time, step));
 }
 
 slave_status fmi2_terminate(slave *s) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->terminate(d->inner)) : SLAVE_ERROR;
+  return d != NULL ? end(d, py->terminate(d->inner)) : AT_ONCE(slave_terminate(s));
 }
 
 /* PythonFMU makes a new object of the class, which finds the same link. */
 slave_status fmi2_reset(slave *s) {
   detour *d = begin(s);
-  if (d == NULL) return SLAVE_ERROR;
+  if (d == NULL) return AT_ONCE(slave_reset(s));
   d->link.answer = SLAVE_OK;
   const slave_status status = end(d, py->reset(d->inner));
   return status == SLAVE_OK ? slave_reset(s) : status;
@@ -148,20 +162,22 @@ slave_status fmi2_reset(slave *s) {
 
 slave_status fmi2_get(slave *s, const uint32_t *reference, size_t n, double *value) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->get_real(d->inner, reference, n, value)) : SLAVE_ERROR;
+  return d != NULL ? end(d, py->get_real(d->inner, reference, n, value)) : AT_ONCE(slave_get(s, reference, n, value));
 }
 
 slave_status fmi2_set(slave *s, const uint32_t *reference, size_t n, const double *value) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->set_real(d->inner, reference, n, value)) : SLAVE_ERROR;
+  return d != NULL ? end(d, py->set_real(d->inner, reference, n, value)) : AT_ONCE(slave_set(s, reference, n, value));
 }
 
 slave_status fmi2_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->get_integer(d->inner, reference, n, value)) : SLAVE_ERROR;
+  return d != NULL ? end(d, py->get_integer(d->inner, reference, n, value))
+                   : AT_ONCE(slave_get_whole(s, reference, n, value));
 }
 
 slave_status fmi2_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value) {
   detour *d = begin(s);
-  return d != NULL ? end(d, py->set_integer(d->inner, reference, n, value)) : SLAVE_ERROR;
+  return d != NULL ? end(d, py->set_integer(d->inner, reference, n, value))
+                   : AT_ONCE(slave_set_whole(s, reference, n, value));
 }

@@ -7,6 +7,7 @@
 #endif
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "pythonfmu.h"
@@ -32,6 +33,10 @@ static void *find(void *library, const char *name) { return (void *)GetProcAddre
 
 static bool python_is_there(void) { return true; } /* else the library does not load, which is said */
 
+static void *python(void) { return (void *)GetModuleHandleA("python3.dll"); }
+
+static void keep_python(const pythonfmu *py) { (void)py; } /* PythonFMU leaves it alone there */
+
 static const char *const SUFFIX = "-pythonfmu.dll";
 #else
 static bool own_path(char *path) {
@@ -46,16 +51,31 @@ static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTL
 
 static void *find(void *library, const char *name) { return dlsym(library, name); }
 
+static void *python(void) { return RTLD_DEFAULT; }
+
 /* PythonFMU's library leaves Python's symbols to the host; a host without them gets the newest libpython the loader
  * finds. */
 static bool python_is_there(void) {
   char name[32];
-  if (dlsym(RTLD_DEFAULT, "Py_IsInitialized") != NULL) return true;
+  if (find(python(), "Py_IsInitialized") != NULL) return true;
   for (int minor = 16; minor >= 10; minor--) {
     snprintf(name, sizeof name, "libpython3.%d.so.1.0", minor);
     if (dlopen(name, RTLD_NOW | RTLD_GLOBAL) != NULL) return true;
   }
   return false;
+}
+
+/* PythonFMU ends an interpreter that it started, under instances and threads that are still there, and releases its own
+ * record of that twice: when the process deletes what is static and when it unloads the library. So the interpreter is
+ * started here, for good, and the record is released before both. */
+static void keep_python(const pythonfmu *py) {
+  void (*const initialize)(int) = (void (*)(int))find(python(), "Py_InitializeEx");
+  void *(*const unlock)(void) = (void *(*)(void))find(python(), "PyEval_SaveThread");
+  if (!py->is_initialized()) {
+    initialize(0); /* without handlers of signals: they are the host's */
+    unlock();
+  }
+  atexit(py->release_record); /* registered last, so called before what the library does at the end */
 }
 
 static const char *const SUFFIX = "-pythonfmu.so";
@@ -78,9 +98,15 @@ static bool fill(pythonfmu *py, void *library) {
       {(void **)&py->set_real, "fmi2SetReal"},
       {(void **)&py->get_integer, "fmi2GetInteger"},
       {(void **)&py->set_integer, "fmi2SetInteger"},
+      {(void **)&py->release_record, "finalizePythonInterpreter"},
+      {(void **)&py->is_initialized, "Py_IsInitialized"},
+      {(void **)&py->enter_python, "PyGILState_Ensure"},
+      {(void **)&py->leave_python, "PyGILState_Release"},
   };
-  for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-    if ((*all[i].function = find(library, all[i].name)) == NULL) return false;
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+    const bool of_python = strncmp(all[i].name, "Py", 2) == 0;
+    if ((*all[i].function = find(of_python ? python() : library, all[i].name)) == NULL) return false;
+  }
   return true;
 }
 
@@ -102,7 +128,10 @@ const pythonfmu *pythonfmu_load(char *problem, size_t size) {
     snprintf(problem, size,
              "PythonFMU's library beside the FMU's own could not be loaded; on Windows python3.dll must be on PATH.");
   if (library == NULL) return NULL;
-  if (fill(&py, library)) return &py;
+  if (fill(&py, library)) {
+    keep_python(&py);
+    return &py;
+  }
   snprintf(problem, size, "PythonFMU's library beside the FMU's own is not complete.");
   return NULL;
 }

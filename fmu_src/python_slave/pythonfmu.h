@@ -14,6 +14,11 @@ typedef struct { /* its functions that are used here */
   fmi2Status (*set_real)(fmi2Component, const fmi2ValueReference *, size_t, const fmi2Real *);
   fmi2Status (*get_integer)(fmi2Component, const fmi2ValueReference *, size_t, fmi2Integer *);
   fmi2Status (*set_integer)(fmi2Component, const fmi2ValueReference *, size_t, const fmi2Integer *);
+  void (*release_record)(void); /* of the interpreter */
+  /* and Python's */
+  int (*is_initialized)(void); /* 0 from the end of the exit handlers on */
+  int (*enter_python)(void);
+  void (*leave_python)(int);
 } pythonfmu;
 
 /* The library beside this one, with libpython for hosts that are no Python programs; NULL, and why, if that fails. */

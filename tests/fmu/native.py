@@ -16,7 +16,7 @@ from mbs.kernel import build
 
 ROOT = Path(__file__).parents[2]
 C_FOLDER = Path(__file__).parent / "c"
-LIBRARY_HEADERS = ROOT / "benchmarks" / "c"
+LIBRARY_HEADERS = ROOT / "benchmarks" / "car" / "c"
 HOST_SOURCE = ROOT / "hosts" / "c" / "host.c"
 STANDARD_HEADERS = Path(fmpy.__file__).parent / "c-code"
 
