@@ -9,10 +9,17 @@ from mbs.affine import Affine, AffineVector
 from mbs.branch_warning import BranchWarning
 from mbs.compiler import compile
 from mbs.errors import ArgumentTypeError
+from mbs.lazy_modules import lazy_modules
 from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
 
 if TYPE_CHECKING:
+    from mbs import elements as elements
+    from mbs import flexible as flexible
+    from mbs import roads as roads
+    from mbs import scenes as scenes
+    from mbs import shapes as shapes
+    from mbs import vehicle as vehicle
     from mbs.accuracy import Accuracy, AccuracyWarning
     from mbs.animation import Animation, animate
     from mbs.control import Control
@@ -27,6 +34,8 @@ if TYPE_CHECKING:
     from mbs.simulation import Pose, Simulation, simulate
     from mbs.trajectory import Trajectory
 
+# packages of their own, imported when they are first asked for: mbs.vehicle.load("prototype")
+_package = lazy_modules("mbs", ("elements", "flexible", "roads", "scenes", "shapes", "vehicle"))
 # what needs the compiled kernel is imported when it is first asked for
 _LAZY = {
     "Accuracy": "mbs.accuracy",
@@ -91,4 +100,4 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name in _LAZY:
         return getattr(import_module(_LAZY[name]), name)
-    raise AttributeError(f"module 'mbs' has no attribute {name!r}")
+    return _package(name)

@@ -54,7 +54,7 @@ def c_table(
     variables = "\n".join(
         f"    {{{c_string(v.name)}, {c_string(unit)}, {_SOURCES[v.source]}, {v.index}, "
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
-        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {v.road}}},"
+        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {v.road}, {sum(1 << k for k in v.uncomputed):#x}}},"
         for v, unit in zip(table, units, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))

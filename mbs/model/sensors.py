@@ -44,6 +44,8 @@ class Sensor:
         What engineers read it in, if that is not `unit`.
     notice : str
         What a run reports when the value is not zero; empty: nothing.
+    computed : bool
+        False for a number that only stands for one that the same scene computes at another fidelity.
     """
 
     name: str
@@ -59,6 +61,7 @@ class Sensor:
     whole: bool = False
     display_unit: str = ""
     notice: str = ""
+    computed: bool = True
 
 
 def component_number(component: str, dimension: int, what: str) -> int:
@@ -121,6 +124,7 @@ class SensorBase(BodyVocabulary):
         terms: Sequence[Term] = (),
         whole: bool = False,
         display_unit: str = "",
+        computed: bool = True,
     ) -> Sensor:
         what = f"sensor {shown(name)}"
         sensor = Sensor(
@@ -136,6 +140,7 @@ class SensorBase(BodyVocabulary):
             terms,
             flag(whole, f"The whole of {what}"),
             text(display_unit, f"The display unit of {what}"),
+            computed=flag(computed, f"The computed of {what}"),
         )
         self.sensors.append(sensor)
         return sensor
