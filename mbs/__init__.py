@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from mbs.linear_model import LinearModel, linearise
     from mbs.periodic_motion import FloquetModel, floquet
     from mbs.poses import Poses
-    from mbs.roads import RoadFile, RoadFileError, read_road, write_road
+    from mbs.roads import RoadFile, RoadFileError, RoadWarning, read_road, write_road
     from mbs.settings import Settings
     from mbs.simulation import Pose, Simulation, simulate
     from mbs.trajectory import Trajectory
@@ -47,6 +47,7 @@ _LAZY = {
     "Pose": "mbs.simulation",
     "RoadFile": "mbs.roads",
     "RoadFileError": "mbs.roads",
+    "RoadWarning": "mbs.roads",
     "read_road": "mbs.roads",
     "write_road": "mbs.roads",
     "Settings": "mbs.settings",
@@ -81,6 +82,7 @@ __all__ = [
     "Poses",
     "RoadFile",
     "RoadFileError",
+    "RoadWarning",
     "Settings",
     "Simulation",
     "SimulationError",

@@ -50,7 +50,7 @@ from mbs.vehicle.outputs import (
 )
 from mbs.vehicle.payload import Payload
 from mbs.vehicle.quantities import Length, Mass, Point
-from mbs.vehicle.road import RoadSection, level_within
+from mbs.vehicle.road import RoadSection, level_within, tell_steep_face
 from mbs.vehicle.section import Section, sections_of
 from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.side import Point as Coordinates
@@ -210,6 +210,11 @@ class Car(Section):
         ------
         ModelError
             An argument is not what it must be, or the car has no frame for the fidelity; the message names it.
+
+        Warns
+        -----
+        RoadWarning
+            The road is a grid with a face that is too steep for the contact of a wheel with a grid.
         """
         fidelity = Fidelity.of(fidelity)
         if fidelity is not Fidelity.RIGID and not self.steering.on_flexible_chassis:
@@ -221,6 +226,7 @@ class Car(Section):
             raise ModelError(f"The car '{self.name}' has fidelity 0 only: its frame does not fit it. {self.misfit}")
         flexible = self.flexible_frame if fidelity is not Fidelity.RIGID else None
         b = self._builder(road)
+        tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
         m = b.m
         b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
         for name, payload in self.payload.items():

@@ -29,7 +29,7 @@ class Curve(Section):
     slope: tuple[SlopeForce, SlopeForce]
     """Initial slope, force per slip."""
     max_force: tuple[Force, Force]
-    """Largest force at the reference friction."""
+    """Largest force on a road of the friction at which the curves hold, `TMeasy.friction`."""
     max_slip: tuple[Slip, Slip]
     """Slip where it is reached."""
     slide_force: tuple[Force, Force]
@@ -114,5 +114,5 @@ class TMeasy(Section):
 
     @property
     def friction(self) -> float:
-        """Friction of the road at which the curves hold."""
+        """Friction of the road at which the curves hold: on any other, forces and slips are scaled to that road's."""
         return self.longitudinal.max_force[0] / self.nominal_load

@@ -44,8 +44,8 @@ void slave_say_uncomputed(slave *s, const slave_variable *v) {
   else
     snprintf(
         text, sizeof text,
-        "'%.128s' reads %g: it is not computed at fidelity %zu. It is where the parameter '%.64s' is set before the "
-        "start to one of %s. This is said once.",
+        "'%.128s' reads %g: fidelity %zu does not compute it. To have it computed, set the parameter '%.64s' to one of "
+        "%s before the start. This is said once.",
         v->name, s->value[v - t->variable], s->fidelity.number, t->variable[s->fidelity_reference].name, remedy);
   s->logger(s, SLAVE_WARNING, category_name[NOT_COMPUTED], text);
 }
