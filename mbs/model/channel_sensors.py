@@ -64,9 +64,7 @@ class ChannelSensorVocabulary(SensorBase):
         """
         x = number(value, f"The value of sensor '{name}'")
         one = [Affine({}, 1.0)]
-        return self._sense(
-            name, unit, description, SensorType.SIGNAL, one, reals=[x], whole=whole, computed=computed
-        )
+        return self._sense(name, unit, description, SensorType.SIGNAL, one, reals=[x], whole=whole, computed=computed)
 
     def sense_input(self, name: str, input: Input, unit: str = "", description: str = "") -> Sensor:
         """An input as it is used, within its limits.

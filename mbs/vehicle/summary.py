@@ -64,7 +64,9 @@ def grip_row(car: Car, axle: str) -> tuple[str, str]:
     tyre = (car.front if axle == "front" else car.rear).tyre
     friction = car.road.friction * car.road.friction_factor * tyre.grip
     scale = friction / tyre.friction
-    longitudinal, lateral = (scale * curve.max_force[0] / tyre.nominal_load for curve in (tyre.longitudinal, tyre.lateral))
+    longitudinal, lateral = (
+        scale * curve.max_force[0] / tyre.nominal_load for curve in (tyre.longitudinal, tyre.lateral)
+    )
     return (
         f"{axle} grip",
         f"{longitudinal:.4g} longitudinal, {lateral:.4g} lateral: largest force over a load of {tyre.nominal_load:g} N; "

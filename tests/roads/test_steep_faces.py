@@ -33,7 +33,9 @@ def test_a_face_of_twelve_centimetres(spacing: float, told: bool, height: float)
     assert bool(sentence) == told
     if told:
         foot = FACE if height > 0.0 else FACE + spacing
-        assert sentence.startswith(f"face.road: at x = {foot:g} m, y = -1 m a face of 0.12 m rises within {spacing:g} m")
+        assert sentence.startswith(
+            f"face.road: at x = {foot:g} m, y = -1 m a face of 0.12 m rises within {spacing:g} m"
+        )
         assert "0.3 m radius" in sentence
         assert "0.19 m or more" in sentence
 
