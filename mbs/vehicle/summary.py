@@ -52,7 +52,7 @@ def summary(car: Car) -> str:
 
 
 def grip_row(car: Car, axle: str) -> tuple[str, str]:
-    """Friction coefficients that the tyres of an axle reach on the car's road, and what the file's forces are scaled by.
+    """Friction coefficients that the tyres of an axle reach on the car's road, and the factor on the file's forces.
 
     Parameters
     ----------
@@ -69,9 +69,9 @@ def grip_row(car: Car, axle: str) -> tuple[str, str]:
     )
     return (
         f"{axle} grip",
-        f"{longitudinal:.4g} longitudinal, {lateral:.4g} lateral: largest force over a load of {tyre.nominal_load:g} N; "
-        f"forces and slips of the file times {scale:.4g}, so that the longitudinal one is {car.road.key('friction')} x "
-        f"{car.road.key('friction_factor')} x {tyre.key('grip')}",
+        f"{longitudinal:.4g} longitudinal, {lateral:.4g} lateral: largest force over a load of {tyre.nominal_load:g} "
+        f"N; forces and slips of the file times {scale:.4g}, to make the longitudinal one "
+        f"{car.road.key('friction')} x {car.road.key('friction_factor')} x {tyre.key('grip')}",
     )
 
 

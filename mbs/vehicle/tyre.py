@@ -62,9 +62,9 @@ class TMeasy(Section):
     """Tyre after W. Hirschberg, G. Rill, H. Weinfurter, Vehicle System Dynamics 45(S1), 2007, 101-119.
 
     The road sets the grip: forces and slips of the curves are scaled so that the largest longitudinal force over the
-    load, at the nominal load, is the friction of the road times `grip`. A common factor on the forces of both directions
-    changes next to nothing; what the file sets is the lateral force over the longitudinal one, sliding over maximum, and
-    how both fall with the load. `ali3 car` and `ali3 build` print the grip of each axle.
+    load, at the nominal load, is the friction of the road times `grip`. A common factor on the forces of both
+    directions changes next to nothing; what the file sets is the lateral force over the longitudinal one, sliding over
+    maximum, and how both fall with the load. `ali3 car` and `ali3 build` print the grip of each axle.
     """
 
     kind: Literal["tmeasy"]
