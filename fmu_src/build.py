@@ -27,7 +27,7 @@ from fmu_src.parameter_file import parameter_set
 from fmu_src.platforms import able_platforms
 from fmu_src.probe import probe, with_nominal
 from fmu_src.texts import check_texts
-from fmu_src.variables import check_fidelities, variable_table
+from fmu_src.variables import check_fidelities, variable_table, with_uncomputed
 from mbs.checks import instance_of
 
 Say = Callable[[str], None]
@@ -150,8 +150,9 @@ class FmuBuilder:
     ) -> None:
         offered = systems_by_number(system)
         systems, fidelity = tuple(offered.values()), default_fidelity(fidelity, len(offered))
-        check_fidelities([s.meta for s in systems])
-        meta = systems[fidelity].meta
+        metas = [s.meta for s in systems]
+        check_fidelities(metas)
+        meta = metas[fidelity]
         table = variable_table(
             meta,
             pose=bool(meta["floating"]),
@@ -159,6 +160,7 @@ class FmuBuilder:
             fidelities=[_label(k) for k in offered],
             fidelity=fidelity,
         )
+        table = with_uncomputed(table, metas)
         description = description or meta.get("description") or ""
         description = description or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
         check_texts(description, rights, table)

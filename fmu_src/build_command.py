@@ -53,9 +53,10 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     )
     parser.add_argument(
         "--platforms",
+        default="this",
         metavar="LIST",
-        help="out of linux64, win64, darwin64, aarch64-linux and wasm32 (WebAssembly, of the kind native), or this: "
-        "the one of this machine; default: all but wasm32 that the kind can have, that of this machine first",
+        help="out of linux64, win64, darwin64, aarch64-linux and wasm32 (WebAssembly, of the kind native); this: that "
+        "of this machine, the default; all: all but wasm32 that the kind can have, that of this machine first",
     )
     parser.add_argument(
         "--poses",
@@ -162,12 +163,22 @@ def _compiled(
         print(f"car {car_words(options.car)} ...", flush=True)
         with line.told("compiling the car"):
             car = build_car(options.car, options.poses)
+        _tell_grip(car.grip)
         return car.name, car.systems, min(car.systems), car.description, car.files
-    from fmu_src.scene_registry import load_fidelities
+    from fmu_src.car_registry import grip_of
+    from fmu_src.scene_registry import car_of_scene, load_fidelities
 
     print(f"scene {options.scene} ...", flush=True)
     with line.told("compiling the scene"):
-        return (*load_fidelities(options.scene, options.poses), "", {})
+        compiled = load_fidelities(options.scene, options.poses)
+    if (scene_car := car_of_scene(options.scene)) is not None:
+        _tell_grip(grip_of(scene_car))
+    return (*compiled, "", {})
+
+
+def _tell_grip(grip: Mapping[str, str]) -> None:
+    for axle, text in grip.items():
+        print(f"{axle}: {text}", flush=True)
 
 
 def _write_parameters(parameters: ParameterSet, file: Path) -> bool:
@@ -187,19 +198,17 @@ def _able(kind: str, platform: str) -> bool:
     return platform in able_platforms(kind)
 
 
-def _platforms(text: str | None, here: str | None) -> list[str]:
+def _platforms(text: str, here: str | None) -> list[str]:
     from fmu_src.platforms import PLATFORMS, TARGETS
 
-    if text is None:
-        return list(PLATFORMS)
-    chosen = list(dict.fromkeys(text.split(",")))
-    if "this" in chosen:
-        if here is None:
-            raise UserError(f"No FMU runs on this machine; the platforms are {', '.join(TARGETS)}.")
-        chosen[chosen.index("this")] = here
+    asked = text.split(",")
+    if "this" in asked and here is None:
+        raise UserError(f"No FMU runs on this machine; --platforms all builds for {', '.join(PLATFORMS)}.")
+    words = {"this": (here or "",), "all": PLATFORMS}
+    chosen = list(dict.fromkeys(platform for word in asked for platform in words.get(word, (word,))))
     if set(chosen) - set(TARGETS):
-        raise UserError(f"Platform '{text}' is not known; the platforms are {', '.join(TARGETS)} and this.")
-    return list(dict.fromkeys(chosen))
+        raise UserError(f"Platform '{text}' is not known; the platforms are {', '.join(TARGETS)}, this and all.")
+    return chosen
 
 
 def _need(package: str) -> None:

@@ -11,6 +11,7 @@ import mbs
 from fmu_src.posed import posed_systems
 from fmu_src.scene_registry import SceneError
 from mbs.vehicle import Car, car_names, load
+from mbs.vehicle.summary import grip_row
 
 FOLDER = "resources/car"
 """Where the car's file and its tables lie in an FMU."""
@@ -31,12 +32,15 @@ class BuiltCar:
         By fidelity, ascending.
     files : mapping of str to bytes
         The car's file and the tables that it names, as they lie in the FMU.
+    grip : mapping of str to str
+        As `grip_of` gives it.
     """
 
     name: str
     description: str
     systems: Mapping[int, mbs.System]
     files: Mapping[str, bytes]
+    grip: Mapping[str, str]
 
 
 def build_car(car: str, poses: str | None = None) -> BuiltCar:
@@ -67,7 +71,18 @@ def build_car(car: str, poses: str | None = None) -> BuiltCar:
         raise SceneError(f"{where}: {error}") from error
     except (ArithmeticError, LookupError) as error:
         raise SceneError(f"{where}: {type(error).__name__}: {error}.") from error
-    return BuiltCar(made.name, made.description, systems, car_files(made))
+    return BuiltCar(made.name, made.description, systems, car_files(made), grip_of(made))
+
+
+def grip_of(car: Car) -> dict[str, str]:
+    """What the tyres of each axle reach, a sentence each; a user may expect the forces of the tyre's file.
+
+    Parameters
+    ----------
+    car : Car
+        Any.
+    """
+    return dict(grip_row(car, axle) for axle in ("front", "rear"))
 
 
 def car_words(car: str) -> str:

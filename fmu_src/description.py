@@ -22,6 +22,7 @@ LOG_CATEGORIES = {
     "logStatusDiscard": "Steps that were refused; the last good state is kept",
     "logStatusError": "Values and calls that were refused",
     "logStatusFatal": "Failures after which the instance cannot be used",
+    "logNotComputed": "Outputs that were read and are not computed at this fidelity; a warning, said once",
     "logAll": "Everything",
 }
 

@@ -14,11 +14,14 @@ from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import mbs
 import mbs.scenes
 from fmu_src.posed import PosesError, posed_systems
+
+if TYPE_CHECKING:
+    from mbs.vehicle import Car
 
 _ENGINE = Path(mbs.__file__).parent
 
@@ -95,6 +98,18 @@ def load_fidelities(scene: str, poses: str | None = None) -> tuple[str, dict[int
             )
         default = inspect.signature(build).parameters["fidelity"].default
         return name, posed_systems({k: makers[k] for k in numbers}, int(default), poses), int(default)
+
+
+def car_of_scene(scene: str) -> Car | None:
+    """The car that a scene of the package is; None of another.
+
+    Parameters
+    ----------
+    scene : str
+        As for `load_scene`.
+    """
+    made = None if _is_path(scene) else getattr(_scene_module(scene), "car", None)
+    return None if made is None else cast("Car", made())
 
 
 def _system(scene: str, build: Callable[..., Any]) -> mbs.System:

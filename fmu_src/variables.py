@@ -79,6 +79,8 @@ class Variable:
         A typical size, where there is one.
     road : int
         Of a parameter of the built-in form of a road, without effect on one from a file: its number; else -1.
+    uncomputed : tuple of int
+        Fidelities at which it is not computed.
     """
 
     name: str
@@ -95,6 +97,7 @@ class Variable:
     whole: bool = False
     nominal: float | None = None
     road: int = -1
+    uncomputed: tuple[int, ...] = ()
 
 
 _CAPPED_RESIDUAL = Variable(
@@ -195,6 +198,24 @@ def variable_table(
     table = [replace(v, name=_NUMBERED.sub("_", v.name)) for v in table]
     _check(table)
     return _distinct(table)
+
+
+def with_uncomputed(table: Sequence[Variable], metas: Sequence[Mapping[str, Any]]) -> tuple[Variable, ...]:
+    """The table with the fidelities at which outputs are not computed.
+
+    Parameters
+    ----------
+    table : sequence of Variable
+    metas : sequence of mapping
+        Of the System of each fidelity.
+    """
+    computed = [[entry.get("computed", True) for entry in meta["sensors"]] for meta in metas]
+    return tuple(
+        replace(v, uncomputed=tuple(k for k, sensors in enumerate(computed) if not sensors[v.index]))
+        if v.source == "sensor"
+        else v
+        for v in table
+    )
 
 
 def _sensor(entry: Mapping[str, Any], index: int) -> Variable:

@@ -36,6 +36,8 @@ from hosts.errors import HostError
 from hosts.numbers import Value
 from hosts.variables import Variables
 
+_NOT_COMPUTED = b"logNotComputed"
+
 State: TypeAlias = "fmi2FMUstate"
 """A state that an FMU has saved, in its memory."""
 
@@ -84,7 +86,7 @@ class Fmu:
     table : Variables
         The same as a person sets them.
     messages : list of str
-        What the FMU logged at warning or above.
+        What the FMU logged at warning or above; not that an output is not computed: what opens it here reads all.
     """
 
     def __init__(self, path: Path) -> None:
@@ -351,5 +353,5 @@ class Fmu:
         category: bytes,
         message: bytes,
     ) -> None:
-        if status > 0 and message:
+        if status > 0 and message and category != _NOT_COMPUTED:
             self.messages.append(message.decode("utf-8", "replace"))

@@ -9,10 +9,17 @@ from mbs.affine import Affine, AffineVector
 from mbs.branch_warning import BranchWarning
 from mbs.compiler import compile
 from mbs.errors import ArgumentTypeError
+from mbs.lazy_modules import lazy_modules
 from mbs.model import Model, ModelError
 from mbs.system import System, SystemFileError
 
 if TYPE_CHECKING:
+    from mbs import elements as elements
+    from mbs import flexible as flexible
+    from mbs import roads as roads
+    from mbs import scenes as scenes
+    from mbs import shapes as shapes
+    from mbs import vehicle as vehicle
     from mbs.accuracy import Accuracy, AccuracyWarning
     from mbs.animation import Animation, animate
     from mbs.control import Control
@@ -21,12 +28,14 @@ if TYPE_CHECKING:
     from mbs.linear_model import LinearModel, linearise
     from mbs.periodic_motion import FloquetModel, floquet
     from mbs.poses import Poses
-    from mbs.roads import RoadFile, RoadFileError, read_road, write_road
+    from mbs.roads import RoadFile, RoadFileError, RoadWarning, read_road, write_road
     from mbs.settings import Settings
     from mbs.simulation import Pose, Simulation, simulate
     from mbs.simulation_error import SimulationError
     from mbs.trajectory import Trajectory
 
+# packages of their own, imported when they are first asked for: mbs.vehicle.load("prototype")
+_package = lazy_modules("mbs", ("elements", "flexible", "roads", "scenes", "shapes", "vehicle"))
 # what needs the compiled kernel is imported when it is first asked for
 _LAZY = {
     "Accuracy": "mbs.accuracy",
@@ -38,6 +47,7 @@ _LAZY = {
     "Pose": "mbs.simulation",
     "RoadFile": "mbs.roads",
     "RoadFileError": "mbs.roads",
+    "RoadWarning": "mbs.roads",
     "read_road": "mbs.roads",
     "write_road": "mbs.roads",
     "Settings": "mbs.settings",
@@ -72,6 +82,7 @@ __all__ = [
     "Poses",
     "RoadFile",
     "RoadFileError",
+    "RoadWarning",
     "Settings",
     "Simulation",
     "SimulationError",
@@ -91,4 +102,4 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name in _LAZY:
         return getattr(import_module(_LAZY[name]), name)
-    raise AttributeError(f"module 'mbs' has no attribute {name!r}")
+    return _package(name)

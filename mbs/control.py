@@ -27,8 +27,9 @@ class Control:
     reason : str
         Why this method; empty where the caller named it.
     error : float
-        Estimated largest error of positions over the run in parts of `length`, from this run and a coarser one; NaN
-        where the step was given: nothing was estimated.
+        Estimate of the largest error of positions over the run in parts of `length`, from this run and a coarser one;
+        no bound: what both runs miss is not in it, and where guides prescribe all motion it is 0. NaN where the step
+        was given: nothing was estimated.
     h : float or None
         The fixed step, s; None: steps under error control.
     steps, rejected, failed : int
@@ -73,8 +74,8 @@ class Control:
         if math.isnan(self.error):
             return f"{self.method}{reason}: {steps}"
         return (
-            f"{self.method}{reason}: {steps}; estimated error {self.error:.1e} of the model's length of "
-            f"{self.length:.4g} m, tolerance {self.tolerance:g}"
+            f"{self.method}{reason}: {steps}; error estimated from a coarser run, no bound: {self.error:.1e} of the "
+            f"model's length of {self.length:.4g} m, tolerance {self.tolerance:g}"
         )
 
 

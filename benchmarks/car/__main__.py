@@ -7,6 +7,8 @@ Per manoeuvre and step, against the stored reference (see `benchmarks.car_refere
 - `wheel_load_error_rel`: largest error of a wheel load over the largest wheel load of the manoeuvre.
 - `us_per_step`, `realtime_factor`: median wall time of the kernel. The `_fmpy` ones go through the FMU: FMPy sets the
   inputs, makes a communication step of the same length and gets four outputs.
+- `..._fmpy_held`, `..._fmpy_followed`: the errors through the FMU, with inputs that are held over a communication step,
+  and with inputs that follow their first derivatives (fmi2SetRealInputDerivatives).
 """
 
 from __future__ import annotations
@@ -38,6 +40,10 @@ COLUMNS = {
     "realtime_factor": ".0f",
     "us_per_step_fmpy": ".1f",
     "realtime_factor_fmpy": ".0f",
+    "path_error_rel_fmpy_held": ".1e",
+    "wheel_load_error_rel_fmpy_held": ".1e",
+    "path_error_rel_fmpy_followed": ".1e",
+    "wheel_load_error_rel_fmpy_followed": ".1e",
 }
 
 

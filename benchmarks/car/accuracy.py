@@ -12,13 +12,17 @@ from typing import Any
 import numpy as np
 
 from benchmarks.car import manoeuvres, trajectories
+from benchmarks.car.trajectories import Column
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.timing import median_wall
-from hosts.manoeuvre import with_names_of
+from hosts.manoeuvre import Manoeuvre, with_names_of
+from hosts.numbers import Value
 from mbs import Trajectory
 
 PATH_BOUND, LOAD_BOUND = 0.01, 0.03  # of path length and of the largest wheel load
 AIM = 50.0  # times real time
+BEFORE = 1e-8  # s: at a jump of an input the value before it
+ERRORS = ("path_error_rel", "wheel_load_error_rel")
 OUTPUTS = (*trajectories.POSITION, "speed")
 
 
@@ -26,9 +30,7 @@ def wall_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeu
     """Median wall time of the communication loop of a manoeuvre through FMPy, s."""
     from hosts.fmu import Fmu
 
-    manoeuvre = manoeuvres.load(name, car)
-    system = manoeuvres.system_of(name, car)
-    start = with_names_of(manoeuvre, [v["name"] for kind in ("parameters", "inputs") for v in system.meta[kind]]).start
+    manoeuvre, start = _of_fmu(name, car)
     steps = round(manoeuvre.stop_time / h)
     rows = [list(manoeuvre.at(k * h).values()) for k in range(steps)]
 
@@ -46,6 +48,38 @@ def wall_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeu
     return median_wall(once, repeats)
 
 
+def _of_fmu(name: str, car: str) -> tuple[Manoeuvre, dict[str, Value]]:
+    """A manoeuvre and its start values under the names of the car's FMU."""
+    manoeuvre, system = manoeuvres.load(name, car), manoeuvres.system_of(name, car)
+    names = [v["name"] for kind in ("parameters", "inputs") for v in system.meta[kind]]
+    return manoeuvre, with_names_of(manoeuvre, names).start
+
+
+def run_of_fmu(file: Path, name: str, h: float, follow: bool, car: str = manoeuvres.PROTOTYPE) -> dict[str, Column]:
+    """Place and wheel loads of a manoeuvre through the FMU with communication steps of `h`, at the reference's times.
+
+    The inputs are held over a communication step, or follow their first derivatives (`follow`).
+    """
+    from hosts.fmu import Fmu
+
+    manoeuvre, start = _of_fmu(name, car)
+    names, every = (*trajectories.POSITION, *trajectories.LOADS), round(manoeuvres.sampling(name, car) / h)
+    inputs = list(manoeuvre.inputs)
+    with Fmu(file) as fmu:
+        set_inputs, set_slopes, get = fmu.setter(inputs), fmu.slope_setter(inputs), fmu.getter(names)
+        fmu.initialise(start | manoeuvre.at(0.0) | {"step_size": h})
+        rows = [get()]
+        for k in range(round(manoeuvre.stop_time / h)):
+            now, then = manoeuvre.at(k * h), manoeuvre.at((k + 1) * h - BEFORE)
+            set_inputs(list(now.values()))
+            if follow:
+                set_slopes([(then[n] - now[n]) / (h - BEFORE) for n in inputs])
+            fmu.step(k * h, h)
+            if (k + 1) % every == 0:
+                rows.append(get())
+    return dict(zip(names, np.array(rows).T, strict=True))
+
+
 def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = manoeuvres.PROTOTYPE) -> dict[str, Any]:
     """One row: a manoeuvre with one step."""
     t, values, length = trajectories.read(name, car)
@@ -61,6 +95,7 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
     duration = float(found.t[-1])
     system, manoeuvre = manoeuvres.system_of(name, car), manoeuvres.load(name, car)
     wall = manoeuvres.time_on(system, manoeuvre, h, repeats, time.perf_counter)
+    held, followed = "_fmpy_held", "_fmpy_followed"
     row: dict[str, Any] = {
         "manoeuvre": name,
         "h_s": h,
@@ -74,10 +109,15 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
         "realtime_factor": duration / wall,
         "us_per_step_fmpy": None,
         "realtime_factor_fmpy": None,
+        **{f"{key}{way}": None for way in (held, followed) for key in ERRORS},
     }
     if fmu is not None and name not in manoeuvres.OTHER_ROAD:
         wall = wall_of_fmu(fmu, name, h, max(1, repeats // 2), car)
         row |= {"us_per_step_fmpy": 1e6 * wall * h / duration, "realtime_factor_fmpy": duration / wall}
+        for way in (held, followed):
+            through = run_of_fmu(fmu, name, h, way == followed, car)
+            errors = trajectories.path_error(through, values) / length, trajectories.load_error(through, values)
+            row |= {f"{key}{way}": value for key, value in zip(ERRORS, errors, strict=True)}
     return row
 
 

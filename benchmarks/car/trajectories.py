@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +13,7 @@ from ali3.files import write_text
 from benchmarks.car import manoeuvres
 from mbs import Settings, Trajectory
 
+Column: TypeAlias = NDArray[np.float64]
 FOLDER = Path(__file__).parents[2] / "tests" / "data" / "car"
 STEP = 1e-4  # s
 CHECKS = (1e-3, 5e-4, 2.5e-4)  # s, steps that show the order
@@ -55,13 +58,13 @@ def read(
     return table[:, 0], dict(zip(names[1:], table[:, 1:].T, strict=True)), length
 
 
-def path_error(found: Trajectory, values: dict[str, NDArray[np.float64]]) -> float:
+def path_error(found: Trajectory | Mapping[str, Column], values: Mapping[str, Column]) -> float:
     """Largest distance of the reference point from where it is in the reference at the same time, m."""
     gap = np.array([found[s] - values[s] for s in POSITION])
     return float(np.max(np.linalg.norm(gap, axis=0)))
 
 
-def load_error(found: Trajectory, values: dict[str, NDArray[np.float64]]) -> float:
+def load_error(found: Trajectory | Mapping[str, Column], values: Mapping[str, Column]) -> float:
     """Largest error of a wheel load over the largest wheel load."""
     peak = max(float(values[s].max()) for s in LOADS)
     return max(float(np.abs(found[s] - values[s]).max()) for s in LOADS) / peak

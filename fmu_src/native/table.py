@@ -51,11 +51,12 @@ def c_table(
         C.
     """
     units = ["" if v.unit == "1" else f" {v.unit}" for v in table]
+    uncomputed = [sum(1 << k for k in v.uncomputed) for v in table]
     variables = "\n".join(
         f"    {{{c_string(v.name)}, {c_string(unit)}, {_SOURCES[v.source]}, {v.index}, "
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
-        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {v.road}}},"
-        for v, unit in zip(table, units, strict=True)
+        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {v.road}, {bits:#x}}},"
+        for v, unit, bits in zip(table, units, uncomputed, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
     known = sum(v.causality in ("input", "parameter") for v in table)

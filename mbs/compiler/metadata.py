@@ -53,6 +53,7 @@ def metadata(
             | ({"whole": True} if s.whole else {})
             | ({"display_unit": s.display_unit} if s.display_unit else {})
             | ({"notice": s.notice} if s.notice else {})
+            | ({} if s.computed else {"computed": False})
             for s in model.sensors
         ],
         "parameters": [

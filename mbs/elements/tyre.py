@@ -23,7 +23,8 @@ class TyreCurve:
     slope : (float, float)
         Initial slope dF/ds, N, at nominal load and twice of it; so all that follows.
     max_force, slide_force : (float, float)
-        Largest force and force of full sliding, N, at the reference friction.
+        Largest force and force of full sliding, N, on a road of the friction at which the curves hold
+        (`Tyre.curve_friction`); on another road they are scaled to its friction.
     max_slip, slide_slip : (float, float)
         Slips where they are reached.
     """

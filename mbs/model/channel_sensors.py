@@ -30,7 +30,13 @@ class ChannelSensorVocabulary(SensorBase):
     """What can be read beside motion and forces."""
 
     def sense_constant(
-        self, name: str, value: float, unit: str = "1", description: str = "", whole: bool = False
+        self,
+        name: str,
+        value: float,
+        unit: str = "1",
+        description: str = "",
+        whole: bool = False,
+        computed: bool = True,
     ) -> Sensor:
         """A number that does not change.
 
@@ -44,6 +50,9 @@ class ChannelSensorVocabulary(SensorBase):
             For files, plots and hosts.
         whole : bool
             Whether an FMU shows it as an integer.
+        computed : bool
+            False where this number only stands for one that the same scene computes at another fidelity: the FMU then
+            logs once that it was read, and which fidelities compute it.
 
         Returns
         -------
@@ -56,7 +65,8 @@ class ChannelSensorVocabulary(SensorBase):
             The name is taken, or the value is no finite number.
         """
         x = number(value, f"The value of sensor '{name}'")
-        return self._sense(name, unit, description, SensorType.SIGNAL, [Affine({}, 1.0)], reals=[x], whole=whole)
+        one = [Affine({}, 1.0)]
+        return self._sense(name, unit, description, SensorType.SIGNAL, one, reals=[x], whole=whole, computed=computed)
 
     def sense_input(self, name: str, input: Input, unit: str = "", description: str = "") -> Sensor:
         """An input as it is used, within its limits.

@@ -37,6 +37,8 @@ class Sensor:
         What engineers read it in, if that is not `unit`.
     notice : str
         What a run reports when the value is not zero; empty: nothing.
+    computed : bool
+        False for a number that only stands for one that the same scene computes at another fidelity.
     """
 
     name: str
@@ -52,3 +54,4 @@ class Sensor:
     whole: bool = False
     display_unit: str = ""
     notice: str = ""
+    computed: bool = True

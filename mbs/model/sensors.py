@@ -78,6 +78,7 @@ class SensorBase(BodyVocabulary):
         terms: Sequence[Term] = (),
         whole: bool = False,
         display_unit: str = "",
+        computed: bool = True,
     ) -> Sensor:
         what = f"sensor {shown(name)}"
         sensor = Sensor(
@@ -93,6 +94,7 @@ class SensorBase(BodyVocabulary):
             terms,
             flag(whole, f"The whole of {what}"),
             text(display_unit, f"The display unit of {what}"),
+            computed=flag(computed, f"The computed of {what}"),
         )
         self.sensors.append(sensor)
         return sensor

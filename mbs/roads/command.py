@@ -69,6 +69,7 @@ def _number(text: str) -> float:
 
 def _work(options: argparse.Namespace) -> int:
     from ali3.files import whole_file, write_text
+    from ali3.running import told_warnings
     from mbs.roads.read_road import read_road
     from mbs.roads.road_file import RoadFile
     from mbs.roads.write_road import write_road
@@ -86,7 +87,8 @@ def _work(options: argparse.Namespace) -> int:
             return 0
     road = read_road(options.input, **given)
     if output is not None:
-        write_road(road, output)
+        with told_warnings():
+            write_road(road, output)
         RoadFile(output).read()  # as it lies on the disk
     if options.picture is not None:
         from mbs.roads.picture import draw_road

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import struct
+import warnings
 import zlib
 from typing import BinaryIO
 
@@ -15,6 +16,7 @@ from mbs.checks import instance_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header import ROAD_FRICTION, ROAD_TILE, RoadType
 from mbs.roads.road_header import REALS, Header, RoadFileError, check_grid
+from mbs.roads.steep_faces import RoadWarning, steep_face
 
 
 def write_road(
@@ -39,6 +41,11 @@ def write_road(
         A number of the road is none, a height lies beyond 1e5 m or a friction outside 0 to 10.
     ali3.errors.FileError
         The file cannot be written.
+
+    Warns
+    -----
+    RoadWarning
+        A grid has a face that is too steep for the contact of a wheel with a grid.
     """
     instance_of((PlaneRoad, KerbRoad, GridRoad), road, "What write_road writes", "a PlaneRoad, KerbRoad or GridRoad")
     with whole_file(file) as made, made.open("wb") as out:
@@ -46,6 +53,8 @@ def write_road(
             _write_shared(road, out, file, tolerance)
         else:
             _write(road, out, file)
+    if isinstance(road, GridRoad) and (told := steep_face(road, file)):
+        warnings.warn(told, RoadWarning, stacklevel=2)
 
 
 def _write_shared(road: GridRoad, out: BinaryIO, name: object, tolerance: float) -> None:

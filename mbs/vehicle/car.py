@@ -46,7 +46,7 @@ from mbs.vehicle.outputs import (
     wheel_poses,
     work_outputs,
 )
-from mbs.vehicle.road import level_within
+from mbs.vehicle.road import level_within, tell_steep_face
 from mbs.vehicle.schema_version import check_version
 from mbs.vehicle.sentences import Sentences, one_line
 from mbs.vehicle.shapes.car_shapes import car_shapes
@@ -135,6 +135,11 @@ class Car(CarContent):
         ------
         ModelError
             An argument is not what it must be, or the car has no frame for the fidelity; the message names it.
+
+        Warns
+        -----
+        RoadWarning
+            The road is a grid with a face that is too steep for the contact of a wheel with a grid.
         """
         fidelity = Fidelity.of(fidelity)
         if fidelity is not Fidelity.RIGID and not self.steering.on_flexible_chassis:
@@ -146,6 +151,7 @@ class Car(CarContent):
             raise ModelError(f"The car '{self.name}' has fidelity 0 only: its frame does not fit it. {self.misfit}")
         flexible = self.flexible_frame if fidelity is not Fidelity.RIGID else None
         b = self._builder(road)
+        tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
         m = b.m
         b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
         for name, payload in self.payload.items():

@@ -223,12 +223,11 @@ def work_outputs(m: Model) -> None:
     """
     for name, (starts, text) in WORKS.items():
         elements = [e for e in m.elements if e.name.startswith(starts)]
-        m.sense_work(
-            f"energy.{name}",
-            elements,
-            "nonconservative",
-            description=f"work of {text} since the start, without what is stored; negative: energy lost",
-        )
+        description = f"work of {text} since the start, without what is stored; negative: energy lost"
+        if elements:
+            m.sense_work(f"energy.{name}", elements, "nonconservative", description=description)
+        else:  # a chassis without points that touch the ground
+            m.sense_constant(f"energy.{name}", 0.0, "J", description)
 
 
 def health_outputs(m: Model) -> None:

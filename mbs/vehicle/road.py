@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import math
+import warnings
+from pathlib import Path
 
 import numpy as np
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.model import Model
-from mbs.roads import RoadFile
+from mbs.roads import RoadFile, RoadWarning, read_road
+from mbs.roads.road_file import TEXTS
+from mbs.roads.steep_faces import steep_face
 from mbs.vehicle.quantities import Factor, RoadFriction
 from mbs.vehicle.section import Section
 
 FAR_AWAY = 1e6  # m: the default kerb lies where no manoeuvre goes
 KERB_HEIGHT = 0.08  # m, of the paper's test
+MOST_LOOKED_AT = 4e6
 BUILT_IN = "of the built-in road, without effect on one from a file"
 
 
@@ -84,6 +89,25 @@ class RoadSection(Section):
             f"drop behind the kerb's edge; {BUILT_IN}",
             targets=[(target, "lower_height", -1.0), (target, "step", 1.0)],
         )
+
+
+def tell_steep_face(road: Road | RoadFile | None, radius: float) -> None:
+    """Warn of a grid with a face that is too steep for a wheel.
+
+    Parameters
+    ----------
+    road : Road, RoadFile or None
+        Under a car. A file of more than 4e6 points is not looked at: it was when it was made.
+    radius : float
+        Of the largest wheel, m.
+    """
+    name: object = "The grid road"
+    if isinstance(road, RoadFile):
+        table = Path(road.path).suffix.lower() in TEXTS
+        name, small = road.path, table or road.header.nx * road.header.ny <= MOST_LOOKED_AT
+        road = read_road(name) if small else None
+    if isinstance(road, GridRoad) and (told := steep_face(road, name, radius)):
+        warnings.warn(told, RoadWarning, stacklevel=3)
 
 
 def _range(section: Section, field: str) -> tuple[float, float, str]:

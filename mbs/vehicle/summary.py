@@ -40,6 +40,7 @@ def summary(car: Car) -> str:
                 f"{1e3 * rest.deflection[name]:.1f} mm",
             ),
         ]
+        rows.append(grip_row(car, name))
     rows += [
         ("steering", f"{car.steering.kind}, {car.steering.wheel_angle_max:.2f} rad of steering wheel to each side"),
         ("drive", f"{car.drive.kind}, {car.drive.wheels} wheels"),
@@ -48,6 +49,30 @@ def summary(car: Car) -> str:
     ]
     width = max(len(name) for name, _ in rows)
     return "\n".join(f"{name:<{width}}  {text}" for name, text in rows)
+
+
+def grip_row(car: Car, axle: str) -> tuple[str, str]:
+    """Friction coefficients that the tyres of an axle reach on the car's road, and the factor on the file's forces.
+
+    Parameters
+    ----------
+    car : Car
+        Any.
+    axle : {"front", "rear"}
+        Which.
+    """
+    tyre = (car.front if axle == "front" else car.rear).tyre
+    friction = car.road.friction * car.road.friction_factor * tyre.grip
+    scale = friction / tyre.friction
+    longitudinal, lateral = (
+        scale * curve.max_force[0] / tyre.nominal_load for curve in (tyre.longitudinal, tyre.lateral)
+    )
+    return (
+        f"{axle} grip",
+        f"{longitudinal:.4g} longitudinal, {lateral:.4g} lateral: largest force over a load of {tyre.nominal_load:g} "
+        f"N; forces and slips of the file times {scale:.4g}, to make the longitudinal one "
+        f"{car.road.key('friction')} x {car.road.key('friction_factor')} x {tyre.key('grip')}",
+    )
 
 
 def parameter_table(car: Car) -> str:

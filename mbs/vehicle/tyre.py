@@ -29,7 +29,7 @@ class Curve(Section):
     slope: tuple[SlopeForce, SlopeForce]
     """Initial slope, force per slip."""
     max_force: tuple[Force, Force]
-    """Largest force at the reference friction."""
+    """Largest force; on the road it is scaled to the friction of that."""
     max_slip: tuple[Slip, Slip]
     """Slip where it is reached."""
     slide_force: tuple[Force, Force]
@@ -59,7 +59,13 @@ class Curve(Section):
 
 
 class TMeasy(Section):
-    """Tyre after W. Hirschberg, G. Rill, H. Weinfurter, Vehicle System Dynamics 45(S1), 2007, 101-119."""
+    """Tyre after W. Hirschberg, G. Rill, H. Weinfurter, Vehicle System Dynamics 45(S1), 2007, 101-119.
+
+    The road sets the grip: forces and slips of the curves are scaled so that the largest longitudinal force over the
+    load, at the nominal load, is the friction of the road times `grip`. A common factor on the forces of both
+    directions changes next to nothing; what the file sets is the lateral force over the longitudinal one, sliding over
+    maximum, and how both fall with the load. `ali3 car` and `ali3 build` print the grip of each axle.
+    """
 
     kind: Literal["tmeasy"]
     """Names the tyre formula."""
@@ -114,5 +120,5 @@ class TMeasy(Section):
 
     @property
     def friction(self) -> float:
-        """Friction of the road at which the curves hold."""
+        """Friction of the road at which the curves hold: on any other, forces and slips are scaled to that road's."""
         return self.longitudinal.max_force[0] / self.nominal_load

@@ -128,7 +128,7 @@ def test_what_this_machine_runs_is_built_first(
     if here not in PYTHON_PLATFORMS:
         pytest.skip("the kind python does not run here")
     command = ["--scene", f"{file}:swing", "--out", str(tmp_path / "out")]
-    assert build_fmu.main(command) == 0
+    assert build_fmu.main([*command, "--platforms", "all"]) == 0
     kinds = ("native", "fmi3", "python")
     assert built[:3] == [(kind, (here,)) for kind in kinds]
     assert built[3:] == [(kind, PLATFORMS if kind != "python" else PYTHON_PLATFORMS) for kind in kinds]
@@ -137,5 +137,9 @@ def test_what_this_machine_runs_is_built_first(
     assert build_fmu.main([*command, "--platforms", "this,darwin64"]) == 0
     assert built == [*((kind, (here,)) for kind in kinds), *((kind, (here, "darwin64")) for kind in kinds[:2])]
     built.clear()
-    assert build_fmu.main([*command, "--platforms", "this"]) == 0
-    assert built == [(kind, (here,)) for kind in kinds]
+    for default in ([], ["--platforms", "this"]):
+        assert build_fmu.main([*command, *default]) == 0
+        assert built == [(kind, (here,)) for kind in kinds]
+        built.clear()
+    assert build_fmu.main([*command, "--platforms", "all,wasm32", "--kind", "native"]) == 0
+    assert built == [("native", (here,)), ("native", (*PLATFORMS, "wasm32"))]

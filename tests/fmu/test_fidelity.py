@@ -121,6 +121,59 @@ def test_fmi_3_has_the_fidelities_too(tmp_path_factory: pytest.TempPathFactory) 
     assert rows["stress.SG3"][-1] == own.sensors["stress.SG3"] != 0.0
 
 
+def logged(kerb: Path, fidelity: float, names: list[str], resets: int = 0) -> list[tuple[int, bytes, str]]:
+    """Status, category and text of what an FMU logs while outputs are read at several times, as FMPy loads it."""
+    said: list[tuple[int, bytes, str]] = []
+    with Fmu(kerb) as fmu:
+        fmu._log = lambda e, n, status, category, text: said.append((status, category, text.decode()))  # type: ignore
+        fmu._slave.freeInstance()
+        fmu._callbacks.logger = fmu._logger = type(fmu._logger)(fmu._log)
+        fmu._slave = type(fmu._slave)(
+            guid=fmu.description.guid,
+            unzipDirectory=str(fmu._folder),
+            modelIdentifier=fmu.description.coSimulation.modelIdentifier,
+            instanceName="heard",
+        )
+        fmu._slave.instantiate(callbacks=fmu._callbacks)
+        for run in range(resets + 1):
+            if run:
+                fmu.reset()
+            fmu.initialise({"fidelity": fidelity})
+            get = fmu.getter(names)
+            for k in range(3):
+                get()
+                fmu.step(k * H, H)
+            state = fmu.state()
+            get()
+            fmu.restore(state)
+            fmu.free(state)
+            get()
+    return said
+
+
+def test_a_stress_that_is_not_computed_is_told_once_a_run(kerb: Path) -> None:
+    ((status, category, text),) = logged(kerb, 0.0, ["chassis.x", "stress.SG3", "bending_moment.SG1"])
+    assert (status, category) == (1, b"logNotComputed")
+    assert text.startswith("'stress.SG3' reads 0: fidelity 0 does not compute it.")
+    assert "set the parameter 'fidelity' to one of 1, 2, 3 before the start" in text
+    assert len(logged(kerb, 0.0, ["bending_moment.SG1"], resets=2)) == 3
+    assert logged(kerb, 0.0, ["chassis.x", "stress.computed", "energy.total"]) == []
+    for fidelity in (1.0, 3.0):
+        assert logged(kerb, fidelity, list(OUTPUTS)) == []
+
+
+def test_our_hosts_read_all_outputs_and_do_not_pass_it_on(kerb: Path) -> None:
+    with Fmu(kerb) as fmu:
+        fmu.initialise({"fidelity": 0.0})
+        values(fmu, 3)
+        assert fmu.messages == []
+
+
+def test_fmpy_prints_it(kerb: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    simulate_fmu(str(kerb), stop_time=0.02, output_interval=0.01, start_values={"fidelity": 0})
+    assert capfd.readouterr().out.count("fidelity 0 does not compute it") == 1
+
+
 def test_a_lost_file_is_named(kerb: Path) -> None:
     """A System that cannot be loaded leaves the instance as it was."""
     with Fmu(kerb) as fmu:

@@ -5,28 +5,49 @@
 
 #include "slave.h"
 
-static const char *const category_name[] = {"logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal",
-                                            "logAll"};
-enum { CATEGORIES = sizeof category_name / sizeof *category_name };
+/* Those of the statuses from SLAVE_WARNING on come first. */
+static const char *const category_name[] = {"logStatusWarning", "logStatusDiscard", "logStatusError",
+                                            "logStatusFatal",   "logNotComputed",   "logAll"};
+enum { CATEGORIES = sizeof category_name / sizeof *category_name, ALL = CATEGORIES - 1, NOT_COMPUTED = ALL - 1 };
 
-static int category_of(slave_status status) { return status == SLAVE_OK ? CATEGORIES - 1 : (int)status - 1; }
+static int category_of(slave_status status) { return status == SLAVE_OK ? ALL : (int)status - 1; }
 
 /* Problems are always logged, other messages on request; a host that named categories gets those. */
-static bool wanted(const slave *s, slave_status status) {
-  const unsigned bit = 1u << category_of(status);
+static bool wanted(const slave *s, slave_status status, int category) {
   if (s->all_categories) return s->logging || status != SLAVE_OK;
-  return (s->categories & (bit | SLAVE_LOG_ALL)) != 0;
+  return (s->categories & (1u << category | 1u << ALL)) != 0;
 }
 
 slave_status slave_say(slave *s, slave_status status, const char *format, ...) {
   char text[SLAVE_TEXT];
   va_list list;
-  if (s->logger == NULL || !wanted(s, status)) return status;
+  const int category = category_of(status);
+  if (s->logger == NULL || !wanted(s, status, category)) return status;
   va_start(list, format);
   vsnprintf(text, sizeof text, format, list);
   va_end(list);
-  s->logger(s, status, category_name[category_of(status)], text);
+  s->logger(s, status, category_name[category], text);
   return status;
+}
+
+/* A category of its own: a host that reads all outputs because it writes all need not pass it on. */
+void slave_say_uncomputed(slave *s, const slave_variable *v) {
+  char text[SLAVE_TEXT], remedy[SLAVE_TEXT / 4] = "";
+  const slave_table *t = &slave_the_table;
+  size_t n = 0;
+  if (s->logger == NULL || !wanted(s, SLAVE_WARNING, NOT_COMPUTED)) return;
+  for (size_t k = 0; k < t->n_systems && n < sizeof remedy / 2; k++)
+    if (!(v->uncomputed >> k & 1)) n += (size_t)snprintf(remedy + n, sizeof remedy - n, "%s%zu", n > 0 ? ", " : "", k);
+  if (n == 0)
+    snprintf(text, sizeof text, "'%.128s' reads %g; this FMU does not compute it. This is said once.", v->name,
+             s->value[v - t->variable]);
+  else
+    snprintf(
+        text, sizeof text,
+        "'%.128s' reads %g: fidelity %zu does not compute it. To have it computed, set the parameter '%.64s' to one of "
+        "%s before the start. This is said once.",
+        v->name, s->value[v - t->variable], s->fidelity.number, t->variable[s->fidelity_reference].name, remedy);
+  s->logger(s, SLAVE_WARNING, category_name[NOT_COMPUTED], text);
 }
 
 slave_status slave_set_logging(slave *s, bool on, size_t n, const char *const *categories) {

@@ -30,6 +30,7 @@ typedef struct {
   bool whole;             /* an integer of FMI */
   bool fixed;             /* a parameter that can be set before the first step only */
   int32_t road;           /* a parameter of the built-in form of this road, without effect on a file; -1: of none */
+  uint64_t uncomputed;    /* bits of the fidelities that do not compute it */
 } slave_variable;
 
 typedef struct {
@@ -109,6 +110,7 @@ struct slave {
   unsigned char *clamped; /* per known variable: said once */
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
   bool outputs_fresh;
+  bool uncomputed_said; /* that an output was read which is not computed, once a run */
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
   size_t step_reference, iterations_reference;
@@ -116,8 +118,8 @@ struct slave {
 };
 
 /* log.c */
-enum { SLAVE_LOG_WARNING = 1, SLAVE_LOG_DISCARD = 2, SLAVE_LOG_ERROR = 4, SLAVE_LOG_FATAL = 8, SLAVE_LOG_ALL = 16 };
 slave_status slave_say(slave *s, slave_status status, const char *format, ...);
+void slave_say_uncomputed(slave *s, const slave_variable *v);
 slave_status slave_set_logging(slave *s, bool on, size_t n, const char *const *categories);
 const char *slave_phase_name(slave_phase phase);
 bool slave_allowed(slave *s, const char *function, unsigned mask);

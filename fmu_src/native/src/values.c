@@ -27,6 +27,16 @@ bool slave_outputs(slave *s) {
   return true;
 }
 
+static void remark_uncomputed(slave *s, const uint32_t *reference, size_t n) {
+  const uint64_t here = (uint64_t)1 << s->fidelity.number;
+  for (size_t i = 0; i < n && !s->uncomputed_said; i++) {
+    const slave_variable *v = &slave_the_table.variable[reference[i]];
+    if (!(v->uncomputed & here)) continue;
+    s->uncomputed_said = true;
+    slave_say_uncomputed(s, v);
+  }
+}
+
 slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value) {
   const slave_table *t = &slave_the_table;
   bool outputs = false;
@@ -36,6 +46,7 @@ slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *va
     outputs = outputs || slave_is_output(reference[i]);
   }
   if (outputs && !slave_outputs(s)) return SLAVE_ERROR;
+  if (outputs && !s->uncomputed_said) remark_uncomputed(s, reference, n);
   for (size_t i = 0; i < n; i++) value[i] = s->value[reference[i]];
   return SLAVE_OK;
 }

@@ -48,4 +48,4 @@ def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
         elif isinstance(body, PortedBody):
             m.sense_quasi_static(name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit, text)
         else:
-            m.sense_constant(name, 0.0, unit, text)
+            m.sense_constant(name, 0.0, unit, text, computed=False)

@@ -101,7 +101,7 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
     for k, reading in enumerate(flexible.structure.readings):
         name, unit, text = reading.name, reading.unit, reading.description
         if fidelity is Fidelity.RIGID:
-            m.sense_constant(name, 0.0, unit, text + note)
+            m.sense_constant(name, 0.0, unit, text + note, computed=False)
         elif isinstance(mount.body, PortedBody):
             m.sense_quasi_static(name, mount.body, flexible.quasi_static, k, mount.origin, unit, text + note)
         else:

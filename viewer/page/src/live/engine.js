@@ -197,7 +197,9 @@ export class Engine {
   /** Messages of the FMUs since the last call. */
   messages() {
     return this.runs.flatMap((run, which) => {
-      const found = run.slave.messages.map((m) => ({ which, ...m }));
+      // A page reads all outputs, those too that are not computed: nobody has asked for these.
+      const asked = run.slave.messages.filter((m) => m.category !== "logNotComputed");
+      const found = asked.map((m) => ({ which, ...m }));
       run.slave.messages.length = 0;
       return found;
     });

@@ -1,0 +1,106 @@
+"""A face of a grid that is too steep for a wheel is told where the road is made, and where a car is built on it."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.elements.road import GridRoad, KerbRoad
+from mbs.roads import RoadWarning, write_road
+from mbs.roads import command as road_command
+from mbs.roads.road_file import RoadFile
+from mbs.roads.steep_faces import steep_face
+
+ROADS = Path(mbs.__file__).parent / "roads" / "files"
+FACE = 5.0
+
+
+def face(height: float, spacing: float) -> GridRoad:
+    """Level, then level again `height` higher; up or down between two points from FACE on."""
+    heights = np.where(np.arange(int(8.0 / spacing)) * spacing > FACE + 1e-9, height, 0.0)
+    return GridRoad((0.0, -1.0), (spacing, 0.5), np.repeat(heights[:, None], 5, axis=1))
+
+
+@pytest.mark.parametrize(("spacing", "told"), [(0.02, True), (0.05, True), (0.1, True), (0.2, False)])
+@pytest.mark.parametrize("height", [0.12, -0.12])
+def test_a_face_of_twelve_centimetres(spacing: float, told: bool, height: float) -> None:
+    sentence = steep_face(face(height, spacing), "face.road")
+    assert bool(sentence) == told
+    if told:
+        foot = FACE if height > 0.0 else FACE + spacing
+        assert sentence.startswith(
+            f"face.road: at x = {foot:g} m, y = -1 m a face of 0.12 m rises within {spacing:g} m"
+        )
+        assert "0.3 m radius" in sentence
+        assert "0.19 m or more" in sentence
+
+
+def test_the_longest_face_that_is_told_is_the_one_in_the_sentence() -> None:
+    least = float(re.findall(r"over ([\d.]+) m or more", steep_face(face(0.12, 0.05), ""))[0])
+    assert steep_face(face(0.12, least - 0.01), "")
+    assert not steep_face(face(0.12, least + 0.01), "")
+
+
+def test_a_face_across_is_told_too() -> None:
+    across = face(0.12, 0.05)
+    turned = GridRoad(across.origin[::-1], across.spacing[::-1], np.asarray(across.heights).T)
+    assert "at x = -1 m, y = 5 m" in steep_face(turned, "")
+
+
+def test_a_larger_wheel_is_told_earlier() -> None:
+    road = face(0.12, 0.2)
+    assert not steep_face(road, "", 0.3)
+    assert "0.4 m radius" in steep_face(road, "", 0.4)
+
+
+def test_a_long_road_is_looked_at_as_a_whole() -> None:
+    heights = np.zeros((10_000, 3))
+    for row in (4096, 4097, 4098, 9000):
+        heights[:] = 0.0
+        heights[row:] = 0.1
+        assert f"x = {0.05 * (row - 1):g} m" in steep_face(GridRoad((0.0, 0.0), (0.05, 1.0), heights), "")
+
+
+@pytest.mark.parametrize("spacing", [0.02, 0.05, 0.1, 0.25])
+def test_smooth_roads_are_not(spacing: float) -> None:
+    x = np.arange(0.0, 20.0, spacing)
+    for amplitude, wave in ((0.05, 2.0), (0.5, 10.0), (0.0075, 0.5)):
+        z = amplitude * np.sin(2.0 * np.pi * x / wave)
+        assert steep_face(GridRoad((0.0, 0.0), (spacing, 1.0), np.repeat(z[:, None], 3, axis=1)), "") == ""
+    noise = np.random.default_rng(1).uniform(-5e-4, 5e-4, (len(x), 20))
+    assert steep_face(GridRoad((0.0, 0.0), (spacing, spacing), noise), "") == ""
+
+
+@pytest.mark.parametrize("file", sorted(ROADS.glob("*.road")), ids=lambda file: file.stem)
+def test_the_roads_of_the_package_are_not(file: Path) -> None:
+    road = RoadFile(file).read()
+    assert not isinstance(road, GridRoad) or steep_face(road, file) == ""
+
+
+def test_told_where_the_road_is_made_and_where_a_car_is_built(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    road, file = face(0.12, 0.05), tmp_path / "face.road"
+    with pytest.warns(RoadWarning, match=r"face\.road: at x = 5 m, .* of 0\.3 m radius"):
+        write_road(road, file)
+    with pytest.warns(RoadWarning, match=r"face\.road"):
+        write_road(road, file, shared=True)
+    car = mbs.vehicle.load("hatchback")
+    with pytest.warns(RoadWarning, match=r"The grid road: at x = 5 m, .* of 0\.311 m radius"):
+        car.model(road)
+    with pytest.warns(RoadWarning, match=r"face\.road: at x = 5 m"):
+        car.model(mbs.RoadFile(file))
+    np.savetxt(tmp_path / "face.csv", np.asarray(road.heights), delimiter=",")
+    arguments = [str(tmp_path / "face.csv"), str(tmp_path / "made.road"), "--spacing", "0.05", "0.5"]
+    assert road_command.main(arguments) == 0
+    assert "warning: " in (said := capsys.readouterr().err)
+    assert "a face of 0.12 m" in said
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        car.model(KerbRoad(5.0, 0.12))
+        car.model(face(0.12, 0.25))
