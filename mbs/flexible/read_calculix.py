@@ -8,6 +8,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
+from ali3.extras import missing_module
 from mbs.errors import ModelError
 from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
@@ -41,8 +42,8 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     """Stiffness and mass over x, y, z of node after node, positions (n, 3), and the numbers of the nodes."""
     try:
         import meshio
-    except ImportError as error:
-        raise ModelError("CalculiX decks are read with meshio: install it with pip install 'ali3[fem]'.") from error
+    except ModuleNotFoundError as error:
+        raise ModelError(f"CalculiX decks are read with meshio. {missing_module(error, 'fem')}") from error
     deck = Path(deck)
     files = [deck, *(deck.with_suffix(suffix) for suffix in (".sti", ".mas", ".dof"))]
     for path in files:

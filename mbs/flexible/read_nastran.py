@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse as sp
 
+from ali3.extras import missing_module
 from mbs.errors import ModelError
 from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
@@ -42,8 +43,8 @@ def read_nastran(
     """
     try:
         from pyyeti.nastran import bulk, op4
-    except ImportError as error:
-        raise ModelError("Nastran files are read with pyYeti: install it with pip install 'ali3[fem]'.") from error
+    except ModuleNotFoundError as error:
+        raise ModelError(f"Nastran files are read with pyYeti. {missing_module(error, 'fem')}") from error
     for path in (bulk_data, matrices):
         if not Path(path).is_file():
             raise ModelError(f"There is no file {path}.")

@@ -174,5 +174,5 @@ def test_a_missing_library_says_what_to_install(module: str, reader: str, monkey
     monkeypatch.setitem(sys.modules, reader, None)
     function = getattr(importlib.import_module(f"mbs.flexible.{module}"), module)
     arguments = ("a.bdf", "a.op4") if module == "read_nastran" else ("a.inp",)
-    with pytest.raises(ModelError, match=r"pip install 'ali3\[fem\]'"):
+    with pytest.raises(ModelError, match=r'pip install "ali3\[fem\]"'):
         function(*arguments)
