@@ -12,6 +12,7 @@ from ali3.extras import missing_module
 from mbs.errors import ModelError
 from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.foreign_file import read_foreign
 
 
 def read_calculix(deck: str | Path) -> FiniteElementModel:
@@ -49,12 +50,12 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     for path in files:
         if not path.is_file():
             raise ModelError(f"There is no file {path}; *FREQUENCY, SOLVER=MATRIXSTORAGE writes it.")
-    points = np.asarray(meshio.read(deck, file_format="abaqus").points, float)
-    numbers = _node_numbers(deck)
+    points = read_foreign(deck, lambda path: np.asarray(meshio.read(path, file_format="abaqus").points, float))
+    numbers = read_foreign(deck, _node_numbers)
     if len(numbers) != len(points):
         raise ModelError(f"{deck.name} has {len(numbers)} node lines but {len(points)} nodes.")
     row = {number: i for i, number in enumerate(numbers)}
-    freedoms = [(int(node), int(axis) - 1) for node, axis in (f.split(".") for f in files[3].read_text().split())]
+    freedoms = read_foreign(files[3], _freedoms)
     table = np.full((len(numbers), 3), -1)
     for k, (node, axis) in enumerate(freedoms):
         if node in row and axis < 3:
@@ -64,9 +65,19 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     if held.size or not used.any():
         node = numbers[int(held[0])] if held.size else numbers[0]
         raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
-    K, M = (_triangle(path, len(freedoms)) for path in files[1:3])
+    K, M = (read_foreign(path, lambda path: _triangle(path, len(freedoms))) for path in files[1:3])
+    for path, matrix in zip(files[1:3], (K, M), strict=True):
+        bare = table[used][matrix.diagonal()[table[used]] <= 0.0]
+        if bare.size:
+            node, axis = freedoms[int(bare[0])]
+            raise ModelError(f"{path.name} has nothing on its diagonal for {'xyz'[axis]} of node {node}; is it whole?")
     K, M = _condensed(K, M, table[used].ravel())
     return K, M, points[used], [numbers[int(i)] for i in np.flatnonzero(used)]
+
+
+def _freedoms(path: Path) -> list[tuple[int, int]]:
+    """Number of the node and axis, from 0, of each row of the matrices."""
+    return [(int(node), int(axis) - 1) for node, axis in (f.split(".") for f in path.read_text().split())]
 
 
 def _condensed(K: sp.csc_array, M: sp.csc_array, retained: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
