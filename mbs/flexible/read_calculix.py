@@ -62,15 +62,18 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
             table[row[node], axis] = k
     used = (table >= 0).all(axis=1)
     held = np.flatnonzero(~used & (table >= 0).any(axis=1))
+    if not numbers:
+        raise ModelError(f"{deck.name} has no nodes.")
     if held.size or not used.any():
         node = numbers[int(held[0])] if held.size else numbers[0]
         raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
-    K, M = (read_foreign(path, lambda path: _triangle(path, len(freedoms))) for path in files[1:3])
-    for path, matrix in zip(files[1:3], (K, M), strict=True):
-        bare = table[used][matrix.diagonal()[table[used]] <= 0.0]
-        if bare.size:
-            node, axis = freedoms[int(bare[0])]
-            raise ModelError(f"{path.name} has nothing on its diagonal for {'xyz'[axis]} of node {node}; is it whole?")
+    entries = [read_foreign(path, lambda path: np.loadtxt(path, unpack=True, ndmin=2)) for path in files[1:3]]
+    if entries[0].shape != entries[1].shape or entries[0].shape[0] != 3:
+        raise ModelError(f"{files[1].name} and {files[2].name} must have as many entries; one of them is damaged.")
+    K, M = (
+        read_foreign(path, lambda _, e=e: _triangle(e, len(freedoms)))
+        for path, e in zip(files[1:3], entries, strict=True)
+    )
     K, M = _condensed(K, M, table[used].ravel())
     return K, M, points[used], [numbers[int(i)] for i in np.flatnonzero(used)]
 
@@ -92,9 +95,9 @@ def _condensed(K: sp.csc_array, M: sp.csc_array, retained: np.ndarray) -> tuple[
     return K, M
 
 
-def _triangle(path: Path, size: int) -> sp.csc_array:
-    """Symmetric matrix from lines ``row column value`` (from 1) of one triangle."""
-    i, j, value = np.loadtxt(path, unpack=True, ndmin=2)
+def _triangle(entries: np.ndarray, size: int) -> sp.csc_array:
+    """Symmetric matrix from rows, columns (from 1) and values of one triangle."""
+    i, j, value = entries
     one = sp.coo_array((value, (i.astype(int) - 1, j.astype(int) - 1)), shape=(size, size)).tocsc()
     return sp.csc_array(one + one.T - sp.diags(one.diagonal()))
 

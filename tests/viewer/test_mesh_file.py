@@ -177,7 +177,7 @@ def test_what_is_no_mesh_is_one_sentence(tmp_path, name, content, words):
 def test_what_a_reader_asks_for_while_it_reads(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "charset_normalizer", None)
     (tmp_path / "a.stl").write_bytes(stl()[:-70])
-    words = r'The package charset_normalizer is not installed; run: python -m pip install "ali3\[pictures\]"\.'
+    words = r'The package charset_normalizer is not installed; run: python -m pip install "ali3\[pictures\]"'
     with pytest.raises(MeshError, match=words):
         read_mesh(tmp_path / "a.stl")
 
