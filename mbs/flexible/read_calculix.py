@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -71,7 +72,7 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     if entries[0].shape != entries[1].shape or entries[0].shape[0] != 3:
         raise ModelError(f"{files[1].name} and {files[2].name} must have as many entries; one of them is damaged.")
     K, M = (
-        read_foreign(path, lambda _, e=e: _triangle(e, len(freedoms)))
+        read_foreign(path, partial(_triangle, size=len(freedoms), entries=e))
         for path, e in zip(files[1:3], entries, strict=True)
     )
     K, M = _condensed(K, M, table[used].ravel())
@@ -95,7 +96,7 @@ def _condensed(K: sp.csc_array, M: sp.csc_array, retained: np.ndarray) -> tuple[
     return K, M
 
 
-def _triangle(entries: np.ndarray, size: int) -> sp.csc_array:
+def _triangle(_: Path, entries: np.ndarray, size: int) -> sp.csc_array:
     """Symmetric matrix from rows, columns (from 1) and values of one triangle."""
     i, j, value = entries
     one = sp.coo_array((value, (i.astype(int) - 1, j.astype(int) - 1)), shape=(size, size)).tocsc()
