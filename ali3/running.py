@@ -10,44 +10,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ali3.errors import UserError
+from ali3.extras import missing_module
 from ali3.files import reason
 
 GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED = 0, 1, 2, 130
 """Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT)."""
-
-_EXTRAS = {
-    "cryptography": "study",
-    "dask": "study",
-    "distributed": "study",
-    "exudyn": "peers",
-    "fmpy": "hosts",
-    "imageio": "pictures",
-    "imageio_ffmpeg": "pictures",
-    "lxml": "hosts",
-    "matplotlib": "hosts",
-    "pandas": "study",
-    "PIL": "roads",
-    "platformdirs": "simulator",
-    "psutil": "simulator",
-    "pyarrow": "simulator",
-    "meshio": "fem",
-    "mujoco": "peers",
-    "sdl2": "simulator",
-    "pyssp_standard": "hosts",
-    "pygltflib": "pictures",
-    "pythonfmu": "fmu",
-    "pyyeti": "fem",
-    "pyvista": "pictures",
-    "tomli_w": "simulator",
-    "tqdm": "hosts",
-    "trimesh": "pictures",
-    "websockets": "simulator",
-    "xarray": "study",
-    "zarr": "study",
-    "SALib": "study",
-    "ziglang": "fmu",
-}
-"""The extra of ``pip install "ali3[...]"`` that brings a package."""
 
 _prefix: str | None = None
 
@@ -77,21 +44,13 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ())
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return NOT_GOOD
     except ModuleNotFoundError as error:
-        package = (error.name or "").partition(".")[0]
-        if package not in _EXTRAS:
-            raise
-        return _end(f"error: {missing_package(package)}", WRONG_USE)
+        return _end(f"error: {missing_module(error)}", WRONG_USE)
     except Exception as error:
         if isinstance(error, (UserError, *errors)):
             return _end(f"error: {error}", WRONG_USE)
         if isinstance(error, OSError):
             return _end(f"error: {_os_words(error)}", WRONG_USE)
         raise
-
-
-def missing_package(package: str) -> str:
-    """The sentence for a package that is not installed, with the line that installs it."""
-    return f'The package {package} is not installed; run: python -m pip install "ali3[{_EXTRAS[package]}]"'
 
 
 def command_name(name: str) -> str:

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.errors import UserError
-from ali3.running import missing_package, run_command, told_warnings
+from ali3.extras import missing_package
+from ali3.running import run_command, told_warnings
 
 if TYPE_CHECKING:
     from ali3.parameter_set import ParameterSet

@@ -131,6 +131,8 @@ def _one(name: str, function: Callable[[Subject], Finding], subject: Subject) ->
 
     try:
         return function(subject)
+    except ModuleNotFoundError:
+        raise
     except Exception as error:
         return Finding(name, "bad", f"ended with {type(error).__name__}: {error}")
 

@@ -67,6 +67,8 @@ def described(path: Path) -> ModelDescription:
         raise HostError(f"{path} is not an FMU (not a zip archive).")
     try:
         return read_model_description(str(path))
+    except ModuleNotFoundError:
+        raise
     except Exception as error:
         raise HostError(f"{path} is not an FMU that can be read: {error}") from None
 

@@ -26,3 +26,4 @@ def _kernel_library() -> None:
 def _typed_as_modules(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sentences name commands as the test calls them, whatever a test before has typed."""
     monkeypatch.setattr("ali3.running._prefix", None)
+    monkeypatch.setattr("ali3.extras._extra", None)

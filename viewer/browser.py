@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from ali3 import html
 from ali3.errors import UserError
+from ali3.extras import missing_package
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -161,9 +162,7 @@ def screenshot(
     try:
         from playwright.sync_api import Error, sync_playwright
     except ModuleNotFoundError:
-        raise BrowserError(
-            'The package playwright is not installed; run: python -m pip install "ali3[pictures]"'
-        ) from None
+        raise BrowserError(missing_package("playwright")) from None
     with sync_playwright() as play:
         try:
             browser = play.chromium.launch(executable_path=executable, args=launch_arguments(), timeout=60_000)

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.errors import FileError
+from ali3.extras import missing_module
 from ali3.files import reason
-from ali3.running import missing_package
 from viewer.errors import ViewerError
 
 if TYPE_CHECKING:
@@ -113,14 +113,14 @@ def _checked_scale(path: str | os.PathLike[str], scale: object) -> float:
 
 
 def _load(file: Path) -> trimesh.Trimesh:
-    try:
-        import trimesh
-    except ModuleNotFoundError:
-        raise MeshError(f"{file} cannot be read as a mesh. {missing_package('trimesh')}") from None
     options = {"skip_materials": True} if file.suffix.lower() == ".obj" else {}
     try:
+        import trimesh
+
         # `process` would remove what is not finite without a word.
         return trimesh.load_mesh(str(file), process=False, **options)
+    except ModuleNotFoundError as error:
+        raise MeshError(f"{file} cannot be read as a mesh. {missing_module(error, 'pictures')}") from None
     except Exception as error:  # what a reader of many formats raises on a damaged file has no common kind
         words = str(error).strip().splitlines()
         raise MeshError(f"{file} cannot be read as a mesh: {words[0].rstrip('.') if words else repr(error)}.") from None

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ali3.errors import UserError
+from ali3.extras import missing_package
 from ali3.files import check_writable, whole_file
-from ali3.running import missing_package
 from viewer.browser import screenshot
 from viewer.errors import ViewerError
 from viewer.page_file import notes_of, thinned, write_page
@@ -184,7 +184,7 @@ def _told(pictures: Iterator[bytes], count: int, progress: bool | Progress | Non
     try:
         from PIL import Image
     except ModuleNotFoundError:
-        raise FilmError(f"A film cannot be written. {missing_package('PIL')}") from None
+        raise FilmError(f"A film cannot be written. {missing_package('PIL', 'pictures')}") from None
     tell, close = _teller(count, progress)
     try:
         for number, data in enumerate(pictures):

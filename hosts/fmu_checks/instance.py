@@ -196,6 +196,8 @@ def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value
         extract(str(path), unzipdir=str(folder))
     except OSError as error:
         raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
+    except ModuleNotFoundError:
+        raise
     except Exception as error:
         raise HostError(f"{path} is not an FMU that can be read: {error}") from None
     if description.coSimulation is None or description.fmiVersion[0] not in "23":

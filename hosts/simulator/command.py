@@ -12,7 +12,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.running import GOOD, NOT_GOOD, missing_package, run_command
+from ali3.extras import missing_package
+from ali3.running import GOOD, NOT_GOOD, run_command
 from hosts.errors import HostError
 from hosts.manoeuvres import manoeuvre_names
 from hosts.numbers import number

@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ali3.extras import missing_package
 from ali3.files import make_folder, whole_file, write_text
-from ali3.running import missing_package
 from hosts.errors import HostError
 from hosts.numbers import Value
 from hosts.simulator.recording_format import DESCRIPTION, EVENTS, FORMAT, STATE, VERSION

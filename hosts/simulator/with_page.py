@@ -12,7 +12,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ali3.running import missing_package
+from ali3.extras import missing_module
 from hosts.errors import HostError
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.guard import Guard
@@ -113,8 +113,7 @@ def _add_devices(stack: ExitStack, server: Server, hands: Hands, car: AliasedCar
     try:
         from hosts.simulator.devices import Devices, configuration_folder
     except ModuleNotFoundError as error:
-        package = (error.name or "").partition(".")[0]
-        server.say(f"Wheels and gamepads of this machine are not read. {missing_package(package)}")
+        server.say(f"Wheels and gamepads of this machine are not read. {missing_module(error)}")
         return
     torque = _torque(car) if _TORQUE in car.names else None
     devices: ShownDevices = stack.enter_context(

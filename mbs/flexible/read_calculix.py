@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
+from ali3.extras import missing_module
 from mbs.errors import ModelError
 from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.foreign_file import read_foreign
 
 
 def read_calculix(deck: str | Path) -> FiniteElementModel:
@@ -41,31 +44,44 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     """Stiffness and mass over x, y, z of node after node, positions (n, 3), and the numbers of the nodes."""
     try:
         import meshio
-    except ImportError as error:
-        raise ModelError("CalculiX decks are read with meshio: install it with pip install 'ali3[fem]'.") from error
+    except ModuleNotFoundError as error:
+        raise ModelError(f"CalculiX decks are read with meshio. {missing_module(error, 'fem')}") from error
     deck = Path(deck)
     files = [deck, *(deck.with_suffix(suffix) for suffix in (".sti", ".mas", ".dof"))]
     for path in files:
         if not path.is_file():
             raise ModelError(f"There is no file {path}; *FREQUENCY, SOLVER=MATRIXSTORAGE writes it.")
-    points = np.asarray(meshio.read(deck, file_format="abaqus").points, float)
-    numbers = _node_numbers(deck)
+    points = read_foreign(deck, lambda path: np.asarray(meshio.read(path, file_format="abaqus").points, float))
+    numbers = read_foreign(deck, _node_numbers)
     if len(numbers) != len(points):
         raise ModelError(f"{deck.name} has {len(numbers)} node lines but {len(points)} nodes.")
     row = {number: i for i, number in enumerate(numbers)}
-    freedoms = [(int(node), int(axis) - 1) for node, axis in (f.split(".") for f in files[3].read_text().split())]
+    freedoms = read_foreign(files[3], _freedoms)
     table = np.full((len(numbers), 3), -1)
     for k, (node, axis) in enumerate(freedoms):
         if node in row and axis < 3:
             table[row[node], axis] = k
     used = (table >= 0).all(axis=1)
     held = np.flatnonzero(~used & (table >= 0).any(axis=1))
+    if not numbers:
+        raise ModelError(f"{deck.name} has no nodes.")
     if held.size or not used.any():
         node = numbers[int(held[0])] if held.size else numbers[0]
         raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
-    K, M = (_triangle(path, len(freedoms)) for path in files[1:3])
+    entries = [read_foreign(path, lambda path: np.loadtxt(path, unpack=True, ndmin=2)) for path in files[1:3]]
+    if entries[0].shape != entries[1].shape or entries[0].shape[0] != 3:
+        raise ModelError(f"{files[1].name} and {files[2].name} must have as many entries; one of them is damaged.")
+    K, M = (
+        read_foreign(path, partial(_triangle, size=len(freedoms), entries=e))
+        for path, e in zip(files[1:3], entries, strict=True)
+    )
     K, M = _condensed(K, M, table[used].ravel())
     return K, M, points[used], [numbers[int(i)] for i in np.flatnonzero(used)]
+
+
+def _freedoms(path: Path) -> list[tuple[int, int]]:
+    """Number of the node and axis, from 0, of each row of the matrices."""
+    return [(int(node), int(axis) - 1) for node, axis in (f.split(".") for f in path.read_text().split())]
 
 
 def _condensed(K: sp.csc_array, M: sp.csc_array, retained: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
@@ -80,9 +96,9 @@ def _condensed(K: sp.csc_array, M: sp.csc_array, retained: np.ndarray) -> tuple[
     return K, M
 
 
-def _triangle(path: Path, size: int) -> sp.csc_array:
-    """Symmetric matrix from lines ``row column value`` (from 1) of one triangle."""
-    i, j, value = np.loadtxt(path, unpack=True, ndmin=2)
+def _triangle(_: Path, entries: np.ndarray, size: int) -> sp.csc_array:
+    """Symmetric matrix from rows, columns (from 1) and values of one triangle."""
+    i, j, value = entries
     one = sp.coo_array((value, (i.astype(int) - 1, j.astype(int) - 1)), shape=(size, size)).tocsc()
     return sp.csc_array(one + one.T - sp.diags(one.diagonal()))
 

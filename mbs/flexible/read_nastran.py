@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse as sp
 
+from ali3.extras import missing_module
 from mbs.errors import ModelError
 from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.foreign_file import read_foreign
 from mbs.flexible.sparse import Sparse
 
 
@@ -38,32 +40,27 @@ def read_nastran(
     Raises
     ------
     ModelError
-        pyNastran is not installed, a file or a matrix is missing, or a grid point has axes of its own.
+        pyYeti is not installed, a file or a matrix is missing, or a grid point has axes of its own.
     """
     try:
         from pyyeti.nastran import bulk, op4
-    except ImportError as error:
-        raise ModelError("Nastran files are read with pyYeti: install it with pip install 'ali3[fem]'.") from error
+    except ModuleNotFoundError as error:
+        raise ModelError(f"Nastran files are read with pyYeti. {missing_module(error, 'fem')}") from error
     for path in (bulk_data, matrices):
         if not Path(path).is_file():
             raise ModelError(f"There is no file {path}.")
-    try:
-        # one row per freedom, the first of six: grid point, freedom, set, place in the basic system
-        points = bulk.bulk2uset(str(bulk_data))[0].reset_index().to_numpy(float)[::6]
-        cards = bulk.rdgrids(str(bulk_data))
-    except Exception as error:
-        raise ModelError(f"{bulk_data} holds no grid points that can be read: {error}.") from error
+    cards = read_foreign(Path(bulk_data), lambda path: bulk.rdgrids(str(path)))
     if cards is None:
         raise ModelError(f"{bulk_data} holds no grid points.")
     for number, own in cards[:, (0, 5)]:
         if own != 0:
             raise ModelError(f"Grid point {number:.0f} has displacements in a system of its own; use the basic system.")
+    # one row per freedom, the first of six: grid point, freedom, set, place in the basic system
+    table = read_foreign(Path(bulk_data), lambda path: bulk.bulk2uset(str(path))[0])
+    points = table.reset_index().to_numpy(float)[::6]
     points = points[np.argsort(points[:, 0])]
     numbers, positions = points[:, 0].astype(int), points[:, 3:6]
-    try:
-        read = op4.read(str(matrices), sparse=True)
-    except Exception as error:
-        raise ModelError(f"{matrices} is no OUTPUT4 file that can be read: {error}.") from error
+    read = read_foreign(Path(matrices), lambda path: op4.read(str(path), sparse=True))
     found = {name.upper(): matrix for name, matrix in read.items()}
     for name in (stiffness, mass):
         if name.upper() not in found:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.extras import missing_package
 from mbs.roads.road_header import RoadFileError
 
 REGULAR = 1e-6
@@ -206,9 +207,7 @@ def _picture(file: Path, limits: tuple[float, float] | None, what: str) -> Grid:
     try:
         from PIL import Image, UnidentifiedImageError
     except ModuleNotFoundError:
-        raise RoadFileError(
-            f"{file} is a picture; the package Pillow reads it: python -m pip install 'ali3[roads]'"
-        ) from None
+        raise RoadFileError(f"{file} is a picture. {missing_package('PIL', 'roads')}") from None
     if limits is None:
         raise RoadFileError(f"{file} is a picture: say which {what} black and white mean, as in --range 0 0.25.")
     try:

@@ -166,6 +166,20 @@ def test_a_calculix_model_with_supports_is_refused(tmp_path: Path) -> None:
         read_calculix(tmp_path / "bar.inp")
 
 
+@pytest.mark.parametrize("suffix", [".inp", ".sti", ".mas", ".dof"])
+@pytest.mark.parametrize("kept", [0.0, 0.5, None])
+def test_a_damaged_calculix_file_is_refused(tmp_path: Path, suffix: str, kept: float | None) -> None:
+    pytest.importorskip("meshio", reason="extra 'fem'")
+    from mbs.flexible.read_calculix import read_calculix
+
+    for file in DATA.iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    data = (tmp_path / f"bar{suffix}").read_bytes()
+    (tmp_path / f"bar{suffix}").write_bytes(b"\xff\xfe{" if kept is None else data[: int(kept * len(data))])
+    with pytest.raises(ModelError):
+        read_calculix(tmp_path / "bar.inp")
+
+
 @pytest.mark.parametrize(("module", "reader"), [("read_nastran", "pyyeti.nastran"), ("read_calculix", "meshio")])
 def test_a_missing_library_says_what_to_install(module: str, reader: str, monkeypatch: pytest.MonkeyPatch) -> None:
     import importlib
@@ -174,5 +188,5 @@ def test_a_missing_library_says_what_to_install(module: str, reader: str, monkey
     monkeypatch.setitem(sys.modules, reader, None)
     function = getattr(importlib.import_module(f"mbs.flexible.{module}"), module)
     arguments = ("a.bdf", "a.op4") if module == "read_nastran" else ("a.inp",)
-    with pytest.raises(ModelError, match=r"pip install 'ali3\[fem\]'"):
+    with pytest.raises(ModelError, match=r'pip install "ali3\[fem\]"'):
         function(*arguments)

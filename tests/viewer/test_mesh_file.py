@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import sys
 
 import numpy as np
 import pygltflib
@@ -171,6 +172,14 @@ def test_what_is_no_mesh_is_one_sentence(tmp_path, name, content, words):
     assert name in str(caught.value)
     assert "\n" not in str(caught.value)
     assert str(caught.value).endswith(".")
+
+
+def test_what_a_reader_asks_for_while_it_reads(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "charset_normalizer", None)
+    (tmp_path / "a.stl").write_bytes(stl()[:-70])
+    words = r'The package charset_normalizer is not installed; run: python -m pip install "ali3\[pictures\]"'
+    with pytest.raises(MeshError, match=words):
+        read_mesh(tmp_path / "a.stl")
 
 
 @pytest.mark.parametrize("scale", [0.0, -1.0, float("nan"), "mm", True, None])

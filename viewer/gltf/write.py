@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.extras import missing_module
 from ali3.files import check_writable, whole_file
-from ali3.running import missing_package
 from viewer.errors import ViewerError
 from viewer.gltf.flexible import flexible_part
 from viewer.gltf.materials import Look
@@ -142,8 +142,8 @@ def _checked(target: Path, recording: Recording, rate: float, speed: float, defo
 def _document(name: str) -> Document:
     try:
         from viewer.gltf.document import Document
-    except ModuleNotFoundError:
-        raise ViewerError(f"A glTF file cannot be written. {missing_package('pygltflib')}") from None
+    except ModuleNotFoundError as error:
+        raise ViewerError(f"A glTF file cannot be written. {missing_module(error)}") from None
     return Document(name)
 
 

@@ -1,0 +1,114 @@
+"""Which extra of the installation brings a package: read from the metadata that pyproject.toml becomes."""
+
+from __future__ import annotations
+
+import re
+import sys
+from importlib.metadata import PackageNotFoundError, packages_distributions, requires
+from itertools import takewhile
+from traceback import walk_tb
+from types import TracebackType
+
+_DISTRIBUTIONS = {"pil": "pillow", "sdl2": "pysdl2"}
+"""Distributions that are not named as the module they bring."""
+
+_extra: str | None = None
+
+
+def missing_package(package: str, extra: str = "") -> str:
+    """The sentence for a package that is not installed, with the line that installs it.
+
+    Parameters
+    ----------
+    package : str
+        Its module, as in ``import``.
+    extra : str
+        Named where several extras bring the package and the command that runs needs none of them.
+    """
+    return f"The package {package} is not installed; {_install(_extra_of(package, extra))}"
+
+
+def missing_module(error: ModuleNotFoundError, extra: str = "") -> str:
+    """The sentence for a module that was not found, also when a library asked for it at run time.
+
+    Parameters
+    ----------
+    error : ModuleNotFoundError
+        As it was caught.
+    extra : str
+        As of `missing_package`.
+
+    Raises
+    ------
+    ModuleNotFoundError
+        The same, where neither an extra nor a package of an extra asks for the module: a mistake in code.
+    """
+    package = (error.name or "").partition(".")[0]
+    if _extra_of(package, extra) is not None:
+        return missing_package(package, extra)
+    for library in _askers(error.__traceback__):
+        if _extra_of(library) is None:
+            continue
+        optional = _distribution(package) in map(_name, _requirements(library))
+        line = _install(_extra_of(library, extra), _distribution(package) if optional else "")
+        return f"The package {library} needs {package}, which is not installed; {line}"
+    raise error
+
+
+def command_needs(extra: str) -> None:
+    """Take over the extra of the command that runs."""
+    global _extra
+    _extra = extra
+
+
+def extras() -> dict[str, set[str]]:
+    """Distributions that each extra of the installation asks for; what is needed without an extra under ``""``."""
+    found: dict[str, set[str]] = {}
+    for requirement in _requirements("ali3"):
+        marked = re.search(r"""extra == ['"]([\w.-]+)['"]""", requirement)
+        found.setdefault(marked[1] if marked else "", set()).add(_name(requirement))
+    return found
+
+
+def _extra_of(package: str, wanted: str = "") -> str | None:
+    """The extra of the command that runs, the wanted one, or the smallest; None: no extra brings the package."""
+    bringing = {extra: names for extra, names in extras().items() if _distribution(package) in names}
+    chosen = next((extra for extra in (_extra_of_command(), wanted) if extra in bringing), None)
+    return min(bringing, key=lambda extra: len(bringing[extra]), default=None) if chosen is None else chosen
+
+
+def _extra_of_command() -> str:
+    if _extra is not None:
+        return _extra
+    from ali3.command import COMMANDS
+
+    main = getattr(sys.modules["__main__"].__spec__, "name", "").removesuffix(".__main__").removesuffix(".command")
+    return next((c.extra for c in COMMANDS if c.module.removesuffix(".command") == main), "")
+
+
+def _askers(place: TracebackType | None) -> list[str]:
+    """Libraries that were at work when a module was not found, the one that asked for it first."""
+    names = [frame.f_globals.get("__name__", "").partition(".")[0] for frame, _ in walk_tb(place)]
+    installed = {name for name, of in packages_distributions().items() if "ali3" not in of}
+    return list(takewhile(installed.__contains__, (n for n in reversed(names) if n not in sys.stdlib_module_names)))
+
+
+def _requirements(distribution: str) -> list[str]:
+    try:
+        return requires(distribution) or []
+    except PackageNotFoundError:
+        return []
+
+
+def _name(requirement: str) -> str:
+    return _distribution(re.split(r"[^\w.-]", requirement, maxsplit=1)[0])
+
+
+def _distribution(package: str) -> str:
+    name = re.sub(r"[-_.]+", "-", package).lower()
+    return _DISTRIBUTIONS.get(name, name)
+
+
+def _install(extra: str | None, more: str = "") -> str:
+    what = f'"ali3[{extra}]"' if extra else "ali3"
+    return f"run: python -m pip install {what} {more}".rstrip()

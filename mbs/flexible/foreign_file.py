@@ -1,0 +1,20 @@
+"""Files of other programs, read by libraries."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ali3.extras import missing_module
+from mbs.errors import ModelError
+
+
+def read_foreign(path: Path, reader: Callable[[Path], Any]) -> Any:
+    """What a reader finds in a file; a `ModelError` if it cannot read it or a package is missing."""
+    try:
+        return reader(path)
+    except ModuleNotFoundError as error:
+        raise ModelError(f"{path.name} cannot be read. {missing_module(error, 'fem')}") from error
+    except Exception as error:  # what a damaged file does to the readers is not declared
+        raise ModelError(f"{path.name} cannot be read: {error}.") from error
