@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import tomllib
 import warnings
 from collections.abc import Mapping, Sequence
 from functools import cache
@@ -21,11 +21,6 @@ from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.files import text_of
 from mbs.vehicle.schema_version import check_version
 from mbs.vehicle.sentences import Sentences, one_line
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 FILE = "car.toml"
 CARS = Path(__file__).parent / "cars"
