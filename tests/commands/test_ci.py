@@ -11,7 +11,19 @@ from types import ModuleType
 import pytest
 
 CI = Path(__file__).parents[2] / ".ci"
-SECTION = "# A\n\n    python3 early\n\n## Two commands\n\n    python3 -m venv .venv && one\n\n    other\n\n{}## B\n\n    python3 late\n"
+SECTION = """\
+    python3 early
+
+## Two commands
+
+    python3 -m venv .venv && one
+
+    other
+
+{}## Next
+
+    python3 late
+"""
 
 
 def module(name: str) -> ModuleType:

@@ -66,10 +66,10 @@ def saltelli_indices(
     Notes
     -----
     A. Saltelli et al., Computer Physics Communications 181, 2010, 259-270, by SALib. A block of the plan in which a
-    run is missing is left out as a whole, since the estimators compare the runs of a block. Below 64 blocks the bootstrap
-    gives intervals that are too short: of 16 blocks they held a total index of Ishigami's function for 66 of 100 seeds.
-    It takes blocks to be independent, which scrambled Sobol' points are not: with most numbers of blocks the intervals
-    are wider than they need be, with 384 and 512 one index of six was held for 83 to 87 of 100 seeds.
+    run is missing is left out as a whole, since the estimators compare the runs of a block. Of few blocks the bootstrap
+    gives intervals that are too short: of 16 they held a total index of Ishigami's function for 75 % of 300 seeds. It
+    takes blocks to be independent, which scrambled Sobol' points are not: with most numbers of blocks the intervals are
+    wider than they need be, but with 384 and 512 one index of six was held for 87 % and 83 %.
     """
     from SALib.analyze import sobol
 
