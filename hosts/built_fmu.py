@@ -6,8 +6,8 @@ import hashlib
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
+import tomllib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -18,11 +18,6 @@ from ali3.command import COMMANDS
 from ali3.files import reason
 from ali3.running import module_command
 from hosts.errors import HostError
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 _SUFFIXES = (".py", ".c", ".h", ".toml", ".csv", ".npz", ".json", ".road", ".xml", ".txt")
 _KEPT = 10

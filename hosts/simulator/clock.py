@@ -12,8 +12,8 @@ import sys
 import time
 from typing import Protocol
 
-# Beyond these a sleep wakes too late; what is left is waited for in a loop, s.
-_SPIN, _SPIN_OLD_WINDOWS = 0.0005, 0.002
+# Beyond this a sleep wakes too late; what is left is waited for in a loop, s.
+_SPIN = 0.0005
 _CLOCK_MONOTONIC, _TIMER_ABSTIME = 1, 1
 _PR_SET_TIMERSLACK, _SLACK = 29, 1
 
@@ -80,8 +80,6 @@ def make_clock() -> Clock:
     """The finest clock of this system; on Windows its timer is set to 1 ms until the process ends."""
     if sys.platform == "win32":
         ctypes.WinDLL("winmm").timeBeginPeriod(1)
-        # Python sleeps by a timer of high resolution since 3.11.
-        return SleepingClock(_SPIN if sys.version_info >= (3, 11) else _SPIN_OLD_WINDOWS)
-    if sys.platform == "linux" and hasattr(os, "sched_getscheduler"):
+    elif sys.platform == "linux" and hasattr(os, "sched_getscheduler"):
         return LinuxClock()
     return SleepingClock()

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import inspect
 import math
 import warnings
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
-
-_SEED = "seed" if "seed" in inspect.signature(qmc.Sobol).parameters else "rng"
-"""How SciPy calls the seed. Where it has both names they draw different points, and `SALib` uses the old one."""
-
-
-def _seed(seed: int) -> dict[str, Any]:
-    return {_SEED: seed}
 
 
 class Sampler(Protocol):
@@ -46,7 +38,7 @@ class LatinHypercube:
 
     def __init__(self, dimensions: int, count: int, seed: int) -> None:
         self.count = count
-        self._points = qmc.LatinHypercube(dimensions, **_seed(seed)).random(count)
+        self._points = qmc.LatinHypercube(dimensions, rng=seed).random(count)
 
     def block(self, first: int, count: int) -> NDArray[np.float64]:
         """See `Sampler`."""
@@ -63,7 +55,7 @@ class SobolSequence:
 
     def __init__(self, dimensions: int, count: int, seed: int) -> None:
         self.count = count
-        self._engine = qmc.Sobol(dimensions, **_seed(seed))
+        self._engine = qmc.Sobol(dimensions, rng=seed)
         self._next = 0
 
     def block(self, first: int, count: int) -> NDArray[np.float64]:

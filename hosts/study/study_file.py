@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -11,11 +11,6 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from ali3.files import reason
 from hosts.errors import HostError
 from hosts.study.file_errors import sentence
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 METHODS = ("grid", "latin_hypercube", "sobol", "saltelli", "table")
 _LARGEST = 10_000_000

@@ -108,7 +108,7 @@ def read_matrix(path: str | Path) -> sp.csc_array:
     if path.name.endswith((".mtx", ".mtx.gz")):
         from scipy.io import mmread
 
-        return sp.csc_array(mmread(path))
+        return sp.csc_array(mmread(path, spmatrix=False))
     raise ModelError(f"{path.name} is neither Matrix Market (.mtx, .mtx.gz) nor a SciPy matrix (.npz).")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-import sys
+import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -159,10 +159,6 @@ def described_road(path: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridR
     RoadFileError
         With file, key, value and what would be right.
     """
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
     try:
         table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except tomllib.TOMLDecodeError as error:

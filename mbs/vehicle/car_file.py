@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import tomllib
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -11,11 +11,6 @@ from mbs.checks import shown
 from mbs.vehicle.car import Car, car_from
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import text_of
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 FILE = "car.toml"
 CARS = Path(__file__).parent / "cars"

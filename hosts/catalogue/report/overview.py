@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Mapping, Sequence
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
@@ -28,7 +28,7 @@ def head(cars: Sequence[TestedCar]) -> list[HtmlElement]:
         program = version("ali3")
     except PackageNotFoundError:
         program = "without a version"
-    now = datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
+    now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
     facts = [_facts(car) for car in cars]
     rows: list[list[Content]] = [[name, *(f[name] for f in facts)] for name in facts[0]]
     parts = [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import sys
+import tomllib
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -14,11 +14,6 @@ from platformdirs import user_config_path
 from ali3.files import reason, whole_file
 from hosts.errors import HostError
 from hosts.simulator.devices.mapping import DeviceMapping, read_input, read_settings
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 FORMAT, VERSION = "ALi3 device", 1
 _LARGEST = 100_000

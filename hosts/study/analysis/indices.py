@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-_FEWEST_BLOCKS = 16
+_FEWEST_BLOCKS = 64
 # Harmonics of RBD-FAST, and the fewest runs from which SALib's bootstrap (of half the runs) can tell them apart.
 _HARMONICS = 10
 _FEWEST_FOR_ESTIMATE, _MOST_FOR_ESTIMATE = 64, 50_000
@@ -66,7 +66,10 @@ def saltelli_indices(
     Notes
     -----
     A. Saltelli et al., Computer Physics Communications 181, 2010, 259-270, by SALib. A block of the plan in which a
-    run is missing is left out as a whole, since the estimators compare the runs of a block.
+    run is missing is left out as a whole, since the estimators compare the runs of a block. Of few blocks the bootstrap
+    gives intervals that are too short: of 16 they held a total index of Ishigami's function for 75 % of 300 seeds. It
+    takes blocks to be independent, which scrambled Sobol' points are not: with most numbers of blocks the intervals are
+    wider than they need be, but with 384 and 512 one index of six was held for 87 % and 83 %.
     """
     from SALib.analyze import sobol
 

@@ -9,6 +9,7 @@ from scipy.stats import qmc
 
 from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
 from hosts.study.analysis.main_effects import classes, main_effect
+from hosts.study.sampling import Saltelli
 
 pytest.importorskip("SALib")
 NAMES = ("a", "b", "c")
@@ -25,11 +26,9 @@ def ishigami(x: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.sin(a) + _B * np.sin(b) ** 2 + _C * c**4 * np.sin(a))
 
 
-def saltelli(blocks: int, second_order: bool) -> NDArray[np.float64]:
-    from SALib.sample import sobol
-
-    problem = {"num_vars": 3, "names": list(NAMES), "bounds": [[-np.pi, np.pi]] * 3}
-    return np.asarray(sobol.sample(problem, blocks, calc_second_order=second_order, seed=3))
+def saltelli(blocks: int, second_order: bool, seed: int = 3) -> NDArray[np.float64]:
+    points = Saltelli(3, blocks, seed, second_order)
+    return (2.0 * points.block(0, points.count) - 1.0) * np.pi
 
 
 @pytest.mark.parametrize("second_order", [False, True])
@@ -39,13 +38,23 @@ def test_ishigami(second_order: bool) -> None:
     assert isinstance(found, Indices)
     assert found.first == pytest.approx(FIRST, abs=0.02)
     assert found.total == pytest.approx(TOTAL, abs=0.02)
-    # The intervals hold the truth and are no wider than they need be.
-    assert (np.abs(found.first - FIRST) < found.first_conf).all()
-    assert (np.abs(found.total - TOTAL) < found.total_conf).all()
     assert (found.first_conf < 0.1).all()
     if second_order:
         assert found.second is not None
         assert [found.second[0, 2], found.second[0, 1]] == pytest.approx([_V13 / _V, 0.0], abs=0.05)
+
+
+@pytest.mark.parametrize("blocks", [64, 128, 512])
+def test_intervals_hold_the_truth_for_most_seeds(blocks: int) -> None:
+    """Of 95 %; the points of a sequence are not independent, so single indices are held less or more often."""
+    held = []
+    for seed in range(100):
+        y = ishigami(saltelli(blocks, False, seed))
+        found = saltelli_indices(NAMES, np.arange(len(y)), y, False)
+        assert isinstance(found, Indices)
+        held.append([np.abs(found.first - FIRST) < found.first_conf, np.abs(found.total - TOTAL) < found.total_conf])
+    assert np.mean(held) > 0.93
+    assert np.mean(held, axis=0).min() > 0.75
 
 
 def test_rows_in_any_order_and_blocks_with_a_missing_run() -> None:
@@ -67,9 +76,9 @@ def test_a_study_half_done() -> None:
     found = saltelli_indices(NAMES, np.arange(2503), y[:2503], False)
     assert isinstance(found, Indices)
     assert "from 500 blocks" in found.how
-    assert found.total == pytest.approx(TOTAL, abs=0.05)
+    assert (np.abs(found.total - TOTAL) < 2.0 * found.total_conf).all()
     few = saltelli_indices(NAMES, np.arange(22), y[:22], False)
-    assert few == "Only 4 blocks of 5 runs of the design are whole; from 16 on indices are given."
+    assert few == "Only 4 blocks of 5 runs of the design are whole; from 64 on indices are given."
 
 
 def test_linear_model() -> None:
@@ -81,7 +90,7 @@ def test_linear_model() -> None:
     assert isinstance(found, Indices)
     assert found.first == pytest.approx(expected, abs=0.01)
     assert found.total == pytest.approx(expected, abs=0.01)
-    latin = qmc.LatinHypercube(3, seed=1).random(4000) * widths + 10.0
+    latin = qmc.LatinHypercube(3, rng=1).random(4000) * widths + 10.0
     estimate = estimated_indices(NAMES, latin, latin @ slopes)
     assert isinstance(estimate, Indices)
     assert estimate.first == pytest.approx(expected, abs=0.03)
@@ -90,7 +99,7 @@ def test_linear_model() -> None:
 
 
 def test_an_estimate_of_ishigami() -> None:
-    x = (2.0 * qmc.LatinHypercube(3, seed=2).random(4000) - 1.0) * np.pi
+    x = (2.0 * qmc.LatinHypercube(3, rng=2).random(4000) - 1.0) * np.pi
     found = estimated_indices(NAMES, x, ishigami(x))
     assert isinstance(found, Indices)
     assert found.first == pytest.approx(FIRST, abs=0.03)
@@ -114,7 +123,7 @@ def test_a_grid_is_exact() -> None:
 
 
 def test_a_constant_measure_has_no_indices() -> None:
-    points, x = np.arange(500), qmc.LatinHypercube(3, seed=2).random(500)
+    points, x = np.arange(500), qmc.LatinHypercube(3, rng=2).random(500)
     y = np.full(500, 2.5)
     for found in (saltelli_indices(NAMES, points, y, False), estimated_indices(NAMES, x, y)):
         assert found == "The measure is 2.5 in all runs."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,11 +10,6 @@ import pytest
 
 from hosts.study import trial
 from hosts.study.command import main
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 RANGE = '"spring.stiffness" = { range = [50.0, 80.0] }'
 SOBOL = 'method = "sobol"\nruns = 16\nseed = 7'

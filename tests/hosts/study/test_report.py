@@ -25,7 +25,7 @@ UNITS = {"stiffness": "N/m", "mass": "kg", "surface": "", "peak": "m/s2"}
 @pytest.fixture(scope="module")
 def frame() -> pd.DataFrame:
     """Runs of which those with a soft spring fail."""
-    u = qmc.LatinHypercube(3, seed=1).random(200)
+    u = qmc.LatinHypercube(3, rng=1).random(200)
     surface = np.where(u[:, 2] < 0.5, "ice", "dry")
     x = {"stiffness": 2e4 + 4e4 * u[:, 0], "mass": 1e3 * 10.0 ** u[:, 1], "surface": surface}
     measures = {"peak": 5.0 - 1e-4 * x["stiffness"] + 2.0 * (surface == "dry")}

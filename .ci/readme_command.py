@@ -1,0 +1,34 @@
+"""One of the two commands of README.md as it stands there: ``python .ci/readme_command.py 1`` or ``2``."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+README = Path(__file__).resolve().parents[1] / "README.md"
+SECTION, START = "## Two commands", "python3 "
+
+
+def commands(text: str) -> list[str]:
+    """The indented lines that start with ``python3`` in the section of the two commands."""
+    section = text.partition(f"\n{SECTION}\n")[2].partition("\n## ")[0]
+    return re.findall(rf"^    ({START}.*)$", section, re.M)
+
+
+def main() -> int:
+    """Run the command."""
+    found = commands(README.read_text(encoding="utf-8"))
+    if len(found) != 2:
+        print(
+            f"error: README.md has {len(found)} indented commands that start with '{START}' under '{SECTION}'; "
+            "there must be two.",
+            file=sys.stderr,
+        )
+        return 1
+    print(found[int(sys.argv[1]) - 1])
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,67 @@
+"""What `.ci/run` takes from README.md and from the tests' output."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+CI = Path(__file__).parents[2] / ".ci"
+SECTION = """\
+    python3 early
+
+## Two commands
+
+    python3 -m venv .venv && one
+
+    other
+
+{}## Next
+
+    python3 late
+"""
+
+
+def module(name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, CI / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    made = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(made)
+    return made
+
+
+@pytest.mark.parametrize(("number", "words"), [("1", ["ali3 build", "ali3 drive"]), ("2", ['".[test]"', "-m pytest"])])
+def test_the_commands_of_the_readme(number: str, words: list[str]) -> None:
+    command = [sys.executable, CI / "readme_command.py", number]
+    line = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+    assert line.startswith("python3 -m venv .venv && .venv/bin/python -m pip install -e ")
+    assert all(word in line for word in words)
+
+
+@pytest.mark.parametrize("more", ["", "    pyhton3 -m venv\n\n", "    python3 two\n\n    python3 three\n\n"])
+def test_two_commands_and_no_other_number(
+    more: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    reader = module("readme_command")
+    file = tmp_path / "README.md"
+    file.write_text(SECTION.format(more))
+    monkeypatch.setattr(reader, "README", file)
+    assert reader.main() == 1
+    assert "there must be two" in capsys.readouterr().err
+    assert reader.commands(SECTION.format("    python3 two\n\n")) == ["python3 -m venv .venv && one", "python3 two"]
+
+
+def test_files_skipped_for_want_of_a_package() -> None:
+    log = """SKIPPED [1] tests/a/test_x.py:74: could not import 'mypy': No module named 'mypy'
+SKIPPED [2] tests/b/test_y.py:3: extra 'fem'
+SKIPPED [1] tests/b/test_y.py:9: extra 'fem'
+SKIPPED [1] tests/c/test_z.py:88: CalculiX (ccx) is not installed
+SKIPPED [1] tests/c/test_w.py:1: The package imageio is not installed; run: python -m pip install "ali3[pictures]"
+"""
+    found = module("skipped_for_packages").files(log)
+    assert found == ["tests/a/test_x.py", "tests/b/test_y.py", "tests/c/test_w.py"]
