@@ -39,7 +39,7 @@ def test_every_import_has_a_line_that_installs_it() -> None:
     packed = {"slave_face", "slave", "fmi2_face"}  # beside each other in an FMU
     assert [name for name, line in lines.items() if line is None] == []
     without = {name for name, line in lines.items() if line is not None and line[2] is None}
-    assert without - packed <= {"numpy", "scipy", "pydantic", "pydantic_core", "annotated_types", "tomli"}
+    assert without - packed <= {"numpy", "scipy", "pydantic", "pydantic_core", "annotated_types"}
 
 
 def test_extras_that_are_named_exist() -> None:
