@@ -1,5 +1,5 @@
-"""What every test needs: the compiled kernel, commands as they are before the first, and Ctrl-C; the order of the tests,
-and one line for those that need a browser.
+"""What every test needs: the compiled kernel, commands as before the first, and Ctrl-C; the order of the tests, and one
+line for those that need a browser.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Compute the motions that have no exact reduction, which take minutes: minimum-norm accelerations under DOP853 or Radau.
+"""Compute the motions without an exact reduction, which take minutes: minimum-norm accelerations, DOP853 or Radau.
 
 python -m benchmarks.references.store [SCENE ...]
 """
