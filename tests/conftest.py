@@ -30,6 +30,13 @@ def _kernel_library() -> None:
         pytest.fail(f"The kernel library cannot be loaded ({error}); first run: pip install -e .", pytrace=False)
 
 
+@pytest.fixture(scope="session")
+def shared(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder that all processes of pytest-xdist have."""
+    base = tmp_path_factory.getbasetemp()
+    return base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+
 @pytest.fixture(autouse=True)
 def _typed_as_modules(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sentences name commands as the test calls them, whatever a test before has typed."""
