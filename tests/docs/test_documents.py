@@ -121,17 +121,17 @@ def test_links_and_named_files_exist():
     for file, text in TEXTS.items():
         links = [file.parent / target for target in re.findall(r"\]\(([^)#:]+)\)", text)]
         named = re.findall(rf"`((?:mbs|fmu_src|hosts|benchmarks|tests|docs|examples)/{FILE})`", text)
-        missing += [(file.name, target) for target in links if not target.exists()]
-        missing += [(file.name, name) for name in named if not (ROOT / name).is_file()]
-    assert missing == []
+        missing += [f"{file.name}: {target}" for target in links if not target.exists()]
+        missing += [f"{file.name}: {name}" for name in named if not (ROOT / name).is_file()]
+    assert not missing, "\n".join(missing)
 
 
 def test_lines_have_at_most_120_characters():
     long = []
     for file, text in TEXTS.items():
         lines = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL).splitlines()
-        long += [(file.name, line) for line in lines if len(line) > 120 and not line.startswith(("|", "    "))]
-    assert long == []
+        long += [f"{file.name}: {line}" for line in lines if len(line) > 120 and not line.startswith(("|", "    "))]
+    assert not long, "\n".join(long)
 
 
 def test_linked_headings_exist():
@@ -141,8 +141,8 @@ def test_linked_headings_exist():
             page = (file.parent / target).read_text(encoding="utf-8") if target else text
             headings = re.findall(r"^#+ (.*)$", page, re.MULTILINE)
             if anchor not in {re.sub(r"[^\w -]", "", h.lower()).replace(" ", "-") for h in headings}:
-                missing.append((file.name, target, anchor))
-    assert missing == []
+                missing.append(f"{file.name}: {target}#{anchor}")
+    assert not missing, "\n".join(missing)
 
 
 def test_the_pages_name_every_method_and_the_readme_counts_methods_and_scenes():

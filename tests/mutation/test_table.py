@@ -17,4 +17,4 @@ def test_every_row_applies_exactly_once() -> None:
             mutant.apply()
         except ValueError as error:
             wrong.append(str(error))
-    assert wrong == []
+    assert not wrong, "\n".join(wrong)

@@ -189,8 +189,8 @@ def test_every_obstacle_from_both_sides_and_aslant(proving_ground, car, courses)
         try:
             run = simulation.run(min(8.0, 60.0 / speed), 0.002)
         except mbs.SimulationError as error:
-            failed.append((x, y, yaw, speed, str(error)))
+            failed.append(f"{x:g} {y:g} m, {yaw:g} rad, {speed:g} m/s: {error}")
         else:
             if not np.all(np.isfinite(run["chassis.z"])):
-                failed.append((x, y, yaw, speed, "not finite"))
-    assert failed == []
+                failed.append(f"{x:g} {y:g} m, {yaw:g} rad, {speed:g} m/s: not finite")
+    assert not failed, "\n".join(failed)
