@@ -26,7 +26,7 @@ from tests.bits.groups import GROUPS, group_of
 def main(arguments: Sequence[str] | None = None) -> int:
     """Command line; returns 1 where something differs from the baseline or cannot be made."""
     parser = argparse.ArgumentParser(prog="python -m tests.bits", description=__doc__.splitlines()[0])
-    parser.add_argument("--only", metavar="TEXT", default="", help="entries with this text in their name")
+    parser.add_argument("--only", metavar="TEXT", default="", help="entries with this text in their name or group")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="groups at a time (default 1)")
     parser.add_argument("--update", action="store_true", help="store what is found, told first, as the baseline")
     parser.add_argument("--list", action="store_true", help="print the names of the stored entries and stop")
@@ -38,21 +38,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     stored, taken = store.read() if store.BASELINE.is_file() else ({}, {})
     if options.list:
         for name, (exact, signals) in sorted(stored.items()):
-            if options.only in name:
+            if _asked(name, options.only):
                 print(f"{name}: {len(signals)} signals, {'bits' if exact else f'to {store.RELATIVE:g}'}")
         return 0
-    wanted = [name for name in GROUPS if not options.only or _may_hold(name, options.only, stored)]
+    wanted = [n for n in GROUPS if options.only in n or any(options.only in e and group_of(e) == n for e in stored)]
     if not wanted:
         parser.error(f"no group or stored entry has {options.only!r} in its name; --list prints those there are")
     found, failed = make_all(wanted, max(1, options.jobs))
     for name, words in failed.items():
         print(f"\n{name} cannot be made:\n{words}", file=sys.stderr)
-    kept = {name: entry for name, entry in stored.items() if group_of(name) in wanted and group_of(name) not in failed}
-    rows = [row for row in store.compare(kept, found) if options.only in row.entry or row.entry == options.only]
+    made = {*wanted, *(() if options.only else ("",))} - failed.keys()  # "": what no group makes any more
+    kept = {name: entry for name, entry in stored.items() if group_of(name) in made}
+    rows = [row for row in store.compare(kept, found) if _asked(row.entry, options.only)]
     report(rows, found, taken, options.most)
     if options.update:
-        new = {n: e for n, e in found.items() if options.only in n}
-        left = {n: e for n, e in stored.items() if n not in kept or options.only not in n}
+        new = {name: entry for name, entry in found.items() if _asked(name, options.only)}
+        left = {name: entry for name, entry in stored.items() if name not in kept or not _asked(name, options.only)}
         store.write(left | new, with_what())
         print(f"written: {store.BASELINE}")
         return 1 if failed else 0
@@ -163,8 +164,8 @@ def with_what() -> dict[str, str]:
     return found | {name: version(name) for name in ("numpy", "scipy", "fmpy", "pandas", "SALib")}
 
 
-def _may_hold(group: str, text: str, stored: dict[str, store.Entry]) -> bool:
-    return text in group or any(text in entry and group_of(entry) == group for entry in stored)
+def _asked(entry: str, text: str) -> bool:
+    return text in entry or text in group_of(entry)
 
 
 def _in_a_process(name: str, fmus: Path, folder: Path) -> tuple[dict[str, store.Entry], str]:

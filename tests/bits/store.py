@@ -209,7 +209,7 @@ def _difference(entry: str, signal: str, old: Signal, new: Signal) -> Difference
     distance = old.distance(new)
     width = max(old.high - old.low, new.high - new.low, 0.0)
     scale = width if width > 1e-6 * old.size else max(old.size, new.size)
-    return Difference(entry, signal, "differs", distance, distance / scale if scale else math.nan)
+    return Difference(entry, signal, "differs", distance, distance / scale if scale else 0.0)
 
 
 def _single(value: float) -> float:
