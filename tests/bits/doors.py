@@ -1,0 +1,111 @@
+"""All that the baseline calls of the product, so that code that moves or is renamed is met here only."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import mbs
+
+ROOT = Path(__file__).parents[2]
+KINDS = {"fmi2": ("native", ""), "fmi3": ("fmi3", "FMI3"), "python": ("python", "Python")}
+"""Kinds of FMU: what `build` calls them, and what follows the name of the model in the file's name."""
+MODEL = {"prototype": "Prototype", "hatchback": "Hatchback"}
+
+
+def scene(name: str, **arguments: Any) -> mbs.Model:
+    """A scene of the package."""
+    return importlib.import_module(f"mbs.scenes.{name}").build(**arguments)
+
+
+def example(script: str, function: str, *arguments: Any) -> mbs.Model:
+    """The model of a script in the folder of examples."""
+    spec = importlib.util.spec_from_file_location(f"example_{script}", ROOT / "examples" / f"{script}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return getattr(module, function)(*arguments)
+
+
+def car(name: str, fidelity: int = 0, road: Any = None) -> mbs.Model:
+    """A car of the package, or of a file."""
+    return importlib.import_module("mbs.vehicle").load(name).model(road, fidelity)
+
+
+def ali3(*arguments: object) -> str:
+    """What a command prints; one that fails is an error with all its words."""
+    done = subprocess.run(
+        [sys.executable, "-m", "ali3", *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        raise RuntimeError(
+            f"ali3 {' '.join(map(str, arguments))} ended with {done.returncode}: {done.stdout}{done.stderr}"
+        )
+    return done.stdout
+
+
+def build(name: str, folder: Path, kinds: Sequence[str] = tuple(KINDS)) -> None:
+    """FMUs of a car for this machine."""
+    names = ",".join(KINDS[kind][0] for kind in kinds)
+    ali3("build", "--car", name, "--platforms", "this", "--kind", names, "--out", folder)
+
+
+def fmu_file(name: str, kind: str, folder: Path) -> Path:
+    """Where `build` puts an FMU."""
+    return folder / f"{MODEL[name]}{KINDS[kind][1]}.fmu"
+
+
+def drive(fmu: Path, manoeuvre: str, folder: Path, *options: object) -> Path:
+    """Drive an FMU through a manoeuvre; the table of the result."""
+    ali3("drive", fmu, "--manoeuvre", manoeuvre, "--out", folder, *options)
+    return next(folder.glob("*.csv"))
+
+
+def catalogue(fmu: Path, tests: str, folder: Path, settings: Sequence[str]) -> Path:
+    """Do standard tests; the measures as JSON."""
+    given = [text for setting in settings for text in ("--test-setting", setting)]
+    ali3("catalogue", fmu, "--tests", tests, "--jobs", 1, "--no-runs", "--out", folder, *given)
+    return folder / "measures.json"
+
+
+def study(file: Path, folder: Path) -> Path:
+    """Make a study; the folder of its rows."""
+    ali3("study", file, "--workers", 1, "--no-report", "--out", folder)
+    return folder / "runs"
+
+
+def compare(fmu: Path, log: Path, folder: Path, *options: str) -> Path:
+    """Hold an FMU against a log; all numbers as JSON."""
+    ali3("compare", fmu, log, "--out", folder, "--json", folder.parent / "compare.json", *options)
+    return folder.parent / "compare.json"
+
+
+def kinematics(name: str, folder: Path, points: int) -> tuple[Path, list[Path]]:
+    """Curves of a car: all numbers as JSON, and the tables."""
+    file = folder / "kinematics.json"
+    ali3("kinematics", name, "--points", points, "--out", folder / "curves", "--json", file)
+    return file, sorted((folder / "curves").glob("*.csv"))
+
+
+def road(source: Path, folder: Path) -> tuple[Path, Path]:
+    """A road file and what draws it."""
+    made, part = folder / f"{source.stem}.road", folder / f"{source.stem}.json"
+    ali3("road", source, made, "--part", part)
+    return made, part
+
+
+def world(name: str, folder: Path) -> tuple[Path, Path]:
+    """The road file and the drawing of a world, made anew."""
+    ali3("world", name, "--out", folder)
+    return folder / f"{name}.road", folder / f"{name}.json"
+
+
+def page(result: Path, fmu: Path, folder: Path) -> tuple[Path, Path]:
+    """The page of a result and its glTF."""
+    page, gltf = folder / "page.html", folder / "page.glb"
+    ali3("view", result, "--geometry", fmu, "--no-open", "--most", 200, "--out", page, "--gltf", gltf)
+    return page, gltf

@@ -1,0 +1,92 @@
+"""The baseline of numbers: that it is held, and that its comparison sees what it must."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.bits import store
+from tests.bits.command import main, make_all
+from tests.bits.groups import GROUPS, group_of
+
+SIGNAL = np.sin(np.arange(300) / 20.0)
+
+
+@pytest.fixture(scope="module")
+def baseline():
+    return store.read()[0]
+
+
+def test_runs_of_mechanisms_are_as_stored(baseline):
+    """A quarter of the entries, which take seconds; the others take minutes."""
+    found, failed = make_all(["mechanisms"], 1)
+    assert failed == {}
+    stored = {name: entry for name, entry in baseline.items() if group_of(name) == "mechanisms"}
+    assert store.compare(stored, found) == []
+
+
+@pytest.mark.proof
+def test_everything_is_as_stored(capsys):
+    assert main(["--jobs", "2"]) == 0, capsys.readouterr().out
+
+
+def test_each_stored_entry_belongs_to_a_group_and_each_group_has_entries(baseline):
+    assert {group_of(name) for name in baseline} == set(GROUPS)
+
+
+@pytest.mark.parametrize(
+    ("changed", "distance"),
+    [
+        (-SIGNAL, 2.0 * np.sqrt(np.mean(SIGNAL**2))),
+        (SIGNAL + 1e-9, 1e-9),
+        (np.where(np.arange(300) == 40, 0.5, SIGNAL), abs(SIGNAL[40] - 0.5) / math.sqrt(300)),
+        (np.where(np.arange(300) == 40, np.nan, SIGNAL), abs(SIGNAL[40]) / math.sqrt(300)),
+    ],
+)
+def test_a_difference_is_seen_and_its_size_is_about_right(changed, distance):
+    stored = {"a": store.entry_of({"s": SIGNAL})}
+    (row,) = store.compare(stored, {"a": store.entry_of({"s": changed})})
+    assert (row.entry, row.signal, row.kind) == ("a", "s", "differs")
+    assert 0.05 * distance < row.distance < 20.0 * distance
+    assert row.relative == pytest.approx(row.distance / np.ptp(SIGNAL), rel=1e-3)
+
+
+def test_the_sign_of_zero_the_shape_and_the_last_bit_are_seen():
+    stored = store.Signal.of([0.0, 1.0])
+    for other in ([-0.0, 1.0], [[0.0, 1.0]], [0.0, np.nextafter(1.0, 2.0)]):
+        assert store.Signal.of(other).digest != stored.digest
+    assert store.Signal.of([math.nan]).digest == store.Signal.of([-math.nan]).digest
+
+
+def test_rounding_is_let_pass_only_where_bits_are_not_compared():
+    for exact, off, seen in ((True, 1e-13, 1), (False, 1e-13, 0), (False, 1e-7, 1)):
+        stored = {"a": store.entry_of({"s": SIGNAL}, exact)}
+        assert len(store.compare(stored, {"a": store.entry_of({"s": SIGNAL * (1.0 + off)}, exact)})) == seen
+    stored = {"a": store.entry_of({"s": [0.0, 0.0]}, False)}
+    assert store.compare(stored, {"a": store.entry_of({"s": [0.0, 0.0, 0.0]}, False)})
+
+
+def test_names_that_come_and_go_are_told():
+    stored = {"a": store.entry_of({"s": SIGNAL, "t": [1.0]}), "b": store.entry_of({"s": [1.0]})}
+    rows = store.compare(stored, {"a": store.entry_of({"s": SIGNAL, "u": [1.0]}), "c": stored["b"]})
+    assert [(r.entry, r.signal, r.kind) for r in rows] == [
+        ("a", "t", "missing"),
+        ("a", "u", "new"),
+        ("b", "", "missing"),
+        ("c", "", "new"),
+    ]
+
+
+def test_the_file_gives_back_what_was_written(tmp_path):
+    entries = {
+        "a": store.entry_of({"s": SIGNAL, "none": [], "odd": [np.nan, np.inf, 1e300]}),
+        "b": store.entry_of({"s": SIGNAL, "none": [], "odd": [2.0]}, False),
+    }
+    store.write(entries, {"numpy": "x"}, tmp_path / "b.json")
+    found, taken = store.read(tmp_path / "b.json")
+    assert store.compare(entries, found) == []
+    assert found["a"][1]["s"] == entries["a"][1]["s"]
+    assert not found["b"][0]
+    assert taken == {"numpy": "x"}
