@@ -26,7 +26,13 @@ TRUTH = {"True": "False", "False": "True", "true": "false", "false": "true"}
 OPERATIONS = {"binary_expression", "binary_operator", "boolean_operator", "comparison_operator"}
 ASSIGNMENTS = {"assignment_expression", "augmented_assignment", "augmented_assignment_expression"}
 NUMBERS = {"float", "integer", "number", "number_literal"}
-FUNCTIONS = {"class_declaration", "class_definition", "function_declaration", "function_definition", "method_definition"}
+FUNCTIONS = {
+    "class_declaration",
+    "class_definition",
+    "function_declaration",
+    "function_definition",
+    "method_definition",
+}
 SILENT = {"ERROR", "comment", "decorator", "string", "string_literal", "template_string", "type"}
 """What is left as it is: words, types and what the grammar cannot read."""
 NOTHING = {".c": "{}", ".h": "{}", ".js": "{}", ".py": "pass"}
@@ -187,5 +193,7 @@ def _order(node: Node, suffix: str) -> Iterator[Found]:
     for first, second in pairs:
         one_line = first.start_point.row == second.end_point.row
         if one_line and _text(first) != _text(second):
-            between = (node.text or b"")[first.end_byte - node.start_byte : second.start_byte - node.start_byte].decode()
+            between = (node.text or b"")[
+                first.end_byte - node.start_byte : second.start_byte - node.start_byte
+            ].decode()
             yield "order", first, second, f"{_text(second)}{between}{_text(first)}"

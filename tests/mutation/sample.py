@@ -12,14 +12,14 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
-from itertools import islice
-from os.path import commonprefix
+from itertools import takewhile
 from pathlib import Path
 
 from tests.mutation import operators
 from tests.mutation.table import ROOT, SOURCES, SUFFIXES
 
 NOT_MUTATED = {"__pycache__", "bundle", "node_modules", "test"}
+MISSES = 200  # draws without a new mutant after which a room has no more
 ENOUGH = 2  # points of `Sampled.find`: a line that is short may stand elsewhere by chance
 
 
@@ -102,13 +102,20 @@ class Sampled:
         path, place = self.find(root)
         text = path.read_text(encoding="utf-8")
         old, new = (re.findall(r"\s+|\w+|\W", part) for part in (self.line, self.changed))
-        head = len(commonprefix([old, new]))
-        tail = len(commonprefix([old[head:][::-1], new[head:][::-1]]))
+        head = common(old, new)
+        tail = common(old[head:][::-1], new[head:][::-1])
         first = place + len(squeeze("".join(old[:head])))
         count = len(squeeze("".join(old[head : len(old) - tail])))
         start = position(text, first)
+        if not count and head and not old[head - 1].isspace():
+            start = position(text, first - 1) + 1  # directly behind what stays
         end = position(text, first + count - 1) + 1 if count else start
         return path, text[:start] + "".join(new[head : len(new) - tail]) + text[end:]
+
+
+def common(one: list[str], other: list[str]) -> int:
+    """How many items at the begin are the same."""
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False)))
 
 
 def squeeze(text: str) -> str:
@@ -142,6 +149,7 @@ def draw(number: int, seed: int, root: Path = ROOT) -> list[Iterator[Sampled]]:
     list of iterators
         One for each mutant; the next of an iterator stands in for one that does not compile.
     """
+    _changes.cache_clear()
     rooms: dict[Path, list[Path]] = {}
     for path in sources(root):
         rooms.setdefault(path.parent, []).append(path)
@@ -156,16 +164,21 @@ def draw(number: int, seed: int, root: Path = ROOT) -> list[Iterator[Sampled]]:
 
 
 def _stream(files: list[Path], chance: random.Random, root: Path, seen: set[Sampled]) -> Iterator[Sampled]:
-    """Mutants of a room without end."""
-    while True:
-        path = chance.choices(files, [file.stat().st_size for file in files])[0]
-        kinds: dict[str, list[operators.Change]] = {}
-        for change in _changes(path):
-            kinds.setdefault(change.operator, []).append(change)
-        if kinds:
+    """Mutants of a room, or of all where it has no other."""
+    for place in (files, sources(root)):
+        misses = 0
+        while misses < MISSES:
+            misses += 1
+            path = chance.choices(place, [1 + file.stat().st_size for file in place])[0]
+            kinds: dict[str, list[operators.Change]] = {}
+            for change in _changes(path):
+                kinds.setdefault(change.operator, []).append(change)
+            if not kinds:
+                continue
             kind = chance.choices(list(kinds), [math.sqrt(len(found)) for found in kinds.values()])[0]
             mutant = mutant_of(path, chance.choice(kinds[kind]), root)
             if mutant is not None and mutant not in seen:
+                misses = 0
                 seen.add(mutant)
                 yield mutant
 
@@ -201,8 +214,3 @@ def mutant_of(path: Path, change: operators.Change, root: Path) -> Sampled | Non
     except ValueError:
         return None
     return mutant if made == (path, result.decode()) else None
-
-
-def first(number: int, seed: int, root: Path = ROOT) -> list[Sampled]:
-    """The mutants that are tried first."""
-    return [next(islice(stream, 1)) for stream in draw(number, seed, root)]

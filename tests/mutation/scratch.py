@@ -195,7 +195,7 @@ class Scratch:
         shutil.rmtree(self.root.with_suffix(".tmp"), ignore_errors=True)
         said = words.read_text(errors="replace").strip().splitlines() or [""]
         noted = [json.loads(line) for line in notes.read_text().splitlines()] if notes.is_file() else []
-        kind, test, since = noted[-1] if noted else ("", "", 0.0)
+        _, test, since = noted[-1] if noted else ("", "", 0.0)
         if over:
             return Verdict(SURVIVED, f"no end within {seconds:.0f} s of CPU", test, seconds, seconds - since)
         if process.exitcode == NOT_BUILT:
@@ -207,9 +207,7 @@ class Scratch:
         why = next((line for line in said if line.startswith(("FAILED", "ERROR"))), said[-1])
         return Verdict(KILLED if test else BROKEN, why, test, seconds)
 
-    def attempt(
-        self, mutant: Applied, batches: Sequence[Batch], limit: float = LIMIT, build: bool = True
-    ) -> Verdict:
+    def attempt(self, mutant: Applied, batches: Sequence[Batch], limit: float = LIMIT, build: bool = True) -> Verdict:
         """What the tests say of one mutant; the copy is afterwards as before."""
         try:
             path, content = mutant.apply(self.root)

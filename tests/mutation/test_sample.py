@@ -1,10 +1,9 @@
-"""Mutants drawn by chance: their operators, that a seed draws the same, and that they are found where code has moved."""
+"""Mutants drawn by chance: their operators, the same for the same seed, found again where code has moved."""
 
 from __future__ import annotations
 
 import shutil
 from dataclasses import replace
-from itertools import islice
 from pathlib import Path
 
 import pytest
@@ -17,18 +16,17 @@ from tests.mutation.table import ROOT
 
 PYTHON = '''def area(of, *, per=1.5):
     """A text of 2 words, not mutated - at all."""
-    if of in SEEN and not -of.width < 2:
+    if of in SEEN and not abs(-of.width) < 2:
         SEEN.add(of, per)
     return table[0, of]
 '''
-SHIFTED = '''class Shape:
+SHIFTED = """class Shape:
     def area(self, of):
-        if (
-            of in SEEN
-            and not -of.width < 2
-        ):
+        if of in SEEN and not abs(
+            -of.width
+        ) < 2:
             SEEN.add(of, 1.5)
-'''
+"""
 
 
 def texts(source: str, suffix: str) -> list[tuple[str, str]]:
@@ -72,14 +70,14 @@ def test_constants_change_by_one_or_by_a_factor() -> None:
     made = [float(text.removeprefix("x=")) for _, text in texts("x = 1", ".py")]
     assert made == [2.0, 0.0]
     assert texts("x = 0.0", ".py") == [("constant", "x=1.0")]
-    ((_, text),) = texts("x = 3e-4", ".c")
-    assert 1.005 < float(text.removeprefix("x=")) / 3e-4 < 2.1
+    ((_, text),) = texts("double x = 3e-4;", ".c")
+    assert 1.005 < float(text.removeprefix("doublex=").removesuffix(";")) / 3e-4 < 2.1
 
 
 def test_a_seed_draws_the_same_from_all_rooms() -> None:
-    drawn = [[next(stream) for stream in draw(60, seed)] for seed in (7, 7, 8)]
+    drawn = [[next(stream) for stream in draw(40, seed)] for seed in (7, 7, 8)]
     assert drawn[0] == drawn[1]
-    assert len(set(drawn[0])) == 60 > 2 * len(set(drawn[0]) & set(drawn[2]))
+    assert len(set(drawn[0])) == 40 > 2 * len(set(drawn[0]) & set(drawn[2]))
     assert {Path(m.file).suffix for m in drawn[0]} >= {".py", ".c", ".js"}
     assert {Path(m.file).parts[0] for m in drawn[0]} >= {"mbs", "hosts", "viewer", "fmu_src", "benchmarks"}
     for mutant in drawn[0]:
@@ -100,7 +98,8 @@ def tree(tmp_path: Path) -> Path:
 
 def mutants_in(tree: Path, operator: str) -> list[Sampled]:
     """All of an operator in the file that is moved."""
-    many = {m for stream in draw(4, 1, tree) for m in islice(stream, 12)}
+    many = [mutant for stream in draw(4, 1, tree) for mutant in stream]
+    assert len(many) == len(set(many))
     return sorted((m for m in many if m.operator == operator and m.file.endswith("area.py")), key=str)
 
 
@@ -113,7 +112,7 @@ def test_a_mutant_is_found_where_its_file_was_moved_and_its_lines_wrapped(tree: 
     (tree / "viewer/shape.py").write_text(SHIFTED, encoding="utf-8")
     found = [mutant.apply(tree) for mutant in comparison]
     assert {path for path, _ in found} == {tree / "viewer/shape.py"}
-    expected = [SHIFTED.replace(*pair) for pair in ((" in ", " not in "), ("width < 2", "width <= 2"), ("< 2", "> 2"))]
+    expected = [SHIFTED.replace(*pair) for pair in ((" in ", " not in "), (") < 2", ") <= 2"), ("< 2", "> 2"))]
     assert sorted(content for _, content in found) == sorted(expected)
     with pytest.raises(ValueError, match=r"gone, look at it by hand: .*SEEN\.add\(of, per\).*no longer in the code"):
         swapped.apply(tree)
