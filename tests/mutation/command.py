@@ -56,7 +56,8 @@ def row_of(mutant: Mutant | Sampled, verdict: Verdict) -> Row:
 def attempt_named(scratch: Scratch, mutant: Mutant) -> Row:
     """Try a row of the tables."""
     by_themselves = all(test.startswith(COMPILE_THEMSELVES) for test in mutant.tests)
-    return row_of(mutant, scratch.attempt(mutant, [mutant.tests], build=not by_themselves))
+    verdict = scratch.attempt(mutant, [mutant.tests], build=not by_themselves)
+    return row_of(mutant, replace(verdict, outcome=KILLED) if verdict.last else verdict)  # it has no end
 
 
 class Attempts:
@@ -83,8 +84,10 @@ class Attempts:
     def one(self, scratch: Scratch, mutant: Sampled) -> Row:
         """Try a mutant."""
         while True:
-            unsound = [f"--deselect={test}" for test, sound in self._sound.items() if not sound and ".py" in test]
-            batches = [(*batch, *unsound) for batch in batches_of(mutant, scratch.root)]
+            unsound = [test for test, sound in self._sound.items() if not sound]
+            left_out = [f"--deselect={test}" for test in unsound]
+            chosen = [[test for test in batch if test not in unsound] for batch in batches_of(mutant, scratch.root)]
+            batches = [(*batch, *left_out) for batch in chosen]
             verdict = scratch.attempt(mutant, batches, self._limit)
             if verdict.outcome == KILLED and not self._passes(scratch, verdict.test):
                 continue

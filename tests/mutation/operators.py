@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
@@ -91,7 +91,7 @@ def changes(source: bytes, suffix: str) -> Iterator[Change]:
             yield Change(operator, first.start_byte, last.end_byte, new, _function(node))
 
 
-def _nodes(node: Node, silent: set[str] = frozenset()) -> Iterator[Node]:  # type: ignore[assignment]
+def _nodes(node: Node, silent: Collection[str] = ()) -> Iterator[Node]:
     stack = [node]
     while stack:
         node = stack.pop()
@@ -189,7 +189,7 @@ def _order(node: Node, suffix: str) -> Iterator[Found]:
         inner = node.child_by_field_name("argument") or node.child_by_field_name("object")
         indices = inner and inner.child_by_field_name("index"), node.child_by_field_name("index")
         if inner is not None and inner.type == node.type and None not in indices:
-            pairs = [indices]  # type: ignore[list-item]
+            pairs = [indices]
     for first, second in pairs:
         one_line = first.start_point.row == second.end_point.row
         if one_line and _text(first) != _text(second):

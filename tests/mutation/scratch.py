@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import psutil
 import pytest
@@ -53,7 +53,7 @@ class Verdict:
     test : str
         The test that failed, or that was running at the end; empty where all passed.
     seconds, last : float
-        CPU time of all and of this test, with the processes that they started.
+        CPU time of all, and of the test that was running at the limit, with the processes that they started.
     """
 
     outcome: str
@@ -84,7 +84,7 @@ class _Notes:
             self.write("failed", report.nodeid)
 
 
-def _kernel_build(root: Path) -> object:
+def _kernel_build(root: Path) -> Any:
     """The file `build.py` of a copy, without the package around it."""
     spec = importlib.util.spec_from_file_location("kernel_build", root / "mbs" / "kernel" / "build.py")
     assert spec is not None
@@ -108,12 +108,12 @@ def compiles(root: Path, changed: Path) -> None:
 
         bundle()
     elif "kernel" in changed.parts:
-        build.compile_library()  # type: ignore[attr-defined]
+        build.compile_library()
     elif changed.suffix == ".c":
         include = [f"-I{place}" for place in (changed.parent, root / "mbs" / "kernel" / "include")]
-        flags = [flag for flag in build.FLAGS if flag not in ("-shared", "-s")]  # type: ignore[attr-defined]
+        flags = [flag for flag in build.FLAGS if flag not in ("-shared", "-s")]
         made = ["-c", str(changed), "-o", str(root.with_suffix(".o"))]
-        command = [build.compiler(), "cc", *flags, *include, *made]  # type: ignore[attr-defined]
+        command = [build.compiler(), "cc", *flags, *include, *made]
         result = subprocess.run(command, capture_output=True, text=True, check=False)
         if result.returncode and "file not found" not in result.stderr:
             raise RuntimeError(result.stderr)
@@ -139,10 +139,10 @@ def build_and_test(root: Path, batches: Sequence[Batch], changed: Path | None, w
             print(error, flush=True)
             os._exit(NOT_BUILT)
     for batch in batches:
-        pages = [test for test in batch if test.endswith(".js")]
+        pages = [test for test in batch if test.endswith(".js") and not test.startswith("-")]
         others = [test for test in batch if test not in pages]
         code = next((code for page in pages if (code := _run_in_node(root, page, plugin))), 0)
-        if not code and any(".py" in test for test in others):
+        if not code and any(".py" in test and not test.startswith("-") for test in others):
             code = int(pytest.main([*OPTIONS, *others], [plugin]))
         if code not in (0, 4, 5):  # 4: a test is no longer there; 5: all are left out by their marks
             break
