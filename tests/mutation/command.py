@@ -1,162 +1,212 @@
-"""Mutants of the kernel and the compiler: each changes one line in a scratch copy, and its tests must fail.
+"""Mutants: each changes one place in a scratch copy of the project, and its tests must fail.
 
     python -m tests.mutation [--only TEXT] [--jobs N] [--json FILE]
+    python -m tests.mutation --sample N [--seed S] [--limit SECONDS] [--jobs N] [--json FILE]
+    python -m tests.mutation --again [FILE] [--limit SECONDS] [--jobs N] [--json FILE]
 
-The score is the share of mutants that a test notices. The tree itself is not touched.
+Without `--sample` and `--again` those of the tables. The score is the share of mutants that a test notices. The tree
+itself is not touched.
 """
 
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import json
-import multiprocessing
 import os
 import queue
-import shutil
-import sys
 import tempfile
-import time
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict
+from dataclasses import asdict, fields, replace
 from pathlib import Path
+from typing import Any, TypeVar
 
-import pytest
 from tqdm import tqdm
 
-from tests.mutation.table import ROOT, SOURCES, Mutant, all_mutants
+from tests.mutation.choice import batches_of
+from tests.mutation.sample import Sampled, draw
+from tests.mutation.scratch import BROKEN, KILLED, SURVIVED, Scratch, Verdict
+from tests.mutation.table import HERE, Mutant, all_mutants
 
-KILLED, SURVIVED, BROKEN = "killed", "survived", "broken"
-NOT_BUILT = 99
-TIMEOUT = 600.0  # s: a mutant whose tests take longer runs for ever, which a test has noticed
-OPTIONS = ("-x", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=0")
 COMPILE_THEMSELVES = ("tests/elements/", "tests/kernel/test_elementary.py", "tests/fmu/")
-IGNORED = shutil.ignore_patterns("__pycache__", "*.so", "*.dylib", "*.dll", ".hypothesis")
-WARM = ("numpy", "scipy.integrate", "scipy.linalg", "scipy.optimize", "scipy.sparse", "scipy.spatial.transform")
-"""What a process imports once, for all mutants."""
+STORED = HERE / "sample.json"
+LIMIT = 90.0  # s of CPU for the tests of a mutant that was drawn
+DRAWN_AGAIN = 20  # at most, for one mutant that cannot be tried
+ENDLESS = 20.0  # s of CPU: a test that takes so long, and three times as long as without the mutant, does not end
 
-
-def build_kernel(root: Path) -> None:
-    """Compile the kernel of a copy, without the package around `build.py`."""
-    spec = importlib.util.spec_from_file_location("kernel_build", root / "mbs" / "kernel" / "build.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    module.compile_library()
-
-
-def build_and_test(root: Path, tests: tuple[str, ...], build: bool, words: Path) -> None:
-    """In a process of its own: what is said goes to a file, the outcome is the exit code."""
-    with words.open("w") as stream:
-        os.dup2(stream.fileno(), 1)
-        os.dup2(stream.fileno(), 2)
-    sys.dont_write_bytecode = True
-    os.chdir(root)
-    sys.path.insert(0, str(root))
-    os.environ |= {"ZIG_GLOBAL_CACHE_DIR": str(root.parent / "zig"), "PYTHONPATH": str(root)}
-    if build:
-        try:
-            build_kernel(root)
-        except RuntimeError as error:
-            print(error, flush=True)
-            os._exit(NOT_BUILT)
-    code = pytest.main([*OPTIONS, *tests]) if tests else 0
-    sys.stdout.flush()
-    os._exit(int(code))
-
-
-class Scratch:
-    """A copy of the project in which one mutant at a time is tried."""
-
-    def __init__(self, place: Path) -> None:
-        self.root = place
-        for name in (*SOURCES, "ali3", "benchmarks", "tests", "examples", "docs"):
-            if (ROOT / name).is_dir():
-                shutil.copytree(ROOT / name, place / name, ignore=IGNORED)
-        for path in ROOT.glob("*.*"):
-            if path.is_file():
-                shutil.copy(path, place)
-        methods = multiprocessing.get_all_start_methods()
-        self._context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
-        if "forkserver" in methods:
-            self._context.set_forkserver_preload(list(WARM))
-
-    def run(self, tests: tuple[str, ...], build: bool) -> tuple[str, str]:
-        """What the tests say of the copy as it is, and why."""
-        words = self.root.with_suffix(".txt")
-        process = self._context.Process(target=build_and_test, args=(self.root, tests, build, words))
-        process.start()
-        process.join(TIMEOUT)
-        if process.is_alive():
-            process.kill()
-            process.join()
-            return KILLED, f"no end within {TIMEOUT:.0f} s"
-        lines = words.read_text(errors="replace").strip().splitlines() or [""]
-        if process.exitcode == NOT_BUILT:
-            return BROKEN, "\n".join(lines)
-        if process.exitcode in (0, 4, 5):  # 4, 5: no such tests
-            return (SURVIVED if process.exitcode == 0 else BROKEN), lines[-1]
-        return KILLED, next((line for line in lines if line.startswith(("FAILED", "ERROR"))), lines[-1])
-
-    def attempt(self, mutant: Mutant) -> tuple[str, str]:
-        """Outcome of one mutant, and why."""
-        path, content = mutant.apply(self.root)
-        original = path.read_text(encoding="utf-8")
-        path.write_text(content, encoding="utf-8")
-        try:
-            by_themselves = all(test.startswith(COMPILE_THEMSELVES) for test in mutant.tests)
-            return self.run(mutant.tests, path.suffix != ".py" and "kernel" in path.parts and not by_themselves)
-        finally:
-            path.write_text(original, encoding="utf-8")
+Item = TypeVar("Item")
+Row = dict[str, Any]
 
 
 def prepare(place: Path, tests: tuple[str, ...]) -> Scratch:
     """A copy whose unchanged tests pass."""
     scratch = Scratch(place)
-    outcome, words = scratch.run(tests, build=True)
-    if outcome != SURVIVED:
-        raise SystemExit(f"Without any mutant the tests do not pass: {words}")
+    verdict = scratch.run([tests] if tests else [], scratch.root / "mbs" / "kernel" / "include" / "ali3.h")
+    if verdict.outcome != SURVIVED:
+        raise SystemExit(f"Without any mutant the tests do not pass: {verdict.why}")
     return scratch
 
 
-def run(mutants: list[Mutant], jobs: int, folder: Path) -> list[dict[str, object]]:
-    """Outcomes in the order of the mutants."""
-    tests = tuple(dict.fromkeys(test for mutant in mutants for test in mutant.tests))
-    copies: queue.Queue[Scratch] = queue.Queue()
-    for k in range(jobs):
-        copies.put(prepare(folder / str(k), tests if k == 0 else ()))
-    with tqdm(total=len(mutants), unit="mutant", dynamic_ncols=True) as bar:
+def row_of(mutant: Mutant | Sampled, verdict: Verdict) -> Row:
+    """Fields of the mutant and what its tests say."""
+    return asdict(mutant) | {"outcome": verdict.outcome, "why": verdict.why, "seconds": round(verdict.seconds, 1)}
 
-        def one(mutant: Mutant) -> dict[str, object]:
-            scratch, start = copies.get(), time.perf_counter()
-            try:
-                outcome, words = scratch.attempt(mutant)
-            finally:
-                copies.put(scratch)
-            if outcome != KILLED:
-                tqdm.write(f"{outcome}: {mutant}\n    {words}")
-            bar.update()
-            return asdict(mutant) | {"outcome": outcome, "why": words, "seconds": time.perf_counter() - start}
 
-        with ThreadPoolExecutor(jobs) as pool:
-            return list(pool.map(one, mutants))
+def attempt_named(scratch: Scratch, mutant: Mutant) -> Row:
+    """Try a row of the tables."""
+    by_themselves = all(test.startswith(COMPILE_THEMSELVES) for test in mutant.tests)
+    verdict = scratch.attempt(mutant, [mutant.tests], build=not by_themselves)
+    return row_of(mutant, replace(verdict, outcome=KILLED) if verdict.last else verdict)  # it has no end
+
+
+class Attempts:
+    """Tries mutants that were drawn. A test that kills one must pass without it; its outcome is kept.
+
+    Parameters
+    ----------
+    limit : float
+        CPU time for the tests of one mutant, in seconds.
+    """
+
+    def __init__(self, limit: float) -> None:
+        self._limit = limit
+        self._sound: dict[str, bool] = {}
+
+    def one_of(self, scratch: Scratch, mutants: Iterable[Sampled]) -> Row:
+        """Try the first mutant that compiles."""
+        for _, mutant in zip(range(DRAWN_AGAIN), mutants, strict=False):
+            row = self.one(scratch, mutant)
+            if row["outcome"] != BROKEN:
+                break
+        return row
+
+    def one(self, scratch: Scratch, mutant: Sampled) -> Row:
+        """Try a mutant."""
+        while True:
+            unsound = [test for test, sound in self._sound.items() if not sound]
+            left_out = [f"--deselect={test}" for test in unsound]
+            chosen = [[test for test in batch if test not in unsound] for batch in batches_of(mutant, scratch.root)]
+            batches = [(*batch, *left_out) for batch in chosen]
+            verdict = scratch.attempt(mutant, batches, self._limit)
+            if verdict.outcome == KILLED and not self._passes(scratch, verdict.test):
+                continue
+            if verdict.outcome == SURVIVED and verdict.last > ENDLESS:
+                without = scratch.run([(verdict.test,)], limit=verdict.last / 3.0)
+                if without.outcome == SURVIVED and not without.test:
+                    verdict = replace(verdict, outcome=KILLED)
+            return row_of(replace(mutant, killed_by=verdict.test if verdict.outcome == KILLED else ""), verdict)
+
+    def _passes(self, scratch: Scratch, test: str) -> bool:
+        if test not in self._sound:
+            files = ("--collect-only",) if "::" not in test and test.endswith(".py") else ()  # they did not import
+            verdict = scratch.run([(*files, test)], limit=self._limit)
+            self._sound[test] = verdict.outcome != KILLED
+            if verdict.outcome == KILLED:
+                tqdm.write(f"left out, because it fails without any mutant: {verdict.why}")
+        return self._sound[test]
+
+
+def run(
+    items: list[Item], attempt: Callable[[Scratch, Item], Row], jobs: int, tests: tuple[str, ...], file: Path | None
+) -> list[Row]:
+    """Outcomes in the order of the mutants; a file has those that are known at any time."""
+    rows: dict[int, Row] = {}
+    with tempfile.TemporaryDirectory(prefix="ali3-mutation-", ignore_cleanup_errors=True) as folder:
+        copies: queue.Queue[Scratch] = queue.Queue()
+        for k in range(jobs):
+            copies.put(prepare(Path(folder, str(k)), tests if k == 0 else ()))
+        with tqdm(total=len(items), unit="mutant", dynamic_ncols=True) as bar, ThreadPoolExecutor(jobs) as pool:
+
+            def one(k: int) -> None:
+                scratch = copies.get()
+                try:
+                    row = attempt(scratch, items[k])
+                finally:
+                    copies.put(scratch)
+                if row["outcome"] != KILLED:
+                    tqdm.write(f"{row['outcome']}: {words_of(row)}\n    {row['why']}")
+                rows[k] = row
+                if file is not None:
+                    write(file, [rows[k] for k in sorted(rows)])
+                bar.update()
+
+            list(pool.map(one, range(len(items))))
+    return [rows[k] for k in range(len(items))]
+
+
+def words_of(row: Row) -> str:
+    """A mutant as it is printed."""
+    return str(stored(row) if "line" in row else Mutant(row["file"], row["original"], row["changed"], ()))
+
+
+def write(file: Path, rows: list[Row]) -> None:
+    """Write outcomes, whole or not at all."""
+    killed = sum(row["outcome"] == KILLED for row in rows)
+    part = file.with_name(f"{file.name}.part-{os.getpid()}")
+    part.write_text(json.dumps({"killed": killed, "mutants": rows}, indent=1) + "\n", encoding="utf-8")
+    part.replace(file)
+
+
+def stored(row: Row) -> Sampled:
+    """The mutant of an outcome."""
+    return Sampled(**{field.name: row[field.name] for field in fields(Sampled)})
+
+
+def read(file: Path) -> list[Sampled]:
+    """The mutants of a file of outcomes that were killed."""
+    rows = json.loads(file.read_text(encoding="utf-8"))["mutants"]
+    return [stored(row) for row in rows if row["outcome"] == KILLED]
+
+
+def summary(rows: list[Row]) -> str:
+    """Killed of all, by room and by language."""
+    counts: dict[str, Counter[str]] = defaultdict(Counter)
+    for row in rows:
+        path = Path(row["file"])
+        room = "/".join(path.parts[:-1][:2]) or "named rows"
+        language = {".py": "Python", ".js": "JavaScript"}.get(path.suffix, "C")
+        for name in (room, language):
+            counts[name][row["outcome"]] += 1
+    width = max(map(len, counts))
+    return "\n".join(f"{name:{width}} {c[KILLED]:4d} of {c.total():4d}" for name, c in sorted(counts.items()))
 
 
 def main() -> int:
     """Command line; returns 1 where a mutant survives or cannot be tried."""
     parser = argparse.ArgumentParser(prog="python -m tests.mutation", description=__doc__.splitlines()[0])
+    kind = parser.add_mutually_exclusive_group()
+    kind.add_argument("--sample", type=int, metavar="N", help="N mutants by chance, in place of those of the tables")
+    kind.add_argument(
+        "--again", type=Path, nargs="?", const=STORED, metavar="FILE",
+        help=f"those killed in outcomes of before (default {STORED.name} beside the tables)",
+    )  # fmt: skip
+    parser.add_argument("--seed", type=int, default=0, metavar="S", help="of the chance (default 0)")
+    parser.add_argument(
+        "--limit", type=float, default=LIMIT, metavar="SECONDS",
+        help=f"CPU time for the tests of a mutant of --sample or --again (default {LIMIT:.0f})",
+    )  # fmt: skip
     parser.add_argument("--only", metavar="TEXT", default="", help="mutants with this text in their row")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="mutants at a time (default 1)")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the outcomes there")
     arguments = parser.parse_args()
-    mutants = [m for m in all_mutants() if arguments.only in f"{m} {' '.join(m.tests)}"]
-    if not mutants:
-        parser.error(f"no row has the text {arguments.only!r}")
-    with tempfile.TemporaryDirectory(prefix="ali3-mutation-") as folder:
-        outcomes = run(mutants, max(1, arguments.jobs), Path(folder))
-    killed = sum(o["outcome"] == KILLED for o in outcomes)
-    print(f"{killed} of {len(outcomes)} mutants killed: {100.0 * killed / len(outcomes):.1f} %")
-    if arguments.json is not None:
-        arguments.json.write_text(json.dumps({"killed": killed, "mutants": outcomes}, indent=1), encoding="utf-8")
-    return 0 if killed == len(outcomes) else 1
+    jobs = max(1, arguments.jobs)
+    if arguments.sample is not None:
+        if arguments.sample < 1:
+            parser.error(f"--sample {arguments.sample} is no number of mutants; it must be 1 or more")
+        drawn = draw(arguments.sample, arguments.seed)
+        rows = run(drawn, Attempts(arguments.limit).one_of, jobs, (), arguments.json)
+    elif arguments.again is not None:
+        again = [m for m in read(arguments.again) if arguments.only in f"{m} {m.killed_by}"]
+        rows = run(again, Attempts(arguments.limit).one, jobs, (), arguments.json)
+    else:
+        mutants = [m for m in all_mutants() if arguments.only in f"{m} {' '.join(m.tests)}"]
+        if not mutants:
+            parser.error(f"no row has the text {arguments.only!r}")
+        tests = tuple(dict.fromkeys(test for mutant in mutants for test in mutant.tests))
+        rows = run(mutants, attempt_named, jobs, tests, arguments.json)
+    killed = sum(row["outcome"] == KILLED for row in rows)
+    if arguments.sample or arguments.again:
+        print(summary(rows))
+    print(f"{killed} of {len(rows)} mutants killed: {100.0 * killed / max(1, len(rows)):.1f} %")
+    return 0 if killed == len(rows) else 1

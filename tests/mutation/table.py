@@ -16,8 +16,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-SOURCES = ("mbs", "fmu_src", "hosts")
-SUFFIXES = (".c", ".h", ".py")
+SOURCES = ("ali3", "mbs", "fmu_src", "hosts", "viewer", "benchmarks")
+SUFFIXES = (".c", ".h", ".js", ".py")
 
 
 @dataclass(frozen=True)

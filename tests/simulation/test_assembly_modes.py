@@ -122,6 +122,19 @@ def test_four_bars_of_all_kinds_are_no_alarm(lengths: tuple[float, float, float,
     assert run.report.branch_changes == 0
 
 
+def test_two_bodies_and_the_ground_are_a_loop() -> None:
+    """A slider-crank whose rod slides with a point: in a turn both signs of sine and cosine of its angle occur."""
+    m = Model("slider-crank", dimension=2)
+    crank = m.body("crank", mass=1.0, com=(0.0, 0.05), inertia=0.01)
+    rod = m.body("rod", mass=1.0, com=(0.1, 0.05), inertia=0.02)
+    m.revolute("A", m.ground, crank, point=(0.0, 0.0))
+    m.revolute("B", crank, rod, point=(0.0, 0.1))
+    m.point_on_line("C", (rod, (0.2, 0.0)), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
+    arrays = compile(m).arrays
+    assert bytes(arrays["mode_name"].tolist()) == b"B"
+    assert {cell for cell, mask in zip(*[iter(arrays["mode_cell"])] * 2, strict=True) if mask == 3} == {0, 1, 2, 3}
+
+
 def test_a_step_onto_the_other_circuit_is_reported() -> None:
     """At 20 rad/s the crank turns radians in a step, and the rocker lands on the side that no motion reaches."""
     system = compile(four_bar((0.4, 0.1, 0.4, 0.15), 1.0, 1, 20.0))

@@ -34,6 +34,14 @@ def test_a_changed_spring_starts_at_rest_where_it_should() -> None:
     assert np.ptp(run["z"]) < 1e-9
 
 
+def test_the_search_is_no_part_of_the_run() -> None:
+    system = compile(hanging())
+    sought, plain = (Simulation(system, parameters={"k": k}).instance.report() for k in (500.0, 1000.0))
+    counts = ("steps", "iterations", "factorizations", "solves", "halvings", "max_iterations")
+    assert sought["energy"] < plain["energy"]  # it hangs lower
+    assert {name: sought[name] for name in counts} == {name: plain[name] for name in counts}
+
+
 def test_a_payload_counts_as_a_spring_does() -> None:
     system = compile(hanging())
     simulation = Simulation(system, parameters={"payload": 7.0})
