@@ -13,7 +13,7 @@ import numpy as np
 from scipy.special import ellipk
 
 import mbs
-from mbs.errors import SimulationError
+from mbs import SimulationError
 from tests.bits import doors, models
 from tests.bits.store import Entry, entry_of
 
