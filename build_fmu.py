@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from fmu_src.build_command import main
+from fmu_src.build.command import main
 
 if __name__ == "__main__":
     sys.exit(main())

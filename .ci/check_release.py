@@ -31,7 +31,7 @@ def problems(root: Path, tag: str | None) -> list[str]:
         found.append(f"The section [{version}] of CHANGELOG.md is empty.")
     for name, pattern in (
         ("CITATION.cff", r"^date-released: *[\"']?([\d-]+)"),
-        ("fmu_src/description.py", r'^RELEASE_DATE = "([\d-]+)T'),
+        ("fmu_src/description/description.py", r'^RELEASE_DATE = "([\d-]+)T'),
     ):
         other = _first(pattern, root / name)
         if other != date:

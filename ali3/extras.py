@@ -80,7 +80,7 @@ def _extra_of(package: str, wanted: str = "") -> str | None:
 def _extra_of_command() -> str:
     if _extra is not None:
         return _extra
-    from ali3.command import COMMANDS
+    from ali3.commands import COMMANDS
 
     main = getattr(sys.modules["__main__"].__spec__, "name", "").removesuffix(".__main__").removesuffix(".command")
     return next((c.extra for c in COMMANDS if c.module.removesuffix(".command") == main), "")

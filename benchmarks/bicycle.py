@@ -19,7 +19,7 @@ from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from mbs.scenes import bicycle
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 
 STEPS = (0.02, 0.01, 0.005)
 TABLE = {

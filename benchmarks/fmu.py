@@ -14,8 +14,8 @@ from benchmarks.car.fmu_calls import QUANTITIES, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 
 KINDS = ("native", "python")
 

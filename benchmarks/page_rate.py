@@ -19,8 +19,8 @@ from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from mbs.compiler import compile
-from mbs.roads import world_command
 from mbs.scenes import double_four_bar, prototype_car, puma
+from mbs.worlds import command as world_command
 from viewer import browser
 from viewer.bundle import bundle
 

@@ -26,9 +26,9 @@ from benchmarks.car.wild_ground import write_ground
 from benchmarks.shared.command import parser_of, save_chart, save_rows
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_fidelities
-from mbs.progress import progress_for
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_fidelities
+from mbs.common.progress import progress_for
 
 FIDELITIES, STEPS = (0, 1, 2, 3), (1.0, 2.0, 5.0, 10.0)
 LIMITS = {0: (6, 8, 12, 12), 1: (4, 6, 12, 12), 2: (3, 3, 8, 12), 3: (3, 3, 8, 12)}

@@ -19,7 +19,7 @@ from benchmarks.methods import studies
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 
 PARTS = ("overhead", "memory", "single")
 _LOOP = 50

@@ -19,8 +19,8 @@ from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.fmu_page import resources_of
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_fidelities
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_fidelities
 
 FIDELITIES = (0, 2)
 INNER = 10

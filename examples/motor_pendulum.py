@@ -6,7 +6,7 @@ from pathlib import Path
 import fmpy
 
 import mbs
-from fmu_src.build import build_fmu
+from fmu_src.build.build import build_fmu
 
 TORQUE = 4.0  # N m
 

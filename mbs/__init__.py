@@ -5,13 +5,13 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from mbs.affine import Affine, AffineVector
-from mbs.branch_warning import BranchWarning
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.errors import ArgumentTypeError
+from mbs.common.lazy_modules import lazy_modules
 from mbs.compiler import compile
-from mbs.errors import ArgumentTypeError
-from mbs.lazy_modules import lazy_modules
 from mbs.model import Model, ModelError
-from mbs.system import System, SystemFileError
+from mbs.simulation.branch_warning import BranchWarning
+from mbs.system.system import System, SystemFileError
 
 if TYPE_CHECKING:
     from mbs import elements as elements
@@ -20,46 +20,46 @@ if TYPE_CHECKING:
     from mbs import scenes as scenes
     from mbs import shapes as shapes
     from mbs import vehicle as vehicle
-    from mbs.accuracy import Accuracy, AccuracyWarning
-    from mbs.animation import Animation, animate
-    from mbs.control import Control
-    from mbs.kinks import LinearisationWarning
-    from mbs.large_bending import BendingWarning
-    from mbs.linear_model import LinearModel, linearise
-    from mbs.periodic_motion import FloquetModel, floquet
-    from mbs.poses import Poses
+    from mbs.analysis.kinks import LinearisationWarning
+    from mbs.analysis.linear_model import LinearModel, linearise
+    from mbs.analysis.periodic_motion import FloquetModel, floquet
+    from mbs.results.accuracy import Accuracy, AccuracyWarning
+    from mbs.results.animation import Animation, animate
+    from mbs.results.poses import Poses
+    from mbs.results.simulation_error import SimulationError
+    from mbs.results.trajectory import Trajectory
     from mbs.roads import RoadFile, RoadFileError, RoadWarning, read_road, write_road
-    from mbs.settings import Settings
+    from mbs.settings.control import Control
+    from mbs.settings.settings import Settings
     from mbs.simulation import Pose, Simulation, simulate
-    from mbs.simulation_error import SimulationError
-    from mbs.trajectory import Trajectory
+    from mbs.simulation.large_bending import BendingWarning
 
 # packages of their own, imported when they are first asked for: mbs.vehicle.load("prototype")
 _package = lazy_modules("mbs", ("elements", "flexible", "roads", "scenes", "shapes", "vehicle"))
 # what needs the compiled kernel is imported when it is first asked for
 _LAZY = {
-    "Accuracy": "mbs.accuracy",
-    "AccuracyWarning": "mbs.accuracy",
-    "Animation": "mbs.animation",
-    "animate": "mbs.animation",
-    "Control": "mbs.control",
-    "Poses": "mbs.poses",
+    "Accuracy": "mbs.results.accuracy",
+    "AccuracyWarning": "mbs.results.accuracy",
+    "Animation": "mbs.results.animation",
+    "animate": "mbs.results.animation",
+    "Control": "mbs.settings.control",
+    "Poses": "mbs.results.poses",
     "Pose": "mbs.simulation",
     "RoadFile": "mbs.roads",
     "RoadFileError": "mbs.roads",
     "RoadWarning": "mbs.roads",
     "read_road": "mbs.roads",
     "write_road": "mbs.roads",
-    "Settings": "mbs.settings",
+    "Settings": "mbs.settings.settings",
     "Simulation": "mbs.simulation",
-    "SimulationError": "mbs.simulation_error",
-    "Trajectory": "mbs.trajectory",
-    "FloquetModel": "mbs.periodic_motion",
-    "BendingWarning": "mbs.large_bending",
-    "LinearModel": "mbs.linear_model",
-    "LinearisationWarning": "mbs.kinks",
-    "floquet": "mbs.periodic_motion",
-    "linearise": "mbs.linear_model",
+    "SimulationError": "mbs.results.simulation_error",
+    "Trajectory": "mbs.results.trajectory",
+    "FloquetModel": "mbs.analysis.periodic_motion",
+    "BendingWarning": "mbs.simulation.large_bending",
+    "LinearModel": "mbs.analysis.linear_model",
+    "LinearisationWarning": "mbs.analysis.kinks",
+    "floquet": "mbs.analysis.periodic_motion",
+    "linearise": "mbs.analysis.linear_model",
     "simulate": "mbs.simulation",
 }
 

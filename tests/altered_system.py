@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mbs.system import System
+from mbs.system.system import System
 
 Change = Callable[[np.ndarray], np.ndarray]
 

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 import mbs
-from hosts.fmu import Fmu
+from hosts.fmu.fmu import Fmu
 
 Rows = dict[str, np.ndarray]
 Inputs = Mapping[str, Callable[[float], float]]

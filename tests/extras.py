@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.command import COMMANDS
+from ali3.commands import COMMANDS
 from ali3.extras import extras
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -178,7 +178,7 @@ def _run(python: Path, what: str, files: Path) -> subprocess.CompletedProcess[st
     if what.startswith("ali3 "):
         return _ran([python, "-m", *shlex.split(what)], files)
     code = (
-        "import sys; from ali3.running import run_command; from mbs.errors import ModelError; "
+        "import sys; from ali3.running import run_command; from mbs.common.errors import ModelError; "
         f"sys.exit(run_command(lambda: exec({what!r}, {{}}) or 0, (ModelError,)))"
     )
     return _ran([python, "-W", "ignore", "-c", code], files)

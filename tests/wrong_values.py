@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from mbs.checks import shown
-from mbs.errors import ArgumentTypeError, ModelError
+from mbs.common.checks import shown
+from mbs.common.errors import ArgumentTypeError, ModelError
 
 WRONG: dict[str, Any] = {
     "None": None,

@@ -15,8 +15,8 @@ from benchmarks.car import manoeuvres, trajectories
 from benchmarks.car.trajectories import Column
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.timing import median_wall
-from hosts.manoeuvre import Manoeuvre, with_names_of
-from hosts.numbers import Value
+from hosts.common.numbers import Value
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from mbs import Trajectory
 
 PATH_BOUND, LOAD_BOUND = 0.01, 0.03  # of path length and of the largest wheel load
@@ -28,7 +28,7 @@ OUTPUTS = (*trajectories.POSITION, "speed")
 
 def wall_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeuvres.PROTOTYPE) -> float:
     """Median wall time of the communication loop of a manoeuvre through FMPy, s."""
-    from hosts.fmu import Fmu
+    from hosts.fmu.fmu import Fmu
 
     manoeuvre, start = _of_fmu(name, car)
     steps = round(manoeuvre.stop_time / h)
@@ -60,7 +60,7 @@ def run_of_fmu(file: Path, name: str, h: float, follow: bool, car: str = manoeuv
 
     The inputs are held over a communication step, or follow their first derivatives (`follow`).
     """
-    from hosts.fmu import Fmu
+    from hosts.fmu.fmu import Fmu
 
     manoeuvre, start = _of_fmu(name, car)
     names, every = (*trajectories.POSITION, *trajectories.LOADS), round(manoeuvres.sampling(name, car) / h)
@@ -178,7 +178,7 @@ def _build_fmu(folder: Path, car: str = manoeuvres.PROTOTYPE) -> Path | None:
     except ImportError as error:
         print(f"{error.name} is not installed; the columns of the FMU stay empty.", file=sys.stderr)
         return None
-    from fmu_src.build import build_fmu
+    from fmu_src.build.build import build_fmu
 
     say = partial(print, file=sys.stderr, flush=True)
     return build_fmu(manoeuvres.system_of("drop", car), f"{car}_car", folder, (fmpy.platform,), say)

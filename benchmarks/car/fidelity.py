@@ -11,7 +11,7 @@ from typing import Any
 from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity_runs import OUTPUTS
 from benchmarks.shared.command import pyplot, save_chart
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.car import manoeuvres
-from hosts.low_pass import low_pass
-from hosts.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.measures.low_pass import low_pass
 from mbs import Settings, System, Trajectory, compile
 from mbs.scenes import kerb_test, prototype_car
 from mbs.vehicle import Fidelity

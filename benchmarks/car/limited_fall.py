@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.shared.command import pyplot
-from hosts.fmu import Fmu
-from hosts.numbers import Value
+from hosts.common.numbers import Value
+from hosts.fmu.fmu import Fmu
 
 FALL: Mapping[str, Value] = {"initial.z": 1.0, "initial.speed": 25.0, "road.kerb_x": 60.0, "road.kerb_height": 0.08}
 """Falls 1 m at 25 m/s, then drives over the kerb at full lock."""

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from benchmarks.car import manoeuvres
-from hosts.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre import Manoeuvre
 from mbs import Simulation, compile
-from mbs.input_signals import InputSignals
 from mbs.scenes import kerb_test
+from mbs.settings.input_signals import InputSignals
 from mbs.vehicle import Car, Fidelity
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 

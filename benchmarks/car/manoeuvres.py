@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.shared.timing import step_time
-from hosts.driver import make_driver
-from hosts.load_manoeuvre import load_manoeuvre
-from hosts.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.driver import make_driver
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.recordings.load_manoeuvre import load_manoeuvre
 from mbs import Pose, Settings, Simulation, System, Trajectory, compile, simulate
 from mbs.elements.road import GridRoad
-from mbs.input_signals import Signal
+from mbs.settings.input_signals import Signal
 from mbs.vehicle import load as load_car
 
 FOLDER = Path(__file__).with_name("data")

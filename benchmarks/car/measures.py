@@ -13,8 +13,8 @@ import numpy as np
 
 from benchmarks.car.rig import NEUTRAL, kinematics
 from mbs import Pose, Simulation, System, compile, linearise
+from mbs.analysis.linear_model import LinearModel, Mode
 from mbs.elements.road import PlaneRoad
-from mbs.linear_model import LinearModel, Mode
 from mbs.vehicle import Car
 from mbs.vehicle.environment import GRAVITY
 

@@ -10,9 +10,9 @@ from tempfile import TemporaryDirectory
 
 import mbs
 from ali3.errors import UserError
-from mbs.input_signals import Signal
-from mbs.roads import world_command
+from mbs.settings.input_signals import Signal
 from mbs.vehicle import load
+from mbs.worlds import command as world_command
 from viewer.recording import Recording
 
 WORLD = "proving_ground"

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs import Trajectory, compile, simulate
-from mbs.affine import Affine, AffineVector
+from mbs.common.affine import Affine, AffineVector
 from mbs.elements.road import PlaneRoad
 from mbs.model import Model
 from mbs.vehicle import Car

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.errors import HostError
-from hosts.fmu import Fmu, StepRefusedError
-from hosts.numbers import Value
-from hosts.wild_driver import SENSES, Target, WildDriver, wild_start
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.driving.wild_driver import SENSES, Target, WildDriver, wild_start
+from hosts.fmu.fmu import Fmu, StepRefusedError
 
 try:
     import resource

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 import mbs
 from ali3.parameter_set import range_words
-from fmu_src.text_variables import text_table
-from fmu_src.variables import Variable, variable_table
+from fmu_src.variables.text_variables import text_table
+from fmu_src.variables.variables import Variable, variable_table
 from mbs.vehicle import car_names, load
 
 _WHEELS = ("FL", "FR", "RL", "RR")

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import mbs
-from hosts.wild_driver import Target
+from hosts.driving.wild_driver import Target
 from mbs.elements import GridRoad
 
 EDGE, SPACING = 150.0, 0.25  # m: half the side of the square, between points

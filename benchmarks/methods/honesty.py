@@ -12,7 +12,7 @@ import numpy as np
 import mbs
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
-from mbs.accuracy import WRONG_BALANCE, WRONG_ERROR
+from mbs.results.accuracy import WRONG_BALANCE, WRONG_ERROR
 
 HOLDS = 1e-3  # of the range: a smaller error needs no estimate
 FACTOR = 10.0  # by which an error may be larger than its estimate

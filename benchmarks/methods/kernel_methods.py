@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import mbs
-from mbs.methods import METHOD_TABLE
-from mbs.settings import METHODS as KERNEL
+from mbs.settings.methods import METHOD_TABLE
+from mbs.settings.settings import METHODS as KERNEL
 
 TITLES = {name: method.title for name, method in METHOD_TABLE.items()}
 TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13, "eps_rel": 1e-9}

@@ -11,7 +11,7 @@ import numpy as np
 
 from benchmarks.shared.timing import step_time
 from mbs import Model, Simulation, compile
-from mbs.checks import direction
+from mbs.common.checks import direction
 from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint, Spin
 from mbs.model.joints.joint import Joint

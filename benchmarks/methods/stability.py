@@ -15,7 +15,7 @@ from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY, suits
 from benchmarks.methods.stability_margins import SQUEEZED
 from benchmarks.references.cases import CASES, exact_of, size_of, system_of
 from benchmarks.shared.command import watched
-from mbs.settings import METHODS as KERNEL
+from mbs.settings.settings import METHODS as KERNEL
 
 SAMPLES = 10  # instants of a run at which it is compared
 KERNEL_STEPS = 10.0 ** np.arange(-6.0, -0.6, 0.5)

@@ -16,7 +16,7 @@ import numpy as np
 import psutil
 
 import mbs
-from fmu_src.build import build_fmu
+from fmu_src.build.build import build_fmu
 
 Row = dict[str, Any]
 T = TypeVar("T")

@@ -16,7 +16,7 @@ from benchmarks.methods.kernel_methods import TITLES, all_settings, controlled, 
 from benchmarks.references.cases import CASES, SAMPLES, SHARED, exact_of, system_of
 from benchmarks.shared.command import watched
 from mbs.kernel.binding import KernelError
-from mbs.methods import METHOD_TABLE
+from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 
 REPEATS, FEW_REPEATS = 7, 2

@@ -12,7 +12,7 @@ import mbs
 from benchmarks.references.assembly_defect import COMPONENTS
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.timing import median_wall
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.scenes import assembly_defect_four_bar as scene
 
 STEP = 0.01  # s, as the reference is stored

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 from ali3.files import whole_file
 from benchmarks.shared.machine import conditions
 from benchmarks.shared.tables import write_json
-from mbs.progress import DELAY, progress_for
+from mbs.common.progress import DELAY, progress_for
 
 T = TypeVar("T")
 DPI = 110

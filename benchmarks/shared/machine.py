@@ -10,7 +10,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from mbs.settings import Settings
+from mbs.settings.settings import Settings
 
 PACKAGES = ("ali3", "numpy", "scipy", "fmpy", "pythonfmu", "ziglang", "exudyn", "mujoco")
 

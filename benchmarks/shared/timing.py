@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from mbs import Pose, Simulation, System
-from mbs.input_signals import InputSignals, Signal
+from mbs.settings.input_signals import InputSignals, Signal
 
 
 def median_wall(action: Callable[[], float | None], repeats: int = 5, warm_up: int = 1) -> float:

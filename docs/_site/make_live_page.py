@@ -11,10 +11,10 @@ from pathlib import Path
 
 import mbs
 from ali3.running import run_command
-from fmu_src.build_command import main as build
-from hosts import page
-from hosts.page_parts import FmuParts, fmu_parts
-from hosts.page_text import Page
+from fmu_src.build.command import main as build
+from hosts.view import page
+from hosts.view.page_parts import FmuParts, fmu_parts
+from hosts.view.page_text import Page
 from mbs.scenes import double_four_bar
 from viewer.recording import Recording
 

@@ -10,7 +10,7 @@ import mbs
 from fmu_src.geometry.binding import bind
 from fmu_src.geometry.moved_places import moved_part
 from fmu_src.geometry.roads import with_parameters
-from fmu_src.variables import Variable
+from fmu_src.variables.variables import Variable
 from mbs.kernel.header import ElementType
 from viewer.scene_columns import columns_of
 from viewer.scene_parts import frames_of

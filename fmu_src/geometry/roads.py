@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import mbs
-from fmu_src.text_variables import ROADS
+from fmu_src.variables.text_variables import ROADS
 from mbs.kernel.header import RoadType
 
 POSITION, STEP = 0, 2  # of the numbers of a kerb

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from mbs.drawing import BodyPlace
 from mbs.kernel.header import ElementType, SensorType
+from mbs.system.drawing import BodyPlace
 
 Array = NDArray[np.float64]
 CLOSE = 1e-9  # parts of the largest number: rows that differ by less are one

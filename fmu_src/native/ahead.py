@@ -16,11 +16,11 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from fmu_src.arrays import scalars
 from fmu_src.native.compile import library_command
+from fmu_src.native.platforms import TARGETS
 from fmu_src.native.table import c_arrays, c_table
-from fmu_src.platforms import TARGETS
-from fmu_src.variables import Variable
+from fmu_src.variables.arrays import scalars
+from fmu_src.variables.variables import Variable
 from mbs.kernel import build
 
 # A table of one variable, which stands for that of the model.

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from fmu_src.arrays import Array, arrays, scalars
-from fmu_src.description import Description, model_description
-from fmu_src.description_fmi3 import build_description, model_description_fmi3, terminals
+from fmu_src.description.description import Description, model_description
+from fmu_src.description.fmi3 import build_description, model_description_fmi3, terminals
 from fmu_src.native.package import Face, NativeContents
+from fmu_src.native.platforms import FMI3_FOLDERS, PLATFORMS, TARGETS
 from fmu_src.native.table import c_arrays, c_table
-from fmu_src.platforms import FMI3_FOLDERS, PLATFORMS, TARGETS
-from fmu_src.variables import Variable
+from fmu_src.variables.arrays import Array, arrays, scalars
+from fmu_src.variables.variables import Variable
 
 
 def _tables_fmi2(contents: NativeContents, identity: str, guid: str) -> str:

@@ -9,11 +9,11 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from ali3.errors import UserError
-from fmu_src.archive import write_zip
+from fmu_src.native.archive import write_zip
 from fmu_src.native.compile import compile_library, compile_packed
 from fmu_src.native.package import Telling, first_time
+from fmu_src.native.platforms import SUFFIXES, TARGETS
 from fmu_src.native.sources import packed_sources
-from fmu_src.platforms import SUFFIXES, TARGETS
 
 _TABLE = "sources/table.c"
 _NATIVE = "sources/fmi2_direct.c"
@@ -28,7 +28,7 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
     fmu : Path
         Of the kind ``native``.
     platforms : sequence of str
-        Out of `fmu_src.platforms.TARGETS`; what is there already is kept.
+        Out of `fmu_src.native.platforms.TARGETS`; what is there already is kept.
     file : Path
         Where to; may be `fmu` itself.
     told : callable

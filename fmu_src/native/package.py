@@ -10,18 +10,18 @@ from pathlib import Path
 from typing import Any
 
 import mbs
-from fmu_src.archive import identity_of, licence, write_zip
-from fmu_src.description import Description
-from fmu_src.documentation import documentation
+from fmu_src.description.description import Description
+from fmu_src.description.documentation import documentation
+from fmu_src.description.probe import Dependencies
+from fmu_src.native.archive import identity_of, licence, write_zip
 from fmu_src.native.compile import compile_library
+from fmu_src.native.picture import curves_png
+from fmu_src.native.platforms import SUFFIXES
 from fmu_src.native.reference import ReferenceRun, reference_files
 from fmu_src.native.sources import packed_sources
 from fmu_src.native.table import c_table
-from fmu_src.picture import curves_png
-from fmu_src.platforms import SUFFIXES
-from fmu_src.probe import Dependencies
-from fmu_src.text_variables import TextVariable, road_resources, text_table
-from fmu_src.variables import Variable, table_records
+from fmu_src.variables.text_variables import TextVariable, road_resources, text_table
+from fmu_src.variables.variables import Variable, table_records
 
 GEOMETRY = "resources/geometry.json"
 """Where the scene lies in an FMU."""
@@ -184,7 +184,7 @@ def pack_native(
     run : ReferenceRun
         The default experiment.
     platforms : sequence of str
-        Out of `fmu_src.platforms.TARGETS`.
+        Out of `fmu_src.native.platforms.TARGETS`.
     file : Path
         Where to.
     told : callable

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from fmu_src.description import number, to_bytes
+from fmu_src.description.description import number, to_bytes
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 _NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"

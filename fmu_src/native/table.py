@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import accumulate
 
-from fmu_src.arrays import Array, references
-from fmu_src.text_variables import TextVariable
-from fmu_src.variables import Variable
+from fmu_src.variables.arrays import Array, references
+from fmu_src.variables.text_variables import TextVariable
+from fmu_src.variables.variables import Variable
 
 _SOURCES = {
     "input": "SLAVE_INPUT",

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pythonfmu
 
-from fmu_src.archive import identity_of, licence, write_zip
-from fmu_src.description import model_description
-from fmu_src.documentation import documentation
+from fmu_src.description.description import model_description
+from fmu_src.description.documentation import documentation
+from fmu_src.native.archive import identity_of, licence, write_zip
 from fmu_src.native.compile import compile_library
 from fmu_src.native.package import NativeContents, Telling, first_time
+from fmu_src.native.platforms import PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.native.sources import shell_files
 from fmu_src.native.table import c_table
-from fmu_src.platforms import PYTHON_PLATFORMS, SUFFIXES, TARGETS
 
 _HERE = Path(__file__).parent
 _PYTHONFMU = Path(pythonfmu.__file__).parent

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
-from hosts.aliased_fmu import AliasedFmu
-from hosts.aliases import Aliases
-from hosts.co_simulation import Result, communication_step, run
-from hosts.fmu import Fmu
-from hosts.manoeuvre import Manoeuvre, with_names_of
-from hosts.numbers import Value
-from hosts.pilots.pilot import Pilot
+from hosts.common.numbers import Value
+from hosts.driving.co_simulation import Result, communication_step, run
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.pilots.pilot import Pilot
+from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.aliases import Aliases
+from hosts.fmu.fmu import Fmu
 
 __all__ = ["CarFacts", "Pilot", "TestedCar"]
 

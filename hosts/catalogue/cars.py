@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from hosts.aliases import Aliases, find_aliases
 from hosts.catalogue.car import TestedCar
-from hosts.errors import HostError
-from hosts.fmu import Fmu
-from hosts.numbers import Value
-from hosts.options import Wishes
-from hosts.settings import settings_of
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.common.options import Wishes
+from hosts.fmu.aliases import Aliases, find_aliases
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.settings import settings_of
 
 AS_IS = "as-is"
 """In place of a parameter set: the FMU as it is."""

@@ -13,11 +13,11 @@ from scipy.ndimage import uniform_filter1d
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.steered_run import level_acceleration
 from hosts.catalogue.steering import SteeringInput
-from hosts.co_simulation import Result
-from hosts.manoeuvre import Manoeuvre
-from hosts.pilots.circle_follower import CircleFollower
-from hosts.pilots.pilot import Pilot, Together
-from hosts.pilots.speed_holder import SpeedHolder
+from hosts.driving.co_simulation import Result
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.circle_follower import CircleFollower
+from hosts.driving.pilots.pilot import Pilot, Together
+from hosts.driving.pilots.speed_holder import SpeedHolder
 
 CONSTANT_RADIUS, CONSTANT_ANGLE, CONSTANT_SPEED = 1.0, 2.0, 3.0
 _FIRST = 0.5  # m/s2 of lateral acceleration to begin with
@@ -181,7 +181,7 @@ class _Wheel:
         self.steering, self.angle = steering, angle
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.pilots.pilot.Pilot.act`."""
+        """See `hosts.driving.pilots.pilot.Pilot.act`."""
         return {self.steering.name: self.steering.per_radian * self.angle(time)}
 
 

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.running import run_command
-from hosts.errors import HostError
-from hosts.numbers import assignment, name_and_text, number
+from hosts.common.errors import HostError
+from hosts.common.numbers import assignment, name_and_text, number
 
 if TYPE_CHECKING:
     from hosts.catalogue.car import TestedCar

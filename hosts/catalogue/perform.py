@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 
 _MOST_MESSAGES, _MOST_NAMES, _LONGEST = 10, 4, 300
 

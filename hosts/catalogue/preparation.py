@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
-from hosts.co_simulation import Result
-from hosts.fmu import described
-from hosts.manoeuvre import Manoeuvre
-from hosts.numbers import Value
+from hosts.common.numbers import Value
+from hosts.driving.co_simulation import Result
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.fmu import described
 
 
 def with_step_up_to(car: TestedCar, longest: float, why: str) -> tuple[TestedCar, tuple[str, ...]]:

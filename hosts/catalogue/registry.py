@@ -7,7 +7,7 @@ import importlib
 import importlib.util
 
 from hosts.catalogue.record import StandardTest
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 
 _ALL = (
     "steady_circle",

@@ -12,8 +12,8 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.plausible import implausible
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
-from hosts.co_simulation import Result
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.driving.co_simulation import Result
 from hosts.measures.filters import phaseless_low_pass
 
 _SLOW = math.radians(2.0)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.steering import SteeringInput
-from hosts.co_simulation import Result
-from hosts.manoeuvre import Manoeuvre
+from hosts.driving.co_simulation import Result
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.measures.filters import resample
-from hosts.pilots.speed_holder import SpeedHolder
 
 _CLOSE = 0.1
 _NEAR = 0.5
@@ -77,7 +77,7 @@ class SteeredPilot:
         self._acts: dict[str, float] = {}
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.pilots.pilot.Pilot.act`."""
+        """See `hosts.driving.pilots.pilot.Pilot.act`."""
         if not math.isfinite(self.begin):
             self._approaching(time, senses["speed"])
         if not self._coasting and (not math.isfinite(self.begin) or self.pedals is Pedals.HOLD_SPEED):

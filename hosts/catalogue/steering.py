@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import CarFacts
-from hosts.co_simulation import Result
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.driving.co_simulation import Result
 
 ANGLE = "steering_wheel_angle"
 DEMAND = "steering_wheel_angle_demand"

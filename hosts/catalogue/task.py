@@ -77,7 +77,7 @@ def do(task: Task, progress: Callable[[float], None]) -> Outcome:
 
 
 def _write_runs(task: Task, folder: Path, record: TestRecord) -> None:
-    from hosts.result_files import write_csv
+    from hosts.run.result_files import write_csv
 
     for name, result in record.runs.items():
         write_csv(result, folder / run_file(task.test, task.car.label, name))

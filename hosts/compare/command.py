@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.running import run_command
-from hosts.numbers import number
-from hosts.options import add_road_option, add_setting_options
+from hosts.common.numbers import number
+from hosts.common.options import add_road_option, add_setting_options
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.compare") -> int:

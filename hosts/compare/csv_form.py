@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ali3.files import reason
+from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Form
-from hosts.errors import HostError
 
 _DELIMITERS = (";", "\t", ",", "|")
 _LINES = 60  # that are looked at: loggers write their settings first

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from hosts.co_simulation import Result
+from hosts.driving.co_simulation import Result
 
 
 class Curve:

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from scipy import stats
 from scipy.optimize import least_squares
 
-from hosts.co_simulation import Result
+from hosts.common.errors import HostError
 from hosts.compare.correlated import covariance, effective_samples
 from hosts.compare.log import Signal
 from hosts.compare.noise import computed_noise, difference_steps, measured_noise
 from hosts.compare.residuals import Residuals, Unknown
-from hosts.errors import HostError
+from hosts.driving.co_simulation import Result
 
 _ROUNDS = 3  # of weights
 _SETTLED = 0.02  # change of the weights

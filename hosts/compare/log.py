@@ -10,12 +10,12 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from hosts.aliased_fmu import AliasedFmu
+from hosts.common.errors import HostError
+from hosts.common.unit_names import known_unit, unit_definition
+from hosts.common.unit_of import unit_of
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
-from hosts.errors import HostError
-from hosts.unit_names import known_unit, unit_definition
-from hosts.unit_of import unit_of
+from hosts.fmu.aliased_fmu import AliasedFmu
 
 FEWEST_SAMPLES = 10
 _TIMES = ("time", "t", "timestamp", "zeit", "time_s", "seconds", "elapsed")

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from hosts.aliases.toml_file import read_toml
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.fmu.aliases.toml_file import read_toml
 
 TIME_UNITS: Mapping[str, float | None] = {
     "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "epoch": 1.0, "epoch_ms": 1e-3,

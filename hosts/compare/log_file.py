@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from hosts.common.errors import HostError
 from hosts.compare.csv_form import find_form
 from hosts.compare.log_aliases import Form
-from hosts.errors import HostError
 
 _MOST_BYTES = 4_000_000_000
 _MDF = (".mf4", ".mdf", ".dat")

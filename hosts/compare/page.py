@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from hosts.compare.comparison import Comparison
 from hosts.compare.log import Signal
-from hosts.result_plots import BLUE, COLOURS, RED, STYLE, save_picture
+from hosts.run.result_plots import BLUE, COLOURS, RED, STYLE, save_picture
 
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}
 _MEASURED = "#8a8a8a"

@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from hosts.co_simulation import Result
+from hosts.common.errors import HostError
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve, SensedCurve
 from hosts.compare.fit import Fit, fit, overlapping
@@ -20,7 +20,7 @@ from hosts.compare.results import Outcome, paths_of, write_outcome
 from hosts.compare.task import Task, prepare
 from hosts.compare.wanted import wanted_parameters
 from hosts.compare.words import common_words, table
-from hosts.errors import HostError
+from hosts.driving.co_simulation import Result
 
 
 @dataclass(frozen=True)

@@ -7,11 +7,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from hosts.aliased_fmu import AliasedFmu
+from hosts.common.errors import HostError
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import deviations
 from hosts.compare.log import Signal
-from hosts.errors import HostError
+from hosts.fmu.aliased_fmu import AliasedFmu
 
 LONGEST_GAP = 0.2
 """s between samples of an input that is bridged unless the user says otherwise."""

@@ -9,14 +9,14 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.aliased_fmu import AliasedFmu
-from hosts.aliases import Aliases
-from hosts.co_simulation import Result, run
+from hosts.common.numbers import Value
 from hosts.compare.log import Signal
-from hosts.fmu import Fmu
-from hosts.manoeuvre import Manoeuvre
-from hosts.numbers import Value
-from hosts.pilots.speed_holder import SpeedHolder
+from hosts.driving.co_simulation import Result, run
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.speed_holder import SpeedHolder
+from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.aliases import Aliases
+from hosts.fmu.fmu import Fmu
 
 
 def inputs_of(

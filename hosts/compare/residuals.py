@@ -13,10 +13,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.co_simulation import Result
+from hosts.common.errors import HostError
 from hosts.compare.curve import Curve
 from hosts.compare.log import Signal
-from hosts.errors import HostError
+from hosts.driving.co_simulation import Result
 
 Array = NDArray[np.float64]
 NUISANCES = ("delay", "delays", "drift", "bias", "gain")

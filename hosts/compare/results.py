@@ -17,8 +17,8 @@ from hosts.compare.page import comparison_figure, write_picture
 from hosts.compare.report import write_report
 from hosts.compare.result_files import measure_records, write_json, write_signals
 from hosts.compare.task import Task
-from hosts.fmu import described
-from hosts.variables import Variables
+from hosts.fmu.fmu import described
+from hosts.fmu.variables import Variables
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from hosts.aliased_fmu import AliasedFmu
-from hosts.aliases import Aliases
+from hosts.common.numbers import Value
 from hosts.compare.log import Signal
-from hosts.fmu import Fmu
-from hosts.numbers import Value
+from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.aliases import Aliases
+from hosts.fmu.fmu import Fmu
 
 _AVERAGED = 0.1  # s at the begin of a log
 _WHERE = " (where the reference point is to be)"

@@ -10,22 +10,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hosts.aliased_fmu import AliasedFmu
-from hosts.aliases import Aliases, find_aliases
-from hosts.co_simulation import check_columns, communication_step
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.common.options import wishes
 from hosts.compare.log import FEWEST_SAMPLES, Log, Signal, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
 from hosts.compare.start_values import measured_start, placed
-from hosts.errors import HostError
-from hosts.fmu import Fmu
-from hosts.manoeuvre import Manoeuvre
-from hosts.numbers import Value
-from hosts.options import wishes
-from hosts.settings import settings_of
-from hosts.variables import Variable
+from hosts.driving.co_simulation import check_columns, communication_step
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.aliases import Aliases, find_aliases
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.settings import settings_of
+from hosts.fmu.variables import Variable
 
 PEDALS = ("throttle", "brake")
 _STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"

@@ -6,10 +6,10 @@ import difflib
 import math
 from collections.abc import Mapping, Sequence
 
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value, parse_number
 from hosts.compare.residuals import Unknown
-from hosts.errors import HostError
-from hosts.numbers import Value, parse_number
-from hosts.variables import Variable
+from hosts.fmu.variables import Variable
 
 
 def wanted_parameters(

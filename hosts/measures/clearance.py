@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.course import Course
+from hosts.driving.course import Course
 
 
 def outline(

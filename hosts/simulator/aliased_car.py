@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from hosts.aliases import Aliases
-from hosts.numbers import Value
+from hosts.common.numbers import Value
+from hosts.fmu.aliases import Aliases
 from hosts.simulator.car import Car, Event, Moment
 from hosts.simulator.step_times import StepTimes
 

@@ -12,16 +12,16 @@ from types import TracebackType
 
 import numpy as np
 
-from hosts.errors import HostError
-from hosts.fmu import described
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.fmu import described
+from hosts.fmu.variables import Variables
 from hosts.simulator.car_process import COMMANDS, Order
 from hosts.simulator.mail import Mail, Records
 from hosts.simulator.moments import CarSettings, Event, Moment
 from hosts.simulator.process import Process
 from hosts.simulator.shared_values import RECORDING, ROW, STOP, SharedValues, Sizes
 from hosts.simulator.step_times import StepTimes
-from hosts.variables import Variables
 
 __all__ = ["Car", "CarSettings", "Event", "Moment", "StepTimes"]
 
@@ -95,7 +95,7 @@ class Car:
         settings = self._settings
         if settings.record is None:
             return None
-        from hosts.simulator.recording import Recorder, recording_meta
+        from hosts.recordings.recording import Recorder, recording_meta
 
         meta = recording_meta(settings.fmu, settings.step, start, seed=settings.seed, world=settings.world)
         return Recorder(settings.record, self.names, self.units, meta)

@@ -19,9 +19,9 @@ from typing import Any
 
 from fmpy.fmi1 import FMICallException
 
-from hosts.errors import HostError
-from hosts.fmu import StepRefusedError
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.fmu import StepRefusedError
 from hosts.simulator.clock import Clock, make_clock
 from hosts.simulator.driven_fmu import DrivenFmu, Told
 from hosts.simulator.notices import Notices

@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING
 
 from ali3.extras import missing_package
 from ali3.running import GOOD, NOT_GOOD, run_command
-from hosts.errors import HostError
-from hosts.manoeuvres import manoeuvre_names
-from hosts.numbers import number
-from hosts.options import add_setting_options, wishes
+from hosts.common.errors import HostError
+from hosts.common.numbers import number
+from hosts.common.options import add_setting_options, wishes
+from hosts.driving.manoeuvres import manoeuvre_names
 
 if TYPE_CHECKING:
-    from hosts.manoeuvre import Manoeuvre
+    from hosts.driving.manoeuvre import Manoeuvre
     from hosts.simulator.car import Car
     from hosts.simulator.preparation import Asked, Prepared
     from hosts.simulator.run_report import RunReport
@@ -121,7 +121,7 @@ def _check(options: argparse.Namespace) -> None:
 def _manoeuvre(options: argparse.Namespace) -> Manoeuvre | None:
     if options.manoeuvre is None:
         return None
-    from hosts.load_manoeuvre import load_manoeuvre
+    from hosts.recordings.load_manoeuvre import load_manoeuvre
 
     return load_manoeuvre(options.manoeuvre)
 

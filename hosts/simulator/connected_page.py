@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from websockets.asyncio.server import ServerConnection
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 
 IN_FLIGHT = 2
 """Frames that a page has not acknowledged; it gets no further one before it has."""

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from hosts.errors import HostError
-from hosts.fmu import Fmu, StepRefusedError
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.simulator.inputs import Inputs
 from hosts.simulator.saved_states import Mark, SavedStates
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ali3.cache import cache_folder
-from hosts.built_fmu import build_fmu, forget_oldest, program_version
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.fmu.built_fmu import build_fmu, forget_oldest, program_version
 
 NAME = "PrototypeCar.fmu"
 DIST = Path("dist", NAME)

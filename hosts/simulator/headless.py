@@ -9,11 +9,11 @@ from typing import Protocol
 
 from tqdm import tqdm
 
-from hosts.driver import ACTS, SENSES, Driver, make_driver
-from hosts.errors import HostError
-from hosts.manoeuvre import Manoeuvre
+from hosts.common.errors import HostError
+from hosts.driving.driver import ACTS, SENSES, Driver, make_driver
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.wild_driver import WildDriver
 from hosts.simulator.aliased_car import AliasedCar
-from hosts.wild_driver import WildDriver
 
 _PERIOD = 0.005
 _BAR = "{n:.1f} of {total:.1f} s simulated |{bar}| {elapsed}<{remaining}"

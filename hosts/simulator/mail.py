@@ -21,7 +21,7 @@ _REMEDY = "What was written so far can be opened; make room, or record into anot
 
 
 class Records(Protocol):
-    """What is needed of `hosts.simulator.recording.Recorder`."""
+    """What is needed of `hosts.recordings.recording.Recorder`."""
 
     told: list[str]
 

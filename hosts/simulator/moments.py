@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.numbers import Value
+from hosts.common.numbers import Value
 from hosts.simulator.shared_values import MOMENT
 
 

@@ -12,22 +12,22 @@ from fmpy.model_description import ModelDescription
 
 from ali3.files import check_writable, make_folder
 from ali3.running import command_name
-from hosts.aliases import Aliases, find_aliases
-from hosts.description_record import description_record
-from hosts.errors import HostError
-from hosts.fmu import described
-from hosts.geometry import scene_of
-from hosts.manoeuvre import Manoeuvre, with_names_of
-from hosts.numbers import Value
-from hosts.options import Wishes
-from hosts.road import PARAMETER as ROAD
-from hosts.settings import Settings
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.common.options import Wishes
+from hosts.common.road import PARAMETER as ROAD
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.fmu.aliases import Aliases, find_aliases
+from hosts.fmu.description_record import description_record
+from hosts.fmu.fmu import described
+from hosts.fmu.geometry import scene_of
+from hosts.fmu.settings import Settings
+from hosts.fmu.variables import Variables
+from hosts.recordings.format import DESCRIPTION
+from hosts.recordings.recording import check_new
 from hosts.simulator.drivable import not_drivable
 from hosts.simulator.fmu_file import FoundFmu, find_fmu
-from hosts.simulator.recording import check_new
-from hosts.simulator.recording_format import DESCRIPTION
 from hosts.simulator.world_files import DEFAULT_WORLD, World, make_world, no_world
-from hosts.variables import Variables
 
 ITERATIONS = "solver.step_iterations"
 _MOST_ITERATIONS = 6

@@ -8,8 +8,8 @@ import threading
 from collections.abc import Mapping
 from multiprocessing import connection
 
-from hosts.errors import HostError
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 from hosts.simulator.car_process import Order, run_car
 
 _START_SECONDS = 300.0

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 
 if TYPE_CHECKING:
     from hosts.simulator.car import Moment

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.fmu import State
+from hosts.fmu.fmu import State
 
 SECONDS, EVERY = 30.0, 0.5
 # New starts save a state each; more than these shorten what can be rewound in place of filling the memory.
@@ -19,7 +19,7 @@ _MOST_BYTES = 1 << 26
 
 
 class SavesStates(Protocol):
-    """What is needed of `hosts.fmu.Fmu`."""
+    """What is needed of `hosts.fmu.fmu.Fmu`."""
 
     def state(self) -> State: ...
     def restore(self, state: State) -> None: ...

@@ -18,8 +18,8 @@ from typing import Any
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
-from hosts.errors import HostError
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 from hosts.simulator import protocol
 from hosts.simulator.connected_page import ConnectedPage
 from hosts.simulator.guard import Guard

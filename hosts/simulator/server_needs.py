@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
-from hosts.numbers import Value
+from hosts.common.numbers import Value
 
 if TYPE_CHECKING:
     from hosts.simulator.car import Event, Moment

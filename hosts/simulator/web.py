@@ -17,7 +17,7 @@ from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
 from ali3.files import reason
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.guard import Guard
 
 DRIVE = "/drive"

@@ -12,11 +12,11 @@ from typing import Any
 
 from ali3.cache import cache_folder
 from ali3.running import module_command
-from hosts.errors import HostError
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 
 DEFAULT_WORLD = "proving_ground"
-_COMMAND = "mbs.roads.world_command"
+_COMMAND = "mbs.worlds.command"
 _GOING_ON = "..."
 _FORMAT = ("ALi3 world", 1)
 _START = {"x": "initial.x", "y": "initial.y", "yaw": "initial.yaw"}

@@ -18,13 +18,13 @@ from typing import TYPE_CHECKING
 
 from ali3.files import check_writable, make_folder, write_text
 from ali3.running import run_command
-from hosts.drive import DEFAULT_FMU
-from hosts.errors import HostError
-from hosts.numbers import Value, number
-from hosts.options import add_setting_options, wishes
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value, number
+from hosts.common.options import add_setting_options, wishes
+from hosts.run.drive import DEFAULT_FMU
 
 if TYPE_CHECKING:
-    from hosts.fmu import Fmu
+    from hosts.fmu.fmu import Fmu
     from hosts.soak.drive import Task
     from hosts.soak.grounds import Ground
 
@@ -61,8 +61,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.so
 
 
 def _soak(options: argparse.Namespace, prog: str) -> int:
-    from hosts.fmu import Fmu
-    from hosts.settings import settings_of
+    from hosts.fmu.fmu import Fmu
+    from hosts.fmu.settings import settings_of
     from hosts.soak.pool import drive_all
     from hosts.soak.table import is_good, print_outcomes
 

@@ -15,13 +15,13 @@ from pathlib import Path
 from typing import Any
 
 from ali3.running import run_command
-from hosts.fmu import Fmu, StepRefusedError
-from hosts.numbers import Value
+from hosts.common.numbers import Value
+from hosts.driving.wild_driver import SENSES, WildDriver, wild_start
+from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Counts, Watch
 from hosts.soak.grounds import Ground, ground_of
 from hosts.soak.memory import Memory
 from hosts.soak.stretch import Stretch
-from hosts.wild_driver import SENSES, WildDriver, wild_start
 
 _RUN = (15.0, 60.0)  # s, shortest and longest run
 _LYING = 1.0  # s that an overturned car lies still before it is set upright

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from ali3.files import make_folder, whole_file
 from ali3.running import module_command
-from hosts.errors import HostError
-from hosts.road import road_value
-from hosts.wild_driver import Target
+from hosts.common.errors import HostError
+from hosts.common.road import road_value
+from hosts.driving.wild_driver import Target
 
 _SPACING = 0.25  # m, of the points of the road
 _HALF = 80.0  # m, half the side of its square; beyond it is level
@@ -148,7 +148,7 @@ def world_ground(name: str, folder: Path) -> Ground:
     HostError
         It is no world; with the words of ``ali3 world``.
     """
-    command = module_command("mbs.roads.world_command", name, "--out", str(make_folder(folder)))
+    command = module_command("mbs.worlds.command", name, "--out", str(make_folder(folder)))
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     files = sorted(folder.glob("*.json"), key=lambda file: file.stat().st_mtime)
     if done.returncode != 0 or not files:

@@ -15,7 +15,7 @@ from typing import Any
 from tqdm import tqdm
 
 from ali3.running import module_command
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.soak.checks import Counts
 from hosts.soak.drive import Failure, Outcome, Task
 

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from hosts.fmu import Fmu
-from hosts.numbers import Value
-from hosts.simulator.recorded_drive import read_recording
-from hosts.simulator.recording import Recorder, recording_meta
-from hosts.simulator.recording_format import REFUSED
-from hosts.simulator.to_manoeuvre import to_manoeuvre
+from hosts.common.numbers import Value
+from hosts.fmu.fmu import Fmu
+from hosts.recordings.format import REFUSED
+from hosts.recordings.recorded_drive import read_recording
+from hosts.recordings.recording import Recorder, recording_meta
+from hosts.recordings.to_manoeuvre import to_manoeuvre
 
 _SPAN = 2.0  # s between saved states; a stretch has one or two of them
 

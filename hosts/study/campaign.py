@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.errors import FileError
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.study.folder import begin_study, check_same, free_space, locked, read_record
 from hosts.study.parts import PartWriter, forget_failed, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
@@ -108,7 +108,7 @@ def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | N
     """The checked plan, with the FMU that is named, or that of the car; an unchanged car has that of the first half."""
     if study.fmu is not None:
         return make_plan(study, file, file.parent / study.fmu)
-    from hosts.built_fmu import car_digest, fmu_of_car
+    from hosts.fmu.built_fmu import car_digest, fmu_of_car
 
     assert study.car is not None
     beside = file.parent / study.car

@@ -17,7 +17,7 @@ import dask
 from distributed import Client, LocalCluster, Security
 
 from ali3.cache import cache_folder
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.study.plan import Plan
 from hosts.study.worker import StudyPlugin, why_wrong
 

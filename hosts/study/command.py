@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.running import NOT_GOOD, run_command
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.study") -> int:

@@ -13,7 +13,7 @@ from typing import Any
 
 from ali3.errors import FileError
 from ali3.files import make_folder, reason, whole_file, write_text
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 
 RECORD, RUNS, SIGNALS = "study.json", "runs", "signals"
 _LOCK = ".lock"

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import IO
 
 from ali3.running import module_command
-from hosts.numbers import Value
+from hosts.common.numbers import Value
 from hosts.study.work import FAILED, Job, Outcome, Work
 
 _START = 20.0  # s in which Python and its packages have begun, on a busy machine

@@ -10,19 +10,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hosts.co_simulation import check_columns, communication_step, driver_of
-from hosts.driver import ACTS
-from hosts.errors import HostError
-from hosts.load_manoeuvre import load_manoeuvre
-from hosts.manoeuvre import Manoeuvre, with_names_of
-from hosts.manoeuvres import manoeuvre_names
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.driving.co_simulation import check_columns, communication_step, driver_of
+from hosts.driving.driver import ACTS
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.manoeuvres import manoeuvre_names
+from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
 from hosts.study.work import Job
 
 if TYPE_CHECKING:
-    from hosts.aliased_fmu import AliasedFmu
-    from hosts.fmu import Fmu
+    from hosts.fmu.aliased_fmu import AliasedFmu
+    from hosts.fmu.fmu import Fmu
 
 
 def jobs_of(study: StudyFile, file: Path, fmu: Fmu | AliasedFmu, parameters: Sequence[str]) -> list[Job]:

@@ -12,14 +12,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.aliased_fmu import AliasedFmu
-from hosts.aliases import Aliases
-from hosts.co_simulation import Result, driver_of, run
-from hosts.errors import HostError
-from hosts.fmu import Fmu
-from hosts.manoeuvre import Manoeuvre, with_names_of
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.driving.co_simulation import Result, driver_of, run
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.aliases import Aliases
+from hosts.fmu.fmu import Fmu
 from hosts.measures.measure import Measure
-from hosts.numbers import Value
 from hosts.study.work import DONE, FAILED, INCOMPLETE, Job, Outcome, Work
 
 _MOST_NOTES = 3

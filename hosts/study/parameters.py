@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.errors import HostError
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.variables import Variable
 from hosts.study.study_file import ParameterEntry
-from hosts.variables import Variable
 
 
 @dataclass(frozen=True)

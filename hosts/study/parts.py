@@ -13,8 +13,8 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from ali3.files import whole_file
-from hosts.errors import HostError
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 from hosts.study.folder import RUNS, sync
 from hosts.study.work import FAILED, Chunk, Outcome, seed_of
 

@@ -11,10 +11,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from hosts.aliased_fmu import AliasedFmu
-from hosts.aliases import Aliases, find_aliases
-from hosts.errors import HostError
-from hosts.fmu import Fmu
+from hosts.common.errors import HostError
+from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.aliases import Aliases, find_aliases
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.variables import Variable
 from hosts.study.jobs import jobs_of
 from hosts.study.measures import StudyMeasure, parse_measure
 from hosts.study.one_run import seen_through
@@ -23,7 +24,6 @@ from hosts.study.points import Points, digest, sampled_points, table_points
 from hosts.study.program import program_digest, versions
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
 from hosts.study.work import Chunk, Job, Work
-from hosts.variables import Variable
 
 OWN_COLUMNS = ("index", "point", "manoeuvre", "seed", "status", "reason", "messages", "simulated", "wall_seconds")
 

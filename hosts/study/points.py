@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Protocol
 
 from ali3.files import reason
-from hosts.errors import HostError
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.variables import Variable
 from hosts.study.parameters import Parameter, columns_of, in_unit
 from hosts.study.sampling import Grid, LatinHypercube, Saltelli, Sampler, SobolSequence
 from hosts.study.study_file import ParameterEntry, SamplingEntry
-from hosts.variables import Variable
 
 _MOST = 10**9
 _DIGESTED = 256  # drawn points at both ends that tell one plan from another

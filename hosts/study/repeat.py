@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 
 from ali3.files import make_folder, write_text
 from ali3.running import command_name
-from hosts.errors import HostError
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 from hosts.study.folder import read_record
 
 if TYPE_CHECKING:
-    from hosts.manoeuvre import Manoeuvre
+    from hosts.driving.manoeuvre import Manoeuvre
     from hosts.study.work import Job
 
 FOLDER = "repeat"

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.study.folder import RECORD, SIGNALS, read_record
 from hosts.study.parts import attributes, part_files, table_schema
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ali3.files import reason
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.study.file_errors import sentence
 
 METHODS = ("grid", "latin_hypercube", "sobol", "saltelli", "table")

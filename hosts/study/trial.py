@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.study.isolated import Task, run_isolated
 from hosts.study.plan import Plan
 from hosts.study.work import FAILED, INCOMPLETE, Job, Outcome, seed_of

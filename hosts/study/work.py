@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.aliases import Aliases
-from hosts.manoeuvre import Manoeuvre
-from hosts.numbers import Value
+from hosts.common.numbers import Value
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.aliases import Aliases
 
 if TYPE_CHECKING:
     from hosts.study.measures import StudyMeasure

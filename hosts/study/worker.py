@@ -14,9 +14,9 @@ from typing import Any
 
 from distributed import Worker, WorkerPlugin, get_worker
 
-from hosts.errors import HostError
-from hosts.fmu import described
-from hosts.numbers import Value
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.fmu import described
 from hosts.study.isolated import run_isolated
 from hosts.study.one_run import Bench
 from hosts.study.program import program_digest

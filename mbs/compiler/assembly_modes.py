@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.affine import Affine, AffineVector
+from mbs.common.affine import Affine, AffineVector
 from mbs.compiler.block_rows import affine_of, moving_part, quadratics
 from mbs.compiler.loops import Block, blocks_of_loops
 from mbs.compiler.polynomial import RowTerms

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.compiler.loops import Block
 from mbs.compiler.polynomial import RowTerms, substitute
 from mbs.model.body import Body

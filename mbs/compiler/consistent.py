@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu, spsolve
 
+from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.row_arrays import RowArrays
-from mbs.errors import ModelError
 
 Array = NDArray[np.float64]
 

@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.linalg import qr
 
+from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import Monomial, RowTerms
-from mbs.errors import ModelError
 
 DEPENDENT = 1e-7
 """Relative size of the remainder of a dependent row. A drawing with rounded numbers that is next to a special one

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from mbs.drawing import Drawing
 from mbs.model.model import Model
 from mbs.shapes.frames import FrameNames, places_of
 from mbs.shapes.scene import drawing_of
+from mbs.system.drawing import Drawing
 
 
 def drawing(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64], q: NDArray[np.float64]) -> Drawing:

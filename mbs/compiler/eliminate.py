@@ -11,8 +11,8 @@ import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mbs.affine import Affine
-from mbs.errors import ModelError
+from mbs.common.affine import Affine
+from mbs.common.errors import ModelError
 
 PIVOT_THRESHOLD = 0.1
 """A pivot is at least this part of the largest entry of its row."""

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.checks import number
-from mbs.errors import ModelError
+from mbs.common.checks import number
+from mbs.common.errors import ModelError
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, open_row
-from mbs.system import System
+from mbs.system.system import System
 
 TOLERANCE = 1e-8  # N
 MAX_ITERATIONS = 400

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.checks import Vector
+from mbs.common.checks import Vector
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model

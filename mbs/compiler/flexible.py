@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.compiler.front_arrays import Locate
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model

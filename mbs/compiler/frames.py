@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from mbs.frames import FlexibleShapes, Frames
+from mbs.common.frames import FlexibleShapes, Frames
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 

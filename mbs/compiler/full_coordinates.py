@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.compiler.eliminate import eliminate
 from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.polynomial import RowTerms, cleaned, substitute

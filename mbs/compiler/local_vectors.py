@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mbs.checks import Vector
+from mbs.common.checks import Vector
 from mbs.model.body import Body
 
 

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.structure import rank_at
-from mbs.errors import ModelError
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from mbs.affine import AffineVector
+from mbs.common.affine import AffineVector
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from mbs.checks import flag, positive
+from mbs.common.checks import flag, positive
 from mbs.compiler.polynomial import RowTerms
 from mbs.kernel.header import ParameterTarget
 from mbs.model.model import Model

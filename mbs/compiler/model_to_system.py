@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from mbs.affine import Affine
-from mbs.checks import flag, instance_of, is_number, mapping, shown
+from mbs.common.affine import Affine
+from mbs.common.checks import flag, instance_of, is_number, mapping, shown
+from mbs.common.errors import ModelError
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.consistent import close_position
 from mbs.compiler.dependent_rows import independent_rows
@@ -41,10 +42,9 @@ from mbs.compiler.start import guide_start, reference_position, velocity
 from mbs.compiler.structure import rank_at, structure_report
 from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
 from mbs.compiler.tree import tree_arrays
-from mbs.errors import ModelError
 from mbs.model.equation import Equation
 from mbs.model.model import Model
-from mbs.system import System
+from mbs.system.system import System
 
 
 def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.compiler.local_vectors import body_length, distinct
 from mbs.model.body import Body
 from mbs.model.model import Model

@@ -23,9 +23,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.common.errors import ModelError
 from mbs.compiler.loop_conditions import Condition, Loops, Places, loops_of
 from mbs.compiler.mobility import Closed, close, motion
-from mbs.errors import ModelError
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
+from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import substitute
 from mbs.compiler.spanning_tree import in_space
 from mbs.compiler.tables import Signals
-from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.model import Model
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.model.equation import Equation, Product
 
 Monomial = tuple[int, int]

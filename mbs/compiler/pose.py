@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
+from mbs.common.errors import ModelError
 from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.tables import Signals
-from mbs.errors import ModelError
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]

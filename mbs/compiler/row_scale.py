@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import RowTerms
-from mbs.errors import ModelError
 
 Array = NDArray[np.float64]
 

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import Vector
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import Vector
 from mbs.compiler.local_vectors import body_length, distinct
 from mbs.compiler.polynomial import Polynomial, RowTerms, add_product, cleaned, substitute
 from mbs.model.body import Body

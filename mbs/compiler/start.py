@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.compiler.consistent import start_velocity
 from mbs.compiler.full_coordinates import full_mass, symmetric
 from mbs.compiler.natural import NaturalCoordinates

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
+from mbs.common.errors import ModelError
 from mbs.compiler.front_arrays import Locate
 from mbs.compiler.polynomial import substitute
-from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model

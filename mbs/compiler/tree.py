@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.affine import Affine, AffineVector
+from mbs.common.affine import Affine, AffineVector
 from mbs.compiler.natural import choose
 from mbs.compiler.spanning_tree import (
     MOST_JOINTS,

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from itertools import pairwise
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import not_negative, positive
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import not_negative, positive
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import index, several, size
 from mbs.kernel.header import ElementType

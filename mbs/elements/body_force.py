@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mbs.affine import AffineVector
+from mbs.common.affine import AffineVector
 from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import channels, size
 from mbs.kernel.header import ElementType

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from mbs.affine import AffineVector
-from mbs.checks import shown
+from mbs.common.affine import AffineVector
+from mbs.common.checks import shown
+from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import channels
-from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
-from mbs.affine import AffineVector
-from mbs.checks import array, not_negative, positive
+from mbs.common.affine import AffineVector
+from mbs.common.checks import array, not_negative, positive
+from mbs.common.errors import ModelError
 from mbs.elements.record import Check, ElementRecord, Output
 from mbs.elements.record_checks import index, size
-from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 
 STATES = 4

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from mbs.affine import Affine
-from mbs.checks import not_negative, positive, text
+from mbs.common.affine import Affine
+from mbs.common.checks import not_negative, positive, text
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.affine import AffineVector
-from mbs.checks import not_negative
+from mbs.common.affine import AffineVector
+from mbs.common.checks import not_negative
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import size
 from mbs.kernel.header import ElementType

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import not_negative, positive
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import not_negative, positive
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import index, share, size
 from mbs.kernel.header import ElementType

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mbs.affine import Affine
-from mbs.checks import number
+from mbs.common.affine import Affine
+from mbs.common.checks import number
+from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import index, several
-from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 
 

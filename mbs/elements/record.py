@@ -6,11 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.kernel.header import ElementType
 
 Check: TypeAlias = Callable[[object, str], float]
-"""One of the checks of numbers of `mbs.checks`."""
+"""One of the checks of numbers of `mbs.common.checks`."""
 
 
 @dataclass(frozen=True)

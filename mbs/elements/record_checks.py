@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mbs.affine import AffineVector
-from mbs.checks import capital, number, positive, shown, whole
-from mbs.errors import ModelError
+from mbs.common.affine import AffineVector
+from mbs.common.checks import capital, number, positive, shown, whole
+from mbs.common.errors import ModelError
 
 MOST = 2**31 - 1
 """Largest number of the System file."""

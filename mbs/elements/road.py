@@ -9,9 +9,9 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.checks import array, is_number, not_negative, not_zero, number, one_of, positive, vector
+from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, vector
+from mbs.common.errors import ModelError
 from mbs.elements.record import Check
-from mbs.errors import ModelError
 from mbs.kernel.header import RoadType
 
 

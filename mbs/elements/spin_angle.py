@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.affine import Affine, AffineVector
+from mbs.common.affine import Affine, AffineVector
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import size
 from mbs.kernel.header import ElementType

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import number
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import number
 from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import index, size
 from mbs.kernel.header import ElementType

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.affine import AffineVector
-from mbs.checks import instance_of, not_negative, positive
+from mbs.common.affine import AffineVector
+from mbs.common.checks import instance_of, not_negative, positive
+from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import size
-from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 
 LINE_OUTPUTS = (

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from mbs.affine import AffineVector
-from mbs.checks import array, is_number, not_negative
+from mbs.common.affine import AffineVector
+from mbs.common.checks import array, is_number, not_negative
+from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import size
 from mbs.elements.spring_damper import LINE_OUTPUTS, EndStops
-from mbs.errors import ModelError
 from mbs.kernel.header import ElementType
 
 Rows: TypeAlias = "Sequence[Sequence[float]] | NDArray[np.float64]"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.affine import Affine
-from mbs.checks import not_negative, positive
+from mbs.common.affine import Affine
+from mbs.common.checks import not_negative, positive
 from mbs.elements.record import ElementRecord, Output
 from mbs.kernel.header import ElementType
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import instance_of, not_negative, number, positive, vector
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import instance_of, not_negative, number, positive, vector
 from mbs.elements.record import Check, ElementRecord, Output
 from mbs.elements.record_checks import index, size
 from mbs.kernel.header import ElementType

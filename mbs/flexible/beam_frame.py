@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.checks import instance_of, is_finite, named, number, numbers, shown
-from mbs.errors import ModelError
+from mbs.common.checks import instance_of, is_finite, named, number, numbers, shown
+from mbs.common.errors import ModelError
 from mbs.flexible.beam_axes import beam_axes
 from mbs.flexible.beam_stiffness import THEORIES, beam_stiffness
 from mbs.flexible.mass_points import check_masses

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.checks import shown
-from mbs.errors import ModelError
+from mbs.common.checks import shown
+from mbs.common.errors import ModelError
 from mbs.flexible.beam_interpolation import section_motion
 from mbs.flexible.material import Material
 from mbs.flexible.section import Section

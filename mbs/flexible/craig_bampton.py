@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.linalg import eigh
 
-from mbs.checks import flag, instance_of, is_number, positive, whole
-from mbs.errors import ModelError
+from mbs.common.checks import flag, instance_of, is_number, positive, whole
+from mbs.common.errors import ModelError
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface, Interface

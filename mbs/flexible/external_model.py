@@ -9,8 +9,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from mbs.checks import numbers
-from mbs.errors import ModelError
+from mbs.common.checks import numbers
+from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import node_labels
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.fe_model_checks import check_free, check_symmetric, check_units

@@ -9,8 +9,8 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import qr
 
-from mbs.checks import flag, is_finite, shown
-from mbs.errors import ModelError
+from mbs.common.checks import flag, is_finite, shown
+from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
 from mbs.flexible.mass_points import MassPoints
 

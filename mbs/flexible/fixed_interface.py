@@ -9,8 +9,8 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import SuperLU, splu
 
-from mbs.checks import instance_of, shown
-from mbs.errors import ModelError
+from mbs.common.checks import instance_of, shown
+from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fe_model_checks import check_connected
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.extras import missing_module
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 
 
 def read_foreign(path: Path, reader: Callable[[Path], Any]) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
-from mbs.checks import flag
+from mbs.common.checks import flag
 from mbs.flexible.beam_frame import Beam, BeamFrame
 from mbs.flexible.beam_mass import beam_mass_points
 from mbs.flexible.beam_stiffness import shear_parameters

@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike
 from scipy.linalg import eigh
 from scipy.sparse.linalg import ArpackError, eigsh
 
-from mbs.checks import instance_of, whole
-from mbs.errors import ModelError
+from mbs.common.checks import instance_of, whole
+from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
 
 DENSE = 300  # below this size all modes are computed at once

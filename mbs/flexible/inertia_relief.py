@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbs.checks import shown
-from mbs.errors import ModelError
+from mbs.common.checks import shown
+from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface
 from mbs.flexible.sparse import Sparse

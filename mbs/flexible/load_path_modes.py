@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import eigh
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible.reduced_body import ReducedBody
 
 

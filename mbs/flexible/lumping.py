@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible.mass_points import MassPoints, nodal_mass_points
 from mbs.flexible.sparse import Sparse
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 
 
 @dataclass(frozen=True)

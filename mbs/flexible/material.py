@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.checks import is_finite, shown
-from mbs.errors import ModelError
+from mbs.common.checks import is_finite, shown
+from mbs.common.errors import ModelError
 
 # from foam and wood to tungsten and diamond, SI
 YIELD_RANGE = (1e4, 2e10)

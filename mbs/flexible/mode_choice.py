@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbs.checks import flag, is_finite, not_negative, shown, whole
-from mbs.errors import ModelError
+from mbs.common.checks import flag, is_finite, not_negative, shown, whole
+from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface, Interface
 from mbs.flexible.frequencies import natural_modes

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from mbs.checks import instance_of, is_finite, shown
-from mbs.errors import ModelError
+from mbs.common.checks import instance_of, is_finite, shown
+from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
 
 FORCES = ("N", "Vy", "Vz", "T", "My", "Mz")

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbs.checks import shown
-from mbs.errors import ModelError
+from mbs.common.checks import shown
+from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
 from mbs.flexible.sparse import Sparse
 

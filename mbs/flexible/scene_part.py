@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import Beam, BeamFrame
 from mbs.flexible.recovery import fibre_stresses, section_force_field
 from mbs.flexible.reduced_body import ReducedBody

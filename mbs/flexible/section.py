@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbs.checks import LARGEST, is_finite, shown
-from mbs.errors import ModelError
+from mbs.common.checks import LARGEST, is_finite, shown
+from mbs.common.errors import ModelError
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """The modelling vocabulary."""
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.model.body import Body, PointMass
 from mbs.model.carried import SlidingPoint, Spin
 from mbs.model.coordinate import Coordinate

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from mbs.checks import flag, positive, shown
+from mbs.common.checks import flag, positive, shown
+from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
-from mbs.errors import ModelError
 from mbs.model.angle import relative_angle
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body

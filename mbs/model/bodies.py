@@ -7,9 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.affine import AffineVector
-from mbs.checks import Vector, array, capital, direction, is_number, mapping, positive, shown, vector
-from mbs.errors import ModelError
+from mbs.common.affine import AffineVector
+from mbs.common.checks import Vector, array, capital, direction, is_number, mapping, positive, shown, vector
+from mbs.common.errors import ModelError
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.model.body import Body, Ground, PointMass
 from mbs.model.carried import Payload

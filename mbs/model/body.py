@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import Vector, vector
-from mbs.errors import ModelError
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import Vector, vector
+from mbs.common.errors import ModelError
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.register import Register
 

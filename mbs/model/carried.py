@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import Vector
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import Vector
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 

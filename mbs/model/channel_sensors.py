@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from mbs.affine import Affine
-from mbs.checks import number, one_of, shown
-from mbs.checks import text as checked_text
-from mbs.errors import ModelError
+from mbs.common.affine import Affine
+from mbs.common.checks import number, one_of, shown
+from mbs.common.checks import text as checked_text
+from mbs.common.errors import ModelError
 from mbs.kernel.header import GuideType, SensorType, SolverValue
 from mbs.model.guides import owned_guide
 from mbs.model.inputs import owned_input

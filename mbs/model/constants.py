@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbs.checks import number, shown, text
+from mbs.common.checks import number, shown, text
 from mbs.model.core import ModelCore
 from mbs.model.records import Constant
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from mbs.checks import instance_of, shown
+from mbs.common.checks import instance_of, shown
+from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import Road
-from mbs.errors import ModelError
 from mbs.model.carried import Payload, Spin
 from mbs.model.joints.joint import Joint
 from mbs.model.records import Constant, Guide, Input, Parameter, RoadFileParameter, Switch

@@ -6,8 +6,8 @@ from typing import TypeAlias
 
 from numpy.typing import ArrayLike
 
-from mbs.checks import shown
-from mbs.errors import ModelError
+from mbs.common.checks import shown
+from mbs.common.errors import ModelError
 from mbs.model.body import Body, PointMass
 from mbs.model.carried import SlidingPoint
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from mbs.affine import Affine, AffineVector
+from mbs.common.affine import Affine, AffineVector
 
 Product = tuple[float, Affine, Affine]
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import Vector, is_finite, shown, vector
-from mbs.errors import ModelError
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import Vector, is_finite, shown, vector
+from mbs.common.errors import ModelError
 from mbs.flexible.fe_model_checks import check_turning_inertia
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.shape_integrals import ShapeIntegrals, shape_integrals

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.checks import instance_of, number, one_of, shown, whole
+from mbs.common.checks import instance_of, number, one_of, shown, whole
+from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
-from mbs.errors import ModelError
 from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.kernel.header import SensorType
 from mbs.model.flexible import FlexibleBody

@@ -9,8 +9,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import AffineVector
-from mbs.checks import array, direction, instance_of, number, one_of, shown, whole
+from mbs.common.affine import AffineVector
+from mbs.common.checks import array, direction, instance_of, number, one_of, shown, whole
+from mbs.common.errors import ModelError
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
 from mbs.elements.contact_points import ContactPoints
@@ -22,7 +23,6 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
-from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline, PPoly
 
-from mbs.checks import LARGEST, array, number, positive, shown, text
-from mbs.errors import ModelError
+from mbs.common.checks import LARGEST, array, number, positive, shown, text
+from mbs.common.errors import ModelError
 from mbs.kernel.header import GuideType
 from mbs.model.core import ModelCore
 from mbs.model.inputs import owned_input

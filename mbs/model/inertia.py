@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.checks import array, capital, is_number, positive
-from mbs.errors import ModelError
+from mbs.common.checks import array, capital, is_number, positive
+from mbs.common.errors import ModelError
 
 
 def inertia_matrix(value: ArrayLike, dimension: int, what: str) -> NDArray[np.float64]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from mbs.checks import flag, limit, number, shown, text
+from mbs.common.checks import flag, limit, number, shown, text
+from mbs.common.errors import ModelError
 from mbs.elements.record_checks import MOST
-from mbs.errors import ModelError
 from mbs.model.core import ModelCore
 from mbs.model.records import Input
 

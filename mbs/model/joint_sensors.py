@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import AffineVector
-from mbs.checks import number, shown
-from mbs.errors import ModelError
+from mbs.common.affine import AffineVector
+from mbs.common.checks import number, shown
+from mbs.common.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
 from mbs.model.guides import owned_guide

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from numpy.typing import ArrayLike
 from scipy.interpolate import PPoly
 
-from mbs.checks import not_negative, number, shown
+from mbs.common.checks import not_negative, number, shown
 from mbs.elements.record import ElementRecord
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import number, shown
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import number, shown
+from mbs.common.errors import ModelError
 from mbs.elements.spin_angle import SpinAngle
-from mbs.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
 from mbs.model.carried import Spin

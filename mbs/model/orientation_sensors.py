@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import one_of
-from mbs.errors import ModelError
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import one_of
+from mbs.common.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
 from mbs.model.sensor import Sensor

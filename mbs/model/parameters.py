@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from mbs.checks import flag, not_negative, not_zero, number, positive, shown, text, whole
+from mbs.common.checks import flag, not_negative, not_zero, number, positive, shown, text, whole
+from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
-from mbs.errors import ModelError
 from mbs.kernel.header import GuideType, ParameterTarget
 from mbs.model.carried import Payload
 from mbs.model.core import ModelCore

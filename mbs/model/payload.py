@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import AffineVector
-from mbs.checks import not_negative, shown, vector
-from mbs.errors import ModelError
+from mbs.common.affine import AffineVector
+from mbs.common.checks import not_negative, shown, vector
+from mbs.common.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.carried import Payload
 from mbs.model.core import ModelCore

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.checks import Vector
+from mbs.common.checks import Vector
 
 
 def perpendicular(axis: Vector) -> tuple[Vector, Vector]:

@@ -11,8 +11,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import Vector, vector
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import Vector, vector
 from mbs.model.body import Body
 from mbs.model.core import ModelCore
 from mbs.model.joints.joint import Joint, equal_vectors

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbs.affine import Affine, AffineVector
+from mbs.common.affine import Affine, AffineVector
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
 from mbs.model.turning import Turning

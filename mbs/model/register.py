@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import Vector, named, positive, shown, vector, whole
-from mbs.errors import ModelError
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import Vector, named, positive, shown, vector, whole
+from mbs.common.errors import ModelError
 from mbs.model.coordinate import Coordinate, CoordinateInfo
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.kernel.header import SensorType
 from mbs.model.joints.joint import Joint
 from mbs.model.reactions import Term

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import flag, shown, text, whole
-from mbs.errors import ModelError
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import flag, shown, text, whole
+from mbs.common.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.joints.joint import Joint

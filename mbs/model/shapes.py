@@ -11,8 +11,8 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.affine import Affine
-from mbs.checks import (
+from mbs.common.affine import Affine
+from mbs.common.checks import (
     LARGEST,
     Vector,
     array,
@@ -26,7 +26,7 @@ from mbs.checks import (
     shown,
     whole,
 )
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.model.bodies import ROTATION, BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.checks import array, named, shown
-from mbs.errors import ModelError
+from mbs.common.checks import array, named, shown
+from mbs.common.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.shapes import Owner, Shape, ShapeVocabulary, Turning
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.checks import direction, not_negative, positive, vector
+from mbs.common.checks import direction, not_negative, positive, vector
+from mbs.common.errors import ModelError
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
-from mbs.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin

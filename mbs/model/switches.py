@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.checks import shown
-from mbs.errors import ModelError
+from mbs.common.checks import shown
+from mbs.common.errors import ModelError
 from mbs.model.core import ModelCore
 from mbs.model.records import Switch
 

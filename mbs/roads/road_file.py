@@ -12,7 +12,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.checks import instance_of
+from mbs.common.checks import instance_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header import ROAD_SHARED, ROAD_TILE, RoadType
 from mbs.roads.grid_files import read_grid

@@ -12,7 +12,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.kernel.header import (
     ROAD_FARTHEST,
     ROAD_FRICTION,

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.files import whole_file
-from mbs.checks import instance_of
+from mbs.common.checks import instance_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header import ROAD_FRICTION, ROAD_TILE, RoadType
 from mbs.roads.road_header import REALS, Header, RoadFileError, check_grid

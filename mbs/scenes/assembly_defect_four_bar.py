@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import PPoly
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible.craig_bampton import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fixed_interface import Interface

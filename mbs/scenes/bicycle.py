@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.checks import flag, number
+from mbs.common.checks import flag, number
 from mbs.model import Model
 
 WHEELBASE, TRAIL, TILT = 1.02, 0.08, np.pi / 10.0  # m, m, rad

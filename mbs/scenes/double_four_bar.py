@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbs.checks import whole
+from mbs.common.checks import whole
 from mbs.model import Model
 
 LENGTH = 1.0  # m

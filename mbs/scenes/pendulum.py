@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbs.checks import positive
+from mbs.common.checks import positive
 from mbs.model import Model
 
 

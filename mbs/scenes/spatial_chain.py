@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.checks import whole
+from mbs.common.checks import whole
 from mbs.model import Model
 
 LINKS = 10

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PPoly
 
-from mbs.checks import whole
+from mbs.common.checks import whole
 from mbs.flexible.craig_bampton import craig_bampton
 from mbs.flexible.fixed_interface import Interface
 from mbs.flexible.frame import Beam, Frame

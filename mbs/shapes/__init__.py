@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from mbs.lazy_modules import lazy_modules
+from mbs.common.lazy_modules import lazy_modules
 
 if TYPE_CHECKING:
     from mbs.shapes import pose_outputs as pose_outputs

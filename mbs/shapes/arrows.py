@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.kernel.header import ElementType, SensorType
 from mbs.model.model import Model
 from mbs.model.sensor import Sensor

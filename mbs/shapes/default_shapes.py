@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from mbs.checks import Vector
+from mbs.common.checks import Vector
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.joints.joint import RollingBody, RollingSpin

@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import Vector
-from mbs.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import Vector
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import Owner, Turning, in_space, origin_of
 from mbs.model.sliding_shapes import Sliding
+from mbs.system.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace
 
 Anchor = tuple[str, list[float]]
 """Frame and place in it, m."""

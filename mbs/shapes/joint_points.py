@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from mbs.affine import Affine
-from mbs.checks import Vector
+from mbs.common.affine import Affine
+from mbs.common.checks import Vector
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header import ElementType, SensorType
 from mbs.model.body import Body

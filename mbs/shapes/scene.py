@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.checks import Vector
-from mbs.drawing import Drawing, Places, matrices
+from mbs.common.checks import Vector
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
@@ -21,6 +20,7 @@ from mbs.shapes.frames import FrameNames, frames_of, numbers
 from mbs.shapes.joint_points import touched
 from mbs.shapes.roads import roads_of
 from mbs.shapes.shared_points import shared_points
+from mbs.system.drawing import Drawing, Places, matrices
 from viewer import scene_parts
 from viewer.base64_numbers import encoded
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.checks import Vector
+from mbs.common.checks import Vector
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.shapes import in_space

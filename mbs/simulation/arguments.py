@@ -6,12 +6,12 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from mbs.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
+from mbs.common.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
 from mbs.kernel.header import Status
-from mbs.settings import Settings
+from mbs.results.simulation_error import PoseError
+from mbs.settings.settings import Settings
 from mbs.simulation.state import Pose
-from mbs.simulation_error import PoseError
-from mbs.system import System
+from mbs.system.system import System
 
 LATEST = 1e10
 """Largest time, s: double precision leaves two microseconds there."""

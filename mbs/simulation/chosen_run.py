@@ -10,15 +10,17 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.accuracy import AccuracyWarning
-from mbs.branch_warning import BranchWarning
-from mbs.checks import array, shown
-from mbs.control import ALLOWED, Control
-from mbs.input_signals import Signal
+from mbs.common.checks import array, shown
+from mbs.common.progress import Progress, progress_for
 from mbs.kernel.binding import KernelError, Status
-from mbs.progress import Progress, progress_for
-from mbs.settings import Settings
+from mbs.results.accuracy import AccuracyWarning
+from mbs.results.simulation_error import SimulationError
+from mbs.results.trajectory import Trajectory
+from mbs.settings.control import ALLOWED, Control
+from mbs.settings.input_signals import Signal
+from mbs.settings.settings import Settings
 from mbs.simulation.arguments import check_end, check_record, count_steps
+from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 from mbs.simulation.march import notices_of
 from mbs.simulation.method_choice import choose
@@ -28,8 +30,6 @@ from mbs.simulation.refusal import refusal
 from mbs.simulation.run_roads import run_roads
 from mbs.simulation.step_choice import StepChoice, choose_step
 from mbs.simulation.stepping import Simulation
-from mbs.simulation_error import SimulationError
-from mbs.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 SHORTER = 0.5

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.input_signals import InputSignals, Signal
 from mbs.kernel.binding import ControlFields, KernelError
-from mbs.settings import Settings
+from mbs.settings.input_signals import InputSignals, Signal
+from mbs.settings.settings import Settings
 from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.stepping import Simulation
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping
 
-from mbs import accuracy
-from mbs.branch_warning import BranchWarning
-from mbs.input_signals import Signal
-from mbs.progress import progress_for
+from mbs.common.progress import progress_for
+from mbs.results import accuracy
+from mbs.results.simulation_error import SimulationError
+from mbs.results.trajectory import Trajectory
+from mbs.settings.input_signals import Signal
 from mbs.simulation import repeat
 from mbs.simulation.arguments import count_steps
+from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.march import march
 from mbs.simulation.stepping import Simulation
-from mbs.simulation_error import SimulationError
-from mbs.system import System
-from mbs.trajectory import Trajectory
+from mbs.system.system import System
 
 
 def fixed_step_run(

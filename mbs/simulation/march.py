@@ -9,11 +9,12 @@ from contextlib import contextmanager
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs import accuracy
-from mbs.input_signals import InputSignals, Signal
+from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError
-from mbs.progress import progress_for
-from mbs.run_report import Report
+from mbs.results import accuracy
+from mbs.results.run_report import Report
+from mbs.results.trajectory import Trajectory
+from mbs.settings.input_signals import InputSignals, Signal
 from mbs.simulation.arguments import (
     check_every,
     check_progress,
@@ -27,8 +28,7 @@ from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
 from mbs.simulation.run_roads import run_roads
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.system import System
-from mbs.trajectory import Trajectory
+from mbs.system.system import System
 
 Array = NDArray[np.float64]
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard

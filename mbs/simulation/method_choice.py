@@ -9,13 +9,13 @@ import numpy as np
 
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.header import GuideType
-from mbs.methods import METHOD_TABLE
-from mbs.settings import Settings
+from mbs.results.simulation_error import SimulationError
+from mbs.settings.methods import METHOD_TABLE
+from mbs.settings.settings import Settings
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepping import Simulation
-from mbs.simulation_error import SimulationError
-from mbs.system import System
+from mbs.system.system import System
 
 FINE = 2e-3  # tolerance below which the rule of order eight is the cheaper one in relative coordinates
 FIRST_BUDGET, MORE, STEPS = 100.0, 2.0, 0.002

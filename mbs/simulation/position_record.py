@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.poses import Poses, kept_every
-from mbs.system import System
+from mbs.results.poses import Poses, kept_every
+from mbs.system.system import System
 
 Array = NDArray[np.float64]
 

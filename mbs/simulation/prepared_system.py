@@ -6,7 +6,7 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 from mbs.kernel.binding import LoadedSystem
-from mbs.system import System
+from mbs.system.system import System
 
 _PREPARED: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, Any]]] = WeakKeyDictionary()
 

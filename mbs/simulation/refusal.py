@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
-from mbs.input_signals import unit_text
 from mbs.kernel.binding import KernelError, Status, open_row
+from mbs.results.simulation_error import SimulationError
+from mbs.results.trajectory import Trajectory
+from mbs.settings.input_signals import unit_text
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.simulation_error import SimulationError
-from mbs.trajectory import Trajectory
 
 MOST_NAMED = 3  # changed parameters in one sentence
 STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs import accuracy
-from mbs.accuracy import Accuracy
-from mbs.simulation_error import SimulationError
-from mbs.system import System
-from mbs.trajectory import Trajectory
+from mbs.results import accuracy
+from mbs.results.accuracy import Accuracy
+from mbs.results.simulation_error import SimulationError
+from mbs.results.trajectory import Trajectory
+from mbs.system.system import System
 
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.accuracy import AccuracyWarning
-from mbs.checks import shown
-from mbs.control import checked_tolerance
-from mbs.input_signals import InputSignals, Signal
-from mbs.progress import progress_for
-from mbs.settings import Settings
+from mbs.common.checks import shown
+from mbs.common.progress import progress_for
+from mbs.results.accuracy import AccuracyWarning
+from mbs.results.trajectory import Trajectory
+from mbs.settings.control import checked_tolerance
+from mbs.settings.input_signals import InputSignals, Signal
+from mbs.settings.settings import Settings
 from mbs.simulation import chosen_run
 from mbs.simulation.arguments import (
     check_end,
@@ -31,8 +32,7 @@ from mbs.simulation.fixed_steps import fixed_step_run
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.state import Pose
 from mbs.simulation.stepping import Simulation
-from mbs.system import System
-from mbs.trajectory import Trajectory
+from mbs.system.system import System
 
 
 def simulate(

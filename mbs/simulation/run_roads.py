@@ -9,7 +9,7 @@ import numpy as np
 from mbs.elements.road import KerbRoad, PlaneRoad, Road
 from mbs.kernel.binding import Instance
 from mbs.kernel.header import ParameterTarget, RoadType
-from mbs.system import System
+from mbs.system.system import System
 
 
 def run_roads(system: System, instance: Instance, files: Mapping[int, str]) -> dict[int, Road | str]:

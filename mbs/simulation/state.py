@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.checks import finite, number
+from mbs.common.checks import finite, number
 
 
 @dataclass(frozen=True)

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.input_signals import Signal
-from mbs.methods import METHOD_TABLE
-from mbs.progress import Progress
+from mbs.common.progress import Progress
+from mbs.results.simulation_error import SimulationError
+from mbs.settings.input_signals import Signal
+from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.stepping import Simulation
-from mbs.simulation_error import SimulationError
-from mbs.system import System
+from mbs.system.system import System
 
 Array = NDArray[np.float64]
 CHECKED = 50  # instants at which runs are compared, and steps of the first run

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from mbs.kernel.binding import Instance
-from mbs.large_bending import BendingWatch
-from mbs.run_report import Report
-from mbs.settings import Settings
+from mbs.results.run_report import Report
+from mbs.settings.settings import Settings
+from mbs.simulation.large_bending import BendingWatch
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.state import State
-from mbs.system import System
+from mbs.system.system import System
 
 
 class SteppedSystem:

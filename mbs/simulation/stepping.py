@@ -11,13 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from mbs import accuracy
-from mbs.accuracy import AccuracyWarning
-from mbs.checks import flag, instance_of, is_finite, number, positive, shown, whole
-from mbs.input_signals import InputSignals, Signal, unit_text
+from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.kernel.binding import KernelError, Status
+from mbs.results import accuracy
+from mbs.results.accuracy import AccuracyWarning
+from mbs.results.trajectory import Trajectory
 from mbs.roads.shipped import road_path
-from mbs.settings import Settings
+from mbs.settings.input_signals import InputSignals, Signal, unit_text
+from mbs.settings.settings import Settings
 from mbs.simulation.arguments import (
     check_pose,
     check_resolution,
@@ -31,8 +32,7 @@ from mbs.simulation.march import march
 from mbs.simulation.refusal import refusal
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.system import System
-from mbs.trajectory import Trajectory
+from mbs.system.system import System
 
 SINGULAR = {"switches": "switch"}
 MOST_ITERATIONS = 10**6

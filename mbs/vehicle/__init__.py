@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from mbs.lazy_modules import lazy_modules
+from mbs.common.lazy_modules import lazy_modules
 from mbs.vehicle.car import Car
 from mbs.vehicle.car_file import car_names, load
 from mbs.vehicle.errors import CarFileError, CarWarning

@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
+from mbs.common.errors import ModelError
 from mbs.elements.road import Road
-from mbs.errors import ModelError
 from mbs.model import Model
 from mbs.model.carried import Spin
 from mbs.model.ends import End
 from mbs.model.records import Guide
+from mbs.results.simulation_error import SimulationError
 from mbs.roads import RoadFile
-from mbs.simulation_error import SimulationError
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.changes import changed_content

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from mbs.checks import shown
+from mbs.common.checks import shown
 from mbs.vehicle.car import Car, car_from
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import text_of

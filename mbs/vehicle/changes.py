@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mbs.checks import shown
+from mbs.common.checks import shown
 from mbs.vehicle.errors import CarFileError
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ali3.errors import FileError
 from ali3.files import reason
-from mbs.checks import shown
+from mbs.common.checks import shown
 from mbs.vehicle.car_file import CARS, FILE, car_names
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.json_schema import SCHEMA_FILE

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 
 
 class CarFileError(ModelError):

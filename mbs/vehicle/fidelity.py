@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 
 
 class Fidelity(IntEnum):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.affine import Affine, AffineVector
+from mbs.common.affine import Affine, AffineVector
 from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.carried import Spin

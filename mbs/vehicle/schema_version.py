@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from mbs.checks import shown
+from mbs.common.checks import shown
 from mbs.vehicle.errors import CarFileError
 
 SCHEMA = 1

@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from mbs.checks import shown
+from mbs.common.checks import shown
 from mbs.vehicle.key_paths import all_keys, annotation_at, item_of, keys_of, table_at, words
 from mbs.vehicle.names import FORMS, NAME_WORDS
 from mbs.vehicle.section import Section

@@ -19,7 +19,7 @@ from benchmarks.methods.work_precision_chart import KERNEL as COLOURED
 from benchmarks.shared.pages import replace, table
 from mbs import Settings, compile
 from mbs.scenes import double_four_bar
-from mbs.settings import METHODS as KERNEL
+from mbs.settings.settings import METHODS as KERNEL
 
 PNG = b"\x89PNG"
 

@@ -15,8 +15,8 @@ from benchmarks.car import limited_fall
 from benchmarks.car.step_costs import drive
 from benchmarks.car.step_replay import Replay
 from benchmarks.car.wild_ground import write_ground
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 
 H = 2e-3
 

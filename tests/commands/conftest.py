@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
-from fmu_src.platforms import this_platform
+from fmu_src.build.build import build_fmu
+from fmu_src.native.platforms import this_platform
 
 
 def swing(**texts: str) -> mbs.Model:

@@ -11,7 +11,8 @@ import pytest
 
 import ali3
 from ali3 import running
-from ali3.command import COMMANDS, main
+from ali3.command import main
+from ali3.commands import COMMANDS
 
 ROOT = Path(ali3.__file__).parents[1]
 # What an installation writes into the folder of programs.
@@ -141,7 +142,14 @@ def test_an_installed_project_of_the_user_stays_in_the_search_path(tmp_path: Pat
 
 
 def test_the_modules_themselves_go_on_working_in_a_clone() -> None:
-    for module in ("hosts.drive", "hosts.run", "hosts.check", "hosts.kerb", "mbs.kernel.build", "ali3"):
+    for module in (
+        "hosts.run.drive",
+        "hosts.run.run",
+        "hosts.check.command",
+        "hosts.run.kerb",
+        "mbs.kernel.build",
+        "ali3",
+    ):
         done = ran(["-m", module, "--help"], ROOT)
         assert done.returncode == 0, done.stderr
         assert done.stdout.startswith(f"usage: python -m {module} ")

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from ali3.command import COMMANDS
+from ali3.commands import COMMANDS
 from ali3.extras import command_needs, extras, missing_module, missing_package
 
 ROOT = Path(__file__).resolve().parents[2]

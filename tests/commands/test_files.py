@@ -12,7 +12,7 @@ import pytest
 
 import mbs
 from ali3.files import FileError, check_writable, whole_file
-from fmu_src.archive import write_zip
+from fmu_src.native.archive import write_zip
 from mbs.scenes import pendulum
 
 FULL = """
@@ -21,7 +21,7 @@ from pathlib import Path
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
 from ali3.files import FileError
-from fmu_src.archive import write_zip
+from fmu_src.native.archive import write_zip
 import random
 try:
     write_zip({"modelDescription.xml": random.Random(1).randbytes(100_000)}, Path(sys.argv[1]))

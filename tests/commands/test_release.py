@@ -10,7 +10,7 @@ from types import ModuleType
 import pytest
 
 ROOT = Path(__file__).parents[2]
-FILES = ("pyproject.toml", "CITATION.cff", "CHANGELOG.md", "fmu_src/description.py")
+FILES = ("pyproject.toml", "CITATION.cff", "CHANGELOG.md", "fmu_src/description/description.py")
 
 
 @pytest.fixture(scope="module")
@@ -26,10 +26,10 @@ def check_release() -> ModuleType:
 @pytest.fixture
 def tree(tmp_path: Path) -> Path:
     """What is ready to be released as 9.8.7."""
-    (tmp_path / "fmu_src").mkdir()
+    (tmp_path / "fmu_src" / "description").mkdir(parents=True)
     (tmp_path / "pyproject.toml").write_text('[project]\nversion = "9.8.7"\n')
     (tmp_path / "CITATION.cff").write_text("version: 9.8.7\ndate-released: 2031-02-03\n")
-    (tmp_path / "fmu_src" / "description.py").write_text('RELEASE_DATE = "2031-02-03T00:00:00Z"\n')
+    (tmp_path / "fmu_src" / "description" / "description.py").write_text('RELEASE_DATE = "2031-02-03T00:00:00Z"\n')
     now, before = "## [9.8.7] - 2031-02-03\n\n- A wheel.\n", "## [9.8.6] - 2030-01-01\n\n- Fire.\n"
     (tmp_path / "CHANGELOG.md").write_text(f"# Changelog\n\n## [Unreleased]\n\n{now}\n{before}")
     return tmp_path
@@ -52,7 +52,7 @@ def test_what_is_ready_has_its_notes(check_release: ModuleType, tree: Path) -> N
         ("CHANGELOG.md", "[9.8.7]", "[9.8.5]", "has no heading '## [9.8.7] - YYYY-MM-DD'"),
         ("CHANGELOG.md", "- A wheel.\n", "", "section [9.8.7] of CHANGELOG.md is empty"),
         ("CITATION.cff", "-03", "-04", "is of 2031-02-03, CITATION.cff says 2031-02-04"),
-        ("fmu_src/description.py", "-03", "-04", "fmu_src/description.py says 2031-02-04"),
+        ("fmu_src/description/description.py", "-03", "-04", "fmu_src/description/description.py says 2031-02-04"),
     ],
 )
 def test_what_does_not_fit_is_said(
@@ -88,7 +88,10 @@ def test_all_of_the_release_is_checked_by_what_the_files_hold_today(tmp_path: Pa
     if f"[{version}]" not in text:
         changes.write_text(text.replace("## [Unreleased]", f"## [{version}] - 2000-01-02", 1), encoding="utf-8")
         said = check_release.problems(tmp_path, f"v{version}")
-        assert [s.rpartition(", ")[2].partition(" says")[0] for s in said] == ["CITATION.cff", "fmu_src/description.py"]
+        assert [s.rpartition(", ")[2].partition(" says")[0] for s in said] == [
+            "CITATION.cff",
+            "fmu_src/description/description.py",
+        ]
 
 
 def test_workflows_are_valid() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbs import ModelError
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.compiler.eliminate import eliminate
 
 ROUND_OFF = 1e-10

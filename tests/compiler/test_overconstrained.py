@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbs import Model, ModelError, SimulationError, compile, simulate
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 from tests.compiler import overconstrained_loops as drawn
 
 overconstrained = importlib.import_module("mbs.compiler.overconstrained")

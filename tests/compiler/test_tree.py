@@ -11,8 +11,8 @@ import pytest
 from mbs import Model, compile
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.scenes import bricard, double_four_bar, pendulum, spatial_chain, spatial_slider_crank, spinning_beam
-from mbs.settings import METHODS
-from mbs.system import System
+from mbs.settings.settings import METHODS
+from mbs.system.system import System
 from tests.altered_system import altered, put
 from tests.methods.trees import branching
 

@@ -15,10 +15,10 @@ import mbs
 from benchmarks.car.variable_tables import full, overview, tables
 from benchmarks.references.cases import CASES
 from benchmarks.shared.pages import replace
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts.manoeuvre import manoeuvre_names
-from mbs.settings import METHODS
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from hosts.driving.manoeuvre import manoeuvre_names
+from mbs.settings.settings import METHODS
 
 ROOT = Path(__file__).parents[2]
 PLATFORM = fmpy.platform

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mbs.affine import Affine, AffineVector
+from mbs.common.affine import Affine, AffineVector
 from mbs.elements import ElementRecord, PlaneRoad, Road
 
 Array = NDArray[np.float64]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mbs.common.errors import ModelError
 from mbs.elements import ContactPoints, EndStops, GridRoad, KerbRoad, PlaneRoad, SpringDamper
-from mbs.errors import ModelError
 from tests.elements.harness import Element, frame, tangent_by_differences, vectors
 
 CONTACT = ContactPoints(2e5, 2e5, 1e4, onset=0.005, loss=0.5, friction_factor=0.5)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mbs import Model, compile, simulate
+from mbs.analysis.linear_model import linearise
 from mbs.elements import ElectricDrive
-from mbs.linear_model import linearise
 from mbs.simulation import Simulation
 from tests.elements.harness import Array, Element, Result, frame, tangent_by_differences, vectors
 

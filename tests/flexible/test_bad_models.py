@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible.craig_bampton import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.external_model import external_model, read_matrix

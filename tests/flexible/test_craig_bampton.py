@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from scipy.linalg import eigh
 from scipy.sparse.linalg import spsolve
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible.craig_bampton import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.external_model import external_model

@@ -10,7 +10,7 @@ import scipy.io
 import scipy.sparse as sp
 from scipy.linalg import eigh
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible.craig_bampton import craig_bampton
 from mbs.flexible.external_model import external_model, read_matrix, read_model
 from mbs.flexible.frequencies import natural_modes

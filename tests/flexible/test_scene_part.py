@@ -8,7 +8,7 @@ import json
 import numpy as np
 import pytest
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible import Beam, Frame, Material, craig_bampton, external_model, rectangle, round_bar, tube
 from mbs.flexible.recovery import peak_tube_stress, section_force_field, stress_field
 from mbs.flexible.reduced_body import ReducedBody

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible.material import Material
 from mbs.flexible.section import rectangle, round_bar, tube
 

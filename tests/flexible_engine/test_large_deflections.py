@@ -35,7 +35,7 @@ def _spin_run(parts: int, check: bool | None = None) -> tuple[np.ndarray, np.nda
     return run.t, *spinning_beam.in_turning_axes(run.t, run["tip.x"], run["tip.y"])
 
 
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one and two parts bend too far
+@pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.BendingWarning")  # one and two parts bend too far
 def test_spin_up_converges_with_the_parts() -> None:
     """One floating frame misses the stiffening by the centrifugal tension and cannot pass the speed at which the beam
     would seem to lose its stiffness; parts of it do, with errors that fall with the square of their number.
@@ -52,13 +52,13 @@ def test_spin_up_converges_with_the_parts() -> None:
     assert errors[2] < 0.01 * 0.573
 
 
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # it bends too far, as warned
+@pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.BendingWarning")  # it bends too far, as warned
 def test_spin_up_in_one_part_buckles() -> None:
     """With one floating frame the tension never arises: the tip leaves the beam's axis by metres."""
     assert np.max(np.abs(_spin_run(1, check=False)[2])) > 1.0
 
 
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one and two parts bend too far
+@pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.BendingWarning")  # one and two parts bend too far
 @pytest.mark.parametrize(("parts", "most"), [(1, 0.012), (4, 0.003)])
 def test_falling_flexible_pendulum(parts: int, most: float) -> None:
     """A soft bar of 1 m falls from the horizontal for 2 s; its tip against the reference, m."""

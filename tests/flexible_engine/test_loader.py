@@ -8,7 +8,7 @@ import pytest
 from mbs.compiler import compile
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.model import Model
-from mbs.system import System
+from mbs.system.system import System
 from tests.altered_system import altered, put
 from tests.flexible_engine.bodies import cloud
 

@@ -12,13 +12,13 @@ from mbs import Settings, compile, simulate
 from mbs.kernel import binding
 from mbs.model import Model
 from mbs.scenes import spinning_beam
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 from mbs.simulation import SimulationError
-from mbs.system import System
+from mbs.system.system import System
 from tests.flexible_engine.bodies import cloud
 
 # bodies of random shapes, so soft that they bend far beyond what linear modes stand for: the equations are what counts
-pytestmark = pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.BendingWarning")
 
 TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13}
 END = 0.2

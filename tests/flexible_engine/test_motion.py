@@ -17,7 +17,7 @@ from mbs.simulation import Simulation
 from tests.flexible_engine.bodies import ALUMINIUM, bar, cloud
 
 # bodies of random shapes, so soft that they bend far beyond what linear modes stand for: the equations are what counts
-pytestmark = pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.BendingWarning")
 
 TIGHT = Settings(tolerance_r=1e-14)
 """Newton leaves r: an error of the accelerations of 4 r / h^2, which would hide the order of the step."""

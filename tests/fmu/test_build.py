@@ -8,9 +8,9 @@ import fmpy
 import pytest
 
 import build_fmu
-from fmu_src.build import FmuBuilder, fmu_name
-from fmu_src.platforms import PLATFORMS, PYTHON_PLATFORMS, this_platform
-from fmu_src.scene_registry import SceneError, load_scene, scene_names
+from fmu_src.build.build import FmuBuilder, fmu_name
+from fmu_src.build.scene_registry import SceneError, load_scene, scene_names
+from fmu_src.native.platforms import PLATFORMS, PYTHON_PLATFORMS, this_platform
 
 PLATFORM = fmpy.platform
 SCENE = """

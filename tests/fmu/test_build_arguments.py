@@ -9,8 +9,8 @@ import pytest
 
 import mbs
 from ali3.errors import FileError
-from fmu_src.arguments import systems_by_number
-from fmu_src.build import build_fmu
+from fmu_src.build.arguments import systems_by_number
+from fmu_src.build.build import build_fmu
 from mbs.scenes import pendulum
 
 

@@ -13,8 +13,8 @@ import pytest
 
 import build_fmu
 from ali3.parameter_set import read_parameter_set
-from fmu_src.car_registry import build_car, car_files, car_words
-from hosts.fmu import Fmu
+from fmu_src.build.car_registry import build_car, car_files, car_words
+from hosts.fmu.fmu import Fmu
 from mbs.vehicle import load
 from mbs.vehicle.car_file import CARS
 
@@ -143,7 +143,7 @@ def test_a_car_that_cannot_be_compiled_is_named(car: Path, monkeypatch: pytest.M
         def refuse(model: object, error: Exception = error) -> None:
             raise error
 
-        monkeypatch.setattr("fmu_src.posed.mbs.compile", refuse)
+        monkeypatch.setattr("fmu_src.geometry.posed.mbs.compile", refuse)
         with pytest.raises(ValueError, match=f"own/car.toml: the car 'my_car' cannot be built: .*{error}"):
             build_car(str(car))
 

@@ -11,8 +11,8 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 
 HostMaker = Callable[..., Any]
 H, SEED = 0.002, 5

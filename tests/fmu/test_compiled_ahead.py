@@ -10,7 +10,7 @@ import fmpy
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
+from fmu_src.build.build import build_fmu
 from fmu_src.native import ahead
 from fmu_src.native.ahead import compiled_ahead
 from mbs.kernel import build

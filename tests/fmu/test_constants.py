@@ -13,7 +13,7 @@ from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 
 import mbs
-from fmu_src.build import build_fmu
+from fmu_src.build.build import build_fmu
 from tests.fmu import scenes
 
 HostMaker = Callable[..., Any]

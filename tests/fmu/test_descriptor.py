@@ -13,10 +13,10 @@ import fmpy
 import pytest
 from fmpy.validation import validate_fmu
 
-from fmu_src.build import KINDS, build_fmu
-from fmu_src.scene_registry import load_scene
-from fmu_src.units import DISPLAY_UNITS, parse_unit
-from fmu_src.variables import variable_table
+from fmu_src.build.build import KINDS, build_fmu
+from fmu_src.build.scene_registry import load_scene
+from fmu_src.variables.units import DISPLAY_UNITS, parse_unit
+from fmu_src.variables.variables import variable_table
 
 SCENES = Path(__file__).parent / "scenes.py"
 ONE = {

@@ -11,11 +11,11 @@ from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import SceneError, load_fidelities
-from fmu_src.variables import check_fidelities
-from hosts.errors import HostError
-from hosts.fmu import Fmu
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import SceneError, load_fidelities
+from fmu_src.variables.variables import check_fidelities
+from hosts.common.errors import HostError
+from hosts.fmu.fmu import Fmu
 from mbs import Simulation, compile
 from mbs.scenes import kerb_test
 

@@ -10,7 +10,7 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 import mbs
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.scene_registry import load_scene
 from tests.fmu.test_fmi3 import Host3
 
 SCENES = Path(__file__).parent / "scenes.py"

@@ -13,8 +13,8 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
 
-from fmu_src.arrays import arrays
-from fmu_src.variables import Variable
+from fmu_src.variables.arrays import arrays
+from fmu_src.variables.variables import Variable
 
 STEP = 0.01
 

@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.geometry.geometry import geometry, lost_frames
-from fmu_src.posed import PosesError, posed_systems
-from fmu_src.scene_registry import load_fidelities
-from fmu_src.variables import variable_table
-from mbs.drawing import POSE
+from fmu_src.geometry.posed import PosesError, posed_systems
+from fmu_src.variables.variables import variable_table
 from mbs.elements import SpringDamper
 from mbs.scenes import double_four_bar, puma
 from mbs.shapes.pose_outputs import pose_outputs
+from mbs.system.drawing import POSE
 from mbs.vehicle import load
 from viewer.poses import FramePoses
 from viewer.scene import scene_errors

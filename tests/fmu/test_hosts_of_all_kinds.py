@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 from fmpy.fmi3 import FMU3Slave
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 
 HostMaker = Callable[..., Any]
 OK, WARNING, DISCARD, ERROR = range(4)
@@ -144,7 +144,9 @@ def test_an_input_without_limits(build: Callable[..., Path], kind: str, host: Ho
     assert driven.get("torque") == -1e6
 
 
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one body a bar bends by 0.05 rad, as warned
+@pytest.mark.filterwarnings(
+    "ignore::mbs.simulation.large_bending.BendingWarning"
+)  # one body a bar bends by 0.05 rad, as warned
 def test_fmi_3_without_arrays(tmp_path: Path) -> None:
     name, system = load_scene(f"{Path(__file__).parents[2] / 'mbs' / 'scenes'}/assembly_defect_four_bar.py:build")
     files = [build_fmu(system, name, tmp_path, [fmpy.platform], kind=kind) for kind in ("fmi3_scalar", "native")]

@@ -10,8 +10,8 @@ import fmpy
 import pytest
 
 import mbs
-from fmu_src.scene_registry import load_scene
-from mbs.settings import Settings
+from fmu_src.build.scene_registry import load_scene
+from mbs.settings.settings import Settings
 
 SCENES = Path(__file__).parent / "scenes.py"
 HostMaker = Callable[..., Any]

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 from mbs.simulation import Pose
 from tests.fmu import scenes
 

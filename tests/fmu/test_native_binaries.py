@@ -16,9 +16,9 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build import build_fmu
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_fidelities, load_scene
 from fmu_src.native.universal import universal
-from fmu_src.scene_registry import load_fidelities, load_scene
 
 # pytest imports this folder's files by path
 sys.path.insert(0, str(Path(__file__).parent))

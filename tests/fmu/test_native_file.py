@@ -15,9 +15,9 @@ import pytest
 from lxml import etree
 
 import mbs
-from fmu_src.description import declared_types
+from fmu_src.description.description import declared_types
 from fmu_src.native.reference import reference_run
-from fmu_src.variables import Variable
+from fmu_src.variables.variables import Variable
 from mbs.scenes import cart_pole
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema"

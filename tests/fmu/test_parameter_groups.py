@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 import mbs
-from fmu_src import probe as module
-from fmu_src.parameter_groups import parameter_groups
-from fmu_src.probe import probe
-from fmu_src.variables import Variable, variable_table
+from fmu_src.description import probe as module
+from fmu_src.description.parameter_groups import parameter_groups
+from fmu_src.description.probe import probe
+from fmu_src.variables.variables import Variable, variable_table
 from mbs.elements import EndStops, PlaneRoad
 from mbs.kernel.binding import Instance, LoadedSystem
 

@@ -15,7 +15,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
 
 import mbs
-from fmu_src.build import build_fmu
+from fmu_src.build.build import build_fmu
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads import RoadFile, write_road
 from mbs.roads.shipped import FOLDER

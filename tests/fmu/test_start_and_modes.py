@@ -10,7 +10,7 @@ import fmpy
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
+from fmu_src.build.build import build_fmu
 from mbs.kernel.binding import Status
 from tests.simulation.loops import suspension
 from tests.simulation.scenes_in_equilibrium import MASS, STIFFNESS, hanging

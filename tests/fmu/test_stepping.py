@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import mbs
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.scene_registry import load_scene
 
 SCENES = Path(__file__).parent / "scenes.py"
 OK, WARNING, DISCARD, ERROR = range(4)

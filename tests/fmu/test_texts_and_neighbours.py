@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import SceneError, load_scene
-from fmu_src.texts import check_texts
-from fmu_src.variables import Variable
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import SceneError, load_scene
+from fmu_src.variables.texts import check_texts
+from fmu_src.variables.variables import Variable
 
 SCENE = """
 import mbs

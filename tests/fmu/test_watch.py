@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar
 
@@ -81,7 +81,9 @@ def test_all_kinds_say_the_same(build: Callable[..., Path], host: HostMaker, nee
     assert np.isfinite(ends[0][1]).all()
 
 
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one body a bar bends by 0.05 rad, as warned
+@pytest.mark.filterwarnings(
+    "ignore::mbs.simulation.large_bending.BendingWarning"
+)  # one body a bar bends by 0.05 rad, as warned
 @pytest.mark.parametrize("kind", ["native", "python"])
 def test_a_changed_assembly_mode_is_reported_once(
     tmp_path: Path, host: HostMaker, kind: str, need: Callable[[str], None]

@@ -9,8 +9,8 @@ from typing import Any
 import fmpy
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.variables import variable_table
+from fmu_src.build.build import build_fmu
+from fmu_src.variables.variables import variable_table
 
 SCENES = Path(__file__).parent / "scenes.py"
 HostMaker = Callable[..., Any]

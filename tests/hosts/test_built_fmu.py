@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from hosts import built_fmu
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.fmu import built_fmu
 
 # Stands in for the builder, which needs half a minute: an FMU with the text of the car file.
 BUILD = """

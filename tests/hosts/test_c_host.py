@@ -8,9 +8,9 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts.fmu import Fmu
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from hosts.fmu.fmu import Fmu
 from tests.fmu.native import compile_host, unpack
 
 HERE = Path(__file__).parent

@@ -12,9 +12,9 @@ import pytest
 from fmpy.util import read_csv
 
 import mbs
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts.load_manoeuvre import load_manoeuvre
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from hosts.recordings.load_manoeuvre import load_manoeuvre
 from mbs.simulation import Pose
 
 ROOT = Path(__file__).parents[2]
@@ -39,7 +39,7 @@ def car(tmp_path_factory: pytest.TempPathFactory) -> tuple[mbs.System, Path]:
 
 def drive(car: tuple[mbs.System, Path], manoeuvre: str, folder: Path, step: float = STEP) -> tuple[np.ndarray, str]:
     """Results and what the command printed; every step must have been accepted, without a word from the FMU."""
-    command = [sys.executable, "-m", "hosts.drive", str(car[1]), "--manoeuvre", manoeuvre]
+    command = [sys.executable, "-m", "hosts.run.drive", str(car[1]), "--manoeuvre", manoeuvre]
     command += ["--step", str(step), "--out", str(folder)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -1,4 +1,4 @@
-"""`python -m hosts.check`: good FMUs pass, spoilt ones are named, other files are errors."""
+"""`python -m hosts.check.command`: good FMUs pass, spoilt ones are named, other files are errors."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts.check import main
-from hosts.fmu_checks.instance import Instance, open_subject
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from hosts.check.command import main
+from hosts.check.instance import Instance, open_subject
 
 ROOT = Path(__file__).parents[2]
 CHECKS = 26
@@ -27,7 +27,7 @@ def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 
 def check(fmu: Path) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "hosts.check", str(fmu), "--steps", "10"]
+    command = [sys.executable, "-m", "hosts.check.command", str(fmu), "--steps", "10"]
     return subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
 
 

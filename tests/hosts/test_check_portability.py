@@ -1,4 +1,4 @@
-"""What was found wrong with FMUs once is found again by `hosts.check` where it is put back in."""
+"""What was found wrong with FMUs once is found again by `hosts.check.command` where it is put back in."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 from mbs.kernel import build
 
 ROOT = Path(__file__).parents[2]
@@ -29,7 +29,7 @@ def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 def findings(fmu: Path) -> dict[str, str]:
     """Verdict and words of each check."""
-    command = [sys.executable, "-m", "hosts.check", str(fmu), "--steps", "5"]
+    command = [sys.executable, "-m", "hosts.check.command", str(fmu), "--steps", "5"]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
     lines = [line for line in done.stdout.splitlines() if line[:4].strip() in ("ok", "note", "BAD")]
     return {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in lines}

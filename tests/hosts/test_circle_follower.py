@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from hosts.pilots.circle_follower import CircleFollower
+from hosts.driving.pilots.circle_follower import CircleFollower
 
 
 def drive(radius: float, yaw: float = 0.3, gain: float = 1.2, seconds: float = 30.0, step: float = 0.01) -> np.ndarray:

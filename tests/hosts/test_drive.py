@@ -13,8 +13,8 @@ import pytest
 from fmpy.util import read_csv
 from matplotlib import image
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -24,7 +24,7 @@ TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1
 
 def drive(*arguments: object) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-m", "hosts.drive", *map(str, arguments)],
+        [sys.executable, "-m", "hosts.run.drive", *map(str, arguments)],
         capture_output=True,
         text=True,
         check=False,
@@ -159,7 +159,7 @@ def test_a_full_disk_leaves_no_table(fmus: dict[str, Path], turn: Path, tmp_path
     start = (
         "import resource, signal, sys; signal.signal(signal.SIGXFSZ, signal.SIG_IGN);"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (1_000_000, 1_000_000));"
-        "from hosts.drive import main; sys.exit(main())"
+        "from hosts.run.drive import main; sys.exit(main())"
     )
     out = tmp_path / "out"
     command = [sys.executable, "-c", start, fmus["sledge"], "-m", turn, "--step", "2e-4", "--out", out]

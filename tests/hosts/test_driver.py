@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from hosts.course import iso_3888_1, iso_3888_2
-from hosts.driver import CONSTANTS, DriverSettings, make_driver
-from hosts.errors import HostError
-from hosts.load_manoeuvre import load_manoeuvre
+from hosts.common.errors import HostError
+from hosts.driving.course import iso_3888_1, iso_3888_2
+from hosts.driving.driver import CONSTANTS, DriverSettings, make_driver
+from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 SETTINGS = {"course": "iso_3888_1", "speed": "15"}
 CAR = {"vehicle.wheelbase": 2.3, "vehicle.front_wheel_angle_max": 0.525, "vehicle.length": 3.2, "vehicle.width": 1.5}

@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 
 from ali3 import html
-from fmu_src.build import build_fmu
-from fmu_src.documentation import documentation
-from fmu_src.scene_registry import load_scene
-from fmu_src.variables import Variable
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from fmu_src.description.documentation import documentation
+from fmu_src.variables.variables import Variable
 from hosts import page, view
 from hosts.catalogue.report import write_report
 from hosts.compare.command import main as compare

@@ -8,10 +8,10 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_fidelities
-from hosts import kerb
-from hosts.low_pass import low_pass
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_fidelities
+from hosts.measures.low_pass import low_pass
+from hosts.run import kerb
 
 PLATFORM = fmpy.platform
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from fmpy.util import read_csv
 
-from hosts.errors import HostError
-from hosts.load_manoeuvre import load_manoeuvre
-from hosts.manoeuvre import FOLDER, manoeuvre_names, with_names_of
+from hosts.common.errors import HostError
+from hosts.driving.manoeuvre import FOLDER, manoeuvre_names, with_names_of
+from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 GOOD = '"time","steering","throttle"\n0,0,0\n1,0,0\n1,0.5,1\n2,0.5,0\n'
 

@@ -14,9 +14,9 @@ from typing import Any
 import fmpy
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts import page
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from hosts.view import page
 
 SCENE = "resources/geometry.json"
 SCENES = Path(__file__).parent / "scenes.py"

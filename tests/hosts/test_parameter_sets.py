@@ -23,15 +23,15 @@ from pyssp_standard.standard import ModelicaStandard
 import mbs
 from ali3.errors import UserError
 from ali3.parameter_set import UnitDefinition, is_as_built, read_parameter_set, write_parameter_set
-from fmu_src.build import FmuBuilder, build_fmu
-from fmu_src.car_registry import build_car
-from fmu_src.parameter_file import write_beside
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import FmuBuilder, build_fmu
+from fmu_src.build.car_registry import build_car
+from fmu_src.build.parameter_file import write_beside
+from fmu_src.build.scene_registry import load_scene
 from hosts import drive, parameters, run
-from hosts.errors import HostError
-from hosts.fmu import Fmu
-from hosts.settings import Settings
-from hosts.variables import Variables
+from hosts.common.errors import HostError
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.settings import Settings
+from hosts.fmu.variables import Variables
 
 HERE = Path(__file__).parent
 PLATFORM = fmpy.platform

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hosts.errors import HostError
-from hosts.pilots.pilot import Together
-from hosts.pilots.speed_holder import SpeedHolder
-from hosts.pilots.steering import ConstantSteering, SteeringTable
+from hosts.common.errors import HostError
+from hosts.driving.pilots.pilot import Together
+from hosts.driving.pilots.speed_holder import SpeedHolder
+from hosts.driving.pilots.steering import ConstantSteering, SteeringTable
 
 
 def hold(pilot: SpeedHolder, start: float, seconds: float, push: float = 4.0, step: float = 0.01) -> np.ndarray:

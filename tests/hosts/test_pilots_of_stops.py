@@ -8,12 +8,12 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from hosts.course import COURSES
-from hosts.pilots.braking import Braking
-from hosts.pilots.course_from_here import CourseFromHere
-from hosts.pilots.fixed_steering import FixedSteering
-from hosts.pilots.line_follower import LineFollower
-from hosts.planned_course import planned
+from hosts.driving.course import COURSES
+from hosts.driving.pilots.braking import Braking
+from hosts.driving.pilots.course_from_here import CourseFromHere
+from hosts.driving.pilots.fixed_steering import FixedSteering
+from hosts.driving.pilots.line_follower import LineFollower
+from hosts.driving.planned_course import planned
 
 
 class Wave:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hosts.course import COURSES, Course, Gate
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.driving.course import COURSES, Course, Gate
+from hosts.driving.planned_course import planned
 from hosts.measures.clearance import clearance
-from hosts.planned_course import planned
 
 LENGTH, WIDTH = 4.2, 1.8
 

@@ -14,13 +14,13 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts.co_simulation import run
-from hosts.fmu import Fmu, StepRefusedError
-from hosts.load_manoeuvre import load_manoeuvre
-from hosts.simulator.recorded_drive import read_recording
-from hosts.simulator.replay import replay
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from hosts.driving.co_simulation import run
+from hosts.fmu.fmu import Fmu, StepRefusedError
+from hosts.recordings.load_manoeuvre import load_manoeuvre
+from hosts.recordings.recorded_drive import read_recording
+from hosts.recordings.replay import replay
 from hosts.soak import drive as drive_module
 from hosts.soak.checks import BadStepError, Watch
 from hosts.soak.command import main

@@ -9,8 +9,8 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build import build_fmu
-from hosts.fmu import Fmu
+from fmu_src.build.build import build_fmu
+from hosts.fmu.fmu import Fmu
 from mbs import Pose, Simulation, System, compile
 from tests.vehicle.column_car import column_car
 

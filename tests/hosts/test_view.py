@@ -17,10 +17,10 @@ import numpy as np
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_fidelities, load_scene
-from hosts import view
-from hosts.run import main as run_fmu
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_fidelities, load_scene
+from hosts.run.run import main as run_fmu
+from hosts.view import view
 from tests.viewer.test_page_text import data_of, numbers
 from viewer import browser
 from viewer.browser import BrowserError, find_chromium
@@ -266,7 +266,7 @@ def test_one_time_and_values_that_are_no_numbers(result: Path, said: Said) -> No
 def test_a_table_that_would_fill_the_memory_is_read_in_part(
     result: Path, said: Said, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from hosts import recorded
+    from hosts.view import recorded
 
     monkeypatch.setattr(recorded, "_FEWEST_ROWS", 11)
     monkeypatch.setattr(recorded, "_MOST_VALUES", 0)

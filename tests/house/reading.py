@@ -9,7 +9,7 @@ from pathlib import Path
 
 import grimp
 
-from ali3.command import COMMANDS
+from ali3.commands import COMMANDS
 from tests.house.test_circles import FACADES, PACKAGES, ROOT
 
 

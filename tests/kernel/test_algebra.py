@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbs.kernel.binding import Instance, LoadedSystem
-from mbs.settings import Settings
+from mbs.settings.settings import Settings
 
 from .scenes import everything, four_bar
 from .system_builder import Element, Row, SystemBuilder, distance_row

@@ -9,7 +9,7 @@ import pytest
 
 from mbs.kernel.binding import ControlFields, Instance, KernelError, LoadedSystem, Status
 from mbs.kernel.header import GuideType
-from mbs.methods import METHOD_TABLE
+from mbs.settings.methods import METHOD_TABLE
 
 from .scenes import everything, four_bar, pendulum
 from .system_builder import Row, SystemBuilder

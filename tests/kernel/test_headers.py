@@ -8,7 +8,6 @@ import shutil
 
 import pytest
 
-from mbs import accuracy
 from mbs.kernel import header, read_headers
 from mbs.kernel.binding import library, load_library
 from mbs.kernel.header import (
@@ -23,8 +22,9 @@ from mbs.kernel.header import (
     SolverValue,
     Status,
 )
-from mbs.methods import METHOD_TABLE
-from mbs.settings import METHODS, Settings
+from mbs.results import accuracy
+from mbs.settings.methods import METHOD_TABLE
+from mbs.settings.settings import METHODS, Settings
 
 
 def test_the_python_side_is_what_the_headers_say():

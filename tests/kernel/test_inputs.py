@@ -10,7 +10,7 @@ import pytest
 
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
 from mbs.kernel.header import ElementType
-from mbs.methods import METHOD_TABLE
+from mbs.settings.methods import METHOD_TABLE
 
 from .system_builder import Element, SystemBuilder
 

@@ -13,7 +13,7 @@ from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.kernel.header import SensorType, SolverValue
 from mbs.kernel.read_headers import SensorEntry, sensor_types
 from mbs.scenes import bricard, spatial_chain
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 from tests.methods.models import hinge
 
 from .scenes import everything, four_bar, sleigh

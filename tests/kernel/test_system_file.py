@@ -11,7 +11,7 @@ import pytest
 
 import mbs
 from mbs.kernel.binding import KernelError, LoadedSystem
-from mbs.system import System, SystemFileError
+from mbs.system.system import System, SystemFileError
 
 
 def model() -> mbs.Model:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import root
 
 from mbs.kernel.binding import Instance, LoadedSystem, Status
-from mbs.settings import Settings
+from mbs.settings.settings import Settings
 from tests.methods.rolling_models import ROLLING
 
 from .scenes import sleigh

@@ -6,7 +6,7 @@ import numpy as np
 
 from benchmarks.methods.kernel_methods import POSITIONS_ONLY, TREE_ONLY
 from mbs import Model
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 
 ROLLING = [method for method in METHODS if method not in (*TREE_ONLY, *POSITIONS_ONLY)]  # the others refuse them
 

@@ -7,7 +7,7 @@ import pytest
 
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import double_four_bar
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 from tests.methods.models import hinge, swing
 
 REFUSED = "takes no element states"

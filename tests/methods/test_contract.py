@@ -8,8 +8,8 @@ import pytest
 from benchmarks.references.cases import system_of
 from mbs import Model, compile, simulate
 from mbs.kernel.binding import ControlFields, Instance, KernelError, LoadedSystem, Status
-from mbs.methods import METHOD_TABLE
-from mbs.settings import METHODS
+from mbs.settings.methods import METHOD_TABLE
+from mbs.settings.settings import METHODS
 
 H, GOOD_STEPS = 0.005, 7
 

@@ -8,7 +8,7 @@ from benchmarks.methods.honesty_scenes import printed_model
 from benchmarks.references.cases import CASES, system_of
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import cart_pole
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 from tests.simulation.scenes import pendulum
 
 H = 1e-4

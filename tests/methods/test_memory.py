@@ -12,7 +12,7 @@ import pytest
 from mbs import Model, compile
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
 from mbs.scenes import bricard, double_four_bar, prototype_car, spatial_chain
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 from tests.methods.rolling_models import sleigh
 from tests.methods.trees import branching
 

@@ -11,7 +11,7 @@ import pytest
 
 from mbs import Settings, Simulation, compile, simulate
 from mbs.scenes import prototype_car
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 from tests.methods.closed_forms import QUANTITIES, arm, chirp, rod
 
 PAGE = Path(__file__).parents[2] / "docs" / "speed_and_accuracy.md"

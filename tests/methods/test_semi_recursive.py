@@ -10,7 +10,7 @@ from scipy.special import ellipk
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.scenes import bricard, double_four_bar, flyball, prototype_car, spatial_chain
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 from tests.methods.models import driven
 from tests.methods.trees import GRAVITY, branching, carriage, double_pendulum, measured, pendulum, random_tree
 

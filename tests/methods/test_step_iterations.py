@@ -11,7 +11,7 @@ import mbs
 from mbs.elements import GridRoad
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
 from mbs.scenes import cart_pole, double_four_bar, prototype_car
-from mbs.settings import LIMITED, Settings
+from mbs.settings.settings import LIMITED, Settings
 
 H = 0.005
 DEEP = 30

@@ -8,7 +8,7 @@ import pytest
 from benchmarks.methods.kernel_methods import TREE_ONLY
 from mbs import Model, ModelError, Settings, Simulation, compile
 from mbs.scenes import puma
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 
 H = 0.005
 TIP = (1.0, 1.0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbs import Model, ModelError, Settings, Simulation, compile, simulate
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 from tests.methods.models import assert_saved_state_continues, driven, swing, triangle
 
 QUIET = {"progress": False, "estimate_error": False}

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import PPoly
 
 from mbs import Model, ModelError, Settings, Simulation, compile, simulate
-from mbs.settings import METHODS
+from mbs.settings.settings import METHODS
 from tests.flexible_engine.bodies import bar
 
 G = 9.81

@@ -250,7 +250,7 @@ def test_a_refused_road_leaves_the_old_file(tmp_path):
     (tmp_path / "a.road").write_text("older")
     given = [str(tmp_path / "a.csv"), str(tmp_path / "a.road"), "--spacing", "1", "1"]
     done = subprocess.run(
-        [sys.executable, "-m", "mbs.roads.command", *given], capture_output=True, text=True, check=False
+        [sys.executable, "-m", "mbs.worlds.road_command", *given], capture_output=True, text=True, check=False
     )
     assert done.returncode == 2
     assert "it must lie between -100000 and 100000 m" in done.stderr

@@ -7,7 +7,7 @@ import pytest
 from scipy.interpolate import PPoly
 
 import mbs
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.elements import PlaneRoad, Tyre, TyreCurve
 from mbs.roads import RoadFile, read_road, write_road
 from mbs.scenes import prototype_car

@@ -7,8 +7,8 @@ import pytest
 
 from benchmarks.references.assembly_defect import COMPONENTS, reference
 from mbs import simulate
+from mbs.common.errors import ModelError
 from mbs.compiler import compile
-from mbs.errors import ModelError
 from mbs.model import Model
 from mbs.scenes import assembly_defect_four_bar as scene
 
@@ -24,7 +24,9 @@ def _gaps(parts: int, end: float) -> dict[str, float]:
     return {c: float(np.max(np.abs(run[f"coupler.{c}"] - expected[c][:n]))) for c in COMPONENTS}
 
 
-@pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")  # one body a bar bends by 0.05 rad, as warned
+@pytest.mark.filterwarnings(
+    "ignore::mbs.simulation.large_bending.BendingWarning"
+)  # one body a bar bends by 0.05 rad, as warned
 def test_one_body_per_bar_over_the_whole_time() -> None:
     largest = max(np.max(np.abs(v)) for c, v in reference().items() if c != "t")
     assert 9.0 < largest < 9.3

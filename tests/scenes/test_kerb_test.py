@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks.car import fidelity_runs
-from hosts.low_pass import low_pass
+from hosts.measures.low_pass import low_pass
 from mbs import Simulation, compile
 from mbs.scenes import kerb_test
 from mbs.vehicle import load

@@ -196,7 +196,7 @@ def test_wild_driving_longer(road, h):
 
 
 @pytest.mark.filterwarnings(
-    "ignore::mbs.large_bending.BendingWarning"
+    "ignore::mbs.simulation.large_bending.BendingWarning"
 )  # kerbs that bend the frame by 0.1 rad, as warned
 @pytest.mark.parametrize(
     ("fidelity", "seeds"),

@@ -216,7 +216,7 @@ def test_a_beam_that_bends_is_drawn_where_its_nodes_are():
     last = system.scene["flexible"][-1]
     modes = np.frombuffer(base64.b64decode(last["modes"]), "<f4").reshape(len(last["nodes"]), 3, -1)
     columns = run.recording().columns
-    from mbs.drawing import matrices
+    from mbs.system.drawing import matrices
 
     amplitudes = np.column_stack([columns[name] for name in last["amplitudes"]])
     local = np.array(last["nodes"][-1]) + amplitudes @ modes[-1].T
@@ -292,8 +292,8 @@ def test_a_scene_is_a_copy():
 def test_damaged_drawings_are_refused():
     import json
 
-    from mbs.drawing import Drawing
-    from mbs.system import SystemFileError
+    from mbs.system.drawing import Drawing
+    from mbs.system.system import SystemFileError
 
     system = mbs.compile(pendulum.build())
     content = json.loads(system.drawing.to_bytes())

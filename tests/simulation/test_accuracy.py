@@ -12,7 +12,7 @@ import mbs
 from benchmarks.methods.honesty_scenes import CRANK_ANGLE, SCENES, printed_model
 from benchmarks.references.cases import CASES, exact_of, system_of
 from mbs import AccuracyWarning, Model, Pose, Settings, Simulation, SimulationError, compile, simulate
-from mbs.accuracy import Accuracy, divisor, judged_sensors
+from mbs.results.accuracy import Accuracy, divisor, judged_sensors
 from mbs.scenes import prototype_car
 from mbs.simulation import fixed_steps
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mbs
-from mbs import poses as poses_module
+from mbs.results import poses as poses_module
 from mbs.scenes import bicycle, double_four_bar, pendulum
 from viewer.errors import ViewerError
 

@@ -26,7 +26,7 @@ from mbs.scenes import (
 from .loops import four_bar, suspension
 
 # one flexible body a bar bends too far, as warned: here branches count
-pytestmark = pytest.mark.filterwarnings("ignore::mbs.large_bending.BendingWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.BendingWarning")
 simulate = partial(mbs.simulate, estimate_error=False)  # what the step costs is not asked here
 GRASHOF = (0.4, 0.1, 0.35, 0.3)  # m: the crank turns round, the rocker keeps its side
 
@@ -161,7 +161,7 @@ def test_the_sensor_of_the_status_tells_it_from_then_on() -> None:
     assert np.all(run["solver.status"][~after] == 0.0)
 
 
-@pytest.mark.filterwarnings("ignore::mbs.accuracy.AccuracyWarning")  # steps long for what they show
+@pytest.mark.filterwarnings("ignore::mbs.results.accuracy.AccuracyWarning")  # steps long for what they show
 def test_the_first_change_is_the_one_that_is_told(thrown: System) -> None:
     """It comes back and turns over again: the count goes on, loop, triad and time are those of the first."""
     simulation, told = Simulation(thrown), {}

@@ -9,8 +9,8 @@ import pytest
 from scipy.optimize import brentq
 
 import mbs
+from mbs.common.errors import ModelError
 from mbs.elements import ContactPoints, EndStops, GridRoad, KerbRoad, PlaneRoad
-from mbs.errors import ModelError
 
 G, MASS, HALF, HEIGHT = 9.81, 40.0, (0.3, 0.2), 0.1
 MU = 0.4

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbs import Model, Simulation, compile, simulate
-from mbs.input_signals import InputSignals
+from mbs.settings.input_signals import InputSignals
 
 DECLARED = [
     {"name": "steering", "unit": "1", "min": -1.0, "max": 1.0},

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import mbs
-from mbs import poses as poses_module
-from mbs.drawing import matrices, twist
+from mbs.results import poses as poses_module
 from mbs.scenes import bicycle, flyball, pendulum, prototype_car, puma, spatial_chain
+from mbs.system.drawing import matrices, twist
 
 
 def swinging(dimension: int = 3) -> mbs.Model:

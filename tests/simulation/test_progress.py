@@ -6,7 +6,7 @@ import io
 
 import pytest
 
-from mbs.progress import DELAY, Progress, progress_for
+from mbs.common.progress import DELAY, Progress, progress_for
 
 
 def bar_after(seconds, delay=DELAY):

@@ -7,7 +7,7 @@ import dataclasses
 import pytest
 
 from mbs.kernel.binding import Instance, LoadedSystem
-from mbs.settings import Settings
+from mbs.settings.settings import Settings
 from tests.simulation.scenes import pendulum
 
 

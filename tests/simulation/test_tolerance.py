@@ -15,7 +15,7 @@ from benchmarks.car.manoeuvres import inputs_of, load, start_of
 from benchmarks.car.manoeuvres import system_of as car_of
 from benchmarks.methods.honesty_scenes import CRANK_ANGLE, printed_model
 from benchmarks.references.cases import CASES, exact_of, system_of
-from mbs.accuracy import AccuracyWarning
+from mbs.results.accuracy import AccuracyWarning
 
 ALLOWED = 10.0
 

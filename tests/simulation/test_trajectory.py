@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs.trajectory import Trajectory
+from mbs.results.trajectory import Trajectory
 
 SEED = 20240311
 

@@ -11,7 +11,7 @@ import fmpy
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
+from fmu_src.build.build import build_fmu
 from mbs.vehicle import load
 from tests.changed_parameters import SAME, Change, changes
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbs import Pose, Simulation, System, compile
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.shapes.pose_outputs import pose_outputs
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.car_file import CarFileError

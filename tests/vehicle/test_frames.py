@@ -9,7 +9,7 @@ import pytest
 import scipy.sparse as sp
 
 import mbs
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible import natural_modes
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.car_file import CarFileError

@@ -12,7 +12,7 @@ import pytest
 
 from benchmarks.car.frame_stiffness import stiffness
 from mbs import Simulation, System, Trajectory, compile
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible import natural_modes
 from mbs.scenes import kerb_test
 from mbs.shapes.pose_outputs import pose_outputs

@@ -15,11 +15,11 @@ import numpy as np
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_fidelities, load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_fidelities, load_scene
 from hosts import page, run
-from hosts.fmu import Fmu
-from hosts.geometry import scene_of
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.geometry import scene_of
 from mbs.scenes import prototype_car
 from tests.in_browser import wait_until
 from viewer.browser import BrowserError, find_chromium, launch_arguments
@@ -294,7 +294,7 @@ def test_a_browser_that_lacks_a_part_says_so(reach: Path, chromium: Any, tmp_pat
 
 def test_the_command_as_a_program(reach: Path, tmp_path: Path) -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "hosts.page", str(reach), "--out", str(tmp_path)], capture_output=True, text=True
+        [sys.executable, "-m", "hosts.view.page", str(reach), "--out", str(tmp_path)], capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
     assert "SprungReach.html: " in done.stdout

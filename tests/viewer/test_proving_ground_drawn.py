@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbs.roads import world_command
+from mbs.worlds import command as world_command
 from tests.viewer.test_drawing import at, ball, scene
 
 MOST_CALLS, MOST_TRIANGLES = 200, 1_500_000

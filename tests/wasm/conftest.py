@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
-from fmu_src.car_registry import build_car
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.car_registry import build_car
+from fmu_src.build.scene_registry import load_scene
 from mbs.elements import GridRoad
 from mbs.roads import write_road
 from mbs.scenes import prototype_car

@@ -21,10 +21,10 @@ from wasm_hosts import Fmu, Plan, assert_same, native, wasmtime
 import build_fmu
 from ali3.running import module_command
 from benchmarks.shared.fmu_module import FmuModule
-from fmu_src.build import build_fmu as build
+from fmu_src.build.build import build_fmu as build
+from fmu_src.build.scene_registry import load_scene
 from fmu_src.native.sources import packed_sources
-from fmu_src.scene_registry import load_scene
-from hosts.check import main as check
+from hosts.check.command import main as check
 from mbs.elements import GridRoad
 from mbs.kernel import build as kernel_build
 from mbs.kernel.binding import load_library
@@ -169,7 +169,7 @@ def test_an_fmu_is_compiled_again_from_its_own_sources(bare: Path, small: Callab
     with zipfile.ZipFile(bare) as before, zipfile.ZipFile(out / "Crane.fmu") as after:
         assert {n: after.read(n) for n in before.namelist()} == {n: before.read(n) for n in before.namelist()}
     again = ["--fmu", str(out / "Crane.fmu"), "--platforms", "wasm32", "--out", str(out)]
-    done = subprocess.run(module_command("fmu_src.build_command", *again), capture_output=True, text=True, check=True)
+    done = subprocess.run(module_command("fmu_src.build.command", *again), capture_output=True, text=True, check=True)
     assert done.stdout.endswith("added: nothing\n")
 
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from wasm_hosts import Chromium, Driven, Fmu, Plan, assert_same, native, node, wasmtime
 
-from hosts.fmu import described
-from hosts.options import Wishes
-from hosts.settings import settings_of
-from hosts.variables import Variables
+from hosts.common.options import Wishes
+from hosts.fmu.fmu import described
+from hosts.fmu.settings import settings_of
+from hosts.fmu.variables import Variables
 
 H = 0.002
 HOSTS = [pytest.param(wasmtime, id="wasmtime"), pytest.param(node, id="node")]

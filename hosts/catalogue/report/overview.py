@@ -12,11 +12,11 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.report.elements import Content, element, table
 from hosts.catalogue.report.numbers import NONE, bounds, difference, unit_shown, with_unit
-from hosts.errors import HostError
-from hosts.fmu import described
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.fmu import described
+from hosts.fmu.variables import Variables
 from hosts.measures.measure import Measure
-from hosts.numbers import Value
-from hosts.variables import Variables
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement

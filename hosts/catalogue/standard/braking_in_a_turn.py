@@ -12,10 +12,10 @@ from hosts.catalogue.ends import Ends
 from hosts.catalogue.preparation import early_end, held, with_step_up_to
 from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
 from hosts.catalogue.turn_braking_measures import STEADY, Stop, measures_of, plots_of
-from hosts.errors import HostError
-from hosts.pilots.braking import Braking
-from hosts.pilots.circle_follower import CircleFollower
-from hosts.pilots.fixed_steering import FixedSteering
+from hosts.common.errors import HostError
+from hosts.driving.pilots.braking import Braking
+from hosts.driving.pilots.circle_follower import CircleFollower
+from hosts.driving.pilots.fixed_steering import FixedSteering
 
 STEP = 0.005  # s; the yaw acceleration is a difference over some of them
 ON_CIRCLE = 12.0  # s, after which the steering is fixed

@@ -13,13 +13,13 @@ from hosts.catalogue.ends import Ends
 from hosts.catalogue.lane_change_measures import Passage, measures_of, plots_of
 from hosts.catalogue.preparation import held, with_step_up_to
 from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
-from hosts.course import COURSES, Course
-from hosts.errors import HostError
-from hosts.pilots.course_follower import CourseFollower, DriverSettings
-from hosts.pilots.course_from_here import CourseFromHere
-from hosts.pilots.line_follower import LineFollower
-from hosts.pilots.pilot import Pilot
-from hosts.planned_course import planned
+from hosts.common.errors import HostError
+from hosts.driving.course import COURSES, Course
+from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
+from hosts.driving.pilots.course_from_here import CourseFromHere
+from hosts.driving.pilots.line_follower import LineFollower
+from hosts.driving.pilots.pilot import Pilot
+from hosts.driving.planned_course import planned
 
 STEP = 0.005  # s, in which the driver holds the steering
 SETTLED = 1.0  # s, of driving straight before the course is laid out

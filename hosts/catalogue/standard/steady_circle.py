@@ -14,9 +14,9 @@ from hosts.catalogue.circle_run import CONSTANT_ANGLE, CONSTANT_RADIUS, CONSTANT
 from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
 from hosts.catalogue.steering import NEED
 from hosts.catalogue.steering_ratio import RATIO, WHEELS, steering_ratio
+from hosts.driving.pilots.circle_follower import SENSES
 from hosts.measures.gradient import Gradient, gradient
 from hosts.measures.measure import Measure
-from hosts.pilots.circle_follower import SENSES
 
 _GRAVITY = 9.80665
 _SIDES = {"left": 1.0, "right": -1.0}

@@ -8,7 +8,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.devices.calibration import Assignment, Calibration
 from hosts.simulator.devices.device import Device
 from hosts.simulator.devices.mapping import DeviceMapping, drivable, read_input, read_settings

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.devices.force import FULL, ForceLaw
 from hosts.simulator.devices.mapping import DeviceSettings
 from hosts.simulator.devices.motor import Motor

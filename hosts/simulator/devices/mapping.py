@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.devices.reading import Reading, Source
 
 CENTRED = ("steering",)

@@ -12,7 +12,7 @@ import tomli_w
 from platformdirs import user_config_path
 
 from ali3.files import reason, whole_file
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.devices.mapping import DeviceMapping, read_input, read_settings
 
 FORMAT, VERSION = "ALi3 device", 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from typing import Any
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.devices.sdl import last_error
 
 _MOST_COEFFICIENT = 32767

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ali3.errors import UserError
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.devices import sdl as sdl_library
 from hosts.simulator.devices.defaults import default_mapping
 from hosts.simulator.devices.device import Device

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 
 WAYS = {"up": 1, "right": 2, "down": 4, "left": 8}
 """Bits of a hat, as SDL has them."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from typing import Any
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 
 _HINTS = {
     "SDL_NO_SIGNAL_HANDLERS": "1",  # else SDL takes Ctrl+C and SIGTERM away from the program

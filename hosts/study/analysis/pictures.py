@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from ali3.files import whole_file
-from hosts.result_plots import save_picture
+from hosts.run.result_plots import save_picture
 from hosts.study.analysis.page import picture
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
-from hosts.result_plots import BLUE, ORANGE, RED
+from hosts.run.result_plots import BLUE, ORANGE, RED
 from hosts.study.analysis.data import Response, StudyData
 from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.panels import WIDTH

@@ -12,10 +12,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from hosts.co_simulation import Result
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.driving.co_simulation import Result
 from hosts.measures.measure import Measure
-from hosts.numbers import Value
 from hosts.study.measures.grammar import Node, check_form, number_of, signal_name, windows
 from hosts.study.measures.reductions import REDUCTIONS, Array
 from hosts.study.measures.units import unit_of

@@ -6,7 +6,7 @@ import ast
 import math
 from typing import TypeAlias
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.study.measures.reductions import REDUCTIONS
 
 Node: TypeAlias = ast.expr

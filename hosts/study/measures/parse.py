@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Protocol
 
-from hosts.co_simulation import Result
+from hosts.common.numbers import Value
+from hosts.driving.co_simulation import Result
 from hosts.measures.measure import Measure
-from hosts.numbers import Value
 from hosts.study.measures.expression import Expression
 from hosts.study.measures.user_function import UserFunction, read_user_function
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Mapping
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.study.measures.grammar import Node, signal_name
 from hosts.study.measures.reductions import REDUCTIONS
 

@@ -16,10 +16,10 @@ from types import ModuleType
 from typing import Any
 
 from ali3.files import reason
-from hosts.co_simulation import Result
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.driving.co_simulation import Result
 from hosts.measures.measure import Measure
-from hosts.numbers import Value
 from hosts.study.measures.expression import near
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from mbs.affine import Affine
-from mbs.checks import shown
-from mbs.errors import ModelError
+from mbs.common.affine import Affine
+from mbs.common.checks import shown
+from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.coordinate import Coordinate
 from mbs.model.ends import End

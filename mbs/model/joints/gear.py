@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from mbs.checks import not_zero
-from mbs.errors import ModelError
+from mbs.common.checks import not_zero
+from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import AffineVector
-from mbs.checks import Vector, array, is_number
-from mbs.errors import ModelError
+from mbs.common.affine import AffineVector
+from mbs.common.checks import Vector, array, is_number
+from mbs.common.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint, Spin
 from mbs.model.ends import PointPair

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import Affine, AffineVector
-from mbs.checks import direction
-from mbs.errors import ModelError
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import direction
+from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.ends import PointPair, different

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from mbs.checks import not_zero
-from mbs.errors import ModelError
+from mbs.common.checks import not_zero
+from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin

@@ -6,8 +6,8 @@ import math
 
 from numpy.typing import ArrayLike
 
-from mbs.checks import not_zero
-from mbs.errors import ModelError
+from mbs.common.checks import not_zero
+from mbs.common.errors import ModelError
 from mbs.model.angle import relative_angle
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbs.affine import Affine
+from mbs.common.affine import Affine
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate

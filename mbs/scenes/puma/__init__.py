@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.model import Model
+from mbs.results.trajectory import Trajectory
 from mbs.scenes.puma.robot_data import FOREARM_EXCESS, GRAVITY, HAND_POINT, LINKS, STAGES_S, START_DEG, frames
-from mbs.settings import Settings
+from mbs.settings.settings import Settings
 from mbs.simulation import Simulation
-from mbs.system import System
-from mbs.trajectory import Trajectory
+from mbs.system.system import System
 
 PIN = "hand"
 TORQUES = tuple(f"torque.{k}" for k in range(1, 7))

@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import AffineVector
+from mbs.common.affine import AffineVector
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
 from mbs.vehicle.builder import CarBuilder

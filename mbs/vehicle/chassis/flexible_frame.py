@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible import (
     FiniteElementModel,
     InertiaRelief,

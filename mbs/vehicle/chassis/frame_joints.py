@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.vehicle.chassis.attachments import Attachments
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.chassis.section import Chassis

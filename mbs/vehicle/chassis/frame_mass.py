@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible import FiniteElementModel
 from mbs.vehicle.chassis.section import Chassis
 

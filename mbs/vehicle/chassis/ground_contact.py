@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.common.errors import ModelError
 from mbs.elements.contact_points import ContactPoints
-from mbs.errors import ModelError
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.chassis.section import GroundContact
 from mbs.vehicle.environment import GRAVITY

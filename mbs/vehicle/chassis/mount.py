@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.affine import AffineVector
-from mbs.checks import vector
+from mbs.common.affine import AffineVector
+from mbs.common.checks import vector
 from mbs.model.body import Body
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible import Beam, Frame, Material, Section, StrainGauge, tube
 from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
 from mbs.vehicle.chassis.tube_tables import TubeTables

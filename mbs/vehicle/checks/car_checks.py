@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.dimensions import dimension_faults
 from mbs.vehicle.checks.equilibrium import Rest

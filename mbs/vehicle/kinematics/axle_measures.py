@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.affine import AffineVector
+from mbs.common.affine import AffineVector
 from mbs.vehicle.car import Car
 from mbs.vehicle.kinematics.linkage import SIDES, Linkage, Position
 from mbs.vehicle.kinematics.wheel_loads import OWN, wheel_loads

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.checks import instance_of, is_finite, shown
-from mbs.errors import ModelError
+from mbs.common.checks import instance_of, is_finite, shown
+from mbs.common.errors import ModelError
 from mbs.vehicle.car import Car
 from mbs.vehicle.kinematics.curves import Curve, steer_curve, travel_curve
 from mbs.vehicle.kinematics.linkage import Linkage

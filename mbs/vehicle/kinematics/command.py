@@ -46,8 +46,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all numbers")
     options = parser.parse_args(arguments)
-    from mbs.errors import ModelError
-    from mbs.simulation_error import SimulationError
+    from mbs.common.errors import ModelError
+    from mbs.results.simulation_error import SimulationError
 
     return run_command(lambda: _work(options), (ModelError, SimulationError))
 
@@ -56,7 +56,7 @@ def _work(options: argparse.Namespace) -> int:
     import matplotlib  # noqa: F401  # missing, it is told before the work
 
     from ali3.files import check_writable, write_text
-    from mbs.progress import progress_for
+    from mbs.common.progress import progress_for
     from mbs.vehicle.car_file import load
     from mbs.vehicle.kinematics.car_kinematics import MOTIONS, checked_travel, kinematics
     from mbs.vehicle.kinematics.compliance import compliance, fidelity_of

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.checks import instance_of
-from mbs.errors import ModelError
+from mbs.common.checks import instance_of
+from mbs.common.errors import ModelError
 from mbs.vehicle.car import Car
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.kinematics.held_car import HeldCar, HeldWheel

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ali3.files import whole_file
-from mbs.checks import shown
+from mbs.common.checks import shown
 from mbs.vehicle.kinematics.curves import DIRECTIONS, Curve
 from mbs.vehicle.kinematics.quantities import BY_NAME
 

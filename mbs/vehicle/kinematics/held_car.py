@@ -8,15 +8,15 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from mbs.affine import AffineVector
+from mbs.common.affine import AffineVector
+from mbs.common.errors import ModelError
 from mbs.compiler import compile
 from mbs.elements.road import PlaneRoad
-from mbs.errors import ModelError
-from mbs.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
 from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.ends import End
 from mbs.simulation import Simulation
+from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car import Car

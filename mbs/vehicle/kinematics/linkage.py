@@ -19,13 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
-from mbs.affine import AffineVector
+from mbs.common.affine import AffineVector
 from mbs.compiler import compile
 from mbs.elements.road import PlaneRoad
-from mbs.evaluator import RANK_TOLERANCE, Evaluator
 from mbs.model import Model
 from mbs.model.ends import End
 from mbs.simulation import Simulation
+from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car import Car

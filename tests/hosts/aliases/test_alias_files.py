@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hosts.aliases import read_aliases
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.fmu.aliases import read_aliases
 
 NAMES = ("StrAng", "Acc_ped", "X", "Psi", "brake")
 GOOD = """

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from hosts.aliases import Aliases, find_aliases
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import missing_for, perform
 from hosts.catalogue.registry import standard_test
-from hosts.errors import HostError
-from hosts.fmu import described
-from hosts.variables import Variables
+from hosts.common.errors import HostError
+from hosts.fmu.aliases import Aliases, find_aliases
+from hosts.fmu.fmu import described
+from hosts.fmu.variables import Variables
 
 CONSTANTS = {
     "vehicle.steering_wheel_angle_max": 8.0,

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from fmpy import read_model_description
 
-from hosts.aliases import Aliases, find_aliases, shipped_names
 from hosts.catalogue.car import TestedCar
-from hosts.errors import HostError
-from hosts.fmu import described
-from hosts.manoeuvre import Manoeuvre
-from hosts.variables import Variables
+from hosts.common.errors import HostError
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.aliases import Aliases, find_aliases, shipped_names
+from hosts.fmu.fmu import described
+from hosts.fmu.variables import Variables
 
 CONSTANTS = """
 [constants]
@@ -97,7 +97,7 @@ def test_a_wheel_has_them():
     builder = pytest.importorskip("hatchling.builders.wheel").WheelBuilder
     root = Path(__file__).parents[3]
     packed = {file.distribution_path.replace("\\", "/") for file in builder(str(root)).recurse_included_files()}
-    assert {f"hosts/alias_files/{style}.toml" for style in STYLES} <= packed
+    assert {f"hosts/fmu/alias_files/{style}.toml" for style in STYLES} <= packed
     assert "hosts/catalogue/report/page.css" in packed
 
 

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hosts.aliases import Aliases
 from hosts.catalogue.car import CarFacts, Pilot
-from hosts.co_simulation import Result
-from hosts.manoeuvre import Manoeuvre
+from hosts.driving.co_simulation import Result
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.aliases import Aliases
 
 INPUTS = ("steering_wheel_angle_demand", "throttle", "brake")
 OUTPUTS = (

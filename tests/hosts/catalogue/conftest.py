@@ -7,8 +7,8 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 from hosts.catalogue.car import TestedCar
 
 

@@ -13,8 +13,8 @@ from hosts.catalogue.perform import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.standard import braking_in_a_turn
 from hosts.catalogue.turn_braking_measures import Stop, measures_of
-from hosts.co_simulation import Result
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.driving.co_simulation import Result
 
 FEW = {"levels": 2.0, "pedal": 0.3, "deceleration": 4.0}
 

@@ -61,8 +61,8 @@ def test_a_test_that_cannot_be_done_is_a_row_with_its_reason(
 ) -> None:
     import fmpy
 
-    from fmu_src.build import build_fmu
-    from fmu_src.scene_registry import load_scene
+    from fmu_src.build.build import build_fmu
+    from fmu_src.build.scene_registry import load_scene
 
     name, system = load_scene(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
     fmu = build_fmu(system, name, tmp_path, [fmpy.platform])

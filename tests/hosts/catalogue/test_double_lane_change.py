@@ -14,9 +14,9 @@ from hosts.catalogue.perform import missing_for, perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.standard import double_lane_change
 from hosts.catalogue.standard.double_lane_change import _LAYOUTS, DRIVERS, limit
-from hosts.co_simulation import Result
-from hosts.course import Course, Gate
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.driving.co_simulation import Result
+from hosts.driving.course import Course, Gate
 
 OBSTACLE = {"course": 2.0, "lowest": 60.0, "highest": 80.0, "increment": 10.0, "resolution": 5.0}
 LANE = Course("lane", (Gate(10.0, 30.0, -1.5, 1.5),))

@@ -13,7 +13,7 @@ from hosts.catalogue.dwell_series import amplitudes, processed, table
 from hosts.catalogue.perform import perform
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.steered_run import Pedals, steer
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.measures.slowly_increasing_steer import G
 from tests.hosts.catalogue.bicycle import BicycleCar, bicycle, gains
 

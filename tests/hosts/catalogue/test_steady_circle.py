@@ -10,7 +10,7 @@ import pytest
 from hosts.catalogue.perform import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.standard.steady_circle import TEST
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from tests.hosts.catalogue.bicycle_car import BicycleCar
 
 RISE = 0.5

@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hosts.aliases import Alias, Aliases
 from hosts.catalogue.car import TestedCar
-from hosts.co_simulation import Result
-from hosts.errors import HostError
-from hosts.manoeuvre import Manoeuvre
-from hosts.pilots.pilot import Together
-from hosts.pilots.speed_holder import SpeedHolder
-from hosts.pilots.steering import SteeringTable
+from hosts.common.errors import HostError
+from hosts.driving.co_simulation import Result
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.pilot import Together
+from hosts.driving.pilots.speed_holder import SpeedHolder
+from hosts.driving.pilots.steering import SteeringTable
+from hosts.fmu.aliases import Alias, Aliases
 
 NAMES = {
     "steering": "Driver.Steer",

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hosts.co_simulation import Result
 from hosts.compare.alignment import align
 from hosts.compare.curve import Curve
 from hosts.compare.log import Signal
+from hosts.driving.co_simulation import Result
 
 END = 20.0
 

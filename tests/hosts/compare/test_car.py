@@ -10,12 +10,12 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts.co_simulation import Result, run
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 from hosts.compare.command import main
-from hosts.fmu import Fmu
-from hosts.manoeuvre import Manoeuvre
+from hosts.driving.co_simulation import Result, run
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.fmu import Fmu
 
 END = 5.0
 ALIASES = """

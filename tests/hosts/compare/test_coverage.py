@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from pendulum import END, measured, measured_pull, motion
 
-from hosts.aliases import Aliases
-from hosts.co_simulation import Result
 from hosts.compare.fit import Fit, fit, overlapping
 from hosts.compare.replay import Replay, inputs_of
 from hosts.compare.residuals import Unknown, nuisances
+from hosts.driving.co_simulation import Result
+from hosts.fmu.aliases import Aliases
 
 STEP = 0.01
 STIFFNESS, DAMPING, DELAY = 123.0, 1.7, 0.043

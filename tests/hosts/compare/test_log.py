@@ -10,14 +10,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from hosts.aliased_fmu import AliasedFmu
-from hosts.aliases import Aliases
+from hosts.common.errors import HostError
+from hosts.common.unit_names import unit_definition
 from hosts.compare.log import Log, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases
 from hosts.compare.log_file import read_log
-from hosts.errors import HostError
-from hosts.fmu import Fmu
-from hosts.unit_names import unit_definition
+from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.aliases import Aliases
+from hosts.fmu.fmu import Fmu
 
 ROWS = 40
 

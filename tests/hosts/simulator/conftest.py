@@ -8,8 +8,8 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 
 TESTS = Path(__file__).parents[2]
 _SCENES = {"sledge": TESTS / "hosts" / "scenes.py", "switched": TESTS / "hosts" / "scenes.py"}

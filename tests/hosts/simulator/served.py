@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.guard import Guard
 from hosts.simulator.hands import Hands
 from hosts.simulator.server import Server

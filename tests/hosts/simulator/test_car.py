@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.car import Car, CarSettings, Event, Moment
 from hosts.simulator.driven_fmu import DrivenFmu
 from hosts.simulator.shared_values import SharedValues, Sizes

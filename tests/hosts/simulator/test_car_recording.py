@@ -13,11 +13,11 @@ import pytest
 
 import hosts.simulator.car as car_module
 from ali3.errors import FileError
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.recordings.recorded_drive import read_recording
+from hosts.recordings.recording import Recorder
+from hosts.recordings.replay import replay
 from hosts.simulator.car import Car, CarSettings
-from hosts.simulator.recorded_drive import read_recording
-from hosts.simulator.recording import Recorder
-from hosts.simulator.replay import replay
 
 PATIENCE = 60.0
 AT_ONCE = math.inf

@@ -18,21 +18,21 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts import built_fmu
-from hosts.aliases import Aliases, read_aliases
-from hosts.errors import HostError
-from hosts.load_manoeuvre import load_manoeuvre
-from hosts.options import Wishes
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from hosts.common.errors import HostError
+from hosts.common.options import Wishes
+from hosts.driving.wild_driver import WildDriver
+from hosts.fmu import built_fmu
+from hosts.fmu.aliases import Aliases, read_aliases
+from hosts.recordings.load_manoeuvre import load_manoeuvre
+from hosts.recordings.tables import ParquetTable
 from hosts.simulator import fmu_file
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.command import main
 from hosts.simulator.headless import headless_driver, run_headless
 from hosts.simulator.preparation import Asked, prepare
-from hosts.simulator.recording_tables import ParquetTable
-from hosts.wild_driver import WildDriver
 from viewer.scene import scene_errors
 
 TESTS = Path(__file__).parents[2]

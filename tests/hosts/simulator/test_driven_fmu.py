@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hosts.errors import HostError
-from hosts.fmu import StepRefusedError
+from hosts.common.errors import HostError
+from hosts.fmu.fmu import StepRefusedError
 from hosts.simulator.driven_fmu import DrivenFmu
 
 H = 0.002

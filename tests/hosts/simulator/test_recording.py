@@ -16,18 +16,18 @@ import numpy as np
 import pytest
 
 from ali3.running import module_command
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts.errors import HostError
-from hosts.fmu import Fmu
-from hosts.load_manoeuvre import load_manoeuvre
-from hosts.options import Wishes
-from hosts.recording import main
-from hosts.simulator.recorded_drive import read_recording
-from hosts.simulator.recording import Recorder, recording_meta
-from hosts.simulator.replay import replay
-from hosts.simulator.to_manoeuvre import to_manoeuvre
-from hosts.view_sources import RunWishes, recordings_of
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from hosts.common.errors import HostError
+from hosts.common.options import Wishes
+from hosts.fmu.fmu import Fmu
+from hosts.recordings.command import main
+from hosts.recordings.load_manoeuvre import load_manoeuvre
+from hosts.recordings.recorded_drive import read_recording
+from hosts.recordings.recording import Recorder, recording_meta
+from hosts.recordings.replay import replay
+from hosts.recordings.to_manoeuvre import to_manoeuvre
+from hosts.view.view_sources import RunWishes, recordings_of
 
 SCENES = Path(__file__).parents[1] / "scenes.py"
 STEP = 0.01
@@ -203,7 +203,7 @@ def test_a_recording_that_begins_with_a_state(fmus: dict[str, Path], tmp_path: P
 
 def assert_driven_again(fmu: Path, manoeuvre: Path, folder: Path, steps: int) -> None:
     """The command drive gives the outputs of the last steps of the recording, bit for bit."""
-    from hosts.co_simulation import run
+    from hosts.driving.co_simulation import run
 
     drive = read_recording(folder)
     with Fmu(fmu) as again:
@@ -223,7 +223,7 @@ def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Pat
         made = load_manoeuvre(str(source))
         assert made.stop_time == pytest.approx(0.55)
         assert made.start == {"initial.speed": 6.0, "initial.x": 12.5, "initial.yaw": 0.1}
-    from hosts.co_simulation import run
+    from hosts.driving.co_simulation import run
 
     rows = drive.rows()
     begin = int(np.flatnonzero(rows.epoch == 7)[0])
@@ -271,7 +271,7 @@ def test_whole_inputs_are_repeated(fmus: dict[str, Path], tmp_path: Path) -> Non
 WRITER = """
 import sys, time
 from pathlib import Path
-from hosts.simulator.recording import Recorder
+from hosts.recordings.recording import Recorder
 recorder = Recorder(Path(sys.argv[1]), ["u", "y"], {}, dict(
     fmu="car.fmu", guid="g", inputs=1, step=0.002, start={}), sys.argv[2])
 recorder._describe()
@@ -315,7 +315,7 @@ def test_a_killed_program_leaves_its_recording(tmp_path: Path, table: str) -> No
 
 def test_what_is_held_is_written_after_two_seconds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     now = [100.0]
-    monkeypatch.setattr("hosts.simulator.recording.clock.monotonic", lambda: now[0])
+    monkeypatch.setattr("hosts.recordings.recording.clock.monotonic", lambda: now[0])
     meta = {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.01, "start": {}}
     recorder = Recorder(tmp_path / "drive", ["u"], {}, meta)
     recorder.row(0, 0.0, 0, [1.0])
@@ -344,7 +344,7 @@ def test_every_bit_survives_both_tables(tmp_path: Path) -> None:
 
 
 def test_without_pyarrow_the_table_is_text_and_that_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hosts.simulator.recording.find_spec", lambda name: None)
+    monkeypatch.setattr("hosts.recordings.recording.find_spec", lambda name: None)
     meta = {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.01, "start": {}}
     with Recorder(tmp_path / "drive", ["u"], {}, meta) as recorder:
         recorder.row(0, 0.0, 0, [1.0])
@@ -424,7 +424,7 @@ def test_the_command_shows_repeats_and_makes_a_manoeuvre(
     rows = (folder / "inputs_outputs.parquet").read_bytes()
     assert rows
     done = subprocess.run(
-        module_command("hosts.recording", str(tmp_path), "replay"), capture_output=True, text=True, check=False
+        module_command("hosts.recordings.command", str(tmp_path), "replay"), capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
 

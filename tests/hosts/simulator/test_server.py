@@ -17,7 +17,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator import connected_page, web
 from hosts.simulator.connected_page import ConnectedPage
 from hosts.simulator.guard import Guard

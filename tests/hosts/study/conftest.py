@@ -9,8 +9,8 @@ import fmpy
 import pytest
 from distributed import LocalCluster
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 from hosts.study.campaign import run_study
 
 TESTS = Path(__file__).parents[2]

@@ -16,7 +16,7 @@ import pytest
 from distributed import Client, LocalCluster, Security
 from distributed.core import connect
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.study.campaign import run_study
 from hosts.study.cluster import connected
 from hosts.study.store import read_study

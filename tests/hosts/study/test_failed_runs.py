@@ -12,10 +12,10 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts.aliases import Aliases
-from hosts.manoeuvre import Manoeuvre
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.aliases import Aliases
 from hosts.study.campaign import run_study
 from hosts.study.one_run import Bench
 from hosts.study.store import read_study

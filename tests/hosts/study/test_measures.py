@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hosts.co_simulation import Result
-from hosts.errors import HostError
+from hosts.common.errors import HostError
+from hosts.driving.co_simulation import Result
 from hosts.study.measures import parse_measure
 
 END, N = 2.0, 2001

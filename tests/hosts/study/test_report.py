@@ -11,7 +11,7 @@ import pytest
 from matplotlib import image
 from scipy.stats import qmc
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.study.analysis.data import study_data
 from hosts.study.analysis.effect_plots import failed_share
 from hosts.study.analysis.report import report_of

@@ -14,10 +14,10 @@ import pyarrow.parquet as pq
 import pytest
 from fmpy.util import read_csv
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
-from hosts.drive import main as drive
-from hosts.errors import HostError
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from hosts.common.errors import HostError
+from hosts.run.drive import main as drive
 from hosts.study.campaign import run_study
 from hosts.study.command import main
 from hosts.study.folder import locked

@@ -16,8 +16,8 @@ import pandas as pd
 import pytest
 from fmpy.util import read_csv
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
 from hosts.study.store import read_study
 
 ROOT = Path(__file__).parents[3]

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from mbs.roads.world_command import WORLDS, main
+from mbs.worlds.command import WORLDS, main
 
 
 @pytest.fixture(scope="session")

@@ -8,9 +8,9 @@ import pytest
 import mbs
 from mbs.elements import GridRoad
 from mbs.roads import write_road
-from mbs.roads.worlds.make_world import read_world
-from mbs.roads.worlds.obstacles import added
 from mbs.scenes import prototype_car
+from mbs.worlds.make_world import read_world
+from mbs.worlds.obstacles import added
 from tests.roads.worlds.test_proving_ground import FILE
 
 

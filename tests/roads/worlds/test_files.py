@@ -10,10 +10,10 @@ import pytest
 
 import mbs
 from mbs.roads import RoadFile
-from mbs.roads.worlds.make_world import read_world
-from mbs.roads.worlds.patches import BOUND
-from mbs.roads.worlds.terrain import Terrain
 from mbs.scenes import prototype_car
+from mbs.worlds.make_world import read_world
+from mbs.worlds.patches import BOUND
+from mbs.worlds.terrain import Terrain
 from tests.roads.worlds.harness import drawn, opened
 from tests.roads.worlds.test_proving_ground import FILE
 from viewer.base64_numbers import octets

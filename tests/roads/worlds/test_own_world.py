@@ -11,11 +11,11 @@ import pytest
 
 import mbs
 from mbs.roads.road_header import RoadFileError
-from mbs.roads.world_command import main
-from mbs.roads.worlds.course_file import read_course
-from mbs.roads.worlds.make_world import read_world
-from mbs.roads.worlds.terrain import Terrain
 from mbs.scenes import prototype_car
+from mbs.worlds.command import main
+from mbs.worlds.course_file import read_course
+from mbs.worlds.make_world import read_world
+from mbs.worlds.terrain import Terrain
 from tests.roads.worlds.harness import drawn, opened
 
 PAGE = (Path(__file__).parents[3] / "docs" / "worlds.md").read_text(encoding="utf-8")
@@ -238,7 +238,7 @@ def test_what_is_no_world_is_said_in_one_sentence(tmp_path, monkeypatch, capsys,
 
 @pytest.mark.parametrize("name", ["plane", "kerb", "washboard", "rough", "split"])
 def test_roads_of_the_package_are_worlds(tmp_path, own_cache, name):
-    from mbs.roads.world_command import ROADS
+    from mbs.worlds.command import ROADS
 
     assert main([name, "--out", str(tmp_path / "out")]) == 0
     assert (tmp_path / "out" / f"{name}.road").read_bytes() == (ROADS / f"{name}.road").read_bytes()

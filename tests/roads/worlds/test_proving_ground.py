@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbs.roads.worlds.make_world import read_world
-from mbs.roads.worlds.scenery import cone_places, lane_change_cones, scenery_of
-from mbs.roads.worlds.terrain import Terrain
-from mbs.roads.worlds.world_types import FRICTIONS, Cones
+from mbs.worlds.make_world import read_world
+from mbs.worlds.scenery import cone_places, lane_change_cones, scenery_of
+from mbs.worlds.terrain import Terrain
+from mbs.worlds.world_types import FRICTIONS, Cones
 
 FILE = Path(__file__).parents[3] / "mbs" / "roads" / "worlds" / "proving_ground.toml"
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbs import Affine, Simulation, compile
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.vehicle import Fidelity, load
 from mbs.vehicle.kinematics.axle_measures import HEAVE, ROLL
 from mbs.vehicle.kinematics.compliance import LOADS, compliance

@@ -14,7 +14,7 @@ import pandas
 import pytest
 
 from ali3.command import main
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.vehicle import load
 from mbs.vehicle.kinematics import kinematics, quantity_of, read_curve
 from mbs.vehicle.kinematics.curves import travel_curve

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Literal
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible import FiniteElementModel, external_model, read_matrix
 from mbs.flexible.sparse import Sparse
 from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible import FiniteElementModel
 from mbs.vehicle.chassis.gauges.reading import STRESS, Reading
 from mbs.vehicle.quantities import YoungsModulus

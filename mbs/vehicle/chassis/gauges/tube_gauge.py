@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Discriminator, Tag
 
-from mbs.errors import ModelError
+from mbs.common.errors import ModelError
 from mbs.flexible import Frame, StrainGauge
 from mbs.flexible.beam_axes import beam_axes
 from mbs.vehicle.chassis.gauges.reading import STRESS, Reading

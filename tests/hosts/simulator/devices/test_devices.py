@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.devices import configuration_folder
 from hosts.simulator.devices.mapping import read_settings
 from hosts.simulator.hands import LET_GO, Hands

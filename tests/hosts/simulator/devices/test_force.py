@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.devices.force import FULL, RISE, ForceLaw
 from hosts.simulator.devices.force_feedback import PULSE
 from hosts.simulator.devices.mapping import DeviceSettings

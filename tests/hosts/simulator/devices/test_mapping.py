@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.devices.defaults import default_mapping
 from hosts.simulator.devices.mapping import (
     CENTRED,

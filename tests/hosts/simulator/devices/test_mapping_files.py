@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ali3.files import FileError
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from hosts.simulator.devices.identity import Identities
 from hosts.simulator.devices.mapping import CENTRED, PEDALS, SELECTOR, DeviceMapping, DeviceSettings, InputMapping
 from hosts.simulator.devices.mapping_files import MappingFiles

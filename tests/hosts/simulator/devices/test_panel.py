@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from hosts.errors import HostError
+from hosts.common.errors import HostError
 from tests.hosts.simulator.devices.haptics import Haptics
 from tests.hosts.simulator.devices.virtual import until
 from viewer import browser, bundle

@@ -10,7 +10,7 @@ import fmpy
 import pytest
 
 import mbs
-from fmu_src.build import build_fmu
+from fmu_src.build.build import build_fmu
 from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.hands import Hands
 from mbs.scenes import prototype_car

@@ -1,0 +1,1 @@
+"""`ali3 build`: from a car or a scene to FMU files."""

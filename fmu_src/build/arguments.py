@@ -1,0 +1,73 @@
+"""Checks of what callers of `build_fmu` give; each error is one sentence, before anything is written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import mbs
+from fmu_src.native.platforms import PLATFORMS
+from mbs import ArgumentTypeError
+from mbs.common.checks import instance_of, shown, whole
+
+Systems = mbs.System | Sequence[mbs.System] | Mapping[int, mbs.System]
+
+
+def systems_by_number(system: Systems) -> dict[int, mbs.System]:
+    """The Systems of an FMU by fidelity, ascending from 0.
+
+    Parameters
+    ----------
+    system : mbs.System, sequence of them or mapping of int to mbs.System
+        The numbers may be members of an enumeration, which they stay.
+
+    Raises
+    ------
+    mbs.ArgumentTypeError
+        Something is no System.
+    ValueError
+        There is none, or the numbers are not 0, 1, 2 and on.
+    """
+    given: Any = system
+    if isinstance(given, (list, tuple)):
+        given = dict(enumerate(given))
+    elif not isinstance(given, Mapping):
+        given = {0: given}
+    for each in given.values():
+        instance_of(mbs.System, each, "the system of an FMU", "a System, which compile(model) makes")
+    numbers = list(given)
+    if not numbers:
+        raise ValueError("An FMU needs a System; none was given.")
+    if any(isinstance(k, bool) or not isinstance(k, int) for k in numbers) or sorted(numbers) != list(
+        range(len(given))
+    ):
+        raise ValueError(f"The Systems of an FMU are numbered {shown(numbers)}; the numbers must be 0, 1, 2 and on.")
+    return {k: given[k] for k in sorted(numbers)}
+
+
+def default_fidelity(fidelity: int, count: int) -> int:
+    """The number of the fidelity that an FMU starts with, among `count`."""
+    return whole(fidelity, "the default fidelity of an FMU", 0, count - 1, ValueError)
+
+
+def folder(out: str | PathLike[str]) -> Path:
+    """The folder of an FMU."""
+    kinds: tuple[type[Any], ...] = (str, PathLike)
+    return Path(instance_of(kinds, out, "the folder of an FMU", "a path"))
+
+
+def known_platforms(platforms: Sequence[str] | None, able: Sequence[str], kind: str) -> tuple[str, ...]:
+    """The platforms that were asked for, by default the usual ones that the kind of FMU can have."""
+    if platforms is None:
+        return tuple(name for name in able if name in PLATFORMS)
+    if isinstance(platforms, str) or not isinstance(platforms, Iterable):
+        raise ArgumentTypeError(f"The platforms of an FMU must be a list of names, not {shown(platforms)}.")
+    asked = tuple(platforms)
+    unknown = sorted(str(name) for name in asked if name not in able)
+    if not asked:
+        raise ValueError(f"An FMU needs a platform; a {kind} FMU runs on {', '.join(able)}.")
+    if unknown:
+        raise ValueError(f"Platform '{', '.join(unknown)}' is not known; a {kind} FMU runs on {', '.join(able)}.")
+    return asked

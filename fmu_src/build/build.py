@@ -1,0 +1,253 @@
+"""From a System to an FMU file."""
+
+from __future__ import annotations
+
+import functools
+import importlib.metadata
+import re
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from enum import Enum
+from os import PathLike
+from pathlib import Path
+
+from ali3.files import check_writable
+from ali3.parameter_set import ParameterSet
+from fmu_src.build.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
+from fmu_src.build.parameter_file import parameter_set
+from fmu_src.description.probe import probe, with_nominal
+from fmu_src.geometry.geometry import geometry, geometry_file
+from fmu_src.native.ahead import compiled_ahead
+from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
+from fmu_src.native.package import NativeContents, Telling, pack_native
+from fmu_src.native.platforms import able_platforms
+from fmu_src.native.reference import ReferenceRun, reference_run
+from fmu_src.variables.arrays import array_names
+from fmu_src.variables.texts import check_texts
+from fmu_src.variables.variables import check_fidelities, variable_table, with_uncomputed
+from mbs.common.checks import instance_of
+
+Say = Callable[[str], None]
+_PATIENCE = 2.0
+
+KINDS = {
+    "native": "FMI 2.0 in C, for every tool",
+    "fmi3": "FMI 3.0 in C, with arrays",
+    "fmi3_scalar": "FMI 3.0 in C, without arrays, for hosts that do not read them",
+    "python": "FMI 2.0 in Python, for hosts with a Python of their own",
+}
+"""Kinds of FMU."""
+
+_FACES = {"native": FMI2, "fmi3": FMI3, "fmi3_scalar": FMI3_SCALAR}
+_NAME_SUFFIX = {"native": "", "fmi3": "FMI3", "fmi3_scalar": "FMI3Scalar", "python": "Python"}
+
+
+def fmu_name(scene: str, kind: str = "native") -> str:
+    """Name of the FMU of a scene: ``prototype_car`` -> ``PrototypeCar``."""
+    words = [w for w in re.split(r"[^A-Za-z0-9]+", scene) if w]
+    name = "".join(w[0].upper() + w[1:] for w in words)
+    if not name or not name[0].isalpha() or not name.isascii():
+        raise ValueError(f"'{scene}' gives no name for an FMU; a scene's name begins with a letter from a to z.")
+    return name + _NAME_SUFFIX[kind]
+
+
+def face_name(kind: str) -> str:
+    """Name of the face of a kind of FMU, as `fmu_src.native.compile.compile_library` takes it."""
+    return _FACES[kind].name if kind in _FACES else kind
+
+
+def build_fmu(
+    system: Systems,
+    name: str,
+    out: str | PathLike[str],
+    platforms: Sequence[str] | None = None,
+    say: Say = lambda text: None,
+    kind: str = "native",
+    fidelity: int = 0,
+    author: str = "",
+    copyright: str = "",
+    licence: str = "",
+) -> Path:
+    """Build the FMU of a System.
+
+    Parameters
+    ----------
+    system : mbs.System, sequence of them or mapping of int to mbs.System
+        Several are the choices of the parameter `fidelity`, by number from 0 on or by members of an enumeration, with
+        the same inputs, parameters and sensors.
+    name : str
+        Of the scene, such as ``prototype_car``.
+    out : str or path-like
+        Folder; made if it is not there.
+    platforms : sequence of str, optional
+        Out of ``linux64``, ``win64``, ``darwin64``, ``aarch64-linux`` and, for pages, ``wasm32`` (native only); by
+        default all but the last that the kind can have.
+    say : callable
+        Called with one line of progress at a time.
+    kind : str
+        One of `KINDS`.
+    fidelity : int
+        The default among several Systems.
+    author, copyright, licence : str
+        Of the model, for its description; empty: the solver's.
+
+    Returns
+    -------
+    Path
+        The FMU.
+
+    Raises
+    ------
+    ValueError
+        An argument is not what it must be; the message says what would be. Nothing is written.
+    ali3.errors.FileError
+        The file cannot be written.
+    """
+    if not isinstance(kind, str) or kind not in KINDS:
+        raise ValueError(f"There is no kind of FMU '{kind}'; the kinds are {', '.join(KINDS)}.")
+    chosen = known_platforms(platforms, able_platforms(kind), kind)
+    file = folder(out) / f"{fmu_name(instance_of(str, name, 'the name of an FMU', 'text'), kind)}.fmu"
+    check_writable(file)
+    # one library is there soon enough
+    with compiled_ahead([(face_name(kind), platform) for platform in chosen] if len(chosen) > 1 else []):
+        builder = FmuBuilder(system, name, fidelity, (author, copyright, licence), functools.partial(_told, say))
+        return builder.build(kind, chosen, file)
+
+
+class FmuBuilder:
+    """Builds the kinds of FMU of one scene; what they share is made once.
+
+    Parameters
+    ----------
+    system : mbs.System, sequence of them or mapping of int to mbs.System
+        As for `build_fmu`.
+    name : str
+        Of the scene.
+    fidelity : int
+        The default among several Systems.
+    rights : tuple of str
+        Author, copyright and licence of the model; empty: the solver's.
+    told : callable
+        ``told(what, note)`` makes a context in which `what` is done.
+    description : str
+        Of the model; empty: that of the System.
+    origin : mapping of str to bytes, optional
+        Files that the model was made from, by their paths in the FMU.
+    """
+
+    def __init__(
+        self,
+        system: Systems,
+        name: str,
+        fidelity: int,
+        rights: tuple[str, str, str],
+        told: Telling,
+        description: str = "",
+        origin: Mapping[str, bytes] | None = None,
+    ) -> None:
+        offered = systems_by_number(system)
+        systems, fidelity = tuple(offered.values()), default_fidelity(fidelity, len(offered))
+        metas = [s.meta for s in systems]
+        check_fidelities(metas)
+        meta = metas[fidelity]
+        table = variable_table(
+            meta,
+            pose=bool(meta["floating"]),
+            step_size=float(meta["experiment"]["step_s"]),
+            fidelities=[_label(k) for k in offered],
+            fidelity=fidelity,
+        )
+        table = with_uncomputed(table, metas)
+        description = description or meta.get("description") or ""
+        description = description or f"{name.replace('_', ' ')}, a multibody system solved by ALi3"
+        check_texts(description, rights, table)
+        self._name, self._told = name, told
+        with told("finding what depends on what"):
+            reach = probe(systems, table)
+        version = importlib.metadata.version("ali3")
+        scene = geometry(systems[fidelity], table, fmu_name(name), description)
+        self._contents = NativeContents(
+            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights, origin or {}
+        )
+        self._scene = scene
+        self._libraries: dict[tuple[str, str], bytes] = {}
+        self._run: ReferenceRun | None = None
+
+    @property
+    def parameters(self) -> ParameterSet:
+        """All parameters with their defaults."""
+        return parameter_set(fmu_name(self._name), self._contents.table, self._contents.texts)
+
+    def pieces(self, work: Mapping[str, Sequence[str]]) -> int:
+        """How many pieces of work `told` is going to be asked for by `build` of these kinds for their platforms."""
+        run = self._run is None and any(kind in _FACES for kind in work)
+        return run + sum(1 + self._libraries_to_make(kind, platforms) for kind, platforms in work.items())
+
+    def _libraries_to_make(self, kind: str, platforms: Sequence[str]) -> int:
+        made = {folder for name, folder in self._libraries if name == fmu_name(self._name, kind)}
+        face = _FACES.get(kind)
+        folders = [f for platform in platforms for f in (face.binaries[platform] if face is not None else [platform])]
+        return len([folder for folder in folders if folder not in made])
+
+    def build(self, kind: str, platforms: Sequence[str], file: Path) -> Path:
+        """Build the FMU of a kind.
+
+        Parameters
+        ----------
+        kind : str
+            One of `KINDS`.
+        platforms : sequence of str
+            Those that the kind can have.
+        file : Path
+            Replaced at once when all is done.
+
+        Returns
+        -------
+        Path
+            The file.
+        """
+        names = array_names(self._contents.table) if kind == "fmi3" else {}
+        drawn = geometry_file(self._scene, names) if self._scene is not None else b""
+        contents = replace(self._contents, model_name=fmu_name(self._name, kind), geometry=drawn)
+        if kind == "python":
+            from fmu_src.python_slave.package import pack_python  # PythonFMU is needed for this kind only
+
+            pack_python(contents, platforms, file, self._told, self._libraries)
+        else:
+            if self._run is None:
+                with self._told("running the default experiment"):
+                    self._run = reference_run(contents.system)
+            pack_native(contents, _FACES[kind], self._run, platforms, file, self._told, self._libraries)
+        return file
+
+
+def _label(number: int) -> str:
+    """Name of a fidelity that is a member of an enumeration, with its description where it has one."""
+    if not isinstance(number, Enum):
+        return ""
+    text = getattr(number, "description", "")
+    return f"{number.name.lower()} ({text})" if text else str(number.name.lower())
+
+
+@contextmanager
+def _told(say: Say, what: str, note: str = "") -> Iterator[None]:
+    """Says what is going on once it takes long, and that it still goes on."""
+    begin, finished = time.perf_counter(), threading.Event()
+
+    def watch() -> None:
+        wait = _PATIENCE
+        while not finished.wait(wait):
+            say(f"{what}: {time.perf_counter() - begin:.0f} s{f' ({note})' if note else ''} ...")
+            wait = 10.0
+
+    watcher = threading.Thread(target=watch, daemon=True)
+    watcher.start()
+    try:
+        yield
+    finally:
+        finished.set()
+        watcher.join()
+    say(f"{what}: done in {time.perf_counter() - begin:.1f} s")

@@ -1,0 +1,129 @@
+"""Finds a car by its name or its file and compiles it in all its fidelities, with what an FMU keeps of the file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import mbs
+from fmu_src.build.scene_registry import SceneError
+from fmu_src.geometry.posed import posed_systems
+from mbs.vehicle import Car, car_names, load
+from mbs.vehicle.summary import grip_row
+
+FOLDER = "resources/car"
+"""Where the car's file and its tables lie in an FMU."""
+_FILE = "car.toml"
+
+
+@dataclass(frozen=True)
+class BuiltCar:
+    """A car ready for an FMU.
+
+    Parameters
+    ----------
+    name : str
+        Of the car.
+    description : str
+        Of the car.
+    systems : mapping of int to mbs.System
+        By fidelity, ascending.
+    files : mapping of str to bytes
+        The car's file and the tables that it names, as they lie in the FMU.
+    grip : mapping of str to str
+        As `grip_of` gives it.
+    """
+
+    name: str
+    description: str
+    systems: Mapping[int, mbs.System]
+    files: Mapping[str, bytes]
+    grip: Mapping[str, str]
+
+
+def build_car(car: str, poses: str | None = None) -> BuiltCar:
+    """Read a car and compile it.
+
+    Parameters
+    ----------
+    car : str
+        Name of a car of the package, a folder with a file car.toml, or such a file.
+    poses : {"wheels", "all"} or None
+        As `fmu_src.geometry.posed.posed_systems` takes it.
+
+    Returns
+    -------
+    BuiltCar
+
+    Raises
+    ------
+    ValueError
+        The file does not describe a car that can be built; the message says why.
+    """
+    made = load(Path(car) if _is_path(car) else car)
+    where = f"{made.folder / _FILE}: the car '{made.name}' cannot be built"
+    try:
+        makers = made.fidelities()
+        systems = posed_systems(makers, min(makers), poses)
+    except (ValueError, RuntimeError) as error:
+        raise SceneError(f"{where}: {error}") from error
+    except (ArithmeticError, LookupError) as error:
+        raise SceneError(f"{where}: {type(error).__name__}: {error}.") from error
+    return BuiltCar(made.name, made.description, systems, car_files(made), grip_of(made))
+
+
+def grip_of(car: Car) -> dict[str, str]:
+    """What the tyres of each axle reach, a sentence each; a user may expect the forces of the tyre's file.
+
+    Parameters
+    ----------
+    car : Car
+        Any.
+    """
+    return dict(grip_row(car, axle) for axle in ("front", "rear"))
+
+
+def car_words(car: str) -> str:
+    """What is going to be built, for a person: a car of the package and a folder here may have one name.
+
+    Parameters
+    ----------
+    car : str
+        As for `build_car`.
+    """
+    if _is_path(car) or car not in car_names():
+        return car
+    own = f" (the folder {car} here would be ./{car})" if (Path(car) / _FILE).is_file() else ""
+    return f"{car} of the package{own}"
+
+
+def car_files(car: Car) -> dict[str, bytes]:
+    """The file of a car and the tables that it names, by their paths in an FMU.
+
+    Parameters
+    ----------
+    car : Car
+        As `mbs.vehicle.load` gives it.
+    """
+    folder = car.folder.resolve()
+    named = {(folder / text).resolve() for text in _texts(car.model_dump())}
+    files = {folder / _FILE} | {file for file in named if folder in file.parents and file.is_file()}
+    return {f"{FOLDER}/{file.relative_to(folder).as_posix()}": file.read_bytes() for file in sorted(files)}
+
+
+def _texts(data: Any) -> Iterator[str]:
+    """All texts of a car that may be names of files."""
+    if isinstance(data, str) and 0 < len(data) < 200 and "\0" not in data:
+        yield data
+    elif isinstance(data, dict):
+        for value in data.values():
+            yield from _texts(value)
+    elif isinstance(data, (list, tuple)):
+        for value in data:
+            yield from _texts(value)
+
+
+def _is_path(car: str) -> bool:
+    return car.endswith(".toml") or "/" in car or "\\" in car or car in (".", "..")

@@ -1,0 +1,222 @@
+"""Builds the FMUs of a car or a scene: ``ali3 build [--car CAR | --scene SCENE] [--kind LIST]``."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ali3.errors import UserError
+from ali3.extras import missing_package
+from ali3.running import run_command, told_warnings
+
+if TYPE_CHECKING:
+    from ali3.parameter_set import ParameterSet
+    from fmu_src.build.progress_line import ProgressLine
+    from mbs import System
+
+_KINDS = "native,fmi3,python"
+
+
+def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.py") -> int:
+    """Run the command; `prog` is how the user typed it."""
+    parser = argparse.ArgumentParser(prog=prog, description="Build the FMUs of a car or a scene.")
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument(
+        "--car",
+        metavar="CAR",
+        help="a car of the package by its name, a folder with a file car.toml, or such a file",
+    )
+    what.add_argument(
+        "--scene",
+        default="prototype_car",
+        metavar="NAME",
+        help="a scene of mbs.scenes, or path/to/file.py:function (a function that returns an mbs.Model or mbs.System); "
+        "default: prototype_car",
+    )
+    what.add_argument(
+        "--fmu",
+        type=Path,
+        metavar="FMU",
+        help="an FMU of the kind native: it is compiled for the --platforms from the sources in it, what it has stays",
+    )
+    parser.add_argument("--out", type=Path, default=Path("dist"), metavar="DIR", help="default: dist")
+    parser.add_argument(
+        "--kind",
+        "--only",
+        default=_KINDS,
+        metavar="LIST",
+        help="native (FMI 2.0 in C), fmi3 (FMI 3.0 in C), python (FMI 2.0, runs in the host's Python); default: these; "
+        "fmi3_scalar: FMI 3.0 without arrays, for hosts that read them as zeros",
+    )
+    parser.add_argument(
+        "--platforms",
+        default="this",
+        metavar="LIST",
+        help="out of linux64, win64, darwin64, aarch64-linux and wasm32 (WebAssembly, of the kind native); this: that "
+        "of this machine, the default; all: all but wasm32 that the kind can have, that of this machine first",
+    )
+    parser.add_argument(
+        "--poses",
+        choices=("wheels", "all"),
+        help="poses as outputs, for hosts that draw: wheels, those of the wheels of a car, which are always there; "
+        "all, of every body too, after all other outputs; default: wheels where they are enough to draw it, else all",
+    )
+    parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
+    parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
+    parser.add_argument("--license", default="", help="of the model; default: the solver's")
+    options = parser.parse_args(arguments)
+    if options.fmu is not None:
+        return run_command(lambda: _add_platforms(options), (RuntimeError,))
+    return run_command(lambda: _build(options), (ValueError, RuntimeError))
+
+
+def _add_platforms(options: argparse.Namespace) -> int:
+    """More platforms for an FMU that is there."""
+    from ali3.files import check_writable
+    from fmu_src.build.progress_line import ProgressLine
+    from fmu_src.native.more_platforms import add_platforms
+    from fmu_src.native.platforms import this_platform
+
+    _need("ziglang")
+    platforms = _platforms(options.platforms, this_platform())
+    file = options.out / options.fmu.name
+    check_writable(file)
+    line = ProgressLine()
+    line.expect(len(platforms))
+    added = add_platforms(options.fmu, platforms, file, line.told)
+    print(f"{file}: {file.stat().st_size / 1e6:.1f} MB; added: {', '.join(added) or 'nothing'}", flush=True)
+    return 0
+
+
+def _build(options: argparse.Namespace) -> int:
+    from fmu_src.build.build import KINDS, face_name
+    from fmu_src.native.ahead import compiled_ahead
+    from fmu_src.native.platforms import TARGETS, this_platform
+
+    kinds = list(dict.fromkeys(options.kind.split(",")))
+    if set(kinds) - set(KINDS):
+        raise UserError(f"There is no kind of FMU '{options.kind}'; the kinds are {', '.join(KINDS)}.")
+    here = this_platform()
+    platforms = _platforms(options.platforms, here)
+    if "python" in kinds:
+        _need("pythonfmu")
+    _need("ziglang")
+    _need("pyssp_standard")
+
+    first, rest = [p for p in platforms if p == here], [p for p in TARGETS if p in platforms and p != here]
+    ahead = [(face_name(kind), p) for p in first + rest for kind in kinds if _able(kind, p)]
+    with compiled_ahead(ahead), told_warnings():
+        return _build_kinds(options, kinds, first, rest)
+
+
+def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Sequence[str], rest: Sequence[str]) -> int:
+    """Build what this machine runs, then the same for the others."""
+    from ali3.files import check_writable
+    from fmu_src.build.build import FmuBuilder, fmu_name
+    from fmu_src.build.progress_line import ProgressLine
+    from fmu_src.native.platforms import TARGETS, able_platforms
+
+    line = ProgressLine()
+    name, systems, fidelity, description, origin = _compiled(options, line)
+    files = {kind: options.out / f"{fmu_name(name, kind)}.fmu" for kind in kinds}
+    beside = options.out / f"{fmu_name(name)}.ssv"
+    for file in (*files.values(), beside):
+        check_writable(file)
+    rights = (options.author, options.copyright, options.license)
+    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin)
+    wanted = [p for p in TARGETS if p in first or p in rest]
+    able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}
+    for kind in [k for k in kinds if not able[k]]:
+        print(f"{kind}: left out, it runs on {', '.join(able_platforms(kind))} only", flush=True)
+        del able[kind]
+    # what this machine runs is there after seconds; the other platforms, Windows with its C runtime, may take minutes
+    here = {kind: list(first) for kind in able if first and set(first) <= set(able[kind])}
+    everywhere = {kind: places for kind, places in able.items() if here.get(kind) != places}
+    meta = systems[fidelity].meta
+    told = False
+    for chosen in (here, everywhere):
+        line.expect(builder.pieces(chosen))
+        for kind, places in chosen.items():
+            file = builder.build(kind, places, files[kind])
+            print(
+                f"{file}: {file.stat().st_size / 1e6:.1f} MB, {len(meta['inputs'])} inputs, "
+                f"{len(meta['sensors'])} sensors; for {', '.join(places)}",
+                flush=True,
+            )
+        if chosen and not told:
+            told = _write_parameters(builder.parameters, beside)
+        if chosen is here and here and everywhere:
+            print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
+    return 0
+
+
+def _compiled(
+    options: argparse.Namespace, line: ProgressLine
+) -> tuple[str, Mapping[int, System], int, str, Mapping[str, bytes]]:
+    """Name, Systems by fidelity, default fidelity, description and files of the car or the scene."""
+    if options.car is not None:
+        from fmu_src.build.car_registry import build_car, car_words
+
+        print(f"car {car_words(options.car)} ...", flush=True)
+        with line.told("compiling the car"):
+            car = build_car(options.car, options.poses)
+        _tell_grip(car.grip)
+        return car.name, car.systems, min(car.systems), car.description, car.files
+    from fmu_src.build.car_registry import grip_of
+    from fmu_src.build.scene_registry import car_of_scene, load_fidelities
+
+    print(f"scene {options.scene} ...", flush=True)
+    with line.told("compiling the scene"):
+        compiled = load_fidelities(options.scene, options.poses)
+    if (scene_car := car_of_scene(options.scene)) is not None:
+        _tell_grip(grip_of(scene_car))
+    return (*compiled, "", {})
+
+
+def _tell_grip(grip: Mapping[str, str]) -> None:
+    for axle, text in grip.items():
+        print(f"{axle}: {text}", flush=True)
+
+
+def _write_parameters(parameters: ParameterSet, file: Path) -> bool:
+    """Write the set of all parameters, unless there is one that a person has edited; True."""
+    from fmu_src.build.parameter_file import write_beside
+
+    if write_beside(parameters, file):
+        print(f"{file}: {len(parameters.entries)} parameters, to be edited and set by --parameters", flush=True)
+    else:
+        print(f"{file}: has other values than a build writes, and is kept", flush=True)
+    return True
+
+
+def _able(kind: str, platform: str) -> bool:
+    from fmu_src.native.platforms import able_platforms
+
+    return platform in able_platforms(kind)
+
+
+def _platforms(text: str, here: str | None) -> list[str]:
+    from fmu_src.native.platforms import PLATFORMS, TARGETS
+
+    asked = text.split(",")
+    if "this" in asked and here is None:
+        raise UserError(f"No FMU runs on this machine; --platforms all builds for {', '.join(PLATFORMS)}.")
+    words = {"this": (here or "",), "all": PLATFORMS}
+    chosen = list(dict.fromkeys(platform for word in asked for platform in words.get(word, (word,))))
+    if set(chosen) - set(TARGETS):
+        raise UserError(f"Platform '{text}' is not known; the platforms are {', '.join(TARGETS)}, this and all.")
+    return chosen
+
+
+def _need(package: str) -> None:
+    if importlib.util.find_spec(package) is None:
+        more = ", or leave out --kind python" if package == "pythonfmu" else ""
+        raise UserError(missing_package(package) + more)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,289 @@
+"""modelDescription.xml (FMI 2.0, co-simulation) from the table of variables."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from xml.etree import ElementTree
+
+from fmu_src.description.probe import Dependencies
+from fmu_src.variables.text_variables import TextVariable
+from fmu_src.variables.units import DISPLAY_UNITS, QUANTITIES, parse_unit
+from fmu_src.variables.variables import Variable
+
+# Of this version: the same sources give the same bytes, so that no clock is read.
+RELEASE_DATE = "2026-11-20T00:00:00Z"
+
+LOG_CATEGORIES = {
+    "logStatusWarning": "Values clamped, step size far from the tuned one",
+    "logStatusDiscard": "Steps that were refused; the last good state is kept",
+    "logStatusError": "Values and calls that were refused",
+    "logStatusFatal": "Failures after which the instance cannot be used",
+    "logNotComputed": "Outputs that were read and are not computed at this fidelity; a warning, said once",
+    "logAll": "Everything",
+}
+
+
+@dataclass(frozen=True)
+class Description:
+    """What modelDescription.xml says beside the variables.
+
+    Parameters
+    ----------
+    model_name, model_identifier, guid, description, tool, version : str
+        Attributes of the document.
+    stop_time, step_size : float
+        Default experiment, s.
+    needs_execution_tool : bool
+        Whether a Python interpreter must be there, which has memory of its own.
+    author, copyright, licence : str
+        Of the model; by default those of the solver.
+    sources : sequence of str
+        C files in the folder ``sources``, if it can be compiled from them.
+    texts : sequence of TextVariable
+        Variables that are text; their value references come after those of the others.
+    """
+
+    model_name: str
+    model_identifier: str
+    guid: str
+    description: str
+    tool: str
+    version: str
+    stop_time: float
+    step_size: float
+    needs_execution_tool: bool
+    author: str
+    copyright: str
+    licence: str
+    sources: Sequence[str] = ()
+    texts: Sequence[TextVariable] = ()
+
+
+def generation_date() -> str:
+    """The date of the environment variable SOURCE_DATE_EPOCH, else that of this version."""
+    epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
+    if not epoch:
+        return RELEASE_DATE
+    try:
+        return datetime.fromtimestamp(int(epoch), UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    except (ValueError, OverflowError, OSError):
+        raise ValueError(f"SOURCE_DATE_EPOCH is '{epoch}'; seconds since 1970 are needed.") from None
+
+
+def number(value: float) -> str:
+    """Shortest text that reads back as the same double."""
+    return repr(float(value))
+
+
+def model_description(head: Description, table: Sequence[Variable], reach: Dependencies) -> bytes:
+    """Write the document.
+
+    Parameters
+    ----------
+    head : Description
+        Attributes and default experiment.
+    table : sequence of Variable
+        All variables; the place is the value reference.
+    reach : Dependencies
+        Which of them reach which outputs.
+
+    Returns
+    -------
+    bytes
+        UTF-8, the same for the same arguments.
+    """
+    root = ElementTree.Element(
+        "fmiModelDescription",
+        fmiVersion="2.0",
+        modelName=head.model_name,
+        guid=head.guid,
+        description=head.description,
+        author=head.author,
+        version=head.version,
+        copyright=head.copyright,
+        license=head.licence,
+        generationTool=head.tool,
+        generationDateAndTime=generation_date(),
+        variableNamingConvention="structured",
+        numberOfEventIndicators="0",
+    )
+    face = ElementTree.SubElement(
+        root,
+        "CoSimulation",
+        modelIdentifier=head.model_identifier,
+        needsExecutionTool=str(head.needs_execution_tool).lower(),
+        canHandleVariableCommunicationStepSize="true",
+        canInterpolateInputs="true",
+        maxOutputDerivativeOrder="1",
+        canRunAsynchronuously="false",
+        canBeInstantiatedOnlyOncePerProcess="false",
+        canNotUseMemoryManagementFunctions=str(head.needs_execution_tool).lower(),
+        canGetAndSetFMUstate="true",
+        canSerializeFMUstate="true",
+        providesDirectionalDerivative="true",
+    )
+    if head.sources:
+        files = ElementTree.SubElement(face, "SourceFiles")
+        for name in head.sources:
+            ElementTree.SubElement(files, "File", name=name)
+    units(root, table)
+    _types(root, table)
+    categories_and_experiment(root, head)
+    variables = ElementTree.SubElement(root, "ModelVariables")
+    types = declared_types(table)
+    for reference, v in enumerate(table):
+        _variable(variables, reference, v, types)
+    for reference, text in enumerate(head.texts, start=len(table)):
+        fixed = {"causality": "parameter", "variability": "fixed", "initial": "exact"}
+        named = {"name": text.name, "valueReference": str(reference), "description": text.description}
+        ElementTree.SubElement(
+            ElementTree.SubElement(variables, "ScalarVariable", named | fixed), "String", start=text.start
+        )
+    _structure(root, table, with_texts(table, reach, head.texts))
+    return to_bytes(root)
+
+
+def to_bytes(root: ElementTree.Element) -> bytes:
+    """UTF-8 text of a document, indented."""
+    ElementTree.indent(root)
+    return bytes(ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"
+
+
+def categories_and_experiment(root: ElementTree.Element, head: Description) -> None:
+    """Log categories and default experiment; the same in FMI 2.0 and 3.0."""
+    categories = ElementTree.SubElement(root, "LogCategories")
+    for name, text in LOG_CATEGORIES.items():
+        ElementTree.SubElement(categories, "Category", name=name, description=text)
+    ElementTree.SubElement(
+        root, "DefaultExperiment", startTime="0.0", stopTime=number(head.stop_time), stepSize=number(head.step_size)
+    )
+
+
+def units(root: ElementTree.Element, table: Sequence[Variable]) -> None:
+    """Definitions of all units in use; the same in FMI 2.0 and 3.0."""
+    definitions = ElementTree.SubElement(root, "UnitDefinitions")
+    for name in sorted({v.unit for v in table if not v.whole}):
+        unit = parse_unit(name)
+        element = ElementTree.SubElement(definitions, "Unit", name=name)
+        attributes = {base: str(exponent) for base, exponent in unit.exponents.items()}
+        if unit.factor != 1.0:
+            attributes["factor"] = number(unit.factor)
+        ElementTree.SubElement(element, "BaseUnit", attributes)
+        if name in DISPLAY_UNITS:
+            for display, factor in DISPLAY_UNITS[name].items():
+                ElementTree.SubElement(element, "DisplayUnit", name=display, factor=number(factor))
+
+
+def type_name(v: Variable) -> str:
+    """Name of the declared type of a variable: its quantity, a display unit that is not the usual one, its range."""
+    name = "Count" if v.whole else QUANTITIES.get(v.unit, "Quantity_" + re.sub(r"\W", "_", v.unit))
+    usual = next(iter(DISPLAY_UNITS.get(v.unit, {})), None)
+    if v.display_unit != usual:
+        name += "_" + re.sub(r"\W", "_", v.display_unit or "plain")
+    return name if v.min is None and v.max is None else f"{name}_{_end(v.min)}_to_{_end(v.max)}"
+
+
+def type_attributes(v: Variable) -> dict[str, str]:
+    """Attributes of the declared type of a variable."""
+    if v.whole:
+        attributes = {"quantity": "Count"}
+    else:
+        attributes = {"quantity": QUANTITIES.get(v.unit, "Quantity"), "unit": v.unit}
+        if v.display_unit is not None:
+            attributes["displayUnit"] = v.display_unit
+    for key, value in (("min", v.min), ("max", v.max)):
+        if value is not None:
+            attributes[key] = value_text(v, value)
+    return attributes
+
+
+def value_text(v: Variable, value: float) -> str:
+    """A number of a variable as its type is written."""
+    return str(int(value)) if v.whole else number(value)
+
+
+def declared_types(table: Sequence[Variable]) -> dict[str, dict[str, str]]:
+    """Attributes of all declared types by name, sorted."""
+    types: dict[str, dict[str, str]] = {}
+    for v in table:
+        types.setdefault(declared_type(v, types), type_attributes(v))
+    return dict(sorted(types.items()))
+
+
+def declared_type(v: Variable, types: dict[str, dict[str, str]]) -> str:
+    """Name of a variable's type among the declared ones; a new name if none of them is it."""
+    name, k = type_name(v), 2
+    while name in types and types[name] != type_attributes(v):
+        name, k = f"{type_name(v)}_{k}", k + 1
+    return name
+
+
+def _end(value: float | None) -> str:
+    return "open" if value is None else f"{value:g}".replace("-", "minus").replace("+", "").replace(".", "p")
+
+
+def _types(root: ElementTree.Element, table: Sequence[Variable]) -> None:
+    definitions = ElementTree.SubElement(root, "TypeDefinitions")
+    for name, attributes in declared_types(table).items():
+        kind = "Real" if "unit" in attributes else "Integer"
+        ElementTree.SubElement(ElementTree.SubElement(definitions, "SimpleType", name=name), kind, attributes)
+
+
+def _variable(parent: ElementTree.Element, reference: int, v: Variable, types: dict[str, dict[str, str]]) -> None:
+    attributes = {"name": v.name, "valueReference": str(reference)}
+    if v.description:
+        attributes["description"] = v.description
+    attributes |= {"causality": v.causality, "variability": v.variability}
+    if v.causality != "input":
+        attributes["initial"] = "calculated" if v.causality == "output" else "exact"
+    scalar = ElementTree.SubElement(parent, "ScalarVariable", attributes)
+    value = {"declaredType": declared_type(v, types)} | variable_attributes(v)
+    ElementTree.SubElement(scalar, "Integer" if v.whole else "Real", value)
+
+
+def variable_attributes(v: Variable) -> dict[str, str]:
+    """Unit, range, typical size and start of a variable; the same in FMI 2.0 and 3.0."""
+    attributes = {} if v.whole else {"unit": v.unit}
+    if v.display_unit is not None:
+        attributes["displayUnit"] = v.display_unit
+    for key, value in (("min", v.min), ("max", v.max), ("nominal", v.nominal), ("start", v.start)):
+        if value is not None:
+            attributes[key] = value_text(v, value)
+    return attributes
+
+
+def with_texts(table: Sequence[Variable], reach: Dependencies, texts: Sequence[TextVariable]) -> Dependencies:
+    """The same where initial outputs depend on texts too, whose places are behind the table.
+
+    A road decides where a start stands: what depends on the initial place depends on the road.
+    """
+    places = [i for i, v in enumerate(table) if v.source == "pose"]
+    if not texts or not places:
+        return reach
+    more = tuple(range(len(table), len(table) + len(texts)))
+    initial = {i: (*known, *more) if set(places) & set(known) else known for i, known in reach.initial.items()}
+    return replace(reach, initial=initial)
+
+
+def _structure(root: ElementTree.Element, table: Sequence[Variable], reach: Dependencies) -> None:
+    """Outputs depend on inputs over a step, initial ones on all that was found to change them."""
+    structure = ElementTree.SubElement(root, "ModelStructure")
+    for tag, of in (("Outputs", reach.step), ("InitialUnknowns", reach.initial)):
+        group = ElementTree.Element(tag)
+        for i, v in enumerate(table):
+            if v.causality == "output":
+                ElementTree.SubElement(group, "Unknown", {"index": str(i + 1)} | dependency_attributes(of[i], 1))
+        if len(group):
+            structure.append(group)
+
+
+def dependency_attributes(known: Sequence[int], offset: int = 0) -> dict[str, str]:
+    """Attributes of an unknown that depends on the variables at these places; `offset` is added to them."""
+    attributes = {"dependencies": " ".join(str(k + offset) for k in known)}
+    if known:
+        attributes["dependenciesKind"] = " ".join(["dependent"] * len(known))
+    return attributes

@@ -1,0 +1,170 @@
+"""The XML documents of an FMI 3.0 co-simulation FMU: model description, build description, terminals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree import ElementTree
+
+from fmu_src.description.description import (
+    Description,
+    categories_and_experiment,
+    declared_type,
+    declared_types,
+    dependency_attributes,
+    generation_date,
+    to_bytes,
+    units,
+    variable_attributes,
+    with_texts,
+)
+from fmu_src.description.probe import Dependencies
+from fmu_src.variables.arrays import Array, references
+from fmu_src.variables.variables import Variable
+
+
+def model_description_fmi3(
+    head: Description, table: Sequence[Variable], arrays: Sequence[Array], reach: Dependencies
+) -> bytes:
+    """modelDescription.xml of FMI 3.0.
+
+    Parameters
+    ----------
+    head : Description
+    table : sequence of Variable
+        All scalars, for units and types.
+    arrays : sequence of Array
+    reach : Dependencies
+        Which variables of the table reach which outputs.
+
+    Returns
+    -------
+    bytes
+    """
+    root = ElementTree.Element(
+        "fmiModelDescription",
+        fmiVersion="3.0",
+        modelName=head.model_name,
+        instantiationToken=head.guid,
+        description=head.description,
+        author=head.author,
+        version=head.version,
+        copyright=head.copyright,
+        license=head.licence,
+        generationTool=head.tool,
+        generationDateAndTime=generation_date(),
+        variableNamingConvention="structured",
+    )
+    ElementTree.SubElement(
+        root,
+        "CoSimulation",
+        modelIdentifier=head.model_identifier,
+        canGetAndSetFMUState="true",
+        canSerializeFMUState="true",
+        providesDirectionalDerivatives="true",
+        providesAdjointDerivatives="true",
+        canHandleVariableCommunicationStepSize="true",
+        maxOutputDerivativeOrder="1",
+    )
+    units(root, table)
+    types = declared_types(table)
+    definitions = ElementTree.SubElement(root, "TypeDefinitions")
+    for name, attributes in types.items():
+        kind = "Float64Type" if "unit" in attributes else "Int32Type"
+        ElementTree.SubElement(definitions, kind, {"name": name} | attributes)
+    categories_and_experiment(root, head)
+    variables = ElementTree.SubElement(root, "ModelVariables")
+    numbers, time = references(arrays)
+    for place, (reference, array) in enumerate(zip(numbers, arrays, strict=True)):
+        if place == time:
+            _time(variables, time)
+        _variable(variables, reference, array, types)
+    if time == len(arrays):
+        _time(variables, time)
+    for reference, text in enumerate(head.texts, start=len(arrays) + 1):
+        fixed = {"causality": "parameter", "variability": "fixed", "initial": "exact"}
+        named = {"name": text.name, "valueReference": str(reference), "description": text.description}
+        ElementTree.SubElement(ElementTree.SubElement(variables, "String", named | fixed), "Start", value=text.start)
+    _structure(root, arrays, with_texts(table, reach, head.texts), (len(table), len(head.texts)))
+    return to_bytes(root)
+
+
+def build_description(model_identifier: str, sources: Sequence[str]) -> bytes:
+    """sources/buildDescription.xml: the C files, in C11 without fused arithmetic."""
+    root = ElementTree.Element("fmiBuildDescription", fmiVersion="3.0")
+    configuration = ElementTree.SubElement(root, "BuildConfiguration", modelIdentifier=model_identifier)
+    files = ElementTree.SubElement(configuration, "SourceFileSet", language="C11", compilerOptions="-ffp-contract=off")
+    for name in sources:
+        ElementTree.SubElement(files, "SourceFile", name=name)
+    ElementTree.SubElement(
+        configuration,
+        "Library",
+        name="m",
+        external="true",
+        description="The C library's mathematics, where it is apart",
+    )
+    return to_bytes(root)
+
+
+def terminals(arrays: Sequence[Array]) -> bytes | None:
+    """terminalsAndIcons.xml: one terminal per part of the model that has a name and more than one output; or None."""
+    parts: dict[str, list[Array]] = {}
+    for array in arrays:
+        prefix, dot, _ = array.name.rpartition(".")
+        if dot and array.of.causality == "output":
+            parts.setdefault(prefix, []).append(array)
+    parts = {name: members for name, members in parts.items() if len(members) > 1}
+    if not parts:
+        return None
+    root = ElementTree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
+    holder = ElementTree.SubElement(root, "Terminals")
+    for name, members in parts.items():
+        terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="bus")
+        for member in members:
+            ElementTree.SubElement(
+                terminal,
+                "TerminalMemberVariable",
+                variableName=member.name,
+                memberName=member.name.rpartition(".")[2],
+                variableKind="signal",
+            )
+    return to_bytes(root)
+
+
+def _time(parent: ElementTree.Element, reference: int) -> None:
+    ElementTree.SubElement(
+        parent,
+        "Float64",
+        name="time",
+        valueReference=str(reference),
+        causality="independent",
+        variability="continuous",
+        description="Simulation time",
+        unit="s",
+    )
+
+
+def _variable(parent: ElementTree.Element, reference: int, array: Array, types: dict[str, dict[str, str]]) -> None:
+    v = array.of
+    attributes = {"name": array.name, "valueReference": str(reference)}
+    if array.description:
+        attributes["description"] = array.description
+    attributes |= {"causality": v.causality, "variability": v.variability}
+    attributes["declaredType"] = declared_type(v, types)
+    if v.causality == "parameter":
+        attributes["initial"] = "exact"
+    attributes |= variable_attributes(v)
+    element = ElementTree.SubElement(parent, "Int32" if v.whole else "Float64", attributes)
+    if len(array.items) > 1:
+        ElementTree.SubElement(element, "Dimension", start=str(len(array.items)))
+
+
+def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Dependencies, texts: tuple[int, int]) -> None:
+    """`texts`: place of the first variable that is text, and how many there are."""
+    structure = ElementTree.SubElement(root, "ModelStructure")
+    array_of = {k: i for i, a in enumerate(arrays) for k in a.items}
+    array_of |= {texts[0] + k: len(arrays) + 1 + k for k in range(texts[1])}
+    for tag, of in (("Output", reach.step), ("InitialUnknown", reach.initial)):
+        for i, a in enumerate(arrays):
+            if a.of.causality == "output":
+                known = sorted({array_of[k] for item in a.items for k in of[item]})
+                ElementTree.SubElement(structure, tag, {"valueReference": str(i)} | dependency_attributes(known))

@@ -1,0 +1,246 @@
+"""Which variables reach which outputs, and how large the outputs are: found by trying, at build time.
+
+A variable reaches an output if changing it, and nothing else, changes a bit of the output: over one step from a state
+that random inputs led to (inputs), or in the initial state from random values (all that can be set). Parameters are
+changed in groups (`parameter_groups`), and what a group reaches depends on each of it. Positions and velocities show
+their paths at any values. Forces have regimes, such as a kerb that no wheel stands on: what a force reaches is declared
+to depend on all parameters and the place of the start, and what a step changes on all inputs that change anything.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import mbs
+from fmu_src.description.parameter_groups import parameter_groups
+from fmu_src.variables.variables import Variable
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.header import SENSOR_READS, ElementType, SensorReads, SensorType
+
+_SEED = 20_261_120
+_INITIAL_TRIES = 6
+_STEP_TRIES = 9
+_STEPS = 40
+_POSE = {"initial.x": 20.0, "initial.y": 20.0, "initial.z": 0.2, "initial.yaw": 1.0, "initial.speed": 20.0}
+_OPEN_RANGE = 10.0
+# Shares of the ranges in turn: a mechanism may not bear all of them.
+_SHARES = (1.0, 0.1, 0.01)
+# Types of sensors, see docs/system_file.md.
+_WITH_ORDER, _SECOND = (SensorType.COMPONENT, SensorType.DIRECTION), 2  # second rates need accelerations
+_ON_ROAD = (ElementType.TYRE, ElementType.CONTACT_POINTS)
+_ECHO, _MOTION, _FORCE = "echo", "motion", "force"
+
+
+@dataclass(frozen=True)
+class Dependencies:
+    """Places of variables, ascending, by the place of an output in the table.
+
+    Parameters
+    ----------
+    step : dict of int to tuple of int
+        Inputs that reach the output at the end of a step.
+    initial : dict of int to tuple of int
+        Inputs and parameters that reach the initial output.
+    size : dict of int to float
+        Largest absolute value seen; 0 where it was never anything else.
+    """
+
+    step: dict[int, tuple[int, ...]]
+    initial: dict[int, tuple[int, ...]]
+    size: dict[int, float]
+
+
+def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependencies:
+    """Try a System, or all fidelities of one.
+
+    Parameters
+    ----------
+    systems : sequence of mbs.System
+    table : sequence of Variable
+
+    Returns
+    -------
+    Dependencies
+        Of all fidelities together; the same at every call.
+    """
+    outputs = [i for i, v in enumerate(table) if v.causality == "output"]
+    tries = _Tries(table, outputs)
+    for system in systems:
+        tries.system(system, Instance(LoadedSystem(system.to_bytes(drawing=False))))
+    tries.close(systems)
+    return Dependencies(
+        {i: tuple(sorted(tries.step[i])) for i in outputs},
+        {i: tuple(sorted(tries.initial[i])) for i in outputs},
+        tries.size,
+    )
+
+
+class _Tries:
+    def __init__(self, table: Sequence[Variable], outputs: Sequence[int]) -> None:
+        self.table = table
+        self.outputs = outputs
+        self.sensed = [i for i in outputs if table[i].source == "sensor"]
+        self.step: dict[int, set[int]] = {i: set() for i in outputs}
+        self.initial: dict[int, set[int]] = {i: set() for i in outputs}
+        self.size = dict.fromkeys(outputs, 0.0)
+        self.of_fidelity: list[list[list[float] | None]] = []
+        self.share = 1.0
+        self.inputs = [i for i, v in enumerate(table) if v.source == "input"]
+        self.parameters = [i for i, v in enumerate(table) if v.source == "parameter"]
+        self.settable = [i for i, v in enumerate(table) if v.source in ("input", "parameter", "pose")]
+
+    def system(self, system: mbs.System, kernel: Instance) -> None:
+        rng = random.Random(_SEED)
+        groups = self._groups(system, kernel)
+        shown = dict.fromkeys(map(tuple, groups), False)
+        starts = [self._start(kernel, {})]
+        for k in range(_INITIAL_TRIES):
+            self.share = _SHARES[k % len(_SHARES)]
+            values = {i: self._random(i, rng) for i in self.settable}
+            starts.append(self._start(kernel, values))
+            for group in groups:
+                other = self._start(kernel, values | {i: self._random(i, rng) for i in group})
+                shown[tuple(group)] |= starts[-1] is not None and other is not None
+                for i in group:
+                    self._compare(self.initial, i, starts[-1], other)
+        unknown = {i for group, known in shown.items() if not known for i in group}
+        for i in self.outputs:  # no start shows what these reach
+            self.initial[i] |= unknown
+        self.of_fidelity.append(starts)
+        fidelity = next((i for i, v in enumerate(self.table) if v.source == "fidelity"), None)
+        if fidelity is not None:
+            for first, mine in zip(self.of_fidelity[0], starts, strict=True):
+                self._compare(self.initial, fidelity, first, mine)
+        h = float(system.meta["experiment"]["step_s"])
+        for k in range(_STEP_TRIES):
+            self.share = _SHARES[k % len(_SHARES)]
+            self._steps(kernel, h, rng)
+
+    def _groups(self, system: mbs.System, kernel: Instance) -> list[list[int]]:
+        """What is changed at once at a start: an input, a number of the pose, a group of parameters."""
+        rng = random.Random(_SEED)
+        self.share = 1.0
+        groups = parameter_groups(system, kernel, lambda p: self._random(self.parameters[p], rng), rng)
+        alone = [[i] for i in self.settable if self.table[i].source != "parameter"]
+        return alone + [[self.parameters[p] for p in group] for group in groups]
+
+    def close(self, systems: Sequence[mbs.System]) -> None:
+        """Add what no try may have opened."""
+        kinds = {i: {_kind(system, self.table[i].index) for system in systems} for i in self.sensed}
+        kind = {i: next(k for k in (_FORCE, _MOTION, _ECHO) if k in found) for i, found in kinds.items()}
+        acting = {k for i in self.sensed if kind[i] != _ECHO for k in self.step[i]}
+        placed = {i for i, v in enumerate(self.table) if v.source in ("parameter", "pose")}
+        forced = {k for i in self.sensed if kind[i] == _FORCE for k in self.initial[i]}
+        on_road = {i for i in self.sensed if any(_meets_road(system, self.table[i].index) for system in systems)}
+        for i in self.outputs:
+            if i in on_road:  # constant on level ground, such as its normal, but not on a kerb that no wheel stands on
+                self.initial[i] |= placed | forced
+            if kind.get(i) == _FORCE:
+                self.step[i] |= acting
+                self.initial[i] |= placed if self.initial[i] else set()
+            elif kind.get(i) != _ECHO and (self.step[i] or i not in kind):
+                self.step[i] |= acting
+
+    def _steps(self, kernel: Instance, h: float, rng: random.Random) -> None:
+        values = {i: self._random(i, rng) for i in self.settable}
+        if self._start(kernel, values) is None and self._start(kernel, {}) is None:
+            return
+        try:
+            for _ in range(rng.randrange(_STEPS)):
+                kernel.step(h)
+                self._sizes(list(kernel.sensors()))
+                if rng.random() < 0.2:
+                    for i in self.inputs:
+                        kernel.set_input(self.table[i].index, self._random(i, rng))
+        except KernelError:
+            pass  # the last good state stays
+        state = kernel.save()
+        base = self._stepped(kernel, h)
+        for i in self.inputs:
+            kernel.restore(state)
+            kernel.set_input(self.table[i].index, self._random(i, rng))
+            self._compare(self.step, i, base, self._stepped(kernel, h))
+
+    def _stepped(self, kernel: Instance, h: float) -> list[float] | None:
+        try:
+            kernel.step(h)
+        except KernelError:
+            return None
+        return list(kernel.sensors())
+
+    def _compare(
+        self, reach: dict[int, set[int]], known: int, one: list[float] | None, other: list[float] | None
+    ) -> None:
+        if one is None or other is None:
+            return
+        for i in self.sensed:
+            if one[self.table[i].index] != other[self.table[i].index]:
+                reach[i].add(known)
+
+    def _sizes(self, sensors: list[float]) -> None:
+        for i in self.sensed:
+            self.size[i] = max(self.size[i], abs(sensors[self.table[i].index]))
+
+    def _random(self, i: int, rng: random.Random) -> float:
+        v = self.table[i]
+        span = _POSE.get(v.name, _OPEN_RANGE) if v.source == "pose" else _OPEN_RANGE
+        centre = v.start or 0.0
+        low = v.min if v.min is not None else min(centre - span, v.max if v.max is not None else centre)
+        high = v.max if v.max is not None else max(centre + span, low)
+        if v.source == "pose":
+            low = 0.0
+        value = rng.uniform(low, high)
+        return float(round(value)) if v.whole else centre + self.share * (value - centre)
+
+    def _start(self, kernel: Instance, values: dict[int, float]) -> list[float] | None:
+        """Sensors of the initial state; None where there is none with these values."""
+        kernel.reset()
+        pose = [0.0] * 5
+        try:
+            for i, value in values.items():
+                v = self.table[i]
+                if v.source == "input":
+                    kernel.set_input(v.index, value)
+                elif v.source == "parameter":
+                    kernel.set_parameter(v.index, value)
+                else:
+                    pose[v.index] = value
+            if any(pose):
+                kernel.set_pose(*pose)
+            kernel.initialise(0.0)
+        except KernelError:
+            return None
+        sensors = list(kernel.sensors())
+        self._sizes(sensors)
+        return sensors
+
+
+def _kind(system: mbs.System, sensor: int) -> str:
+    """Whether a sensor repeats inputs, reads positions and velocities, or forces and accelerations."""
+    kind, first = SensorType(system.arrays["sen_type"][sensor]), int(system.arrays["sen_int_ptr"][sensor])
+    reads = SENSOR_READS[kind]
+    if reads == SensorReads.INPUTS:
+        return _ECHO
+    second = kind in _WITH_ORDER and int(system.arrays["sen_int"][first]) == _SECOND
+    return _MOTION if reads in (SensorReads.MOTION, SensorReads.SOLVER) and not second else _FORCE
+
+
+def _meets_road(system: mbs.System, sensor: int) -> bool:
+    """Whether a sensor reads an output of an element on a road."""
+    if SensorType(system.arrays["sen_type"][sensor]) != SensorType.ELEMENT_OUTPUT:
+        return False
+    element = int(system.arrays["sen_int"][int(system.arrays["sen_int_ptr"][sensor])])
+    return ElementType(system.arrays["el_type"][element]) in _ON_ROAD
+
+
+def with_nominal(table: Sequence[Variable], reach: Dependencies) -> tuple[Variable, ...]:
+    """Real outputs get a typical size: the power of ten below the largest value seen."""
+    return tuple(
+        replace(v, nominal=10.0 ** math.floor(math.log10(reach.size[i])))
+        if reach.size.get(i, 0.0) > 0.0 and not v.whole
+        else v
+        for i, v in enumerate(table)
+    )

@@ -1,0 +1,130 @@
+"""Arrays of FMI 3.0 from the one table of variables: components of a vector become one variable."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from fmu_src.variables.variables import Variable
+
+# Last parts of names that stand for one vector, and its name.
+_VECTORS = (
+    (("x", "y", "z"), "position"),
+    (("qw", "qx", "qy", "qz"), "orientation"),
+    (("yaw", "pitch", "roll"), "angles"),
+    (("vx", "vy", "vz"), "velocity"),
+    (("wx", "wy", "wz"), "angular_velocity"),
+    (("ax", "ay", "az"), "acceleration"),
+    (("Fx", "Fy", "Fz"), "force"),
+    (("Mx", "My", "Mz"), "moment"),
+    (("axis_x", "axis_y", "axis_z"), "axis"),
+    (("contact_x", "contact_y", "contact_z"), "contact"),
+    (("normal_x", "normal_y", "normal_z"), "normal"),
+)
+_NUMBERED = re.compile(r"(.+)_(\d+)((?:\.\w+)?)")
+
+
+@dataclass(frozen=True)
+class Array:
+    """One variable of FMI 3.0, whose value reference `references` gives.
+
+    Parameters
+    ----------
+    name : str
+        Unique.
+    items : tuple of int
+        Places in the table of variables.
+    of : Variable
+        The first of them, for causality, unit and range.
+    description : str
+    """
+
+    name: str
+    items: tuple[int, ...]
+    of: Variable
+    description: str
+
+
+def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
+    """Group the variables of a table.
+
+    Parameters
+    ----------
+    table : sequence of Variable
+
+    Returns
+    -------
+    tuple of Array
+        Vectors where all components are outputs of one unit and follow each other, series such as gauge_1.stress,
+        gauge_2.stress ..., else single variables; in the order of the table.
+    """
+    found: list[Array] = []
+    taken: set[int] = set()
+    names = {v.name for v in table}
+    for i, v in enumerate(table):
+        if i in taken:
+            continue
+        group = _vector(table, i) or _series(table, i)
+        if group is None or group.name in names:
+            group = Array(v.name, (i,), v, v.description)
+        taken |= set(group.items)
+        found.append(group)
+    return tuple(found)
+
+
+def scalars(table: Sequence[Variable]) -> tuple[Array, ...]:
+    """Every variable by itself, for hosts that do not read arrays."""
+    return tuple(Array(v.name, (i,), v, v.description) for i, v in enumerate(table))
+
+
+def array_names(table: Sequence[Variable]) -> dict[str, str]:
+    """Names of the variables that are elements of arrays, ``chassis.x`` -> ``chassis.position[1]``.
+
+    Parameters
+    ----------
+    table : sequence of Variable
+    """
+    groups = [group for group in arrays(table) if len(group.items) > 1]
+    return {table[i].name: f"{group.name}[{k}]" for group in groups for k, i in enumerate(group.items, start=1)}
+
+
+def references(groups: Sequence[Array]) -> tuple[list[int], int]:
+    """Value references of the variables of FMI 3.0, in order, and that of time.
+
+    Time stands between the outputs and the constants, so that a constant more moves no reference.
+    """
+    time = sum(group.of.source != "constant" for group in groups)
+    return [k + (k >= time) for k in range(len(groups))], time
+
+
+def _alike(table: Sequence[Variable], items: Sequence[int]) -> bool:
+    first = table[items[0]]
+    return all(
+        table[k].causality == "output" and table[k].unit == first.unit and table[k].whole == first.whole for k in items
+    )
+
+
+def _vector(table: Sequence[Variable], i: int) -> Array | None:
+    prefix, dot, last = table[i].name.rpartition(".")
+    for parts, name in _VECTORS:
+        items = range(i, i + len(parts))
+        if last != parts[0] or items[-1] >= len(table) or not _alike(table, items):
+            continue
+        if all(table[k].name == prefix + dot + part for k, part in zip(items, parts, strict=True)):
+            words = table[i].description.removeprefix(f"{parts[0]} ")
+            return Array(f"{prefix}{dot}{name}", tuple(items), table[i], f"{', '.join(parts)}: {words}")
+    return None
+
+
+def _series(table: Sequence[Variable], i: int) -> Array | None:
+    match = _NUMBERED.fullmatch(table[i].name)
+    if match is None or match[2] != "1":
+        return None
+    places = {v.name: k for k, v in enumerate(table)}
+    items = [i]
+    while (k := places.get(f"{match[1]}_{len(items) + 1}{match[3]}")) is not None:
+        items.append(k)
+    if len(items) < 2 or not _alike(table, items):
+        return None
+    return Array(f"{match[1]}{match[3]}", tuple(items), table[i], f"1 to {len(items)}: {table[i].description}")

@@ -1,0 +1,64 @@
+"""Variables of type String: the files of roads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fmu_src.variables.variables import Variable
+from mbs.roads.shipped import FOLDER
+
+ROADS = "resources/roads"
+
+
+@dataclass(frozen=True)
+class TextVariable:
+    """A fixed parameter that is text. Its value reference comes after those of all other variables.
+
+    Parameters
+    ----------
+    name, description : str
+    road : int
+        The road whose file it names.
+    start : str
+        Name of a file in `ROADS`; empty: none.
+    """
+
+    name: str
+    description: str
+    road: int
+    start: str
+
+
+def text_table(meta: Mapping[str, Any], table: Sequence[Variable]) -> tuple[TextVariable, ...]:
+    """The text variables of a System.
+
+    Raises
+    ------
+    ValueError
+        A name is taken.
+    """
+    taken = {v.name for v in table}
+    found = []
+    for entry in meta.get("road_files", ()):
+        if entry["name"] in taken:
+            raise ValueError(f"Two variables are named '{entry['name']}'; every one needs its own name.")
+        start = Path(entry["start"]).name
+        found.append(TextVariable(entry["name"], entry["description"], entry["road"], start))
+    return tuple(found)
+
+
+def road_resources(meta: Mapping[str, Any]) -> dict[str, bytes]:
+    """Files of the folder `ROADS`: the roads of the package and those the model starts on; none without a variable."""
+    files = meta.get("road_files", ())
+    if not files:
+        return {}
+    roads = {path.name: path.read_bytes() for path in sorted(FOLDER.glob("*.road"))}
+    for entry in files:
+        if entry["start"]:
+            name, content = Path(entry["start"]).name, Path(entry["start"]).read_bytes()
+            if roads.setdefault(name, content) != content:
+                raise ValueError(f"Two different roads are named '{name}'; rename {entry['start']}.")
+    return {f"{ROADS}/{name}": content for name, content in roads.items()}

@@ -1,0 +1,43 @@
+"""Texts of a model that go into the XML documents of an FMU."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from fmu_src.variables.variables import Variable
+from mbs.common.checks import shown
+
+# XML 1.0, production 2: characters that no document can hold, escaped or not.
+_FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def check_texts(description: str, rights: Sequence[str], table: Sequence[Variable]) -> None:
+    """Refuse texts with characters that XML cannot hold.
+
+    Parameters
+    ----------
+    description : str
+        Of the model.
+    rights : sequence of str
+        Author, copyright, licence.
+    table : sequence of Variable
+
+    Raises
+    ------
+    ValueError
+        With the text, the character and its place.
+    """
+    texts = {"description of the model": description}
+    texts |= dict(zip(("author", "copyright", "licence"), rights, strict=True))
+    texts |= {f"description of '{v.name}'": v.description for v in table}
+    texts |= {f"name {v.name!a}": v.name for v in table}
+    for what, text in texts.items():
+        if not isinstance(text, str):
+            raise ValueError(f"The {what} must be text, not {shown(text)}.")
+        found = _FORBIDDEN.search(text)
+        if found:
+            raise ValueError(
+                f"The {what} has the character U+{ord(found[0]):04X} at place {found.start() + 1}, "
+                "which no XML document can hold; leave it out."
+            )

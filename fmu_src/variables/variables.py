@@ -1,0 +1,332 @@
+"""The table of variables of an FMU: the only place where they are written. Everything else is made from it."""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from itertools import zip_longest
+from typing import Any
+
+from fmu_src.variables.units import DISPLAY_UNITS, canonical_unit, parse_unit
+
+_STRUCTURED_NAME = re.compile(r"[A-Za-z_]\w*(\[\d+(,\d+)*\])?(\.[A-Za-z_]\w*(\[\d+(,\d+)*\])?)*", re.ASCII)
+# A part of a structured name begins with a letter: angle.1 of a model is angle_1 of its FMU.
+_NUMBERED = re.compile(r"\.(?=\d)", re.ASCII)
+_POSE = (
+    ("initial.x", "m", "Where the origin of the scene's drawing starts along the earth's x axis"),
+    ("initial.y", "m", "Where the origin of the scene's drawing starts along the earth's y axis"),
+    ("initial.z", "m", "Initial height above the position as drawn or of rest; positive drops the scene"),
+    ("initial.yaw", "rad", "Initial turn about the origin of the drawing, positive to the left of the earth's x axis"),
+    ("initial.speed", "m/s", "Initial speed along the heading, wheels rolling"),
+)
+STEP_SIZE = "step_size"
+_DEPRECATED = "deprecated"
+STEP_ITERATIONS = "solver.step_iterations"
+_MOST_ITERATIONS = 1000.0
+# Name, number in the kernel (ALI3_SOLVER_*), unit, whether it is a whole number, description.
+_SOLVER = (
+    ("solver.status", 5, "1", True, "What the last step ended with: 0 good, else a code of the solver"),
+    ("solver.halvings", 4, "1", True, "How often inner steps had to be halved since the start"),
+    (
+        "solver.energy_error",
+        6,
+        "J",
+        False,
+        "Violation of the energy balance since the start: energy that the steps have made or lost where no force did",
+    ),
+    (
+        *("solver.energy_balance", 7, "1", False),
+        "solver.energy_error over the largest kinetic energy and the work so far; above 0.04 results are wrong",
+    ),
+    ("solver.capped_steps", 8, "1", True, f"Inner steps since the start that ended at {STEP_ITERATIONS}"),
+)
+FIDELITY = "fidelity"
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One scalar variable of the FMU. Its place in the table is its value reference.
+
+    Parameters
+    ----------
+    name : str
+        Structured name, unique in the table.
+    causality : str
+        ``input``, ``parameter``, ``output`` or ``local``.
+    variability : str
+        ``continuous``, ``discrete``, ``fixed``, ``tunable`` or ``constant``.
+    unit : str
+        SI unit.
+    description : str
+        One sentence.
+    source : str
+        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
+        ``step_iterations``, ``solver``, what the solver says about itself, ``capped_residual`` or ``constant``.
+    index : int
+        Number of that input, parameter, sensor or figure of the solver; place in (x, y, z, yaw, speed) for ``pose``;
+        0 for others.
+    start, min, max : float, optional
+        In `unit`.
+    display_unit : str, optional
+        What a person likes to see.
+    whole : bool
+        Whether it is an integer of FMI.
+    nominal : float, optional
+        A typical size, where there is one.
+    road : int
+        Of a parameter of the built-in form of a road, without effect on one from a file: its number; else -1.
+    uncomputed : tuple of int
+        Fidelities at which it is not computed.
+    """
+
+    name: str
+    causality: str
+    variability: str
+    unit: str
+    description: str
+    source: str
+    index: int
+    start: float | None = None
+    min: float | None = None
+    max: float | None = None
+    display_unit: str | None = None
+    whole: bool = False
+    nominal: float | None = None
+    road: int = -1
+    uncomputed: tuple[int, ...] = ()
+
+
+_CAPPED_RESIDUAL = Variable(
+    "solver.capped_residual",
+    "output",
+    "continuous",
+    "m",
+    f"How far steps of the last communication step that ended at {STEP_ITERATIONS} may be off, at most; 0 if none did",
+    "capped_residual",
+    0,
+)
+
+
+def variable_table(
+    meta: Mapping[str, Any], *, pose: bool, step_size: float, fidelities: Sequence[str] = ("",), fidelity: int = 0
+) -> tuple[Variable, ...]:
+    """Make the table of variables of a System.
+
+    Parameters
+    ----------
+    meta : mapping
+        Names, units and ranges as the System file carries them.
+    pose : bool
+        Whether the System has an initial pose (is not tied to the ground).
+    step_size : float
+        Default inner step, s.
+    fidelities : sequence of str
+        What to call the Systems to choose from, empty where they have no names; all must share inputs, parameters and
+        sensors (`check_fidelities`).
+    fidelity : int
+        The default one.
+
+    Returns
+    -------
+    tuple of Variable
+        Inputs, parameters, outputs, constants; the place is the value reference. A dot before a digit is an underscore
+        here, since parts of structured names begin with a letter: ``angle_1`` for ``angle.1``. Where the sensors have
+        no figures of the solver by these names, `solver.status`, `solver.halvings`, `solver.energy_error`,
+        `solver.energy_balance`, `solver.capped_steps` and `solver.capped_residual` are the last outputs.
+
+    Raises
+    ------
+    ValueError
+        If a name is not a structured name or appears twice, a unit is not known or a start is out of its range.
+    """
+    if not (math.isfinite(step_size) and step_size > 0.0):
+        raise ValueError(f"The step size is {step_size} s; a positive number is needed.")
+    table = [
+        _ranged(entry, "input", "discrete" if entry.get("whole") else "continuous", "input", k, entry["start"])
+        for k, entry in enumerate(meta["inputs"])
+    ]
+    table += [
+        _ranged(entry, "parameter", "fixed" if entry.get("fixed") else "tunable", "parameter", k, entry["value"])
+        for k, entry in enumerate(meta["parameters"])
+    ]
+    if pose:
+        table += [
+            Variable(name, "parameter", "fixed", unit, text, "pose", k, 0.0, display_unit=_display(name, unit))
+            for k, (name, unit, text) in enumerate(_POSE)
+        ]
+    table.append(
+        Variable(
+            STEP_SIZE,
+            "parameter",
+            "fixed",
+            "s",
+            "Inner step aimed at; a communication step is divided into equal inner steps next to it",
+            "step_size",
+            0,
+            step_size,
+            step_size / 100.0,
+            step_size * 10.0,
+        )
+    )
+    if len(fidelities) > 1:
+        named = ", ".join(f"{k} {name}" for k, name in enumerate(fidelities) if name)
+        text = "Level of detail of the model" + (f": {named}" if named else "")
+        last = float(len(fidelities) - 1)
+        table.append(
+            Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last, whole=True)
+        )
+    text = "Most iterations of an inner step, which is then accepted as it is and counted; 0: as many as it needs"
+    table.append(
+        Variable(
+            *(STEP_ITERATIONS, "parameter", "fixed", "1", text, "step_iterations", 0, 0.0, 0.0, _MOST_ITERATIONS),
+            whole=True,
+        )
+    )
+    table += [_sensor(entry, k) for k, entry in enumerate(meta["sensors"])]
+    sensed = {entry["name"] for entry in meta["sensors"]}
+    table += [
+        Variable(name, "output", "discrete" if whole else "continuous", unit, text, "solver", k, whole=whole)
+        for name, k, unit, whole, text in _SOLVER
+        if name not in sensed
+    ]
+    table += [v for v in (_CAPPED_RESIDUAL,) if v.name not in sensed]
+    table += [_constant(entry) for entry in meta.get("constants", ())]
+    table = [replace(v, name=_NUMBERED.sub("_", v.name)) for v in table]
+    _check(table)
+    return _distinct(table)
+
+
+def with_uncomputed(table: Sequence[Variable], metas: Sequence[Mapping[str, Any]]) -> tuple[Variable, ...]:
+    """The table with the fidelities at which outputs are not computed.
+
+    Parameters
+    ----------
+    table : sequence of Variable
+    metas : sequence of mapping
+        Of the System of each fidelity.
+    """
+    computed = [[entry.get("computed", True) for entry in meta["sensors"]] for meta in metas]
+    return tuple(
+        replace(v, uncomputed=tuple(k for k, sensors in enumerate(computed) if not sensors[v.index]))
+        if v.source == "sensor"
+        else v
+        for v in table
+    )
+
+
+def _sensor(entry: Mapping[str, Any], index: int) -> Variable:
+    whole, unit = bool(entry.get("whole", False)), canonical_unit(entry["unit"] or "1")
+    return Variable(
+        entry["name"],
+        "output",
+        "discrete" if whole else "continuous",
+        unit,
+        entry.get("description", ""),
+        "sensor",
+        index,
+        display_unit=entry.get("display_unit") or _display(entry["name"], unit),
+        whole=whole,
+    )
+
+
+def _constant(entry: Mapping[str, Any]) -> Variable:
+    unit = canonical_unit(entry["unit"] or "1")
+    return Variable(
+        *(entry["name"], "local", "constant", unit, entry.get("description", ""), "constant", 0),
+        start=float(entry["value"]),
+        display_unit=_display(entry["name"], unit),
+    )
+
+
+def _distinct(table: Sequence[Variable]) -> tuple[Variable, ...]:
+    """Descriptions that several variables share are preceded by the part of the model, or by the name."""
+    shared = Counter(v.description for v in table)
+    told = [_preceded(v, v.name.rpartition(".")[0]) if shared[v.description] > 1 else v for v in table]
+    shared = Counter(v.description for v in told)
+    return tuple(_preceded(v, v.name) if shared[w.description] > 1 else w for v, w in zip(table, told, strict=True))
+
+
+def _preceded(v: Variable, word: str) -> Variable:
+    if not (v.description and word):
+        return v
+    if v.description.startswith(_DEPRECATED):  # the first word of what goes
+        return replace(v, description=f"{_DEPRECATED}, {word}{v.description.removeprefix(_DEPRECATED)}")
+    return replace(v, description=f"{word}: {v.description}")
+
+
+def check_fidelities(metas: Sequence[Mapping[str, Any]]) -> None:
+    """Systems to choose from must have the same inputs, parameters and sensors in the same order."""
+    for k, meta in enumerate(metas[1:], start=1):
+        for kind in ("inputs", "parameters", "sensors"):
+            mine, first = (
+                [(e["name"], e["unit"], e.get("whole"), e.get("fixed")) for e in m[kind]] for m in (meta, metas[0])
+            )
+            if mine != first:
+                odd = next((a or b for a, b in zip_longest(mine, first) if a != b), ("", "", None))[0]
+                raise ValueError(
+                    f"Fidelity {k} has other {kind} than fidelity 0, first '{odd}'; all need the same in one order."
+                )
+
+
+def table_records(table: Iterable[Variable]) -> list[dict[str, Any]]:
+    """The table as plain dictionaries, ready for JSON."""
+    return [asdict(v) for v in table]
+
+
+def _ranged(
+    entry: Mapping[str, Any], causality: str, variability: str, source: str, index: int, start: float
+) -> Variable:
+    unit = canonical_unit(entry["unit"] or "1")
+    return Variable(
+        entry["name"],
+        causality,
+        variability,
+        unit,
+        entry.get("description", ""),
+        source,
+        index,
+        float(start),
+        _bound(entry["min"]),
+        _bound(entry["max"]),
+        _display(entry["name"], unit),
+        whole=bool(entry.get("whole", False)),
+        road=entry.get("road", -1),
+    )
+
+
+def _bound(value: float | None) -> float | None:
+    """A bound, or None for an open end, which a System writes as None or as the largest double."""
+    return float(value) if value is not None and abs(value) < sys.float_info.max else None
+
+
+def _display(name: str, unit: str) -> str | None:
+    if unit == "m/s" and not name.endswith("speed"):
+        return None
+    return next(iter(DISPLAY_UNITS[unit])) if unit in DISPLAY_UNITS else None
+
+
+def _check(table: Iterable[Variable]) -> None:
+    seen: set[str] = set()
+    for v in table:
+        if not _STRUCTURED_NAME.fullmatch(v.name):
+            raise ValueError(
+                f"'{v.name}' cannot be the name of an FMU variable; use letters, digits and underscores, "
+                "with dots between the parts, as in wheel_FL.Fz."
+            )
+        if v.name in seen:
+            raise ValueError(
+                f"Two variables are named '{v.name}'; every input, parameter and sensor needs its own name."
+            )
+        seen.add(v.name)
+        try:
+            parse_unit(v.unit)
+        except ValueError as error:
+            raise ValueError(f"Variable '{v.name}': {error}") from None
+        low = -math.inf if v.min is None else v.min
+        high = math.inf if v.max is None else v.max
+        if v.start is not None and not low <= v.start <= high:
+            raise ValueError(f"Variable '{v.name}' starts at {v.start} {v.unit}, outside its range {low} to {high}.")

@@ -1,0 +1,140 @@
+"""Checks of an FMU that run it: repetition, instances, states, refusals, steps of other sizes."""
+
+from __future__ import annotations
+
+import math
+
+from hosts.check.instance import Finding, Instance, Subject
+
+# Two ways of dividing time differ by the error of the method.
+_SUBSTEP_SHARE = 0.05
+
+
+def runs(subject: Subject) -> Finding:
+    """A run with finite outputs."""
+    rows = Instance(subject).start().run(subject.steps)
+    if not all(math.isfinite(v) for row in rows for v in row):
+        return Finding("runs", "bad", "an output is not finite")
+    moving = sum(min(column) < max(column) for column in zip(*rows, strict=True))
+    return Finding("runs", "good", f"{subject.steps} steps of {subject.step:g} s, {moving} outputs move")
+
+
+def repeats(subject: Subject) -> Finding:
+    """Two instances, interleaved, give what one gives."""
+    alone = Instance(subject).start().run(subject.steps)
+    pair = [Instance(subject).start() for _ in range(2)]
+    rows: list[list[list[float]]] = [[], []]
+    for k in range(subject.steps):
+        for instance, row in zip(pair, rows, strict=True):
+            row += instance.run(1, k)
+    same = rows[0] == rows[1] == alone
+    return Finding("repeats", "good" if same else "bad", "bit for bit, also interleaved" if same else "runs differ")
+
+
+def resets(subject: Subject) -> Finding:
+    """A reset instance is a new one."""
+    instance = Instance(subject).start()
+    first = instance.run(subject.steps)
+    instance.slave.reset()
+    same = instance.start().run(subject.steps) == first
+    return Finding("reset", "good" if same else "bad", "starts anew" if same else "does not start anew")
+
+
+def states(subject: Subject) -> Finding:
+    """Roll back, another instance through bytes, altered bytes."""
+    face = subject.description.coSimulation
+    if not (face.canGetAndSetFMUstate and face.canSerializeFMUstate):
+        return Finding("states", "note", "cannot be saved and restored")
+    half = max(1, subject.steps // 2)
+    instance = Instance(subject).start()
+    instance.run(half)
+    data = instance.state()
+    first = instance.run(half, half)
+    instance.restore(data)
+    other = Instance(subject)
+    other.restore(data)
+    if instance.run(half, half) != first or other.run(half, half) != first:
+        return Finding("states", "bad", "a restored state goes on differently")
+    taken = 0
+    for k in range(16):
+        altered = bytearray(data)
+        altered[len(data) * k // 16] ^= 0x10
+        try:
+            other.restore(bytes(altered))
+            taken += 1
+        except Exception:
+            continue
+    if taken:
+        return Finding("states", "note", f"exact, {len(data)} bytes; {taken} of 16 altered states were taken")
+    return Finding("states", "good", f"exact, also in another instance, {len(data)} bytes; altered ones are refused")
+
+
+def refusals(subject: Subject) -> Finding:
+    """A wrong token, a NaN, a call out of order: refused with words."""
+    silent, taken = [], []
+
+    def expect(what: str, instance: Instance | None, action: object) -> None:
+        try:
+            action()  # type: ignore[operator]
+        except Exception:
+            if instance is not None and not instance.messages:
+                silent.append(what)
+            return
+        taken.append(what)
+
+    expect("a wrong GUID", None, lambda: Instance(subject, "{wrong}"))
+    early = Instance(subject)
+    expect("a step before initialisation", early, lambda: early.slave.doStep(0.0, subject.step))
+    if subject.inputs:
+        driven = Instance(subject).start()
+        expect("NaN for an input", driven, lambda: driven.set(subject.inputs[0], math.nan))
+    unknown = Instance(subject).start()
+    getter = unknown.slave.getFloat64 if unknown.three else unknown.slave.getReal
+    expect("an unknown value reference", unknown, lambda: getter([4_000_000_000]))
+    if taken:
+        return Finding("refusals", "bad", f"accepted without a message: {', '.join(taken)}")
+    if silent:
+        return Finding("refusals", "note", f"refused without a message: {', '.join(silent)}")
+    return Finding("refusals", "good", "wrong GUID, order, NaN and references are refused, with messages")
+
+
+def other_steps(subject: Subject) -> Finding:
+    """Communication steps of other sizes."""
+    if not subject.description.coSimulation.canHandleVariableCommunicationStepSize:
+        return Finding("steps of any size", "note", "only the one step size is allowed")
+    fine = Instance(subject).start().run(subject.steps)
+    instance, time, end = Instance(subject).start(), 0.0, subject.steps * subject.step
+    k = 0
+    while time < end - 1e-9:
+        step = min(subject.step * (0.7, 1.0, 2.5)[k % 3], end - time)
+        instance.slave.doStep(time, step)
+        time, k = time + step, k + 1
+    last = instance.get(subject.outputs)
+    moving = [(a, b, max(c) - min(c)) for a, b, c in zip(last, fine[-1], zip(*fine, strict=True), strict=True)]
+    near = sum(abs(a - b) <= _SUBSTEP_SHARE * span + 1e-9 for a, b, span in moving)
+    verdict = "good" if all(math.isfinite(v) for v in last) else "bad"
+    words = f"{near} of {len(moving)} outputs end within {100 * _SUBSTEP_SHARE:g} % of their range"
+    return Finding("steps of any size", verdict, words)
+
+
+def many(subject: Subject) -> Finding:
+    """Thirty instances at once."""
+    if subject.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+        return Finding("many instances", "note", "one per process is allowed")
+    crowd = [Instance(subject).start() for _ in range(30)]
+    ends = [instance.run(3)[-1] for instance in crowd]
+    for instance in crowd:
+        instance.free()
+    same = all(end == ends[0] for end in ends)
+    return Finding("many instances", "good" if same else "bad", "30 at once" + ("" if same else ", they differ"))
+
+
+BEHAVIOUR_CHECKS = (
+    ("runs", runs),
+    ("repeats", repeats),
+    ("reset", resets),
+    ("states", states),
+    ("refusals", refusals),
+    ("steps of any size", other_steps),
+    ("many instances", many),
+)

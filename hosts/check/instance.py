@@ -1,0 +1,207 @@
+"""What checks of an FMU share: the FMU unpacked, instances by name, findings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi3 import FMU3Slave
+from fmpy.model_description import ModelDescription, ScalarVariable
+
+from ali3.files import reason
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One line of the verdict.
+
+    Parameters
+    ----------
+    check : str
+        Name of the check.
+    verdict : str
+        ``good``, ``note`` or ``bad``.
+    words : str
+        What was found.
+    """
+
+    check: str
+    verdict: str
+    words: str
+
+
+@dataclass
+class Subject:
+    """The FMU under check.
+
+    Parameters
+    ----------
+    path, folder : Path
+        The file, and where it is unpacked.
+    description : ModelDescription
+    steps : int
+        Communication steps per run.
+    step : float
+        Communication step, s.
+    start : mapping of str to float, int, bool or str
+        What is set in each instance before it starts.
+    """
+
+    path: Path
+    folder: Path
+    description: ModelDescription
+    steps: int
+    step: float
+    start: Mapping[str, Value] = field(default_factory=dict)
+
+    @property
+    def three(self) -> bool:
+        """Whether it is FMI 3.0."""
+        return str(self.description.fmiVersion).startswith("3")
+
+    @property
+    def outputs(self) -> list[ScalarVariable]:
+        """Outputs that are real or whole numbers, the real ones first."""
+        found = [v for v in self.description.modelVariables if v.causality == "output"]
+        return [v for v in found if v.type in _REAL] + [v for v in found if v.type in _WHOLE]
+
+    @property
+    def inputs(self) -> list[ScalarVariable]:
+        """Inputs that are real numbers without dimensions."""
+        return [
+            v
+            for v in self.description.modelVariables
+            if v.causality == "input" and v.type in _REAL and not v.dimensions
+        ]
+
+
+_REAL = ("Real", "Float64")
+_WHOLE = ("Integer", "Int32")
+# Calls of FMI 2.0 and 3.0 that set a variable of a type.
+_SETTERS = {
+    **dict.fromkeys(_REAL, ("setReal", "setFloat64")),
+    **dict.fromkeys(_WHOLE, ("setInteger", "setInt32")),
+    "Enumeration": ("setInteger", "setInt64"),
+    "Boolean": ("setBoolean", "setBoolean"),
+    "String": ("setString", "setString"),
+}
+
+
+def _count(variable: ScalarVariable) -> int:
+    return math.prod(int(dimension.start) for dimension in variable.dimensions)
+
+
+class Instance:
+    """One instance of either version of FMI with the same calls."""
+
+    def __init__(
+        self, subject: Subject, token: str | None = None, name: str = "check", resources: str | None = None
+    ) -> None:
+        self.subject = subject
+        self.messages: list[str] = []
+        self.three = subject.three
+        arguments: dict[str, Any] = {
+            "guid": token or subject.description.guid,
+            "unzipDirectory": str(subject.folder),
+            "modelIdentifier": subject.description.coSimulation.modelIdentifier,
+            "instanceName": name,
+        }
+        self.slave = FMU3Slave(**arguments) if self.three else FMU2Slave(**arguments)
+        if self.three:
+            self.slave.instantiate(logMessage=lambda *a: self.messages.append(a[-1].decode("utf-8", "replace")))
+        else:
+            self._callbacks = fmi2CallbackFunctions()
+            self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
+            self._callbacks.freeMemory = defaultCallbacks.freeMemory
+            self._callbacks.logger = fmi2CallbackLoggerTYPE(
+                lambda e, n, s, c, text: self.messages.append(text.decode("utf-8", "replace"))
+            )
+            if resources is not None:
+                take = self.slave.fmi2Instantiate
+                self.slave.fmi2Instantiate = lambda *a: take(*a[:3], resources.encode(), *a[4:])
+            self.slave.instantiate(callbacks=self._callbacks)
+
+    def start(self, start_time: float = 0.0, stop_time: float | None = None) -> Instance:
+        """Set what is to be set and leave initialisation."""
+        for variable in self.subject.description.modelVariables:
+            if variable.name in self.subject.start:
+                call = _SETTERS[variable.type][self.three]
+                getattr(self.slave, call)([variable.valueReference], [self.subject.start[variable.name]])
+        if self.three:
+            self.slave.enterInitializationMode(startTime=start_time, stopTime=stop_time)
+        else:
+            self.slave.setupExperiment(startTime=start_time, stopTime=stop_time)
+            self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+        return self
+
+    def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
+        """Values of real variables, then those of whole ones; arrays flattened."""
+        real = [v for v in variables if v.type in _REAL]
+        whole = [v for v in variables if v.type in _WHOLE]
+        values: list[float] = []
+        for members, two, three in ((real, "getReal", "getFloat64"), (whole, "getInteger", "getInt32")):
+            references = [v.valueReference for v in members]
+            if references and self.three:
+                values += getattr(self.slave, three)(references, sum(map(_count, members)))
+            elif references:
+                values += getattr(self.slave, two)(references)
+        return values
+
+    def set(self, variable: ScalarVariable, value: float) -> None:
+        """Set one real variable."""
+        (self.slave.setFloat64 if self.three else self.slave.setReal)([variable.valueReference], [value])
+
+    def state(self) -> bytes:
+        """The serialised state."""
+        if self.three:
+            return bytes(self.slave.serializeFMUState(self.slave.getFMUState()))
+        return bytes(self.slave.serializeFMUstate(self.slave.getFMUstate()))
+
+    def restore(self, data: bytes) -> None:
+        """Set a serialised state."""
+        if self.three:
+            self.slave.setFMUState(self.slave.deserializeFMUState(data))
+        else:
+            self.slave.setFMUstate(self.slave.deSerializeFMUstate(data))
+
+    def run(self, steps: int, begin: int = 0) -> list[list[float]]:
+        """Outputs after each step."""
+        h = self.subject.step
+        rows = []
+        for k in range(begin, begin + steps):
+            self.slave.doStep(k * h, h)
+            rows.append(self.get(self.subject.outputs))
+        return rows
+
+    def free(self) -> None:
+        """Free the instance; the library stays loaded, as for hosts with several instances."""
+        if self.three:
+            self.slave.fmi3FreeInstance(self.slave.component)
+        else:
+            self.slave.fmi2FreeInstance(self.slave.component)
+
+
+def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value]) -> Subject:
+    """Read and unpack an FMU."""
+    try:
+        description = read_model_description(str(path), validate=False)
+        extract(str(path), unzipdir=str(folder))
+    except OSError as error:
+        raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
+    except ModuleNotFoundError:
+        raise
+    except Exception as error:
+        raise HostError(f"{path} is not an FMU that can be read: {error}") from None
+    if description.coSimulation is None or description.fmiVersion[0] not in "23":
+        raise HostError(f"{path} is no co-simulation FMU of FMI 2.0 or 3.0.")
+    experiment = description.defaultExperiment
+    step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+    return Subject(path, folder, description, steps, step, start)

@@ -1,0 +1,1 @@
+"""What all programs share: errors, numbers, options of the command line, units."""

@@ -1,0 +1,1 @@
+"""Manoeuvres and drivers, and the co-simulation that runs them."""

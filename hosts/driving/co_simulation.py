@@ -1,0 +1,291 @@
+"""The co-simulation loop: inputs in, a communication step, outputs out."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.common.errors import HostError
+from hosts.driving.driver import ACTS, SENSES, Driver, make_driver
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.pilots.pilot import Pilot
+from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.fmu.fmu import StepRefusedError
+
+# Bytes a run may record: more would fill the memory before the disk.
+_LARGEST_RECORD = 4e9
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run recorded.
+
+    Parameters
+    ----------
+    names : list of str
+        Inputs and outputs.
+    units : dict of str to str
+        By name.
+    time : ndarray of shape (n,)
+        s.
+    values : ndarray of shape (n, len(names))
+        In the units of the model description; inputs are those of the step that ends there.
+    wall : float
+        Time spent in the loop, s.
+    simulated : float
+        s.
+    failed_steps : int
+        Communication steps the FMU refused; the run ends with the first.
+    messages : list of str
+        What the FMU logged at warning or above.
+    """
+
+    names: list[str]
+    units: dict[str, str]
+    time: NDArray[np.float64]
+    values: NDArray[np.float64]
+    wall: float
+    simulated: float
+    failed_steps: int
+    messages: list[str]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.names
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        return np.asarray(self.values[:, self.names.index(name)])
+
+
+def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
+    """The step of a run: the one that was asked for, else that of the FMU.
+
+    Parameters
+    ----------
+    fmu : SimulatedFmu
+    manoeuvre : Manoeuvre
+    step : float, optional
+        s.
+
+    Raises
+    ------
+    HostError
+        If it or the stop time is not positive, or if it is longer than the manoeuvre or so short that the record would
+        not fit into the memory.
+    """
+    experiment = fmu.description.defaultExperiment
+    if step is None:
+        step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+    stop = manoeuvre.stop_time
+    if not stop > 0.0:
+        raise HostError(f"The stop time is {stop:g} s; it must be positive.")
+    if not 0.0 < step <= stop:
+        raise HostError(f"The step is {step:g} s; it must be positive and not longer than {stop:g} s.")
+    columns = len(fmu.names("input")) + len(fmu.names("output")) + 1
+    record = 8.0 * columns * (stop / step + 1.0)
+    if record > _LARGEST_RECORD:
+        shortest = stop * 8.0 * columns / (_LARGEST_RECORD - 8.0 * columns)
+        raise HostError(
+            f"{stop:g} s in steps of {step:g} s are {stop / step:.3g} rows of {columns} values: {1e-9 * record:.3g} GB "
+            f"where at most {1e-9 * _LARGEST_RECORD:g} GB can be recorded; take a step of at least {shortest:.2g} s, "
+            "or a shorter time."
+        )
+    return step
+
+
+def run_with_bar(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Driver | None = None) -> Result:
+    """`run` with a progress bar on the terminal."""
+    from tqdm import tqdm
+
+    steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
+    with tqdm(total=steps, desc=what, unit="step", delay=2.0) as bar:
+        return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
+
+
+def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:
+    """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
+
+    Raises
+    ------
+    HostError
+        If the FMU is no car for a driver, or a setting is wrong or missing.
+    """
+    if not manoeuvre.driver:
+        return None
+    _check_drivable(fmu)
+    return make_driver(manoeuvre.driver, fmu.constants())
+
+
+def _check_drivable(fmu: SimulatedFmu) -> None:
+    inputs, outputs = fmu.names("input"), fmu.names("output")
+    missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
+    if missing:
+        raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
+
+
+def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
+    """Refuse a table with a column that is no input and no tunable parameter of the FMU, or not of its kind.
+
+    Raises
+    ------
+    HostError
+        With the column, and what it would have to be.
+    """
+    inputs, tunable = fmu.names("input"), fmu.tunable
+    for name, values in manoeuvre.inputs.items():
+        what, variable = f"The manoeuvre '{manoeuvre.name}' has a column '{name}'", fmu.variables.get(name)
+        if variable is not None and variable.causality == "parameter" and name not in tunable:
+            raise HostError(
+                f"{what}, a {variable.variability} parameter of {fmu.path.name}: it can be set before the start only, "
+                "by --set, --parameters or in [start]."
+            )
+        if name not in inputs and name not in tunable:
+            raise HostError(
+                f"{what}, which is no input of {fmu.path.name}; its inputs are: {', '.join(inputs) or 'none'}"
+                f"{f'; a tunable parameter, such as {tunable[0]}, can be a column too' if tunable else ''}."
+            )
+        if fmu.variables[name].type == "Integer" and (values != np.round(values)).any():
+            odd = float(values[values != np.round(values)][0])
+            raise HostError(f"{what} with the value {odd:g}; '{name}' is a whole number.")
+        if name in tunable:
+            for value in values.tolist():
+                fmu.table[name].check(value, f"The manoeuvre '{manoeuvre.name}'")
+
+
+def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+    """Sets inputs, and those of the parameters that have changed: a parameter may be dear."""
+    tunable = set(fmu.tunable)
+    inputs = [k for k, n in enumerate(names) if n not in tunable]
+    set_inputs = fmu.setter([names[k] for k in inputs])
+    parameters = {k: fmu.setter([names[k]]) for k in range(len(names)) if k not in inputs}
+    last: dict[int, float] = {}
+
+    def set_values(values: Sequence[float]) -> None:
+        set_inputs([values[k] for k in inputs] if parameters else values)
+        for k, set_parameter in parameters.items():
+            if last.get(k) != values[k]:
+                set_parameter([values[k]])
+                last[k] = values[k]
+
+    return set_values
+
+
+class _Senses(dict[str, float]):
+    """Outputs by name; one that there is not is named to the user."""
+
+    def __missing__(self, name: str) -> float:
+        raise HostError(f"Who drives needs the output '{name}', which the FMU does not have.")
+
+
+def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, float]) -> str:
+    act = next(f"{n} = {x}" for n, x in acts.items() if not math.isfinite(x))
+    sense = next((f": the output {n} of the FMU is {x}" for n, x in senses.items() if not math.isfinite(x)), "")
+    return f"At {time:.4g} s who drives asks for {act}{sense}."
+
+
+def run(
+    fmu: SimulatedFmu,
+    manoeuvre: Manoeuvre,
+    step: float,
+    driver: Pilot | None = None,
+    progress: Callable[[int], None] = lambda done: None,
+    until: Callable[[float, Mapping[str, float]], bool] | None = None,
+    every: int = 1,
+) -> Result:
+    """Drive an FMU through a manoeuvre.
+
+    Parameters
+    ----------
+    fmu : SimulatedFmu
+        Not yet initialised.
+    manoeuvre : Manoeuvre
+    step : float
+        Communication step, s.
+    driver : Pilot, optional
+        Overrules the inputs it acts on, which are those of its first act.
+    progress : callable
+        Called with the number of finished steps from time to time.
+    until : callable, optional
+        Of the time and the outputs; the run ends with the first step after which it is true.
+    every : int
+        Steps from one recorded row to the next.
+
+    Returns
+    -------
+    Result
+        Up to the first refused step.
+    """
+    outputs = fmu.names("output")
+    manoeuvre = with_names_of(manoeuvre, fmu.variables)
+    check_columns(fmu, manoeuvre)
+    inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
+    whole = {n for n in manoeuvre.inputs if fmu.variables[n].type == "Integer"}
+    get_outputs = fmu.getter(outputs)
+
+    first = manoeuvre.initial(whole)
+    fmu.initialise({**manoeuvre.start, **first})
+    if manoeuvre.state is not None:
+        fmu.restore_bytes(manoeuvre.state)
+    row = get_outputs()
+    senses = _Senses(zip(outputs, row, strict=True))
+    acts = driver.act(0.0, senses) if driver is not None else {}
+    missing = [n for n in acts if n not in inputs]
+    if missing:
+        raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
+    used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
+    set_inputs = _setter(fmu, used)
+    steps = max(1, round(manoeuvre.stop_time / step))
+    values = np.empty((steps // every + 1, len(inputs) + len(outputs)))
+    columns = [inputs.index(n) for n in used]
+    held = fmu.start_values(inputs)
+    for name, value in {**manoeuvre.start, **first}.items():
+        if name in inputs and not isinstance(value, str):
+            held[inputs.index(name)] = value
+    values[0] = [*held, *row]
+    done, failed = 0, 0
+    begin = clock.perf_counter()
+    for k in range(steps):
+        t = k * step
+        wanted = manoeuvre.at(t, whole)
+        if driver is not None:
+            acts = acts if k == 0 else driver.act(t, senses)
+            if not all(map(math.isfinite, acts.values())):
+                raise HostError(_not_finite(t, acts, senses))
+            wanted |= acts
+        now = [wanted[n] for n in used]
+        if used:
+            set_inputs(now)
+            held[columns] = now
+        try:
+            fmu.step(manoeuvre.state_time + t, step)
+        except StepRefusedError:
+            failed = 1
+            break
+        done = k + 1
+        row = get_outputs()
+        if done % every == 0:
+            values[done // every, : len(inputs)] = held
+            values[done // every, len(inputs) :] = row
+        if done % 50 == 0:
+            progress(done)
+        if driver is not None or until is not None:
+            senses = _Senses(zip(outputs, row, strict=True))
+        if until is not None and until(done * step, senses):
+            break
+    wall = clock.perf_counter() - begin
+    progress(done)
+    names = inputs + outputs
+    return Result(
+        names,
+        {n: fmu.variables[n].unit or "1" for n in names},
+        step * every * np.arange(done // every + 1, dtype=np.float64),
+        values[: done // every + 1],
+        wall,
+        done * step,
+        failed,
+        list(fmu.messages),
+    )

@@ -1,0 +1,68 @@
+"""The driver of a manoeuvre, from the settings of its file and the constants of the FMU."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields
+
+from hosts.common.errors import HostError
+from hosts.common.numbers import parse_number
+from hosts.driving.course import course_of
+from hosts.driving.pilots.course_follower import ACTS, SENSES, CourseFollower, DriverSettings
+
+__all__ = ["ACTS", "CONSTANTS", "SENSES", "Driver", "DriverSettings", "make_driver"]
+
+Driver = CourseFollower
+_POSITIVE = ("speed", "wheelbase", "wheel_angle_max", "vehicle_length", "vehicle_width")
+CONSTANTS = {
+    "wheelbase": "vehicle.wheelbase",
+    "wheel_angle_max": "vehicle.front_wheel_angle_max",
+    "vehicle_length": "vehicle.length",
+    "vehicle_width": "vehicle.width",
+}
+"""Numbers of the car that a driver needs: setting and the constant of the FMU that has it."""
+
+
+def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> Driver:
+    """Driver from the ``[driver]`` section of a manoeuvre and the constants of the FMU.
+
+    Parameters
+    ----------
+    settings : mapping of str to str
+        ``course`` and the fields of `DriverSettings`; they take precedence over the constants of the FMU.
+    constants : mapping of str to float
+        Constants of the FMU by name; see `CONSTANTS`.
+
+    Returns
+    -------
+    Driver
+
+    Raises
+    ------
+    HostError
+        If a setting is not known, no number, or missing both there and in the FMU.
+    """
+    numbers = {name: constants[constant] for name, constant in CONSTANTS.items() if constant in constants}
+    known = {f.name for f in fields(DriverSettings)}
+    for name, text in settings.items():
+        if name == "course":
+            continue
+        if name not in known:
+            raise HostError(f"[driver] has '{name}'; known are course, {', '.join(sorted(known))}.")
+        try:
+            numbers[name] = parse_number(text)
+        except ValueError as error:
+            raise HostError(f"[driver] {name}: {error}.") from None
+        if numbers[name] < 0.0 or (numbers[name] == 0.0 and name in _POSITIVE):
+            sign = "positive" if name in _POSITIVE else "zero or positive"
+            raise HostError(f"[driver] {name} is {numbers[name]:g}; it must be {sign}.")
+    if "speed" not in numbers or "course" not in settings:
+        raise HostError("[driver] needs a course and a speed.")
+    for name, constant in CONSTANTS.items():
+        if name not in numbers:
+            raise HostError(
+                f"The driver needs the {name.replace('_', ' ')} of the car, which this FMU does not tell (it has no "
+                f"constant '{constant}'); give it as --driver {name}=NUMBER, or in [driver] of the manoeuvre."
+            )
+    values = DriverSettings(**numbers)
+    return Driver(course_of(settings["course"], values.vehicle_width), values)

@@ -1,0 +1,91 @@
+"""A pilot that follows a course with a view ahead, and holds the speed with throttle and brake."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from hosts.driving.course import Course
+from hosts.driving.pilots.speed_holder import SpeedHolder
+
+SENSES = ("chassis.x", "chassis.y", "chassis.yaw", "speed")
+"""Outputs without which a course cannot be followed."""
+ACTS = ("steering", "throttle", "brake")
+"""Inputs without which it cannot."""
+
+
+@dataclass(frozen=True)
+class DriverSettings:
+    """What a driver knows of the car and wants.
+
+    Parameters
+    ----------
+    speed : float
+        To be held, m/s.
+    wheelbase : float
+        m.
+    wheel_angle_max : float
+        Mean angle of the front wheels at full steering, rad.
+    vehicle_length, vehicle_width : float
+        Outline centred on the origin of the vehicle axes, m.
+    curvature_preview, heading_preview : float
+        How far ahead the driver reads the curvature and the direction of the path, s; it makes up for the car's delay.
+    heading_gain : float
+        Wheel angle per error of the heading.
+    lateral_gain : float
+        Wheel angle per distance from the path, rad/m.
+    speed_gain, speed_integral : float
+        Pedal per m/s, pedal per m.
+    """
+
+    speed: float
+    wheelbase: float
+    wheel_angle_max: float
+    vehicle_length: float
+    vehicle_width: float
+    curvature_preview: float = 0.25
+    heading_preview: float = 0.1
+    heading_gain: float = 0.8
+    lateral_gain: float = 0.05
+    speed_gain: float = 0.3
+    speed_integral: float = 0.1
+
+
+class CourseFollower:
+    """Closed loop from the car's position to its pedals and steering.
+
+    Parameters
+    ----------
+    course : Course
+    settings : DriverSettings
+    """
+
+    def __init__(self, course: Course, settings: DriverSettings) -> None:
+        self.course = course
+        self.settings = settings
+        self.speed_holder = SpeedHolder(settings.speed, settings.speed_gain, settings.speed_integral)
+
+    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+        """Inputs for the coming communication step.
+
+        Parameters
+        ----------
+        time : float
+            s.
+        senses : mapping of str to float
+            `SENSES`, SI units, earth axes.
+
+        Returns
+        -------
+        dict of str to float
+            `ACTS`.
+        """
+        s = self.settings
+        x, y, yaw, speed = (senses[name] for name in SENSES)
+        curvature = self.course.path(x + s.curvature_preview * speed)[2]
+        slope = self.course.path(x + s.heading_preview * speed)[1]
+        angle = math.atan(s.wheelbase * curvature)
+        angle += s.heading_gain * (math.atan(slope) - yaw) + s.lateral_gain * (self.course.path(x)[0] - y)
+        steering = angle / s.wheel_angle_max
+        return {"steering": min(max(steering, -1.0), 1.0)} | self.speed_holder.act(time, senses)

@@ -1,0 +1,48 @@
+"""A pilot that lets another one steer and then keeps the mean of what that one did."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from hosts.driving.pilots.pilot import Pilot
+
+
+class FixedSteering:
+    """From a time on the steering does not change; pedals stay with the other pilot.
+
+    Parameters
+    ----------
+    pilot : Pilot
+    fixed_at : float
+        s.
+    mean_over : float
+        Time before that, s; the steering is the mean over it.
+    name : str
+        Of the input.
+
+    Attributes
+    ----------
+    value : float or None
+        Of the input since it is fixed.
+    """
+
+    def __init__(self, pilot: Pilot, fixed_at: float, mean_over: float, name: str = "steering") -> None:
+        self.pilot = pilot
+        self.fixed_at = fixed_at
+        self.mean_over = mean_over
+        self.name = name
+        self.value: float | None = None
+        self._sum = 0.0
+        self._count = 0
+
+    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+        """See `hosts.driving.pilots.pilot.Pilot.act`."""
+        acts = dict(self.pilot.act(time, senses))
+        if self.value is None and time >= self.fixed_at - 1e-9 and self._count:
+            self.value = self._sum / self._count
+        if self.value is not None:
+            return {**acts, self.name: self.value}
+        if time >= self.fixed_at - self.mean_over - 1e-9:
+            self._sum += acts[self.name]
+            self._count += 1
+        return acts

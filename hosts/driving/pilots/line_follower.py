@@ -1,0 +1,66 @@
+"""A pilot that steers along a course by its direction of travel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from hosts.driving.course import Course
+
+
+class LineFollower:
+    """Steers the centre of mass along the line of a course.
+
+    Parameters
+    ----------
+    course : Course
+    wheelbase : float
+        m.
+    wheel_angle_max : float
+        Mean angle of the front wheels where the input is 1, rad.
+    preview : float
+        How far ahead the curvature of the line is read, s; it makes up for the delay of the car.
+    horizon : float
+        Time in which an error is taken back, s.
+    lead : float
+        Errors are taken as they will be after this time, s.
+
+    Notes
+    -----
+    The curvature that is steered for is that of the line less feedback of direction and place of travel, with two equal
+    poles at -1/`horizon` for a car that follows its front wheels at once. The sideslip is part of the direction of
+    travel where the car tells it.
+    """
+
+    def __init__(
+        self,
+        course: Course,
+        wheelbase: float,
+        wheel_angle_max: float,
+        preview: float = 0.2,
+        horizon: float = 0.5,
+        lead: float = 0.3,
+    ) -> None:
+        self.course = course
+        self.wheelbase = wheelbase
+        self.wheel_angle_max = wheel_angle_max
+        self.preview = preview
+        self.horizon = horizon
+        self.lead = lead
+
+    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+        """See `hosts.driving.pilots.pilot.Pilot.act`; steering only."""
+        x, y, speed = senses["chassis.x"], senses["chassis.y"], senses["speed"]
+        travel = senses["chassis.yaw"] + senses.get("sideslip", 0.0)
+        place, slope, bend = self.course.path(x)
+        astray = math.remainder(travel - math.atan(slope), 2.0 * math.pi)
+        offset = (y - place) * math.cos(math.atan(slope))
+        # both errors as they will be when the car answers
+        offset += self.lead * speed * astray
+        if "chassis.wz" in senses:
+            astray += self.lead * (senses["chassis.wz"] - speed * bend)
+        length = self.horizon * max(speed, 1.0)
+        curvature = self.course.path(x + self.preview * speed * math.cos(travel))[2]
+        curvature -= 2.0 * astray / length + offset / length**2
+        steering = math.atan(self.wheelbase * curvature) / self.wheel_angle_max
+        return {"steering": min(max(steering, -1.0), 1.0)}

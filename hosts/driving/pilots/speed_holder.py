@@ -1,0 +1,61 @@
+"""A pilot that holds a speed, or follows one that changes, with throttle and brake."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+
+class SpeedHolder:
+    """PI control of the pedals, with the acceleration of the wanted speed fed forward.
+
+    Parameters
+    ----------
+    speed : float or callable
+        Wanted, m/s; or a function of the time in s.
+    gain : float
+        Pedal per m/s.
+    integral_gain : float
+        Pedal per m.
+    acceleration_gain : float
+        Pedal per m/s2 of the wanted speed.
+    brakes : bool
+        Whether the brake is used; else a car that is too fast rolls.
+
+    Notes
+    -----
+    The integral waits while a pedal is at its stop. `speed` must be an output of the car.
+    """
+
+    def __init__(
+        self,
+        speed: float | Callable[[float], float],
+        gain: float = 0.3,
+        integral_gain: float = 0.1,
+        acceleration_gain: float = 0.1,
+        brakes: bool = True,
+    ) -> None:
+        self.speed = speed
+        self.gain = gain
+        self.integral_gain = integral_gain
+        self.acceleration_gain = acceleration_gain
+        self._lowest = -1.0 if brakes else 0.0
+        self._integral = 0.0
+        self._time = 0.0
+
+    def wanted(self, time: float) -> float:
+        """Speed that is wanted at a time, m/s."""
+        return self.speed(time) if callable(self.speed) else self.speed
+
+    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+        """See `hosts.driving.pilots.pilot.Pilot.act`; throttle and brake."""
+        step, self._time = time - self._time, time
+        error = self.wanted(time) - senses["speed"]
+        pedal = self.gain * error + self.integral_gain * self._integral
+        if callable(self.speed):
+            # The communication step that is coming is as long as the last one.
+            ahead = step or 1e-3
+            pedal += self.acceleration_gain * (self.wanted(time + ahead) - self.wanted(time)) / ahead
+        if self._lowest < pedal < 1.0:
+            self._integral += step * error
+        pedals = {"throttle": min(max(pedal, 0.0), 1.0)}
+        return pedals if self._lowest == 0.0 else pedals | {"brake": min(max(-pedal, 0.0), 1.0)}

@@ -1,0 +1,67 @@
+"""Pilots that steer by a table, whatever the car does."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hosts.common.errors import HostError
+
+
+class ConstantSteering:
+    """Steering that does not change.
+
+    Parameters
+    ----------
+    value : float
+        In the unit of the input.
+    name : str
+        Of the input.
+    """
+
+    def __init__(self, value: float, name: str = "steering") -> None:
+        self.value = value
+        self.name = name
+
+    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+        """See `hosts.driving.pilots.pilot.Pilot.act`."""
+        return {self.name: self.value}
+
+
+class SteeringTable:
+    """Steering over time.
+
+    Parameters
+    ----------
+    time : array_like of shape (n,)
+        s, not decreasing; of two equal times the later value is taken.
+    values : array_like of shape (n,)
+        In the unit of the input, linear in between, constant outside.
+    name : str
+        Of the input.
+
+    Raises
+    ------
+    HostError
+        If the lengths differ, there are no values, or time goes back.
+    """
+
+    def __init__(self, time: ArrayLike, values: ArrayLike, name: str = "steering") -> None:
+        self.time, self.values = np.asarray(time, np.float64), np.asarray(values, np.float64)
+        self.name = name
+        if self.time.ndim != 1 or self.time.shape != self.values.shape or not len(self.time):
+            raise HostError(
+                f"A table of {name} has {self.time.size} times and {self.values.size} values; it needs as many of both."
+            )
+        if (np.diff(self.time) < 0.0).any():
+            k = int(np.argmax(np.diff(self.time) < 0.0))
+            raise HostError(
+                f"A table of {name} goes back from {self.time[k]:g} s to {self.time[k + 1]:g} s; times must not fall."
+            )
+
+    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+        """See `hosts.driving.pilots.pilot.Pilot.act`."""
+        # Times add up with rounding errors; a step must not be missed for them.
+        return {self.name: float(np.interp(time + 1e-9, self.time, self.values))}

@@ -1,0 +1,125 @@
+"""The line a practised driver takes through a course: the least curvature that the cones allow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import BSpline
+from scipy.optimize import linprog
+from scipy.sparse import csr_array, hstack, vstack
+
+from hosts.common.errors import HostError
+from hosts.driving.course import Course
+
+BEHIND = 30.0  # m of straight behind the last lane
+KNOTS = 2.0  # m between knots of the spline
+SAMPLES = 0.5  # m between places where curvature and room are looked at
+ROOM_LEFT = 0.5  # part of the room beside the car that is kept for errors of the driver
+BEND_LENGTH = 3.0  # m; weight of the largest change of the curvature over the way against the largest curvature
+SMOOTHNESS = 0.01  # weight of the sum of all changes: it settles what the largest ones leave open
+
+
+@dataclass(frozen=True)
+class PlannedCourse(Course):
+    """A course with a line of its own.
+
+    Parameters
+    ----------
+    line : callable
+        Of x in m to y in m, slope and second derivative.
+    """
+
+    line: Callable[[float], tuple[float, float, float]] = lambda x: (0.0, 0.0, 0.0)
+
+    def path(self, x: float) -> tuple[float, float, float]:
+        """See `hosts.driving.course.Course.path`."""
+        y, slope, bend = self.line(x)
+        return y, slope, bend / (1.0 + slope**2) ** 1.5
+
+
+@lru_cache(maxsize=32)
+def planned(course: Course, begin: float, length: float, width: float) -> PlannedCourse:
+    """The course with the line of least curvature.
+
+    Parameters
+    ----------
+    course : Course
+    begin : float
+        Up to which the line is straight, in the middle of the first lane, m.
+    length, width : float
+        Outline of the car, centred on what follows the line, m.
+
+    Raises
+    ------
+    HostError
+        If a car of this width does not fit through.
+
+    Notes
+    -----
+    A quintic spline y(x), whose largest second derivative and, weighted, third derivative are least, while both sides
+    of the car, y + a y' ± width / 2 for a along the car, keep half of the room of each lane. For slopes that are small
+    against one this is a linear program.
+    """
+    for k, gate in enumerate(course.gates):
+        if gate.y_left - gate.y_right <= width:
+            raise HostError(
+                f"{course.name}: lane {k + 1} is {gate.y_left - gate.y_right:.3g} m wide; a car of {width:.3g} m "
+                "does not fit in."
+            )
+    degree = 5
+    end = course.gates[-1].x_end + BEHIND
+    inner = np.linspace(begin, end, round((end - begin) / KNOTS) + 1)
+    knots = np.concatenate([np.full(degree, begin), inner, np.full(degree, end)])
+    number = len(knots) - degree - 1
+    spline = BSpline(knots, np.eye(number), degree)
+    x = np.linspace(begin, end, round((end - begin) / SAMPLES) + 1)
+    values, slopes, bends, changes = (csr_array(spline(x, nu)) for nu in range(4))
+    rows, bounds = [], []
+
+    def demand(matrix: csr_array, column: tuple[float, float], most: NDArray[np.float64]) -> None:
+        rows.append(hstack([matrix, csr_array(np.tile(column, (matrix.shape[0], 1))), no_sums(matrix.shape[0])]))
+        bounds.append(most)
+
+    def no_sums(height: int) -> csr_array:
+        return csr_array((height, len(x)))
+
+    none = np.zeros(len(x))
+    for sign in (1.0, -1.0):
+        demand(sign * bends, (-1.0, 0.0), none)
+        demand(sign * changes, (0.0, -1.0), none)
+        rows.append(hstack([sign * changes, csr_array((len(x), 2)), csr_array(-np.eye(len(x)))]))
+        bounds.append(none)
+    for along in np.linspace(-0.5 * length, 0.5 * length, 9):
+        for gate in course.gates:
+            within = (x + along >= gate.x_start) & (x + along <= gate.x_end)
+            sides = (values + along * slopes)[within]
+            room = 0.5 * (gate.y_left - gate.y_right - width) * (1.0 - ROOM_LEFT)
+            demand(sides, (0.0, 0.0), np.full(sides.shape[0], gate.centre + room))
+            demand(-sides, (0.0, 0.0), np.full(sides.shape[0], room - gate.centre))
+    ends = csr_array(np.vstack([spline(at, nu) for at in (begin, end) for nu in (0, 1, 2)]))
+    fixed = np.array([course.gates[0].centre, 0.0, 0.0, course.gates[-1].centre, 0.0, 0.0])
+    cost = np.concatenate([np.zeros(number), [1.0, BEND_LENGTH], np.full(len(x), SMOOTHNESS * SAMPLES)])
+    solve: Any = linprog
+    found = solve(
+        cost,
+        vstack(rows),
+        np.concatenate(bounds),
+        hstack([ends, csr_array((6, 2 + len(x)))]),
+        fixed,
+        [(None, None)] * number + [(0.0, None)] * (2 + len(x)),
+    )
+    if not found.success:
+        raise HostError(f"{course.name}: no line was found through it for a car of {length:.3g} m: {found.message}")
+    line = BSpline(knots, found.x[:number], degree)
+    first, second = line.derivative(1), line.derivative(2)
+
+    def at(place: float) -> tuple[float, float, float]:
+        place = min(max(place, begin), end)
+        return float(line(place)), float(first(place)), float(second(place))
+
+    return PlannedCourse(course.name, course.gates, at)

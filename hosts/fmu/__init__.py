@@ -1,0 +1,1 @@
+"""FMUs through FMI: variables, settings, drawings, other names of variables."""

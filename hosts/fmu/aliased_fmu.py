@@ -1,0 +1,169 @@
+"""An FMU whose variables have our names and our units."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from fmpy.model_description import ScalarVariable
+from numpy.typing import NDArray
+
+from hosts.common.numbers import Value
+from hosts.common.unit_of import unit_of
+from hosts.fmu.aliases import Alias, Aliases
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.variables import Variable
+
+
+class AliasedFmu:
+    """An `Fmu` seen through aliases; with none of them it is the FMU as it is, to the last bit.
+
+    Parameters
+    ----------
+    fmu : Fmu
+        Its variables that have no alias keep their names and units.
+    aliases : Aliases
+
+    Attributes
+    ----------
+    variables : dict of str to ScalarVariable
+        By our names, in the order of the model description; the unit of those whose number changes is ours. Derived
+        ones follow as outputs.
+    table : dict of str to Variable
+        The same with ranges and start values in our units.
+    """
+
+    def __init__(self, fmu: Fmu, aliases: Aliases) -> None:
+        self._fmu = fmu
+        self._aliases = aliases
+        by_name = {alias.theirs: alias for alias in aliases.aliases}
+        self._alias = {a.ours: a for a in (by_name.get(n, Alias(n, n)) for n in fmu.variables)}
+        self.path: Path = fmu.path
+        self.description = fmu.description
+        self.messages = fmu.messages
+        self.variables = {ours: _renamed(fmu.variables[a.theirs], a) for ours, a in self._alias.items()}
+        self.table = {
+            a.ours: _scaled(fmu.table[a.theirs], a) for a in self._alias.values() if a.theirs in fmu.table.names
+        }
+        self._inputs, self._outputs = self.names("input"), self.names("output")
+        self._derivation = aliases.derivation((*self._inputs, *self._outputs))
+        self.variables |= {name: _derived(name) for name in self._derivation.names}
+        self._held = dict(zip(self._inputs, self.start_values(self._inputs).tolist(), strict=True))
+        self._time = 0.0
+
+    def names(self, causality: str) -> list[str]:
+        """See `Fmu.names`; ours."""
+        return [n for n, v in self.variables.items() if v.causality == causality and v.type in ("Real", "Integer")]
+
+    @property
+    def tunable(self) -> list[str]:
+        """See `Fmu.tunable`; ours."""
+        return [n for n in self.names("parameter") if self.variables[n].variability == "tunable"]
+
+    def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
+        """See `Fmu.initialise`; `start` is in our names and units."""
+        self._fmu.initialise(self._aliases.values(start), start_time)
+        self._hold({name: float(x) for name, x in start.items() if name in self._held})
+        self._time = start_time
+
+    def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+        """See `Fmu.setter`."""
+        chosen = self._chosen(names)
+        set_theirs = self._fmu.setter([a.theirs for a in chosen])
+        if all(map(_is_plain, chosen)) and not self._derivation.names:
+            return set_theirs
+        scales = [(a.factor, a.offset) for a in chosen]
+
+        def set_values(values: Sequence[float]) -> None:
+            set_theirs([f * x + o for (f, o), x in zip(scales, values, strict=True)])
+            self._hold(dict(zip(names, values, strict=True)))
+
+        return set_values
+
+    def getter(self, names: Sequence[str]) -> Callable[[], list[float]]:
+        """See `Fmu.getter`; rates among derived variables are those of the last steps."""
+        if any(name in self._derivation.names for name in names):
+            return self._getter_of_derived(names)
+        chosen = self._chosen(names)
+        get_theirs = self._fmu.getter([a.theirs for a in chosen])
+        if all(map(_is_plain, chosen)):
+            return get_theirs
+        scales = [(a.factor, a.offset) for a in chosen]
+
+        def get_values() -> list[float]:
+            return [(x - o) / f for (f, o), x in zip(scales, get_theirs(), strict=True)]
+
+        return get_values
+
+    def _getter_of_derived(self, names: Sequence[str]) -> Callable[[], list[float]]:
+        get_outputs = self.getter(self._outputs)
+        there = (*self._inputs, *self._outputs, *self._derivation.names)
+        order = [there.index(n) for n in names]
+
+        def get_values() -> list[float]:
+            row = [*self._held.values(), *get_outputs()]
+            row += self._derivation.live(self._time, row).tolist()
+            return [row[k] for k in order]
+
+        return get_values
+
+    def _hold(self, values: Mapping[str, float]) -> None:
+        self._held |= {name: x for name, x in values.items() if name in self._held}
+
+    def step(self, time: float, step: float) -> None:
+        """See `Fmu.step`."""
+        self._fmu.step(time, step)
+        self._time = time + step
+
+    def restore_bytes(self, content: bytes) -> None:
+        """See `Fmu.restore_bytes`."""
+        self._fmu.restore_bytes(content)
+
+    def start_values(self, names: Iterable[str]) -> NDArray[np.float64]:
+        """See `Fmu.start_values`; in our units."""
+        chosen = self._chosen(names)
+        theirs = self._fmu.start_values([a.theirs for a in chosen])
+        return np.array([(x - a.offset) / a.factor for a, x in zip(chosen, theirs, strict=True)])
+
+    def constants(self) -> dict[str, float]:
+        """See `Fmu.constants`; with those of the aliases, which win."""
+        theirs = {self._aliases.names([n])[0]: x for n, x in self._fmu.constants().items()}
+        ours = {n: (x - self._alias[n].offset) / self._alias[n].factor for n, x in theirs.items()}
+        return {**ours, **self._aliases.constants}
+
+    def _chosen(self, names: Iterable[str]) -> list[Alias]:
+        return [self._alias[n] for n in names]
+
+
+def _derived(name: str) -> ScalarVariable:
+    variable = ScalarVariable(name=name, valueReference=None)
+    variable.type, variable.causality, variable.variability = "Real", "output", "continuous"
+    variable.unit, variable.description = unit_of(name), "derived from other variables"
+    return variable
+
+
+def _is_plain(alias: Alias) -> bool:
+    return (alias.factor, alias.offset) == (1.0, 0.0)
+
+
+def _renamed(variable: ScalarVariable, alias: Alias) -> ScalarVariable:
+    if alias.ours == alias.theirs and _is_plain(alias):
+        return variable
+    renamed = copy.copy(variable)
+    renamed.name = alias.ours
+    if not variable.unit or not _is_plain(alias):
+        renamed.unit = unit_of(alias.ours)
+    return renamed
+
+
+def _scaled(variable: Variable, alias: Alias) -> Variable:
+    if alias.ours == alias.theirs and _is_plain(alias):
+        return variable
+    low, high = sorted((x - alias.offset) / alias.factor for x in (variable.low, variable.high))
+    start = variable.start
+    if not _is_plain(alias) and isinstance(start, (int, float)) and not isinstance(start, bool):
+        start = (start - alias.offset) / alias.factor
+    return replace(variable, name=alias.ours, low=low, high=high, start=start)

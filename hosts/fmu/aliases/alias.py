@@ -1,0 +1,129 @@
+"""Our names for variables of an FMU, with factor and offset."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.fmu.aliases.derivation import Derivation
+from hosts.fmu.aliases.derived import Derived
+
+
+@dataclass(frozen=True)
+class Alias:
+    """One variable: value of the FMU = factor * ours + offset.
+
+    Parameters
+    ----------
+    ours, theirs : str
+        Names.
+    factor, offset : float
+    """
+
+    ours: str
+    theirs: str
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Aliases:
+    """Those of a file.
+
+    Parameters
+    ----------
+    aliases : tuple of Alias
+    constants : mapping of str to float
+        By our names.
+    derived : tuple of Derived
+        Each after those that it needs.
+    missing : mapping of str to str
+        Our names that the file has and this FMU cannot have, and why, in a sentence.
+    """
+
+    aliases: tuple[Alias, ...] = ()
+    constants: Mapping[str, float] = field(default_factory=dict)
+    derived: tuple[Derived, ...] = ()
+    missing: Mapping[str, str] = field(default_factory=dict)
+
+    def names(self, theirs: Sequence[str]) -> tuple[str, ...]:
+        """Our names of variables; those without an alias keep theirs."""
+        by_name = {alias.theirs: alias.ours for alias in self.aliases}
+        return tuple(by_name.get(name, name) for name in theirs)
+
+    def ours(self, theirs: Iterable[str]) -> set[str]:
+        """All of our names that an FMU with these variables has, derived ones among them."""
+        return {*self.names(tuple(theirs)), *(d.ours for d in self.derived)}
+
+    def why_missing(self, name: str) -> str:
+        """Why this FMU does not have one of our names, in a sentence; empty where the file does not know it."""
+        return self.missing.get(name, "")
+
+    def derivation(self, ours: Sequence[str]) -> Derivation:
+        """What computes the derived variables from recorded ones by our names; see `Derivation`."""
+        return Derivation(self.derived, ours)
+
+    def with_central_rates(
+        self, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64], thinned: bool = False
+    ) -> None:
+        """Write derived columns of a record anew: a rate that was made during the run did not know the next row.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Ours, of the columns.
+        time : ndarray of shape (n,)
+            s.
+        values : ndarray of shape (n, len(names))
+            Is changed.
+        thinned : bool
+            Whether steps are left out; then rates of the run are better, and only those that are NaN are written.
+        """
+        made = {d.ours for d in self.derived}
+        there = [k for k, name in enumerate(names) if name not in made]
+        derivation = self.derivation([names[k] for k in there])
+        columns = derivation.record(time, values[:, there])
+        for k, name in enumerate(derivation.names):
+            if name in names:
+                column = values[:, names.index(name)]
+                column[:] = np.where(np.isnan(column), columns[:, k], column) if thinned else columns[:, k]
+
+    def scales(self, theirs: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Factors and offsets of variables.
+
+        Parameters
+        ----------
+        theirs : sequence of str
+            n names.
+
+        Returns
+        -------
+        factors, offsets : ndarray of shape (n,)
+            Ours = (theirs - offset) / factor.
+        """
+        by_name = {alias.theirs: alias for alias in self.aliases}
+        found = [by_name.get(name, Alias(name, name)) for name in theirs]
+        return np.array([a.factor for a in found]), np.array([a.offset for a in found])
+
+    def inputs(self, values: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+        """Values and rates under our names as the FMU has them."""
+        by_name = {alias.ours: alias for alias in self.aliases}
+        made = {}
+        for name, (value, rate) in values.items():
+            alias = by_name.get(name, Alias(name, name))
+            made[alias.theirs] = (alias.factor * value + alias.offset, abs(alias.factor) * rate)
+        return made
+
+    def values(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Start values under our names as the FMU has them; texts stay as they are."""
+        by_name = {alias.ours: alias for alias in self.aliases}
+        made = {}
+        for name, value in values.items():
+            alias = by_name.get(name, Alias(name, name))
+            plain = isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
+            made[alias.theirs] = value if plain else alias.factor * value + alias.offset
+        return made

@@ -1,0 +1,102 @@
+"""Units that an alias file states, held against those that the FMU declares."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ali3.parameter_set import UnitDefinition
+from hosts.common.errors import HostError
+from hosts.common.unit_of import unit_of
+from hosts.fmu.aliases.alias import Alias
+from hosts.fmu.aliases.units import KNOWN, same_quantity, says_nothing
+from hosts.fmu.variables import Variable
+
+_TOLERANCE = 1e-3
+"""Relative, between two factors that are meant to be the same: 57.3 for a degree is."""
+
+
+def declared(variable: Variable) -> str:
+    """The unit that the FMU declares."""
+    return variable.unit
+
+
+def definition(variable: Variable) -> UnitDefinition | None:
+    """What that unit is; None where it says nothing or nobody knows it."""
+    unit = variable.definition or KNOWN.get(variable.unit)
+    return None if unit is None or variable.kind != "Real" or says_nothing(unit) else unit
+
+
+def is_si(variable: Variable) -> bool:
+    """Whether a value needs no conversion, as far as the FMU tells."""
+    unit = definition(variable)
+    return unit is None or (math.isclose(unit.factor, 1.0, rel_tol=_TOLERANCE) and unit.offset == 0.0)
+
+
+def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
+    """What a value in SI is to be multiplied by.
+
+    Parameters
+    ----------
+    unit : object
+        As it stands in the file.
+    variable : Variable, optional
+        That has it; its own definition of a unit of that name counts.
+    where : str
+
+    Raises
+    ------
+    HostError
+        Nobody knows the unit, or the FMU declares another.
+    """
+    own = variable.definition if variable is not None and variable.unit == unit else None
+    known = own or (KNOWN.get(unit) if isinstance(unit, str) else None)
+    if known is None:
+        raise HostError(f"{where}: the unit {unit!r} is not known; known are {', '.join(u for u in KNOWN if u)}.")
+    if variable is not None:
+        there = definition(variable)
+        if there is not None and not _same(known, there):
+            raise HostError(
+                f"{where}: the file says that '{variable.name}' is in {unit}, the FMU declares {declared(variable)}; "
+                "one of them is wrong."
+            )
+    return 1.0 / known.factor
+
+
+def check_unit(alias: Alias, variable: Variable, unit: str | None, by_constant: bool, where: str) -> None:
+    """Refuse a factor that contradicts the unit that the FMU declares.
+
+    Raises
+    ------
+    HostError
+        With the unit and the factor, and what it would be.
+    """
+    ours, theirs = unit_of(alias.ours), definition(variable)
+    if ours is None or theirs is None or by_constant:
+        return
+    mine = KNOWN.get(ours) or UnitDefinition({})
+    if ours in KNOWN and not same_quantity(mine, theirs):
+        raise HostError(
+            f"{where} is in {ours}, but the FMU declares '{variable.name}' in {declared(variable)}, another quantity."
+        )
+    if unit is not None or ours not in KNOWN:
+        return
+    expected = [1.0 / theirs.factor]
+    if mine.exponents.get("rad") and not theirs.exponents.get("rad") and "s" in theirs.exponents:
+        expected.append(1.0 / (2.0 * math.pi * theirs.factor))  # revolutions
+    if not any(math.isclose(abs(alias.factor), e, rel_tol=_TOLERANCE) for e in expected):
+        raise HostError(
+            f"{where} is in {ours} and '{variable.name}' in the FMU in {declared(variable)}: its factor must be "
+            f"{expected[0]:.6g} (or negative), it is {alias.factor:.6g}."
+        )
+
+
+def _same(one: UnitDefinition, other: UnitDefinition) -> bool:
+    if not same_quantity(one, other):
+        return False
+    if math.isclose(one.factor, other.factor, rel_tol=_TOLERANCE):
+        return True
+    turns = 2.0 * math.pi  # revolutions per minute, with and without rad
+    return "s" in one.exponents and any(
+        math.isclose(one.factor, other.factor * f, rel_tol=_TOLERANCE) for f in (turns, 1.0 / turns)
+    )

@@ -1,0 +1,149 @@
+"""What stands in an alias file and in those that it extends."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from hosts.common.errors import HostError
+from hosts.fmu.aliases.toml_file import read_toml
+
+CONSTANTS = "constants"
+"""The table of an alias file that says what the FMU does not tell of its car, such as ``vehicle.wheelbase``."""
+NEEDS = "needs"
+"""The table that says which constants depend on the car, each with a text."""
+EXTENDS = "extends"
+"""The key that names the file, or one that comes with the package, whose entries count where this one has no own."""
+PARTIAL = "partial"
+"""The key that says that names which the FMU lacks are left out; else they are errors."""
+
+SHIPPED = Path(__file__).parents[1] / "alias_files"
+_MOST_FILES = 10
+
+
+@dataclass
+class Entry:
+    """One of our names.
+
+    Parameters
+    ----------
+    ours : str
+    value : dict
+        As it stands there; a text alone is ``{"name": text}``.
+    file : str
+        Where it stands.
+    partial : bool
+        Whether it is left out where the FMU lacks the variable.
+    """
+
+    ours: str
+    value: dict[str, Any]
+    file: str
+    partial: bool
+
+    @property
+    def where(self) -> str:
+        """How messages call it."""
+        return f"{self.file}: '{self.ours}'"
+
+
+@dataclass
+class Content:
+    """All of a file.
+
+    Parameters
+    ----------
+    file : str
+    entries : dict of str to Entry
+        By our names.
+    constants : dict of str to float
+    needs : dict of str to str
+        Constants of the car by name, with a text.
+    """
+
+    file: str
+    entries: dict[str, Entry] = field(default_factory=dict)
+    constants: dict[str, float] = field(default_factory=dict)
+    needs: dict[str, str] = field(default_factory=dict)
+
+
+def read_content(file: Path, depth: int = 0) -> Content:
+    """Read a file and those that it extends; `HostError` with the file and the key."""
+    table = read_toml(file)
+    made = Content(str(file))
+    base = table.pop(EXTENDS, None)
+    if base is not None:
+        if not isinstance(base, str):
+            raise HostError(f"{file}: {EXTENDS} is {base!r}; it must be the name of an alias file.")
+        if depth >= _MOST_FILES:
+            raise HostError(f"{file}: more than {_MOST_FILES} files extend one another; is there a ring among them?")
+        below = read_content(_found(base, file), depth + 1)
+        made = Content(str(file), dict(below.entries), dict(below.constants), dict(below.needs))
+    partial = table.pop(PARTIAL, False)
+    if not isinstance(partial, bool):
+        raise HostError(f"{file}: {PARTIAL} is {partial!r}; it must be true or false.")
+    made.constants |= _numbers(table.pop(CONSTANTS, {}), file)
+    made.needs |= _texts(table.pop(NEEDS, {}), file)
+    label = file.name if file.parent == SHIPPED else str(file)
+    for ours, value in table.items():
+        made.entries[ours] = Entry(ours, _entry(value, f"{file}: '{ours}'"), label, partial)
+    return made
+
+
+def shipped_names() -> list[str]:
+    """Names of the alias files that come with the package, such as ``chrono``."""
+    return sorted(p.stem for p in SHIPPED.glob("*.toml"))
+
+
+def number(value: Any, where: str) -> float:
+    """A finite number; else `HostError`."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise HostError(f"{where} is {value!r}; it must be a finite number.")
+    return float(value)
+
+
+def _found(base: str, file: Path) -> Path:
+    path = file.parent / base
+    if path.is_file():
+        return path
+    if base in shipped_names():
+        return SHIPPED / f"{base}.toml"
+    raise HostError(
+        f"{file}: {EXTENDS} is '{base}': there is neither a file {path} nor one of that name in the package, which "
+        f"has {', '.join(shipped_names())}."
+    )
+
+
+def _numbers(table: Any, file: Path) -> dict[str, float]:
+    if not isinstance(table, dict):
+        raise HostError(f"{file}: [{CONSTANTS}] must be a table of numbers.")
+    return {name: number(value, f"{file}: {CONSTANTS}.{name}") for name, value in table.items()}
+
+
+def _texts(table: Any, file: Path) -> Mapping[str, str]:
+    if not isinstance(table, dict) or not all(isinstance(text, str) for text in table.values()):
+        raise HostError(f"{file}: [{NEEDS}] must be a table of texts.")
+    return table
+
+
+def _entry(value: Any, where: str) -> dict[str, Any]:
+    if isinstance(value, str):
+        return {"name": value}
+    if isinstance(value, dict) and isinstance(value.get("from"), str):
+        if len(value) > 1:
+            raise HostError(f"{where}: beside from nothing else can stand; it has {', '.join(value)}.")
+        return value
+    if isinstance(value, dict) and isinstance(value.get("name"), str):
+        return value
+    hint = (
+        f" (a name with a dot needs quotation marks; but for [{CONSTANTS}] and [{NEEDS}] there are no tables)"
+        if isinstance(value, dict)
+        else ""
+    )
+    raise HostError(
+        f"{where} must be a name of the FMU, or {{ name = ..., factor = ..., offset = ..., unit = ... }}, or "
+        f"{{ from = ... }}{hint}."
+    )

@@ -1,0 +1,216 @@
+"""Alias files: what stands in them, held against the variables of an FMU."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Collection
+from dataclasses import replace
+from pathlib import Path
+
+from hosts.common.errors import HostError
+from hosts.fmu.aliases.alias import Alias, Aliases
+from hosts.fmu.aliases.checks import check_unit, declared, factor_of_unit, is_si
+from hosts.fmu.aliases.content import SHIPPED, Content, Entry, number, read_content, shipped_names
+from hosts.fmu.aliases.derived import Derived, in_order, parse_derived
+from hosts.fmu.variables import Variable, Variables
+
+_KEYS = ("name", "factor", "offset", "unit")
+_RECORDED = ("input", "output")
+
+
+def find_aliases(name: str | Path, variables: Variables) -> Aliases:
+    """Those of a file that comes with the package, by its name, or of another.
+
+    Parameters
+    ----------
+    name : str or Path
+        Such as ``chrono``; a file of that name here comes first.
+    variables : Variables
+        Of the FMU.
+
+    Raises
+    ------
+    HostError
+        See `read_aliases`.
+    """
+    path = Path(name)
+    if not path.is_file() and str(name) in shipped_names():
+        path = SHIPPED / f"{name}.toml"
+    if not path.exists():
+        raise HostError(
+            f"The alias file {name} cannot be read: there is none, nor one of that name in the package, which has "
+            f"{', '.join(shipped_names())}."
+        )
+    return read_aliases(path, variables)
+
+
+def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
+    """Read an alias file.
+
+    Parameters
+    ----------
+    file : Path
+        TOML: ``"our name" = "name in the FMU"`` or ``"our name" = { name = "...", factor = 1.0, offset = 0.0 }``, where
+        the value in the FMU is factor times ours plus offset; with ``unit`` that is a value in SI, in which the FMU has
+        that unit. ``"our name" = { from = "sideslip(chassis.vx, chassis.vy)" }`` computes it. See ``docs/aliases.md``.
+    variables : Variables or collection of str
+        Of the FMU; with names alone, units are not checked.
+
+    Raises
+    ------
+    HostError
+        With the file, the key and what would be right.
+    """
+    content = read_content(file)
+    names = set(variables.names if isinstance(variables, Variables) else variables)
+    known = variables if isinstance(variables, Variables) else None
+    constants = _constants(content, known)
+    missing: dict[str, str] = {}
+    wanted: set[str] = set()
+    aliases = []
+    for entry in content.entries.values():
+        if "from" in entry.value:
+            continue
+        lacks = _lacks(entry, names)
+        if lacks:
+            missing[entry.ours] = lacks
+        elif entry.value.get("factor") in content.needs and entry.value["factor"] not in constants:
+            wanted.add(entry.value["factor"])
+        else:
+            aliases.append(_alias(entry, constants, known))
+            if known is not None and _is_hidden(known[entry.value["name"]]):
+                missing[entry.ours] = (
+                    f"{entry.file} takes '{entry.ours}' from '{entry.value['name']}', which is a local variable of the "
+                    "FMU and no output"
+                )
+    aliases = [a for a in aliases if not _is_there_itself(a, content.entries[a.ours], aliases, names)]
+    seen: dict[str, str] = {}
+    for alias in aliases:
+        other = seen.setdefault(alias.theirs, alias.ours)
+        if other != alias.ours:
+            raise HostError(f"{file}: '{alias.theirs}' is named {other} and {alias.ours}; give it one name.")
+    derived = _derived(content, constants, aliases, names, known, missing)
+    _demand(wanted | {n for d in derived for n in d.names if n in content.needs and n not in names}, content)
+    if content.entries and not aliases and not derived:
+        first = next(iter(content.entries.values()))
+        raise HostError(
+            f"{file}: of its {len(content.entries)} names this FMU has none, such as "
+            f"'{first.value.get('name', first.ours)}'; is it an FMU of that program?"
+        )
+    return Aliases(tuple(aliases), constants, derived, missing)
+
+
+def _is_hidden(variable: Variable) -> bool:
+    return variable.causality in ("local", "independent") and variable.variability != "constant"
+
+
+def _constants(content: Content, known: Variables | None) -> dict[str, float]:
+    """Those of the file, and those of its needs that are constants of the FMU."""
+    made = dict(content.constants)
+    for name in content.needs:
+        if name not in made and known is not None and name in known.names:
+            variable = known[name]
+            if variable.variability == "constant" and isinstance(variable.start, (int, float)):
+                made[name] = float(variable.start)
+    return made
+
+
+def _demand(wanted: Collection[str], content: Content) -> None:
+    """Refuse a car of which numbers are not known, all in one sentence."""
+    if not wanted:
+        return
+    numbers = ", ".join(f"'{name}' ({content.needs[name]})" for name in content.needs if name in wanted)
+    base = Path(content.file)
+    how = (
+        f'write a file with extends = "{base.stem}" and them in its table [constants], for --aliases'
+        if base.parent == SHIPPED
+        else "give them in its table [constants]"
+    )
+    raise HostError(f"{base.name} needs numbers of this car, {numbers}: {how}.")
+
+
+def _lacks(entry: Entry, names: Collection[str]) -> str:
+    """Why a name is left out, empty if the FMU has it; `HostError` where it must have it."""
+    theirs = entry.value["name"]
+    if theirs in names:
+        return ""
+    if entry.partial:
+        return f"{entry.file} takes '{entry.ours}' from '{theirs}', which the FMU does not have"
+    near = difflib.get_close_matches(theirs, names, 3)
+    hint = f"; did you mean {' or '.join(near)}" if near else ""
+    raise HostError(f"{entry.where}: the FMU has no variable '{theirs}'{hint}.")
+
+
+def _alias(entry: Entry, constants: dict[str, float], known: Variables | None) -> Alias:
+    value, where = entry.value, entry.where
+    unknown = next((key for key in value if key not in _KEYS), None)
+    if unknown is not None:
+        raise HostError(f"{where} has '{unknown}'; known are {', '.join(_KEYS)}.")
+    factor = value.get("factor", 1.0)
+    by_constant = isinstance(factor, str)
+    if isinstance(factor, str):
+        if factor not in constants:
+            raise HostError(f"{where}: factor is '{factor}'; it must be a number, or a constant of the file.")
+        factor = constants[factor]
+    factor = number(factor, f"{where}: factor")
+    if factor == 0.0:
+        raise HostError(f"{where}: factor is 0; it must be another number.")
+    offset = number(value.get("offset", 0.0), f"{where}: offset")
+    unit = value.get("unit")
+    variable = None if known is None else known[value["name"]]
+    if unit is not None:
+        factor *= factor_of_unit(unit, variable, where)
+    alias = Alias(entry.ours, value["name"], factor, offset)
+    if variable is not None:
+        check_unit(alias, variable, unit, by_constant, where)
+    return alias
+
+
+def _is_there_itself(alias: Alias, entry: Entry, aliases: list[Alias], names: Collection[str]) -> bool:
+    """Whether the FMU has our name too; then a file for many FMUs leaves its own alias out."""
+    if alias.ours == alias.theirs or alias.ours not in names or alias.ours in {a.theirs for a in aliases}:
+        return False
+    if entry.partial:
+        return True
+    raise HostError(f"{entry.file}: the FMU has a variable '{alias.ours}' itself; it needs no alias.")
+
+
+def _derived(
+    content: Content,
+    constants: dict[str, float],
+    aliases: list[Alias],
+    names: Collection[str],
+    known: Variables | None,
+    missing: dict[str, str],
+) -> tuple[Derived, ...]:
+    """Those that can be computed, in order."""
+    ours_of = {a.theirs: a.ours for a in aliases}
+    there = {ours_of.get(n, n) for n in names if known is None or known[n].causality in _RECORDED}
+    asked = []
+    for entry in content.entries.values():
+        if "from" not in entry.value or entry.ours in there:
+            continue
+        parsed = parse_derived(entry.ours, entry.value["from"], constants, entry.where)
+        arguments = tuple(ours_of.get(a, a) if isinstance(a, str) else a for a in parsed.arguments)
+        asked.append(replace(parsed, arguments=arguments))
+    done, lacking = in_order(asked, there | set(content.needs))
+    for ours, name in lacking.items():
+        entry = content.entries[ours]
+        if not entry.partial:
+            near = difflib.get_close_matches(name, there, 3)
+            hint = f"; did you mean {' or '.join(near)}" if near else ""
+            raise HostError(
+                f"{entry.where}: '{name}' is neither an input or output of the FMU nor another name or constant of the "
+                f"file{hint}."
+            )
+        why = missing.get(name, "which the FMU does not have")
+        missing[ours] = f"{entry.file} computes '{ours}' from '{name}', {why}"
+    for d in done:
+        where = content.entries[d.ours].where
+        for name in d.names:
+            if known is not None and name in known.names and name not in ours_of.values() and not is_si(known[name]):
+                raise HostError(
+                    f"{where}: '{name}' is in {declared(known[name])} in the FMU, formulas take SI units; give it a "
+                    f"name of its own with that unit and use it here."
+                )
+    return tuple(done)

@@ -1,0 +1,49 @@
+"""What `modelDescription.xml` says, as pages read it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from fmpy.model_description import ModelDescription
+
+from hosts.fmu.variables import Variable, Variables
+
+
+def description_record(description: ModelDescription, variables: Variables) -> dict[str, Any]:
+    """What `modelDescription.xml` says, as the page reads it.
+
+    Parameters
+    ----------
+    description : ModelDescription
+    variables : Variables
+        Of it.
+    """
+    experiment = description.defaultExperiment
+    times = {"startTime": "startTime", "stopTime": "stopTime", "stepSize": "stepSize"}
+    found = {key: getattr(experiment, name, None) for key, name in times.items()}
+    references = {v.name: int(v.valueReference) for v in description.modelVariables}
+    return {
+        "modelName": description.modelName,
+        "guid": description.guid,
+        "description": description.description or "",
+        **{key: float(value) for key, value in found.items() if value is not None},
+        "variables": [_variable(variables[name], references[name]) for name in variables.names],
+    }
+
+
+def _variable(v: Variable, reference: int) -> dict[str, Any]:
+    record = {
+        "name": v.name,
+        "reference": reference,
+        "type": "Integer" if v.kind == "Enumeration" else v.kind,
+        "causality": v.causality,
+        "variability": v.variability,
+        "unit": v.unit,
+        "start": v.start,
+        "min": v.low if math.isfinite(v.low) else None,
+        "max": v.high if math.isfinite(v.high) else None,
+        "description": v.description,
+        "items": v.items or None,
+    }
+    return {key: value for key, value in record.items() if value is not None}

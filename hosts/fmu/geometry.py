@@ -1,0 +1,125 @@
+"""What an FMU draws: the scene in its resources, with roads read from their files."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import tempfile
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ali3.running import module_command
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from viewer.errors import SceneError
+from viewer.scene import read_scene
+
+RESOURCE = "resources/geometry.json"
+_ROADS = "resources/roads"
+
+
+def scene_of(path: Path, settings: Mapping[str, Value] | None = None) -> dict[str, Any] | None:
+    """The scene of an FMU.
+
+    Parameters
+    ----------
+    path : Path
+        FMU.
+    settings : mapping of str to float, int, bool or str, optional
+        What was set in it: a road of a file is drawn from the file that its parameter names.
+
+    Returns
+    -------
+    dict or None
+        None if the FMU has none, as those of other programs.
+
+    Raises
+    ------
+    HostError
+        It is no FMU that can be read, or its scene is not of the format.
+    """
+    try:
+        with zipfile.ZipFile(path) as fmu:
+            if RESOURCE not in fmu.namelist():
+                return None
+            content = fmu.read(RESOURCE)
+            scene = read_scene(content, f"{RESOURCE} of {path}")
+            roads, missing = _roads(scene, fmu, settings or {})
+    except (OSError, zipfile.BadZipFile, KeyError, RuntimeError) as error:
+        raise HostError(f"{path} is not an FMU that can be read: {error}.") from None
+    except SceneError as error:
+        raise HostError(str(error)) from None
+    return scene | {"roads": roads, "missing": [*scene.get("missing", []), *missing]}
+
+
+def scene_from(path: Path, settings: Mapping[str, Value] | None = None) -> dict[str, Any] | None:
+    """The scene of an FMU, or of a JSON file; see `scene_of`."""
+    if not path.is_file():
+        raise HostError(f"There is no file {path}.")
+    if not zipfile.is_zipfile(path):
+        try:
+            return read_scene(path)
+        except SceneError as error:
+            raise HostError(f"{path} is neither an FMU nor a scene: {error}") from None
+    return scene_of(path, settings)
+
+
+def _roads(
+    scene: Mapping[str, Any], fmu: zipfile.ZipFile, settings: Mapping[str, Value]
+) -> tuple[list[Any], list[dict[str, str]]]:
+    """Roads with those of files read and with the values that were set; what cannot be drawn, and why."""
+    roads, missing = [], []
+    for road in scene.get("roads", []):
+        variables = road.get("variables") or {}
+        given = str(settings.get(variables.get("file", road.get("variable", "")), ""))
+        name = given or str(road.get("path", "") if road["kind"] == "file" else "")
+        if not name and road["kind"] != "file":
+            roads.append(_moved(road, variables, settings))
+        elif name:
+            try:
+                roads.append(_part(name, fmu))
+            except HostError as error:
+                missing.append({"name": f"the road {name}", "why": str(error).rstrip(".")})
+    return roads, missing
+
+
+def _moved(road: dict[str, Any], variables: Mapping[str, str], settings: Mapping[str, Value]) -> dict[str, Any]:
+    """A road with a kerb where the parameters have it: the higher side stays where it is."""
+    if road["kind"] != "profile" or len(road["heights"]) != 2:
+        return road
+    made = dict(road)
+    if variables.get("kerb_x") in settings:
+        made["origin"] = [float(settings[variables["kerb_x"]]), *list(road.get("origin", (0.0, 0.0, 0.0)))[1:]]
+    if variables.get("kerb_height") in settings:
+        first, last = road["heights"][0], road["heights"][-1]
+        high = max(first, last)
+        low = high - float(settings[variables["kerb_height"]])
+        # Where both sides were level, the kerb is one to drive down, as it is by default.
+        made["heights"] = [low, high] if first < last else [high, low]
+    return made
+
+
+def _part(name: str, fmu: zipfile.ZipFile) -> dict[str, Any]:
+    """A road file as a part of a scene."""
+    with tempfile.TemporaryDirectory(prefix="road_") as folder:
+        inside = next((n for n in (name, f"{_ROADS}/{name}") if n in fmu.namelist()), None)
+        file = Path(name.removeprefix("file://"))
+        if inside is not None:
+            file = Path(folder, Path(inside).name)
+            file.write_bytes(fmu.read(inside))
+        elif not file.is_file():
+            raise HostError("its file is not there")
+        out = Path(folder, "part.json")
+        done = subprocess.run(
+            module_command("mbs.worlds.road_command", str(file), "--part", str(out)),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        if done.returncode != 0:
+            words = done.stderr.strip().splitlines()
+            raise HostError(words[-1].removeprefix("error: ") if words else "it cannot be read")
+        part: dict[str, Any] = json.loads(out.read_text(encoding="utf-8"))
+        return part

@@ -1,0 +1,252 @@
+"""What a user sets in an FMU before it starts: by a manoeuvre, parameter sets and the command line, in this order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from ali3.parameter_set import Entry, ParameterSet, UnitDefinition, read_parameter_set
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.common.options import Wishes
+from hosts.fmu.variables import Variable, Variables
+
+START_OF = "start of "
+"""How the source of a start value of a manoeuvre begins."""
+_MOST_IN_TITLE = 2
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A value that is set.
+
+    Parameters
+    ----------
+    variable : Variable
+    value : float, int, bool or str
+        In the variable's unit.
+    source : str
+        Where it comes from, for a person.
+    given : str
+        Value and unit as they were given, where the unit is another; else empty.
+    """
+
+    variable: Variable
+    value: Value
+    source: str
+    given: str = ""
+
+    @property
+    def changes(self) -> bool:
+        """Whether it is another value than that of the FMU."""
+        return self.value != self.variable.start
+
+    def words(self) -> str:
+        """Old and new value with their unit."""
+        v = self.variable
+        given = f"{self.given} in " if self.given else ""
+        return f"{v.text(v.start)} -> {v.with_unit(self.value)} ({given}{self.source})"
+
+    def record(self) -> dict[str, Any]:
+        """For JSON."""
+        v = self.variable
+        return {"name": v.name, "old": v.start, "new": self.value, "unit": v.unit, "from": self.source}
+
+
+class Settings:
+    """Values by name; what is added later replaces what was there.
+
+    Parameters
+    ----------
+    variables : Variables
+        Of the FMU.
+    """
+
+    def __init__(self, variables: Variables) -> None:
+        self._variables = variables
+        self._settings: dict[str, Setting] = {}
+        self._notes: list[tuple[str, str]] = []
+
+    @property
+    def start(self) -> dict[str, Value]:
+        """Values by name."""
+        return {name: s.value for name, s in self._settings.items()}
+
+    @property
+    def changes(self) -> list[Setting]:
+        """Those that are not what the FMU starts with, in its order."""
+        order = self._variables.names
+        return sorted((s for s in self._settings.values() if s.changes), key=lambda s: order.index(s.variable.name))
+
+    def add_numbers(self, values: Mapping[str, Value], source: str) -> None:
+        """Values in the units of the FMU.
+
+        Parameters
+        ----------
+        values : mapping of str to float, int, bool or str
+        source : str
+            How messages call where they come from.
+
+        Raises
+        ------
+        HostError
+            A name, value or kind is wrong.
+        """
+        self._put([self._checked(name, value, source) for name, value in values.items()])
+
+    def add_texts(self, values: Iterable[tuple[str, str]], source: str) -> None:
+        """Values as a person writes them, in the units of the FMU; see `add_numbers`."""
+        given: dict[str, str] = {}
+        for name, text in values:
+            if given.setdefault(name, text) != text:
+                raise HostError(f"{source}: '{name}' is given as {given[name]} and as {text}; give it once.")
+        found = []
+        for name, text in given.items():
+            variable = self._variables.settable(name, source)
+            found.append(Setting(variable, variable.read(text, source), source))
+        self._put(found)
+        for setting in found:
+            if not setting.changes:
+                v = setting.variable
+                self._note(v.name, f"{v.with_unit(setting.value)} as in the FMU ({source})")
+
+    def add_set(self, file: Path) -> None:
+        """Values of an SSV file, converted into the units of the FMU; see `add_numbers`.
+
+        Parameters
+        ----------
+        file : Path
+        """
+        parameters, source = read_parameter_set(file), file.name
+        found = [self._of_entry(entry, parameters, source) for entry in parameters.entries]
+        self._put(found)
+        same = sum(not setting.changes for setting in found)
+        if not found:
+            self._note(source, "empty: it sets nothing")
+        elif same == len(found):
+            self._note(source, f"all {same} values are those of the FMU: it changes nothing")
+        else:
+            self._note(source, f"{len(found)} values, {len(found) - same} of them other than in the FMU")
+
+    def overwritten(self, names: Iterable[str], by: str) -> None:
+        """Tell which settings have no effect, since something sets these inputs and parameters from the start on.
+
+        Parameters
+        ----------
+        names : iterable of str
+        by : str
+            What does.
+        """
+        for name in names:
+            if name in self._settings:
+                setting = self._settings.pop(name)
+                self._note(name, f"{setting.variable.with_unit(setting.value)} of {setting.source} has no effect: {by}")
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Rows of a summary: what was set, and what does nothing."""
+        return self._notes + [(s.variable.name, s.words()) for s in self.changes]
+
+    def title(self, name: str) -> str:
+        """A name for a picture with the first of what the user has changed.
+
+        Parameters
+        ----------
+        name : str
+            Of the run.
+        """
+        mine = [s for s in self.changes if not s.source.startswith(START_OF)]
+        shown = [f"{s.variable.name} {s.variable.with_unit(s.value)}" for s in mine[:_MOST_IN_TITLE]]
+        more = [f"{len(mine) - len(shown)} more"] if len(mine) > len(shown) else []
+        return ", ".join([name, *shown, *more])
+
+    def records(self) -> list[dict[str, Any]]:
+        """What was set, for JSON."""
+        return [s.record() for s in self.changes]
+
+    def _note(self, what: str, words: str) -> None:
+        self._notes.append((what, words))
+
+    def _put(self, settings: Sequence[Setting]) -> None:
+        """All or, where one was refused before, none."""
+        for setting in settings:
+            name, before = setting.variable.name, self._settings.get(setting.variable.name)
+            if before is not None and before.changes and before.value != setting.value:
+                v = setting.variable
+                self._note(name, f"{setting.source} replaces {v.with_unit(before.value)} of {before.source}")
+            self._settings[name] = setting
+
+    def _checked(self, name: str, value: Value, source: str) -> Setting:
+        variable = self._variables.settable(name, source)
+        return Setting(variable, variable.check(value, source), source)
+
+    def _of_entry(self, entry: Entry, parameters: ParameterSet, source: str) -> Setting:
+        variable = self._variables.settable(entry.name, source)
+        value = variable.take(entry.kind, entry.value, source)
+        if (
+            entry.unit is None
+            or variable.kind != "Real"
+            or (entry.unit == variable.unit and entry.unit not in parameters.units)
+        ):
+            return Setting(variable, variable.check(value, source), source)
+        assert isinstance(value, float)
+        definition = parameters.units.get(entry.unit)
+        converted = (
+            variable.from_display(value, entry.unit, source)
+            if definition is None
+            else self._converted(variable, value, entry.unit, definition, source)
+        )
+        given = "" if converted == value else f"{value:g} {entry.unit}"
+        setting = Setting(variable, converted, source, given)
+        return replace(setting, value=variable.check(converted, f"{source}, {given}" if given else source))
+
+    @staticmethod
+    def _converted(variable: Variable, value: float, name: str, unit: UnitDefinition, source: str) -> float:
+        own = variable.definition
+        if own is None:
+            raise HostError(
+                f"{source}: '{variable.name}' is given in {name}; the FMU does not define its unit "
+                f"{variable.unit}, so that it cannot be converted."
+            )
+        if own.exponents != unit.exponents:
+            raise HostError(
+                f"{source}: '{variable.name}' is given in {name} ({_base(unit)}); its unit is {variable.unit} "
+                f"({_base(own)})."
+            )
+        return unit.convert(value, own)
+
+
+def _base(unit: UnitDefinition) -> str:
+    """A unit in base units, for messages."""
+    text = ".".join(f"{base}{'' if power == 1 else power}" for base, power in unit.exponents.items()) or "1"
+    return text if unit.factor == 1.0 else f"{unit.factor:g} {text}"
+
+
+def settings_of(
+    variables: Variables, wishes: Wishes, start: Mapping[str, Value] | None = None, source: str = ""
+) -> Settings:
+    """All that the user sets.
+
+    Parameters
+    ----------
+    variables : Variables
+        Of the FMU.
+    wishes : Wishes
+        Of the command line.
+    start : mapping of str to float, int, bool or str, optional
+        What comes before it.
+    source : str
+        How messages call that.
+
+    Raises
+    ------
+    HostError
+        A name, value, kind or unit is wrong.
+    """
+    settings = Settings(variables)
+    settings.add_numbers(start or {}, source)
+    for file in wishes.sets:
+        settings.add_set(file)
+    settings.add_texts(wishes.values, "--set")
+    return settings

@@ -1,0 +1,344 @@
+"""Variables of an FMU as a person sets them: kind, unit, range and start value, for FMI 2.0 and 3.0."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from fmpy.model_description import ModelDescription, ScalarVariable
+
+from ali3.parameter_set import Entry, ParameterSet, UnitDefinition, range_words, told
+from ali3.running import command_name
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value, parse_number
+
+_KINDS = {"Float64": "Real", "Float32": "Real"} | {
+    f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)
+}
+_WORDS = {"true": True, "1": True, "false": False, "0": False}
+_ROLES = {
+    "output": "an output",
+    "local": "a local variable",
+    "independent": "the independent variable",
+    "calculatedParameter": "a calculated parameter",
+    "structuralParameter": "a structural parameter",
+}
+_WRITTEN = ("Real", "Integer", "Boolean", "String", "Enumeration")
+_NEAREST = 3
+_LONGEST = 80
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable of an FMU.
+
+    Parameters
+    ----------
+    name, description, causality, variability : str
+    kind : str
+        ``Real``, ``Integer``, ``Boolean``, ``String``, ``Enumeration``, or another type of FMI.
+    unit : str
+        "1" where there is none.
+    start : float, int, bool, str or None
+    low, high : float
+        Range, infinite where open.
+    definition : UnitDefinition, optional
+        Of the unit, where the FMU has one.
+    displays : dict of str to (float, float)
+        Factor and offset of display units: displayed = factor * value + offset.
+    items : dict of str to int
+        Of an enumeration.
+    """
+
+    name: str
+    description: str
+    causality: str
+    variability: str
+    kind: str
+    unit: str
+    start: Value | None
+    low: float
+    high: float
+    definition: UnitDefinition | None
+    displays: dict[str, tuple[float, float]]
+    items: dict[str, int]
+
+    def text(self, value: Value | None) -> str:
+        """A value for a person."""
+        if value is None:
+            return "not set"
+        if isinstance(value, bool):
+            return str(value).lower()
+        return repr(value) if isinstance(value, str) else f"{value:.10g}"
+
+    def written(self, value: Value) -> str:
+        """A value as a parameter set has it: numbers read back as the same double."""
+        if self.kind == "Enumeration":
+            return next((name for name, number in self.items.items() if number == value), str(value))
+        if self.kind in ("Boolean", "String"):
+            return str(value).lower() if isinstance(value, bool) else str(value)
+        return repr(value)
+
+    def with_unit(self, value: Value | None) -> str:
+        """A value with its unit."""
+        unit = "" if self.unit == "1" or self.kind != "Real" else f" {self.unit}"
+        return f"{self.text(value)}{unit}"
+
+    @property
+    def range(self) -> str:
+        """The range in words; empty where it is open."""
+        if self.items:
+            return ", ".join(f"{number} {name}" for name, number in self.items.items())
+        return range_words(self.low, self.high, self.unit if self.kind == "Real" else "1")
+
+    def read(self, text: str, source: str) -> Value:
+        """The value that a person has written, checked.
+
+        Parameters
+        ----------
+        text : str
+        source : str
+            How messages call where it stands.
+
+        Raises
+        ------
+        HostError
+            It is no value of this variable.
+        """
+        if self.kind == "String":
+            return text
+        word = text.strip()
+        if self.kind == "Boolean":
+            if word.lower() not in _WORDS:
+                raise HostError(f"{source}: '{self.name}' is {word!r}; it must be true or false.")
+            return _WORDS[word.lower()]
+        if word in self.items:
+            return self.items[word]
+        try:
+            return self.check(parse_number(word), source)
+        except ValueError as error:
+            raise HostError(f"{source}: '{self.name}': {error}.") from None
+
+    def take(self, kind: str, text: str, source: str) -> Value:
+        """The value of a file that names its kind; a real one is not yet checked.
+
+        Parameters
+        ----------
+        kind, text : str
+            As in a parameter set.
+        source : str
+
+        Raises
+        ------
+        HostError
+            The kind does not fit this variable.
+        """
+        fits = {"Real": ("Real", "Integer"), "Integer": ("Integer", "Real"), "Enumeration": ("Enumeration", "Integer")}
+        if kind not in fits.get(self.kind, (self.kind,)):
+            raise HostError(f"{source}: '{self.name}' is given as {kind}; in the FMU it is {_article(self.kind)}.")
+        if self.kind == "Real":
+            return float(text)
+        if kind == "Real":
+            return self.check(float(text), source)
+        return self.read(text, source)
+
+    def check(self, value: Value, source: str) -> Value:
+        """The value as its kind has it, if it may be set.
+
+        Parameters
+        ----------
+        value : float, int, bool or str
+        source : str
+
+        Raises
+        ------
+        HostError
+            It is of another kind or out of the range.
+        """
+        if self.kind == "String" or isinstance(value, str):
+            if self.kind != "String" or not isinstance(value, str):
+                raise HostError(f"{source}: '{self.name}' is {self.text(value)}; it must be {_article(self.kind)}.")
+            return value
+        if not math.isfinite(value):
+            raise HostError(f"{source}: '{self.name}' is {value}; only finite numbers can be used.")
+        if not self.low <= value <= self.high or (self.items and value not in self.items.values()):
+            raise HostError(f"{source}: '{self.name}' is {self.with_unit(value)}; its range is {self.range}.")
+        if self.kind == "Boolean":
+            if value not in (0, 1):
+                raise HostError(f"{source}: '{self.name}' is {value:g}; it must be true or false.")
+            return bool(value)
+        if self.kind == "Real":
+            return float(value)
+        if value != int(value):
+            raise HostError(f"{source}: '{self.name}' is {value:g}; it must be a whole number.")
+        return int(value)
+
+    def from_display(self, value: float, unit: str, source: str) -> float:
+        """A value in a display unit of the FMU, in the variable's unit.
+
+        Parameters
+        ----------
+        value : float
+        unit : str
+        source : str
+
+        Raises
+        ------
+        HostError
+            The FMU has no such display unit for it.
+        """
+        if unit not in self.displays:
+            raise HostError(
+                f"{source}: '{self.name}' is given in '{unit}', which the file does not define among its Units; "
+                f"the unit of the FMU is {self.unit}."
+            )
+        factor, offset = self.displays[unit]
+        return (value - offset) / factor
+
+
+class Variables:
+    """Those of an FMU by name.
+
+    Parameters
+    ----------
+    description : ModelDescription
+        As FMPy reads it.
+    program : str
+        How messages call the FMU.
+    """
+
+    def __init__(self, description: ModelDescription, program: str = "the FMU") -> None:
+        units = {u.name: u for u in description.unitDefinitions}
+        self._variables = {v.name: _variable(v, units) for v in description.modelVariables if not v.dimensions}
+        self._arrays = {v.name for v in description.modelVariables if v.dimensions}
+        self.names = list(self._variables)
+
+    def __getitem__(self, name: str) -> Variable:
+        return self._variables[name]
+
+    @property
+    def parameters(self) -> list[Variable]:
+        """In the order of the FMU."""
+        return [v for v in self._variables.values() if v.causality == "parameter"]
+
+    def parameter_set(self, name: str, values: Mapping[str, Value]) -> ParameterSet:
+        """All parameters as a set.
+
+        Parameters
+        ----------
+        name : str
+            Of the set.
+        values : mapping of str to float, int, bool or str
+            Other values than those of the FMU.
+        """
+        entries, units = [], {}
+        for v in self.parameters:
+            value = values.get(v.name, v.start)
+            if value is None or v.kind not in _WRITTEN:
+                continue
+            unit = v.unit if v.kind == "Real" and v.definition is not None else None
+            if unit is not None and v.definition is not None:
+                units[unit] = v.definition
+            text = told(v.description, v.range, v.variability)
+            entries.append(Entry(v.name, v.kind, v.written(value), unit, text))
+        return ParameterSet(name, entries, dict(sorted(units.items())))
+
+    def settable(self, name: str, source: str) -> Variable:
+        """A variable that may be set before the start.
+
+        Parameters
+        ----------
+        name : str
+        source : str
+            How messages call where it is asked for.
+
+        Raises
+        ------
+        HostError
+            There is no such variable, or it may not be set.
+        """
+        if name in self._arrays:
+            raise HostError(f"{source}: '{name}' is an array of the FMU; only scalars can be set here.")
+        variable = self._variables.get(name)
+        if variable is None:
+            raise HostError(f"{source}: the FMU has no parameter or input '{_line(name)}'{self._near(name)}.")
+        if variable.variability == "constant":
+            raise HostError(
+                f"{source}: '{name}' is a constant, {variable.with_unit(variable.start)}; it cannot be set."
+            )
+        if variable.causality not in ("parameter", "input"):
+            role = _ROLES.get(variable.causality, variable.causality)
+            raise HostError(f"{source}: '{name}' is {role} of the FMU; it cannot be set.")
+        return variable
+
+    def _near(self, name: str) -> str:
+        can = [
+            n
+            for n, v in self._variables.items()
+            if v.causality in ("parameter", "input") and v.variability != "constant"
+        ]
+        same = [n for n in can if n.lower() == name.lower()]
+        near = same or difflib.get_close_matches(name, can, _NEAREST)
+        near = near or [n for n in can if n.rpartition(".")[2] == name.rpartition(".")[2]][:_NEAREST]
+        if near:
+            return f"; did you mean {' or '.join(near)}?"[:-1]
+        if len(can) <= 2 * _NEAREST:
+            return f"; it has: {', '.join(can) or 'none'}"
+        return f"; {command_name('parameters')} lists them"
+
+
+def _variable(v: ScalarVariable, units: dict[str | None, Any]) -> Variable:
+    declared = v.declaredType
+
+    def attribute(name: str) -> Any:
+        value = getattr(v, name)
+        return getattr(declared, name) if value is None and declared is not None else value
+
+    kind = _KINDS.get(v.type, v.type)
+    unit = attribute("unit")
+    known = units.get(unit)
+    base = known.baseUnit if known is not None else None
+    definition = UnitDefinition.of({k: getattr(base, k) for k in (*_BASE, "factor", "offset")}) if base else None
+    if unit is None:
+        definition = UnitDefinition({})
+    low, high = attribute("min"), attribute("max")
+    return Variable(
+        v.name,
+        v.description or "",
+        str(v.causality or "local"),
+        str(v.variability or "continuous"),
+        kind,
+        unit or "1",
+        _start(v.start, kind),
+        -math.inf if low is None else float(low),
+        math.inf if high is None else float(high),
+        definition,
+        {d.name: (float(d.factor), float(d.offset)) for d in known.displayUnits} if known is not None else {},
+        {i.name: int(i.value) for i in declared.items} if kind == "Enumeration" and declared is not None else {},
+    )
+
+
+_BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+
+
+def _start(text: Any, kind: str) -> Value | None:
+    if text is None:
+        return None
+    if kind == "String":
+        return str(text)
+    if kind == "Boolean":
+        return str(text).strip().lower() in ("true", "1")
+    return float(text) if kind == "Real" else int(text)
+
+
+def _article(kind: str) -> str:
+    return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"
+
+
+def _line(name: str) -> str:
+    """A name that may be anything, on one line."""
+    text = " ".join(name.split())
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."

@@ -1,0 +1,1 @@
+"""Recordings of the simulator: written, read, repeated, made manoeuvres of."""

@@ -1,0 +1,138 @@
+"""The last drive of a recording: what led to its end, without what was rewound."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.recordings.format import REFUSED
+from hosts.recordings.recorded_drive import RecordedDrive
+
+
+@dataclass(frozen=True)
+class LastDrive:
+    """What led to the end of a recording: the drive since the last start, without what was rewound.
+
+    Parameters
+    ----------
+    start : dict of str to float, int, bool or str
+        Values that were set before it.
+    time : ndarray of shape (n + 1,)
+        Of the FMU, s: of the start and after each step.
+    count : ndarray of shape (n + 1,)
+        Of the rows of the recording.
+    inputs : ndarray of shape (n + 1, number of inputs)
+        At the start, then of each step; one more row where the recording ends with a step that was refused.
+    whole : bool
+        Whether it begins with a start, and not with a saved state.
+    """
+
+    start: dict[str, Value]
+    time: NDArray[np.float64]
+    count: NDArray[np.int64]
+    inputs: NDArray[np.float64]
+    whole: bool
+
+
+@dataclass(frozen=True)
+class _Row:
+    time: float
+    count: int
+    epoch: int
+    inputs: list[float]
+    is_step: bool
+    start: dict[str, Value] | None = None
+
+
+def last_drive(drive: RecordedDrive) -> LastDrive:
+    """The drive that led to the end of a recording.
+
+    Parameters
+    ----------
+    drive : RecordedDrive
+
+    Raises
+    ------
+    HostError
+        There is no step in it.
+    """
+    path = _path(drive)
+    begin = max((k for k, row in enumerate(path) if row.start is not None), default=0)
+    path = path[begin : begin + 1] + [row for row in path[begin + 1 :] if row.is_step]
+    refused = _refused(drive)
+    if len(path) + bool(refused) < 2:
+        raise HostError(f"{drive.folder} has no step since its last start.")
+    return LastDrive(
+        path[0].start or {},
+        np.array([row.time for row in path]),
+        np.array([row.count for row in path]),
+        np.array([row.inputs for row in path] + ([refused] if refused else [])),
+        path[0].epoch != drive.first_epoch or drive.start_state is None,
+    )
+
+
+def _path(drive: RecordedDrive) -> list[_Row]:
+    """Rows that led to the end: what a rewind took back is left out."""
+    path: list[_Row] = []
+    epoch_before: int | None = None
+    for rows in drive.unbroken():
+        inputs = rows.values[:, : len(drive.inputs)].tolist()
+        for time, count, epoch, held in zip(*(column.tolist() for column in rows[:3]), inputs, strict=True):
+            if epoch == epoch_before:
+                path.append(_Row(time, count, epoch, held, True))
+                continue
+            epoch_before = epoch
+            start, back_to = drive.restart(epoch), drive.back_to(epoch)
+            if start is None:
+                while path and back_to is not None and not back_to.fits(path[-1].count, path[-1].epoch):
+                    path.pop()
+                if not path:
+                    raise HostError(f"{drive.folder}: the row to which epoch {epoch} goes back is not there.")
+            path.append(_Row(time, count, epoch, held, False, start))
+    return path
+
+
+def recorded_manoeuvre(drive: RecordedDrive) -> Manoeuvre:
+    """The last drive of a recording as a manoeuvre; where it begins with a saved state, so does the manoeuvre.
+
+    Parameters
+    ----------
+    drive : RecordedDrive
+
+    Raises
+    ------
+    HostError
+        There is no step in it.
+    """
+    last = last_drive(drive)
+    return manoeuvre_of(drive, last, 0, len(last.inputs) - 1, None if last.whole else drive.start_state)
+
+
+def manoeuvre_of(drive: RecordedDrive, last: LastDrive, first: int, stop: int, state: bytes | None) -> Manoeuvre:
+    """Steps from one row to another; the first line of the table has the inputs that are held at its start."""
+    inputs = last.inputs[[*range(first, stop + 1), stop]]
+    time = drive.step * np.array([0, *range(stop - first + 1)], dtype=np.float64)
+    kept = _kept(inputs)
+    columns = {name: inputs[kept, k] for k, name in enumerate(drive.inputs)}
+    start = {name: value for name, value in last.start.items() if name not in columns}
+    begin = 0.0 if state is None else float(last.time[first])
+    name = drive.folder.resolve().name
+    return Manoeuvre(name, time[kept], columns, float(time[-1]), start, state=state, state_time=begin)
+
+
+def _refused(drive: RecordedDrive) -> list[float]:
+    """Inputs of a step that was refused at the end."""
+    last = drive.events[-1] if drive.events else {}
+    return list(last["inputs"]) if last.get("kind") == REFUSED and "inputs" in last else []
+
+
+def _kept(table: NDArray[np.float64]) -> list[int]:
+    """Rows of a table that are needed where a row between two that are like it is left out; the first two are."""
+    same = np.all(table[1:] == table[:-1], axis=1)
+    dull = [k for k in range(2, len(table) - 1) if same[k - 1] and same[k]]
+    return sorted(set(range(len(table))) - set(dull))

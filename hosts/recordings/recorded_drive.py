@@ -1,0 +1,215 @@
+"""Reads a recording of a drive."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ali3.files import reason
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, VERSION
+from hosts.recordings.tables import Rows, blocks_of, joined
+
+_KEYS = {"fmu": str, "guid": str, "inputs": int, "step": (int, float), "start": dict, "columns": list, "units": dict}
+
+
+@dataclass(frozen=True)
+class RowKey:
+    """Names a row of a recording.
+
+    Parameters
+    ----------
+    count : int
+        Steps computed so far.
+    epoch : int or None
+        None: the last row of this count before; a count stands twice where an epoch begins.
+    """
+
+    count: int
+    epoch: int | None
+
+    def fits(self, count: int, epoch: int) -> bool:
+        """Whether it names the row of this count and epoch."""
+        return count == self.count and self.epoch in (None, epoch)
+
+
+def _back_to(event: dict[str, Any]) -> RowKey:
+    epoch = event.get("back_to_epoch")
+    return RowKey(int(event["back_to"]), None if epoch is None else int(epoch))
+
+
+@dataclass(frozen=True)
+class RecordedDrive:
+    """A recording.
+
+    Parameters
+    ----------
+    folder : Path
+    meta : dict
+        Its `recording.json`.
+    events : list of dict
+        In their order.
+    notes : list of str
+        Sentences on what the reader should know.
+    """
+
+    folder: Path
+    meta: dict[str, Any]
+    events: list[dict[str, Any]]
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def names(self) -> list[str]:
+        """Inputs, then outputs."""
+        return list(self.meta["columns"])
+
+    @property
+    def inputs(self) -> list[str]:
+        """Names of the inputs."""
+        return self.names[: self.meta["inputs"]]
+
+    @property
+    def step(self) -> float:
+        """Communication step, s."""
+        return float(self.meta["step"])
+
+    @property
+    def start_state(self) -> bytes | None:
+        """The state of the FMU at the first row; None: that is a start."""
+        file = self.folder / STATE
+        return file.read_bytes() if file.is_file() else None
+
+    def blocks(self) -> Iterator[Rows]:
+        """All rows, some thousands at a time."""
+        columns = len(self.names)
+        for rows in blocks_of(self.folder):
+            if rows.values.shape[1] != columns:
+                raise HostError(
+                    f"{self.folder}: a row has {rows.values.shape[1]} values; {DESCRIPTION} names {columns} columns."
+                )
+            yield rows
+
+    def unbroken(self) -> Iterator[Rows]:
+        """All rows; `HostError` where one is missing, since what comes after cannot be repeated."""
+        before = -1, -1
+        for rows in self.blocks():
+            epochs, counts = np.r_[before[0], rows.epoch], np.r_[before[1], rows.steps]
+            gaps = np.flatnonzero((np.diff(epochs) == 0) & (np.diff(counts) != 1))
+            if len(gaps):
+                count, lost = int(counts[gaps[0]]), int(np.diff(counts)[gaps[0]]) - 1
+                raise HostError(
+                    f"{self.folder}: {lost} rows are missing after step {count}, since they could not be written in "
+                    "time; what follows cannot be repeated."
+                )
+            before = int(epochs[-1]), int(counts[-1])
+            yield rows
+
+    def rows(self, every: int = 1) -> Rows:
+        """All rows, or every so many of them."""
+        made, first = [], 0
+        for rows in self.blocks():
+            made.append(rows.chosen(slice(first, None, every)))
+            first = (first - len(rows)) % every
+        return joined(made, len(self.names))
+
+    def restart(self, epoch: int) -> dict[str, Value] | None:
+        """Start values of the FMU if it starts anew with this epoch, else None."""
+        if epoch == self.first_epoch:
+            return dict(self.meta["start"])
+        event = self._of(epoch, RESTARTS)
+        return None if event is None else dict(event.get("start", self.meta["start"]))
+
+    def back_to(self, epoch: int) -> RowKey | None:
+        """The row whose state was restored where this epoch begins with a rewind, else None."""
+        event = self._of(epoch, (REWIND,))
+        return None if event is None else _back_to(event)
+
+    @property
+    def rewound_to(self) -> list[RowKey]:
+        """Rows whose states were restored."""
+        return [_back_to(event) for event in self.events if event.get("kind") == REWIND]
+
+    @property
+    def first_epoch(self) -> int:
+        """Of the first row."""
+        first = next(iter(self.blocks()), None)
+        return 0 if first is None else int(first.epoch[0])
+
+    def _of(self, epoch: int, kinds: tuple[str, ...]) -> dict[str, Any] | None:
+        return next((e for e in self.events if e.get("epoch") == epoch and e.get("kind") in kinds), None)
+
+
+def is_recording(path: Path) -> bool:
+    """Whether a path is the folder of a recording."""
+    return (path / DESCRIPTION).is_file()
+
+
+def read_recording(folder: Path) -> RecordedDrive:
+    """Read a recording; its rows are read when they are asked for.
+
+    Parameters
+    ----------
+    folder : Path
+        Or its file `recording.json`.
+
+    Raises
+    ------
+    HostError
+        It is none; one sentence with the file and the reason.
+    """
+    folder = folder.parent if folder.name == DESCRIPTION else folder
+    file = folder / DESCRIPTION
+    if not file.is_file():
+        what = "has no" if folder.is_dir() else "is no folder with a"
+        raise HostError(f"{folder} {what} {DESCRIPTION}; name the folder of a recording.")
+    meta = _json(file, file.read_bytes())
+    if not isinstance(meta, dict) or meta.get("format") != FORMAT:
+        raise HostError(f"{file} is no recording of the simulator: its format is not {FORMAT!r}.")
+    if meta.get("version") != VERSION:
+        raise HostError(f"{file} is a recording of version {meta.get('version')}; this program reads {VERSION}.")
+    for key, kind in _KEYS.items():
+        if not isinstance(meta.get(key), kind):  # type: ignore[arg-type]
+            raise HostError(f"{file} does not say the {key} of the recording.")
+    notes = [] if meta.get("closed") else [f"{folder} was not closed: what was driven in its last seconds may be lost."]
+    return RecordedDrive(folder, meta, _events(folder / EVENTS), notes)
+
+
+def _events(file: Path) -> list[dict[str, Any]]:
+    """Lines of events; a last one that is cut off is left out."""
+    if not file.is_file():
+        return []
+    lines = file.read_bytes().split(b"\n")[:-1]
+    events = [_json(file, line) for line in lines]
+    return [event for event in events if isinstance(event, dict)]
+
+
+def _json(file: Path, content: bytes) -> Any:
+    try:
+        return json.loads(content)
+    except OSError as error:
+        raise HostError(f"{file} cannot be read: {reason(error)}.") from None
+    except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
+        raise HostError(f"{file} is no JSON file: {error}.") from None
+
+
+def session_time(rows: Rows, step: float) -> Any:
+    """Time as the driver had it, s: it goes on where the car was reset or rewound.
+
+    Parameters
+    ----------
+    rows : Rows
+    step : float
+        s.
+
+    Returns
+    -------
+    ndarray of shape (n,)
+        Not decreasing; the first row of an epoch has the time of the row before it.
+    """
+    return step * np.asarray(rows.steps, dtype=np.float64)

@@ -1,0 +1,65 @@
+"""A recording of a drive as it is shown moving."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+from hosts.common.errors import HostError
+from hosts.fmu.fmu import described
+from hosts.fmu.geometry import scene_from, scene_of
+from hosts.recordings.recorded_drive import read_recording, session_time
+from viewer.recording import Recording
+
+_MOST_VALUES = 8_000_000  # that are read: 64 MB
+
+
+def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tuple[Recording, list[str]]:
+    """A recording for the viewer, in the time of the driver: what was rewound is shown too.
+
+    Parameters
+    ----------
+    folder : Path
+    name : str
+        Of the run.
+    geometry : Path, optional
+        FMU or scene that is drawn in place of the FMU that was recorded.
+
+    Returns
+    -------
+    recording : Recording
+    told : list of str
+        Sentences for the user.
+
+    Raises
+    ------
+    HostError
+        It cannot be read, or the FMU is not there any more.
+    """
+    drive = read_recording(folder)
+    told = list(drive.notes)
+    count = sum(len(rows) for rows in drive.blocks())
+    if not count:
+        raise HostError(f"{folder} holds no row yet.")
+    every = max(1, -(-count * len(drive.names) // _MOST_VALUES))
+    rows = drive.rows(every)
+    if every > 1:
+        told.append(f"One of every {every} of {count} rows of {folder} is read.")
+    if geometry is not None:
+        scene = scene_from(geometry, drive.meta["start"])
+    else:
+        fmu = Path(drive.meta["fmu"])
+        if not (fmu.is_file() and zipfile.is_zipfile(fmu)):
+            raise HostError(f"{folder} names the FMU {fmu}, which is not there any more; name it by --geometry FMU.")
+        scene = scene_of(fmu, drive.meta["start"])
+        if described(fmu).guid != drive.meta["guid"]:
+            told.append(f"{fmu} was built anew since {name} was recorded; what is drawn is that of the new build.")
+    if scene is None:
+        told.append(f"{geometry or drive.meta['fmu']} does not say what there is to draw; signals can be plotted.")
+    columns = {column: rows.values[:, k] for k, column in enumerate(drive.names)}
+    recording = Recording(scene, session_time(rows, drive.step), columns, drive.meta["units"], name)
+    kinds = [event["kind"] for event in drive.events]
+    jumps = [f"{kind} {kinds.count(kind)} times" for kind in ("reset", "rewind", "upright") if kind in kinds]
+    if jumps:
+        recording.notes.append(f"The time is that of the driver; the car was {', '.join(jumps)}.")
+    return recording, told

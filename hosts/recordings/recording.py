@@ -1,0 +1,250 @@
+"""Records what goes into a car's FMU and what comes out, so that it can be repeated bit for bit.
+
+A recording is a folder: `recording.json` says what was driven, `inputs_outputs.parquet` (or `.csv`) has a row for every
+step, `events.jsonl` a line for every event, and `start.state` the state of the FMU where the recording begins with one.
+"""
+
+from __future__ import annotations
+
+import json
+import platform
+import time as clock
+from collections.abc import Callable, Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ali3.extras import missing_package
+from ali3.files import make_folder, whole_file, write_text
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, VERSION
+from hosts.recordings.tables import CsvTable, ParquetTable, Rows, Table
+
+_MOST_ROWS = 2000  # in memory before they are written
+_MOST_WAIT = 2.0  # s of the clock before they are written
+
+
+def recording_meta(
+    fmu: Path,
+    step: float,
+    start: Mapping[str, Value],
+    *,
+    seed: int | None = None,
+    world: str | None = None,
+) -> dict[str, Any]:
+    """What a recording says of the drive.
+
+    Parameters
+    ----------
+    fmu : Path
+    step : float
+        Communication step, s.
+    start : mapping of str to float, int, bool or str
+        All values that are set before the start.
+    seed : int, optional
+        Of a driver by chance.
+    world : str, optional
+        Name or file.
+
+    Returns
+    -------
+    dict
+        For `Recorder`.
+
+    Raises
+    ------
+    HostError
+        It is no FMU.
+    """
+    from hosts.fmu.fmu import described
+
+    description = described(fmu)
+    causalities = [v.causality for v in description.modelVariables if v.type in ("Real", "Integer")]
+    return {
+        "fmu": str(fmu.absolute()),
+        "model": description.modelName,
+        "guid": description.guid,
+        "inputs": causalities.count("input"),
+        "step": step,
+        "start": dict(start),
+        "seed": seed,
+        "world": world,
+        "versions": {
+            "ali3": _version("ali3"),
+            "tool": description.generationTool or "",
+            "fmpy": _version("fmpy"),
+            "numpy": np.__version__,
+            "python": platform.python_version(),
+            "system": platform.platform(),
+        },
+    }
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:  # a clone that is not installed
+        return "unknown"
+
+
+def check_new(folder: Path) -> None:
+    """Refuse a folder that holds a recording already, also one that is being made."""
+    if any((folder / name).exists() for name in (DESCRIPTION, EVENTS)):
+        raise HostError(
+            f"{folder} holds a recording already, or another program is recording there; name another folder."
+        )
+
+
+class Recorder:
+    """Writes a recording; one thread uses it.
+
+    What was recorded reaches the disk every two seconds, so that this much is lost where the program is killed.
+
+    Parameters
+    ----------
+    folder : Path
+        It is made; there must be no recording in it.
+    names : sequence of str
+        Inputs, then outputs.
+    units : mapping of str to str
+    meta : mapping
+        Of `recording_meta`.
+    table : {"parquet", "csv"}, optional
+        By default Parquet where pyarrow is installed.
+
+    Attributes
+    ----------
+    told : list of str
+        Sentences for the user.
+
+    Raises
+    ------
+    HostError
+        There is a recording in the folder.
+    FileError
+        From here or later, if a file cannot be written.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        names: Sequence[str],
+        units: Mapping[str, str],
+        meta: Mapping[str, Any],
+        table: str | None = None,
+    ) -> None:
+        self.told: list[str] = []
+        check_new(folder)
+        make_folder(folder)
+        if table is None and find_spec("pyarrow") is None:
+            words = missing_package("pyarrow")
+            self.told.append(f"The recording is written as CSV, which takes three times the room: {words}")
+            table = "csv"
+        self.folder = folder
+        self._names = list(names)
+        self._meta = {
+            "format": FORMAT,
+            "version": VERSION,
+            **meta,
+            "columns": self._names,
+            "units": {name: units.get(name, "1") for name in self._names},
+        }
+        self._table: Table = (CsvTable if table == "csv" else ParquetTable)(folder, self._names, units)
+        self._events = (folder / EVENTS).open("x", encoding="utf-8")
+        self._held: list[tuple[float, int, int, ArrayLike]] = []
+        self._written, self._wrote = 0, clock.monotonic()
+        self._closed = False
+        self._describe()
+
+    def __enter__(self) -> Recorder:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def row(self, count: int, time: float, epoch: int, values: ArrayLike) -> None:
+        """Record a step, or the start of an epoch.
+
+        Parameters
+        ----------
+        count : int
+            Steps computed so far.
+        time : float
+            Of the FMU, s.
+        epoch : int
+            Its first row is that of a start, reset, rewind or upright, and no step.
+        values : array of shape (len(names),)
+            Inputs of the step that ends there, outputs after it. It is kept, and must not change.
+        """
+        self._held.append((time, count, epoch, values))
+        if len(self._held) >= _MOST_ROWS or clock.monotonic() - self._wrote > _MOST_WAIT:
+            self.flush()
+
+    def event(self, time: float, kind: str, text: str, *, epoch: int, **details: Any) -> None:
+        """Record an event.
+
+        Parameters
+        ----------
+        time : float
+            Of the FMU, s.
+        kind, text : str
+        epoch : int
+            The one that begins with it, or that it is in.
+        **details
+            What repeats it: `start` of `RESTARTS`, all values that were set before the new start; `back_to` and
+            `back_to_epoch` of a rewind, the row whose state was restored; `inputs` of a step that was refused.
+        """
+        record = {"time": time, "kind": kind, "text": text, "epoch": epoch, **details}
+        self._events.write(json.dumps(record, ensure_ascii=False, default=_plain) + "\n")
+        self._events.flush()
+
+    def state(self, count: int, content: bytes) -> None:
+        """Record the state that the first row begins with, where that is no start.
+
+        Parameters
+        ----------
+        count : int
+            Of that row.
+        content : bytes
+            Of `Fmu.state_bytes`.
+        """
+        with whole_file(self.folder / STATE) as made:
+            made.write_bytes(content)
+
+    def flush(self) -> None:
+        """Write what is held to the disk."""
+        self._wrote = clock.monotonic()
+        if not self._held:
+            return
+        time, count, epoch, values = zip(*self._held, strict=True)
+        self._held = []
+        steps, epochs = np.array(count, np.int64), np.array(epoch, np.int64)
+        rows = Rows(np.array(time, float), steps, epochs, np.array(values, float))
+        self._table.write(rows)
+        self._written += len(rows)
+
+    def close(self, progress: Callable[[float], None] = lambda share: None) -> None:
+        """Write the rest and finish the files; `progress` hears the share of them that is done."""
+        if self._closed:
+            return
+        self._closed = True
+        self.flush()
+        self._events.close()
+        self._table.close(progress)
+        self._describe()
+
+    def _describe(self) -> None:
+        meta = self._meta | {"closed": self._closed, "rows": self._written}
+        write_text(self.folder / DESCRIPTION, json.dumps(meta, indent=1, ensure_ascii=False, default=_plain) + "\n")
+
+
+def _plain(value: Any) -> Any:
+    """NumPy's numbers as JSON has them."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    raise TypeError(f"{value!r} cannot be written into a recording")

@@ -1,0 +1,244 @@
+"""Repeats a recording through the FMU and compares every bit that comes out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.common.errors import HostError
+from hosts.fmu.fmu import Fmu, State, StepRefusedError
+from hosts.recordings.format import REFUSED
+from hosts.recordings.recorded_drive import RecordedDrive, RowKey
+from hosts.recordings.tables import Rows
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A value that came out otherwise.
+
+    Parameters
+    ----------
+    count : int
+        Steps up to its row.
+    time : float
+        Of the FMU, s.
+    name : str
+        Of the output; ``step``: it was refused, or one that was refused was not.
+    recorded, repeated : float
+    """
+
+    count: int
+    time: float
+    name: str
+    recorded: float
+    repeated: float
+
+    def __str__(self) -> str:
+        where = f"at {self.time:g} s, after {self.count} steps"
+        if self.name == "step":
+            return f"the next step, {where}, was {'made' if self.recorded else 'refused'} when it was recorded only"
+        return f"{self.name} {where}: recorded {self.recorded!r}, repeated {self.repeated!r}"
+
+
+@dataclass
+class Replayed:
+    """What a replay found.
+
+    Parameters
+    ----------
+    rows : int
+        That were compared.
+    different : int
+        Rows with another bit.
+    first : list of Difference
+        The first of them, one for each output.
+    notes : list of str
+        Sentences, such as that it is another build of the FMU.
+    """
+
+    rows: int = 0
+    different: int = 0
+    first: list[Difference] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+class Repeater:
+    """An FMU that follows a recording row by row.
+
+    Parameters
+    ----------
+    drive : RecordedDrive
+    fmu : Path, optional
+        By default the one that was recorded.
+
+    Attributes
+    ----------
+    fmu : Fmu
+    notes : list of str
+
+    Raises
+    ------
+    HostError
+        The FMU is not there, lacks a variable, or cannot restore states and the recording has one.
+    """
+
+    def __init__(self, drive: RecordedDrive, fmu: Path | None = None) -> None:
+        self.drive, path = drive, fmu or Path(drive.meta["fmu"])
+        self.notes = list(drive.notes)
+        if fmu is None and not path.is_file():
+            raise HostError(f"{drive.folder} was recorded from {path}, which is not there any more; name the FMU.")
+        self._kept = set(drive.rewound_to)
+        self._states: dict[RowKey, State] = {}
+        self._started = False
+        self.fmu = Fmu(path)
+        try:
+            self._check(path)
+            self._set, self._get = self.fmu.setter(drive.inputs), self.fmu.getter(drive.names[len(drive.inputs) :])
+        except BaseException:
+            self.fmu.__exit__(None, None, None)
+            raise
+        self._time, self._epoch = 0.0, -1
+
+    def __enter__(self) -> Repeater:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        for state in self._states.values():
+            self.fmu.free(state)
+        self.fmu.__exit__(kind, error, trace)
+
+    def follow(self, rows: Rows) -> Iterator[list[float]]:
+        """Repeat rows, which follow those before; give the outputs after each."""
+        inputs = len(self.drive.inputs)
+        for time, count, epoch, values in zip(*(column.tolist() for column in rows), strict=True):
+            if epoch != self._epoch:
+                self._begin(epoch, time)
+            else:
+                self._set(values[:inputs])
+                self.fmu.step(self._time, self.drive.step)
+            self._time, self._epoch = time, epoch
+            for key in self._kept:
+                if key.fits(count, epoch):
+                    self._keep(key)
+            yield self._get()
+
+    def refuses(self, inputs: list[float]) -> bool:
+        """Whether the FMU refuses the next step with these inputs."""
+        self._set(inputs)
+        try:
+            self.fmu.step(self._time, self.drive.step)
+        except StepRefusedError:
+            return True
+        return False
+
+    def _begin(self, epoch: int, time: float) -> None:
+        """Start the FMU or restore its state, as this epoch began."""
+        first = self._epoch == -1
+        start, back_to = self.drive.restart(epoch), self.drive.back_to(epoch)
+        if not first and start is None:
+            if back_to not in self._states:
+                raise HostError(
+                    f"{self.drive.folder}: epoch {epoch} begins with neither a start nor a state that was recorded."
+                )
+            assert back_to is not None
+            self.fmu.restore(self._states[back_to])
+            return
+        if self._started:
+            self.fmu.reset()
+        self.fmu.initialise(start or {}, time)
+        self._started = True
+        state = self.drive.start_state if first else None
+        if state is not None:
+            self.fmu.restore_bytes(state)
+
+    def _keep(self, key: RowKey) -> None:
+        before = self._states.pop(key, None)
+        if before is not None:
+            self.fmu.free(before)
+        self._states[key] = self.fmu.state()
+
+    def _check(self, path: Path) -> None:
+        known = self.fmu.variables
+        missing = [name for name in self.drive.names if name not in known]
+        if missing:
+            raise HostError(f"{path} lacks variables of the recording {self.drive.folder}: {', '.join(missing[:5])}.")
+        if self.fmu.description.guid != self.drive.meta["guid"]:
+            self.notes.append(
+                f"{self.drive.folder} was recorded from another build of the FMU: its GUID is "
+                f"{self.drive.meta['guid']}, that of {path} is {self.fmu.description.guid}. Numbers may differ."
+            )
+
+
+def replay(
+    drive: RecordedDrive, fmu: Path | None = None, progress: Callable[[int], None] = lambda rows: None
+) -> Replayed:
+    """Repeat a recording and compare all outputs bit for bit.
+
+    Parameters
+    ----------
+    drive : RecordedDrive
+    fmu : Path, optional
+        By default the one that was recorded.
+    progress : callable
+        Hears the number of rows that are done.
+
+    Returns
+    -------
+    Replayed
+
+    Raises
+    ------
+    HostError
+        The FMU cannot repeat it at all; see `Repeater`.
+    """
+    made = Replayed()
+    outputs = drive.names[len(drive.inputs) :]
+    seen: set[str] = set()
+    count, time = 0, 0.0
+    with Repeater(drive, fmu) as repeater:
+        made.notes = repeater.notes
+        for rows in drive.unbroken():
+            steps = repeater.follow(rows)
+            recorded = rows.values[:, len(drive.inputs) :]
+            for k in range(len(rows)):
+                try:
+                    repeated = np.array(next(steps))
+                except StepRefusedError as error:
+                    made.notes.append(f"The FMU refused the step at {time:g} s: {error}")
+                    made.first.append(Difference(count, time, "step", 1.0, 0.0))
+                    made.different += 1
+                    return made
+                count, time = int(rows.steps[k]), float(rows.time[k])
+                made.rows += 1
+                other = _other_bits(recorded[k], repeated)
+                made.different += bool(len(other))
+                for j in other:
+                    if outputs[j] not in seen:
+                        seen.add(outputs[j])
+                        made.first.append(Difference(count, time, outputs[j], recorded[k, j], repeated[j]))
+            progress(made.rows)
+        _last_refusal(drive, repeater, made, count, time)
+    return made
+
+
+def _last_refusal(drive: RecordedDrive, repeater: Repeater, made: Replayed, count: int, time: float) -> None:
+    """A recording that ends with a step that was refused: it must be refused again."""
+    last = drive.events[-1] if drive.events else {}
+    if last.get("kind") == REFUSED and "inputs" in last and made.rows:
+        with suppress(HostError):
+            if not repeater.refuses(list(last["inputs"])):
+                made.first.append(Difference(count, time, "step", 0.0, 1.0))
+                made.different += 1
+
+
+def _other_bits(a: NDArray[np.float64], b: NDArray[np.float64]) -> list[int]:
+    """Places where two rows of doubles differ in a bit; NaN is a number as any other."""
+    return [int(k) for k in np.flatnonzero(a.view(np.int64) != b.view(np.int64))]

@@ -1,0 +1,104 @@
+"""Makes a manoeuvre, which `ali3 drive` repeats, of a recording: its last drive without what was rewound."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from ali3.files import whole_file, write_text
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.fmu import StepRefusedError
+from hosts.recordings.last_drive import last_drive, manoeuvre_of
+from hosts.recordings.recorded_drive import RecordedDrive
+from hosts.recordings.replay import Repeater
+
+
+def to_manoeuvre(
+    drive: RecordedDrive,
+    out: Path,
+    begin: float | None = None,
+    end: float | None = None,
+    fmu: Path | None = None,
+    progress: Callable[[int], None] = lambda rows: None,
+) -> list[Path]:
+    """Write the last drive of a recording, or a part of it, as a manoeuvre.
+
+    Parameters
+    ----------
+    drive : RecordedDrive
+    out : Path
+        CSV file. A part that does not begin with the start needs the state there, which is found by repeating the
+        recording in the FMU and is written beside it, with the suffix ``.state``.
+    begin, end : float, optional
+        Times of the FMU, s.
+    fmu : Path, optional
+        That finds the state; by default the one that was recorded.
+    progress : callable
+        Hears the number of rows that are repeated for the state.
+
+    Returns
+    -------
+    list of Path
+        What was written.
+
+    Raises
+    ------
+    HostError
+        There is no step between these times, or the FMU cannot give the state.
+    """
+    if out.suffix != ".csv":
+        raise HostError(f"{out} would be a manoeuvre; give it the suffix .csv.")
+    last = last_drive(drive)
+    first = 0 if begin is None else int(np.searchsorted(last.time, begin - 1e-9))
+    stop = len(last.inputs) - 1
+    if end is not None:
+        stop = min(int(np.searchsorted(last.time, end + 1e-9, side="right")) - 1, stop)
+    if not first < stop:
+        raise HostError(
+            f"There is no step between these times in the last drive of {drive.folder}, which is from "
+            f"{last.time[0]:g} s to {last.time[-1]:g} s."
+        )
+    state = None if last.whole else drive.start_state
+    if first > 0:
+        state = _state_at(drive, int(last.count[first]), fmu, progress)
+    made = manoeuvre_of(drive, last, first, stop, state)
+    files = [out]
+    lines = [f"# start: {name}={_text(value)}" for name, value in made.start.items()]
+    if state is not None:
+        file = out.with_suffix(".state")
+        with whole_file(file) as new:
+            new.write_bytes(state)
+        files.append(file)
+        lines.append(f"# state: {file.name} at {made.state_time!r}")
+    lines.append(",".join(f'"{name}"' for name in ("time", *made.inputs)))
+    table = np.column_stack([made.time, *made.inputs.values()])
+    lines += [",".join(map(repr, row)) for row in table.tolist()]
+    write_text(out, "\n".join(lines) + "\n")
+    return files
+
+
+def _text(value: Value) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f'"{value}"' if isinstance(value, str) else repr(value)
+
+
+def _state_at(drive: RecordedDrive, count: int, fmu: Path | None, progress: Callable[[int], None]) -> bytes:
+    """The state after the last row with this count that leads to the end."""
+    state: bytes | None = None
+    done = 0
+    with Repeater(drive, fmu) as repeater:
+        try:
+            for rows in drive.unbroken():
+                for k, _ in enumerate(repeater.follow(rows)):
+                    if int(rows.steps[k]) == count:
+                        state = repeater.fmu.state_bytes()
+                done += len(rows)
+                progress(done)
+        except StepRefusedError as error:
+            raise HostError(f"{drive.folder} cannot be repeated up to there: {error}") from None
+    assert state is not None
+    return state

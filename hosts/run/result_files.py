@@ -1,0 +1,91 @@
+"""The files of a run: a table, a picture, and a record of what was run, in a folder."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from ali3.files import check_writable, whole_file, write_text
+from hosts.driving.co_simulation import Result
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.settings import Settings
+
+
+def result_paths(out: Path, stem: str) -> tuple[Path, Path, Path]:
+    """Table, picture and record of a run; `FileError` at once, before the run, if they cannot be written.
+
+    Parameters
+    ----------
+    out : Path
+        Folder.
+    stem : str
+        Name of the files without suffix.
+    """
+    table, picture, record = (out / f"{stem}{suffix}" for suffix in (".csv", ".png", ".json"))
+    for file in (table, picture, record):
+        check_writable(file)
+    return table, picture, record
+
+
+def write_csv(result: Result, file: Path) -> None:
+    """Time, inputs and outputs as a table in FMPy's format.
+
+    Parameters
+    ----------
+    result : Result
+    file : Path
+        Its folder is made if it is not there.
+    """
+    with whole_file(file) as made, made.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, quoting=csv.QUOTE_NONNUMERIC)
+        writer.writerow(["time", *result.names])
+        for t, row in zip(result.time.tolist(), result.values.tolist(), strict=True):
+            writer.writerow([t, *row])
+
+
+def write_record(fmu: Fmu, manoeuvre: str, step: float, settings: Settings, result: Result, file: Path) -> None:
+    """What was run, and what was set in the FMU, as JSON.
+
+    Parameters
+    ----------
+    fmu : Fmu
+    manoeuvre : str
+        Its name.
+    step : float
+        Communication step, s.
+    settings : Settings
+    result : Result
+    file : Path
+        Its folder is made if it is not there.
+    """
+    record = {
+        "fmu": str(fmu.path),
+        "model": fmu.description.modelName,
+        "token": fmu.description.guid,
+        "manoeuvre": manoeuvre,
+        "step_s": step,
+        "simulated_s": result.simulated,
+        "failed_steps": result.failed_steps,
+        "set": settings.records(),
+    }
+    write_text(file, json.dumps(record, indent=2, ensure_ascii=False) + "\n")
+
+
+def print_result(tables: Iterable[Sequence[tuple[str, str]]], result: Result, files: Sequence[Path]) -> int:
+    """Print tables, what the FMU logged and where the files are.
+
+    Returns
+    -------
+    int
+        Exit code: 0 if every step was accepted.
+    """
+    for rows in tables:
+        width = max((len(what) for what, _ in rows), default=0)
+        for what, value in rows:
+            print(f"{what:<{width}}  {value}")
+    for message in dict.fromkeys(result.messages):
+        print(f"FMU: {message}")
+    print(f"written: {', '.join(map(str, files))}")
+    return 1 if result.failed_steps else 0

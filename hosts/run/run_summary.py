@@ -1,0 +1,117 @@
+"""The numbers of a run that a person asks for first."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hosts.driving.co_simulation import Result
+from hosts.driving.course import Course
+
+WHEELS = ("FL", "FR", "RL", "RR")
+# A wheel that carries less is in the air, N.
+_LIFT_FORCE = 1.0
+# Outputs that hold energy, and those of the work since the start, with the words of the table.
+_STORED = ("energy.kinetic", "energy.gravity", "energy.elastic")
+_WORKS = {
+    "energy.drive": "drive",
+    "energy.brakes": "brakes",
+    "energy.tyres": "tyres",
+    "energy.dampers": "dampers and stops",
+    "energy.drag": "air",
+    "energy.ground": "ground on the chassis",
+}
+_ERROR = "solver.energy_error"
+
+
+def summary(
+    result: Result, step: float, course: Course | None = None, outline: tuple[float, float] = (0.0, 0.0)
+) -> list[tuple[str, str]]:
+    """Rows of the summary table; those whose variables the FMU lacks are left out.
+
+    Parameters
+    ----------
+    result : Result
+    step : float
+        Communication step, s.
+    course : Course, optional
+        Gates to be passed.
+    outline : tuple of float
+        Length and width of the vehicle, m, for the gates.
+
+    Returns
+    -------
+    list of (str, str)
+        What and how much.
+    """
+    rows: list[tuple[str, str]] = []
+    if "chassis.x" in result and "chassis.y" in result:
+        x, y = result["chassis.x"], result["chassis.y"]
+        rows.append(("distance driven", f"{np.hypot(np.diff(x), np.diff(y)).sum():.2f} m"))
+    if "speed" in result:
+        v = result["speed"]
+        rows.append(
+            (
+                "speed at start, top, end",
+                f"{v[0]:.2f}, {v.max():.2f}, {v[-1]:.2f} m/s ({3.6 * v.max():.1f} km/h at most)",
+            )
+        )
+    for name, label in (("ax", "longitudinal"), ("ay", "lateral"), ("az", "vertical")):
+        if f"chassis.{name}" in result:
+            a = result[f"chassis.{name}"]
+            rows.append((f"{label} acceleration", f"{_signed(a.min())} to {_signed(a.max())} m/s2"))
+    for name in ("roll", "pitch"):
+        if f"chassis.{name}" in result:
+            angle = np.degrees(result[f"chassis.{name}"])
+            rows.append((name, f"{_signed(angle.min())} to {_signed(angle.max())} deg"))
+    loads = {w: result[f"wheel_{w}.Fz"] for w in WHEELS if f"wheel_{w}.Fz" in result}
+    if loads:
+        largest = max(loads, key=lambda w: float(loads[w].max()))
+        at = result.time[int(loads[largest].argmax())]
+        rows.append(("largest wheel load", f"{loads[largest].max():.0f} N ({largest}, at {at:.2f} s)"))
+        lift = "  ".join(f"{w} {1e3 * step * np.count_nonzero(f[1:] < _LIFT_FORCE):.0f}" for w, f in loads.items())
+        rows.append(("wheels in the air", f"{lift}  ms"))
+    if course is not None and "chassis.x" in result and "chassis.y" in result and "chassis.yaw" in result:
+        out = course.corners_outside(result["chassis.x"], result["chassis.y"], result["chassis.yaw"], *outline)
+        rows.append((course.name, f"passed, {-out:.2f} m to spare" if out <= 0.0 else f"missed by {out:.2f} m"))
+    if "solver.iterations" in result and len(result.time) > 1:
+        n = result["solver.iterations"][1:]
+        rows.append(("Newton iterations", f"{n.mean():.2f} a step, {n.max():.0f} at most"))
+    if "solver.halvings" in result:
+        rows.append(("steps repeated in halves", f"{result['solver.halvings'][-1]:.0f}"))
+    if "solver.capped_steps" in result and result["solver.capped_steps"][-1] > 0:
+        left = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
+        count = f"{result['solver.capped_steps'][-1]:.0f}"
+        rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {left:.2g} mm"))
+    rows.append(("failed steps", f"{result.failed_steps} of {len(result.time) - 1 + result.failed_steps}"))
+    factor = result.simulated / result.wall if result.wall > 0.0 else float("inf")
+    rows.append(
+        (
+            "real-time factor",
+            f"{factor:.1f} ({result.simulated:.2f} s simulated in {result.wall:.3f} s, step {1e3 * step:g} ms)",
+        )
+    )
+    return rows
+
+
+def energy_balance(result: Result) -> list[tuple[str, str]]:
+    """Rows of the energy balance of a drive, kJ: its change and the works that sum up to it.
+
+    Empty where the FMU lacks one of the outputs.
+
+    What is left of the change has no output of its own: the work of steering and other guides, the damping of a
+    flexible structure, and what the error of the steps does not name.
+    """
+    if any(name not in result for name in (*_STORED, *_WORKS, _ERROR)):
+        return []
+
+    def change(name: str) -> float:
+        return float(result[name][-1] - result[name][0])
+
+    stored, works, error = sum(map(change, _STORED)), {n: change(n) for n in _WORKS}, change(_ERROR)
+    parts = {"change of the energy": stored} | {f"- work of {_WORKS[n]}": w for n, w in works.items()}
+    parts |= {"- steering, structure, rest": stored - sum(works.values()) - error, "- error of the steps": error}
+    return [(what, f"{round(1e-3 * part, 4) + 0.0:+.4f} kJ") for what, part in parts.items()]
+
+
+def _signed(value: float) -> str:
+    return f"{round(float(value), 2) + 0.0:+.2f}"

@@ -1,0 +1,1 @@
+"""`ali3 view` and `page`: results and FMUs in a browser."""

@@ -1,0 +1,155 @@
+"""What a page needs of an FMU: its binary in WebAssembly, its drawing, its resources and its variables."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import re
+import zipfile
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fmpy.model_description import ModelDescription
+
+from ali3.running import command_name
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.common.road import PARAMETER as ROAD
+from hosts.fmu.description_record import description_record
+from hosts.fmu.fmu import described
+from hosts.fmu.geometry import RESOURCE, scene_of
+from hosts.fmu.variables import Variables
+
+PLATFORM = "wasm32"
+_ROOM = "resources/"
+_ROADS = "roads/"
+
+
+@dataclass(frozen=True)
+class FmuParts:
+    """An FMU as a page runs it.
+
+    Parameters
+    ----------
+    path : Path
+    description : ModelDescription
+    variables : Variables
+    scene : dict
+        What is drawn.
+    wasm : bytes or None
+        The binary; None: the FMU has none.
+    resources : dict of str to bytes
+        Files that the binary reads, by their paths inside the folder of the resources.
+    own_road : Path, optional
+        A road file of the user among them.
+    """
+
+    path: Path
+    description: ModelDescription
+    variables: Variables
+    scene: dict[str, Any]
+    wasm: bytes | None
+    resources: dict[str, bytes]
+    own_road: Path | None = None
+
+    @property
+    def name(self) -> str:
+        """Of the model."""
+        return str(self.description.modelName)
+
+    def roads(self) -> dict[str, list[Any]]:
+        """Roads of the drawing by what the parameter `road.file` may be set to: none, or a road file in the FMU."""
+        if ROAD not in self.variables.names:
+            return {}
+        names = ["", *(path.removeprefix(_ROADS) for path in self.resources if path.startswith(_ROADS))]
+        places = {name: name for name in names}
+        if self.own_road is not None:
+            places[self.own_road.name] = str(self.own_road)
+        with ThreadPoolExecutor() as pool:
+            scenes = list(pool.map(lambda name: scene_of(self.path, {ROAD: places[name]}), names))
+        return {name: scene["roads"] for name, scene in zip(names, scenes, strict=True) if scene is not None}
+
+    def record(self, title: str) -> dict[str, Any]:
+        """The FMU as JSON of the page; `wasm` must be there."""
+        assert self.wasm is not None
+        return {
+            "title": title,
+            "scene": self.scene,
+            "roads": packed(json.dumps(self.roads()).encode()),
+            "description": description_record(self.description, self.variables),
+            "wasm": packed(self.wasm),
+            "resources": {path: packed(content) for path, content in self.resources.items()},
+        }
+
+
+def fmu_parts(path: Path, road: Value = "") -> FmuParts:
+    """Read an FMU for a page.
+
+    Parameters
+    ----------
+    path : Path
+    road : str
+        Of the parameter `road.file`: the name of a road in the FMU, or a road file, which goes into the page.
+
+    Raises
+    ------
+    HostError
+        It is no FMU that a page can run; with what would help.
+    """
+    description = described(path)
+    _check_kind(path, description)
+    with zipfile.ZipFile(path) as archive:
+        names = archive.namelist()
+        if RESOURCE not in names:
+            raise HostError(
+                f"{path} has no drawing of itself ({RESOURCE}): it was built by an older version; build it anew with "
+                f"{build_line(path)}"
+            )
+        binaries = [n for n in names if n.startswith(f"binaries/{PLATFORM}/") and n.endswith(".wasm")]
+        wasm = archive.read(binaries[0]) if binaries else None
+        files = [n for n in names if re.fullmatch(_ROOM + r"(?:[^/]+\.ali3|roads/.+\.road)", n)]
+        resources = {name.removeprefix(_ROOM): archive.read(name) for name in sorted(files)}
+    scene = scene_of(path, {ROAD: str(road)})
+    assert scene is not None
+    lost = next((item["why"] for item in scene["missing"] if item["name"] == f"the road {road}"), None)
+    if road and lost is not None:
+        raise HostError(f"The road {road} cannot be used: {lost}.")
+    own_road = Path(str(road)) if road and Path(str(road)).is_file() else None
+    if own_road is not None:
+        resources[_ROADS + own_road.name] = own_road.read_bytes()
+    return FmuParts(path, description, Variables(description), scene, wasm, resources, own_road)
+
+
+def build_line(path: Path) -> str:
+    """The command that builds an FMU of this file's name with what a page needs."""
+    snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", re.sub(r"(FMI3|FMI3Scalar|Python)$", "", path.stem)).lower()
+    what = f"--car {snake}" if _has_car(path) else f"--scene {snake}"
+    out = "" if path.parent == Path("dist") else f" --out {path.parent}"
+    return f"{command_name('build')} {what} --kind native --platforms this,{PLATFORM}{out}"
+
+
+def _has_car(path: Path) -> bool:
+    with zipfile.ZipFile(path) as archive:
+        return any(name.startswith(f"{_ROOM}car/") for name in archive.namelist())
+
+
+def _check_kind(path: Path, description: ModelDescription) -> None:
+    tool = str(description.generationTool or "an unknown tool")
+    if not tool.startswith("ALi3"):
+        raise HostError(
+            f"{path} is an FMU of {tool}; a page runs FMUs that {command_name('build')} has built, which carry a "
+            "binary in WebAssembly and their drawing."
+        )
+    version = description.fmiVersion
+    python = "PythonFMU" in tool
+    kind = "the kind python, which needs a Python" if python else f"FMI {version}"
+    if version != "2.0" or description.coSimulation is None or python:
+        raise HostError(f"{path} is an FMU of {kind}; a page runs the kind native (FMI 2.0): {build_line(path)}")
+
+
+def packed(content: bytes) -> str:
+    """Bytes as text of a page: base64 of gzip."""
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")

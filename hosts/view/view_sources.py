@@ -1,0 +1,232 @@
+"""From what the user names to recordings: results of the hosts, tables of `mbs` runs, FMUs that are run first."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ali3.files import reason
+from ali3.running import command_name
+from hosts.common.errors import HostError
+from hosts.common.options import Wishes
+from hosts.fmu.geometry import RESOURCE, scene_from, scene_of
+from hosts.recordings.recorded_drive import is_recording
+from hosts.recordings.recorded_view import recorded_view
+from hosts.view.recorded import read_table
+from viewer.recording import Recording
+
+# What a car without inputs of the user's is driven through.
+_CAR_MANOEUVRE = "double_lane_change"
+
+
+@dataclass(frozen=True)
+class RunWishes:
+    """How an FMU is run that is to be shown.
+
+    Parameters
+    ----------
+    manoeuvre : str, optional
+        As for the command drive.
+    stop_time, step : float, optional
+        s.
+    wishes : Wishes
+        What is set in it.
+    """
+
+    manoeuvre: str | None
+    stop_time: float | None
+    step: float | None
+    wishes: Wishes
+
+    def __bool__(self) -> bool:
+        return bool(self.wishes) or any(x is not None for x in (self.manoeuvre, self.stop_time, self.step))
+
+
+def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) -> tuple[list[Recording], list[str]]:
+    """Recordings of all that the user named.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        Results and FMUs.
+    geometry : Path, optional
+        FMU or scene that results are drawn with, in place of that of their record.
+    run : RunWishes
+        For FMUs.
+
+    Returns
+    -------
+    recordings : list of Recording
+        With names that differ.
+    told : list of str
+        Sentences for the user.
+
+    Raises
+    ------
+    HostError
+        Something cannot be read or run; one sentence.
+    """
+    made: list[Recording] = []
+    told: list[str] = []
+    for path, name in zip(paths, _names(paths), strict=True):
+        if not path.exists():
+            hint = f" Build it with: {command_name('build')}" if path.suffix == ".fmu" else ""
+            raise HostError(f"There is no file {path}.{hint}")
+        suffix = path.suffix.lower()
+        if is_recording(path):
+            recording, words = recorded_view(path, name, geometry)
+        elif suffix == ".fmu" or (suffix not in (".csv", ".json") and zipfile.is_zipfile(path)):
+            recording, words = _of_fmu(path, name, run)
+        elif suffix in (".csv", ".json"):
+            recording, words = _of_result(path, name, geometry)
+        else:
+            raise HostError(_no_kind(path))
+        made.append(recording)
+        told += words
+    if run and not any(path.suffix.lower() == ".fmu" for path in paths):
+        raise HostError("Manoeuvre, times and values are set for an FMU that is run; results are shown as they are.")
+    return made, told
+
+
+def _no_kind(path: Path) -> str:
+    if path.is_dir():
+        return f"{path} is a folder; name a result in it (a .csv file), an FMU, or the folder of a recording."
+    if path.suffix.lower() in (".toml", ".py"):
+        return f"{path} is shown when it is built: {command_name('build')} makes an FMU of a car or a scene."
+    return f"{path} is neither a result (.csv, .json) nor an FMU (.fmu)."
+
+
+def _names(paths: Sequence[Path]) -> list[str]:
+    """Names of files, with as much of their folders as makes them differ."""
+    parts = [path.absolute().with_suffix("").parts for path in paths]
+    names = [part[-1] for part in parts]
+    for depth in range(2, max(map(len, parts)) + 1):
+        if len(set(names)) == len(names):
+            break
+        names = ["/".join(part[-depth:]) for part in parts]
+    return [name if names.index(name) == k else f"{name} ({k + 1})" for k, name in enumerate(names)]
+
+
+def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording, list[str]]:
+    """A table with the scene of the FMU that its record names."""
+    table_file, record_file = path.with_suffix(".csv"), path.with_suffix(".json")
+    if not table_file.is_file():
+        raise HostError(f"{path} has no table {table_file.name} beside it; name the .csv file of a result.")
+    table = read_table(table_file)
+    record = _record(record_file) if record_file.is_file() else None
+    units: dict[str, str] = dict(table.units)
+    told: list[str] = []
+    scene: dict[str, Any] | None = None
+    settings = {entry["name"]: entry["new"] for entry in record["set"]} if record is not None else {}
+    if geometry is None and record is None and record_file.is_file():
+        geometry = record_file  # a scene, as it is read below
+    if geometry is not None:
+        scene = scene_from(geometry, settings)
+        if scene is None:
+            told.append(_foreign(geometry))
+    elif record is not None:
+        fmu = _fmu_of(record, record_file)
+        described, same = _units(fmu, str(record.get("token", "")))
+        units = described | units
+        scene = scene_of(fmu, settings)
+        if scene is None:
+            told.append(_foreign(fmu))
+        if not same:
+            told.append(f"{fmu} was built anew since {name} was recorded; what is drawn is that of the new build.")
+    else:
+        told.append(
+            f"{table_file} has no record {record_file.name} beside it that names its FMU, and no scene of that name: "
+            "its signals can be plotted, and nothing is drawn; --geometry FILE names an FMU or a scene."
+        )
+    recording = Recording(scene, table.t, table.columns, units, name)
+    if scene is not None and recording.scene is not None and scene["shapes"] and not recording.scene["shapes"]:
+        why = recording.missing[-1]["why"].rstrip(".") if recording.missing else "no shape has a pose"
+        told.append(f"{table_file} holds no poses that could be drawn ({why}); its signals can be plotted.")
+    recording.notes += [table.note] if table.note else []
+    return recording, told
+
+
+def _record(file: Path) -> dict[str, Any] | None:
+    """The record beside a result; None where it is another JSON file."""
+    try:
+        record = json.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise HostError(f"{file} cannot be read: {reason(error)}.") from None
+    except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
+        raise HostError(f"{file}, the record of the result, is no JSON file: {error}.") from None
+    if not isinstance(record, dict) or not isinstance(record.get("fmu"), str):
+        return None
+    entries = record.get("set", [])
+    if not isinstance(entries, list) or not all(isinstance(e, dict) and {"name", "new"} <= set(e) for e in entries):
+        raise HostError(f"{file}, the record of the result, does not say by 'set' what was set in the FMU.")
+    return record | {"set": entries}
+
+
+def _fmu_of(record: dict[str, Any], file: Path) -> Path:
+    """The FMU of a record: as it was named, from here or from a folder above the record."""
+    named = Path(record["fmu"])
+    here = file.absolute().parent
+    tried = [named, *(folder / named for folder in (here, *here.parents))] if not named.is_absolute() else [named]
+    tried.append(here / named.name)
+    found = next((path for path in tried if path.is_file()), None)
+    if found is None:
+        raise HostError(
+            f"{file} names the FMU {named}, which is not there any more; say where it is now by --geometry FMU."
+        )
+    return found
+
+
+def _units(fmu: Path, token: str) -> tuple[dict[str, str], bool]:
+    """Units of the variables of an FMU, and whether its token is that of the record."""
+    from hosts.fmu.fmu import described
+
+    description = described(fmu)
+    units = {v.name: v.unit or "" for v in description.modelVariables}
+    return units, not token or str(description.guid or description.instantiationToken) == token
+
+
+def _foreign(path: Path) -> str:
+    return (
+        f"{path} has no {RESOURCE}, which says what there is to draw: its signals can be plotted, and nothing is "
+        "drawn; FMUs that ali3 builds have it."
+    )
+
+
+def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[str]]:
+    """Run an FMU: through a manoeuvre, or for its default experiment."""
+    from hosts.driving.co_simulation import check_columns, communication_step, driver_of, run_with_bar
+    from hosts.driving.driver import ACTS, SENSES
+    from hosts.driving.manoeuvre import with_names_of
+    from hosts.driving.manoeuvre_settings import set_in
+    from hosts.fmu.fmu import Fmu
+    from hosts.recordings.load_manoeuvre import load_manoeuvre
+    from hosts.run.run import run_manoeuvre
+
+    told = []
+    with Fmu(path) as fmu:
+        given = wanted.manoeuvre
+        car = set(ACTS) <= set(fmu.names("input")) and set(SENSES) <= set(fmu.names("output"))
+        if given is None and car and wanted.stop_time is None:
+            given = _CAR_MANOEUVRE
+            told.append(f"{path} is driven through {given}; --manoeuvre names another.")
+        if given is not None:
+            manoeuvre = with_names_of(load_manoeuvre(given), fmu.variables)
+        else:
+            manoeuvre = run_manoeuvre(fmu, None, wanted.stop_time)
+        check_columns(fmu, manoeuvre)
+        driver = driver_of(fmu, manoeuvre)
+        manoeuvre, settings = set_in(fmu, manoeuvre, wanted.wishes)
+        scene = scene_of(path, settings.start)
+        result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, wanted.step), driver)
+    if scene is None:
+        told.append(_foreign(path))
+    told += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
+    if result.failed_steps:
+        told.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")
+    columns = {n: result.values[:, k] for k, n in enumerate(result.names)}
+    title = name if given is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"
+    return Recording(scene, result.time, columns, result.units, settings.title(title)), told

@@ -1,0 +1,107 @@
+"""Forces that are not smooth at a state: where their slopes differ to both sides, or within a small velocity."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.simulation import State
+from mbs.simulation.evaluator import SHIFT, Evaluator
+
+Array = NDArray[np.float64]
+
+KINK = 1e-3  # difference of the slopes to both sides, share of the largest slope of the forces by this velocity
+WIDE = 100.0  # the second difference is that many times as wide
+BEND = 1e-2  # the same between the narrow and the wide difference
+ASIDE = 10.0  # how far beside a kink slopes are taken, in widths of the difference
+
+
+class LinearisationWarning(UserWarning):
+    """The forces have no single slope at the state that was linearised."""
+
+
+def smooth_side(evaluator: Evaluator, side: int | None) -> State:
+    """The state about which to take differences: beside its kinks in the velocities.
+
+    Parameters
+    ----------
+    evaluator : Evaluator
+    side : {1, -1} or None
+        Rising or falling velocities; None takes rising ones and warns.
+
+    Warns
+    -----
+    LinearisationWarning
+        Names the coordinate, both slopes and what was taken.
+    """
+    state = evaluator.state
+    names = evaluator.system.meta["coordinates"]
+    diagonal = evaluator.mass().diagonal()
+    kinks: list[str] = []
+    while (found := _worst_kink(evaluator, state)) is not None and len(kinks) < len(names):
+        i, ahead, behind = found
+        if names[i] in kinks:
+            raise ValueError(
+                f"The forces have several kinks by the velocity of {names[i]!r} at the state; it has no linear model. "
+                "Linearise about a state beside it."
+            )
+        kinks.append(names[i])
+        if side is None:
+            mass = diagonal[i] or 1.0
+            warnings.warn(
+                f"A force has a kink at the state: its slope over the mass is {ahead / mass:.4g} 1/s where the "
+                f"velocity of {names[i]!r} rises and {behind / mass:.4g} 1/s where it falls. The linear model takes "
+                "the first; side=1 says that it is meant, side=-1 takes the other.",
+                LinearisationWarning,
+                stacklevel=3,
+            )
+        beside = state.qd.copy()
+        beside[i] += ASIDE * SHIFT * (side or 1)
+        state = replace(state, qd=beside)
+    _warn_of_bends(evaluator, state)
+    return state
+
+
+def _worst_kink(evaluator: Evaluator, state: State) -> tuple[int, float, float] | None:
+    """Coordinate whose slopes ahead and behind differ most, with both, N s/m; None where all agree."""
+    here = evaluator.rates(state.q, state.qd, state.y)[: len(state.q)]
+    noise = 1e-13 * np.abs(here).max(initial=0.0) / SHIFT
+    worst, found = 0.0, None
+    for i in range(len(state.q)):
+        ahead, behind = (_slope(evaluator, state, i, s * SHIFT, here) for s in (1.0, -1.0))
+        difference = np.abs(ahead - behind).max()
+        if difference > max(worst, KINK * max(np.abs(ahead).max(), np.abs(behind).max()) + 10.0 * noise):
+            worst, found = difference, (i, float(ahead[i]), float(behind[i]))
+    return found
+
+
+def _warn_of_bends(evaluator: Evaluator, state: State) -> None:
+    """Forces that are linear only in velocities far below those of a motion, such as a very small friction."""
+    here = evaluator.rates(state.q, state.qd, state.y)[: len(state.q)]
+    noise = 1e-13 * np.abs(here).max(initial=0.0) / SHIFT
+    bends = []
+    for i, name in enumerate(evaluator.system.meta["coordinates"]):
+        narrow = _slope(evaluator, state, i, SHIFT, here)
+        both = [_slope(evaluator, state, i, s * WIDE * SHIFT, here) for s in (1.0, -1.0)]
+        gaps = [float(np.abs(slope - narrow).max()) for slope in both]
+        wide = both[int(np.argmin(gaps))]  # away from a kink beside the state
+        if np.abs(narrow - wide).max() > BEND * max(np.abs(narrow).max(), np.abs(wide).max()) + 10.0 * noise:
+            bends.append(f"{name!r} {narrow[i]:.4g} and {wide[i]:.4g} N s/m")
+    if bends:
+        warnings.warn(
+            f"A force bends within {WIDE * SHIFT:g} m/s of the state. Its slopes within {SHIFT:g} m/s and within "
+            f"{WIDE * SHIFT:g} m/s: {', '.join(bends)}. The linear model holds for the smaller velocities only.",
+            LinearisationWarning,
+            stacklevel=4,
+        )
+
+
+def _slope(evaluator: Evaluator, state: State, i: int, shift: float, here: Array) -> Array:
+    """One-sided slope of the generalised forces (nq,) by the velocity of coordinate `i`."""
+    moved = state.qd.copy()
+    moved[i] += shift
+    slope: Array = (evaluator.rates(state.q, moved, state.y)[: len(here)] - here) / shift
+    return slope

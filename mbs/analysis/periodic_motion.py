@@ -1,0 +1,164 @@
+"""Floquet multipliers of a periodic motion: what becomes of small disturbances after one period.
+
+The monodromy matrix maps admissible displacements and velocities (z, w) of `mbs.linearise` over one period; its
+columns are central differences of whole runs. A motion is stable where no multiplier lies outside the unit circle
+(A. H. Nayfeh, B. Balachandran, Applied Nonlinear Dynamics, 1995, section 3.2).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.analysis.linear_model import admissible_motions
+from mbs.common.checks import instance_of, is_finite, shown
+from mbs.simulation import Simulation
+from mbs.simulation.arguments import check_resolution
+from mbs.simulation.evaluator import Evaluator
+
+Array = NDArray[np.float64]
+
+MOST_STEPS = 1e8  # of a period
+DISTURBANCE = 1e-4  # largest change of a point or unit axis, m; of a velocity the same over the period
+CLOSED = 1e-4  # largest distance of the state after a period, share of the size and of the speed of the motion
+
+
+@dataclass(frozen=True)
+class FloquetModel:
+    """Disturbances of a periodic motion after one period.
+
+    Parameters
+    ----------
+    period : float
+        s.
+    monodromy : array of shape (n, n)
+        Map of the admissible displacements and velocities over one period.
+    multipliers : array of shape (n,), complex
+        Its eigenvalues, by falling modulus.
+    """
+
+    period: float
+    monodromy: Array
+    multipliers: NDArray[np.complex128]
+
+    @property
+    def exponents(self) -> NDArray[np.complex128]:
+        """``log(multiplier) / period``, 1/s; imaginary parts are known up to multiples of 2 pi / period."""
+        return np.asarray(np.log(self.multipliers) / self.period, complex)
+
+
+def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
+    """Floquet multipliers of the periodic motion through the present state, which stays as it is.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        Its method and settings make the runs; one of high order, such as "radau_5", needs the fewest steps.
+    period : float
+        s; the motion must come back to the state after it.
+    h : float
+        Step, s; the runs make whole steps next to it.
+
+    Returns
+    -------
+    FloquetModel
+        Multipliers and the monodromy matrix.
+
+    Raises
+    ------
+    ArgumentTypeError
+        `simulation` is no Simulation.
+    ValueError
+        If the motion does not come back after the period, or force elements have states of their own.
+    SimulationError
+        If a step fails.
+    """
+    instance_of(Simulation, simulation, "What floquet takes", "a Simulation")
+    good = is_finite(period) and is_finite(h) and 0.0 < h <= period
+    if not good:
+        raise ValueError(
+            f"The period is {shown(period)} s and the step {shown(h)} s; both must be positive, h at most the period."
+        )
+    check_resolution(simulation.time + period, h)
+    if period / h > MOST_STEPS:
+        raise ValueError(f"The period of {period:g} s has {period / h:.3g} steps of {h:g} s; at most {MOST_STEPS:g}.")
+    evaluator = Evaluator(simulation)
+    state = evaluator.state
+    if evaluator.slots:
+        raise ValueError(
+            "Floquet multipliers need force elements without states; tyres, brakes and contacts have some."
+        )
+    M = evaluator.mass()
+    jacobian = evaluator.jacobian(state.q)
+    V, _ = admissible_motions(M, jacobian, simulation.system)
+    rolling = simulation.system.arrays["velocity_row"]
+    P = admissible_motions(M, np.delete(jacobian, rolling, axis=0), simulation.system)[0] if len(rolling) else V
+    steps = max(1, round(period / h))
+
+    def after(q: Array, qd: Array) -> tuple[Array, Array]:
+        run = _copy_at(simulation, q, qd)
+        run.step(period / steps, n=steps)
+        return run.state.q, run.state.qd
+
+    end = after(state.q, state.qd)
+    _check_closed(simulation, evaluator, end, period)
+    before: list[Array] = []
+    later: list[Array] = []
+    for basis, place in ((P, True), (V, False)):
+        for direction in basis.T:
+            shift = DISTURBANCE / np.abs(direction).max() * direction
+            size = np.linalg.norm(shift) / np.linalg.norm(direction)
+            starts = [
+                evaluator.admissible(state.q + s * shift, state.qd)
+                if place
+                else evaluator.admissible(state.q, state.qd + s * shift / period)
+                for s in (1.0, -1.0)
+            ]
+            for column_list, pair in ((before, starts), (later, [after(*start) for start in starts])):
+                dq, dqd = ((a - b) / (2.0 * size) for a, b in zip(*pair, strict=True))
+                column_list.append(np.concatenate([P.T @ M @ dq, period * (V.T @ M @ dqd)]))
+    monodromy: Array = np.linalg.solve(np.array(before), np.array(later)).T
+    found = np.asarray(np.linalg.eigvals(monodromy), complex)
+    return FloquetModel(period, monodromy, found[np.argsort(-np.abs(found), kind="stable")])
+
+
+def _copy_at(simulation: Simulation, q: Array, qd: Array) -> Simulation:
+    """A simulation of the same System, settings, inputs, parameters and switches at another place."""
+    meta, source = simulation.system.meta, simulation.instance
+    copy = Simulation(
+        simulation.system,
+        settings=simulation.settings,
+        inputs={entry["name"]: source.get_input(i) for i, entry in enumerate(meta["inputs"])},
+        parameters={entry["name"]: source.get_parameter(i) for i, entry in enumerate(meta["parameters"])},
+        t0=simulation.time,
+    )
+    for i, entry in enumerate(meta["switches"]):
+        copy.set_switch(entry["name"], source.get_switch(i))
+    copy.instance.set_q(q.tolist(), qd.tolist())
+    copy.instance.initialise(simulation.time)
+    return copy
+
+
+def _check_closed(simulation: Simulation, evaluator: Evaluator, end: tuple[Array, Array], period: float) -> None:
+    """Refuse a motion that does not come back; spins may turn on, angles by whole turns."""
+    state, frames = evaluator.state, simulation.system.frames
+    T = np.eye(len(state.q)) if frames is None else frames.T.toarray()
+
+    def full(x: Array) -> Array:
+        return np.asarray(T @ x)
+
+    q, qd = full(end[0] - state.q), full(end[1] - state.qd)
+    if frames is not None:
+        turning = list(frames.scalars)
+        q[turning] = (q[turning] + np.pi) % (2.0 * np.pi) - np.pi
+    speed = max(np.abs(full(state.qd)).max(), np.abs(full(end[1])).max())
+    size = max(np.abs(full(state.q)).max(), speed * period)
+    speed = max(speed, size / period)
+    if np.abs(q).max() > CLOSED * size or np.abs(qd).max() > CLOSED * speed:
+        raise ValueError(
+            f"After {period:g} s the motion is {np.abs(q).max():.3g} m and {np.abs(qd).max():.3g} m/s from where it "
+            f"began, of {size:.3g} m and {speed:.3g} m/s; Floquet multipliers need a motion that comes back. "
+            "Give its true period, a smaller step or a method of higher order."
+        )

@@ -1,0 +1,255 @@
+"""Checks of what a user hands in: each returns a clean value or raises one sentence with the name and the value.
+
+A number may be anything that is one: of Python, of NumPy, an array without dimensions. Text and truth values are none.
+`what` names the thing as the subject of the sentence, such as "The mass of body 'rod'". Errors are `ModelError` where a
+model is described; what runs a System passes `ValueError`.
+"""
+
+from __future__ import annotations
+
+import math
+import unicodedata
+from collections.abc import Collection, Mapping, Sequence
+from numbers import Real
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.common.errors import ArgumentTypeError, ModelError
+
+Vector = NDArray[np.float64]
+Thing = TypeVar("Thing")
+Error = type[ValueError]
+
+LARGEST = 1e30
+"""Squares and products of three such numbers are still finite; no machine has one."""
+SHOWN = 60  # characters of a value in a sentence
+
+
+def shown(value: object) -> str:
+    """A value as a sentence shows it: never an address, never more than a line."""
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape}" if value.size > 4 else f"array {value.tolist()}"
+    if isinstance(value, np.generic):
+        value = value.item()
+    name = getattr(value, "name", None)
+    if isinstance(name, str) and not isinstance(value, type):
+        return f"{type(value).__name__} {name!r}"
+    text = repr(value)
+    if " at 0x" in text:
+        return f"an object of type {type(value).__name__}"
+    return text if len(text) <= SHOWN else f"{text[:SHOWN]}..."
+
+
+def capital(what: str) -> str:
+    """`what` at the beginning of a sentence."""
+    return what[:1].upper() + what[1:]
+
+
+def is_number(value: object) -> bool:
+    """Whether a value is one real number; text and truth values are not."""
+    if isinstance(value, float):  # nearly all are; asking the abstract class takes longer
+        return True
+    if isinstance(value, np.ndarray):
+        return value.ndim == 0 and value.dtype.kind in "iuf"
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def is_finite(value: object) -> bool:
+    """Whether a value is one real number that a float can hold."""
+    try:
+        return is_number(value) and math.isfinite(float(value))  # type: ignore[arg-type]
+    except OverflowError:
+        return False
+
+
+def finite(value: object, what: str, error: Error = ModelError) -> float:
+    """A finite number of any size."""
+    if not is_number(value):
+        raise error(f"{capital(what)} must be a number, not {shown(value)}.")
+    if not is_finite(value):
+        raise error(f"{capital(what)} is {shown(value)}; it must be a finite number.")
+    return float(value)  # type: ignore[arg-type]
+
+
+def number(value: object, what: str, error: Error = ModelError) -> float:
+    """A finite number below `LARGEST`."""
+    x = finite(value, what, error)
+    if abs(x) >= LARGEST:
+        raise error(f"{capital(what)} is {x:g}; its size must be below {LARGEST:g}.")
+    return x
+
+
+def positive(value: object, what: str, error: Error = ModelError) -> float:
+    """A finite number above zero."""
+    x = number(value, what, error)
+    if x <= 0.0:
+        raise error(f"{capital(what)} is {x:g}; it must be greater than zero.")
+    if x <= 1.0 / LARGEST:
+        raise error(f"{capital(what)} is {x:g}; it must be greater than {1.0 / LARGEST:g}.")
+    return x
+
+
+def not_negative(value: object, what: str, error: Error = ModelError) -> float:
+    """A finite number, zero or above."""
+    x = number(value, what, error)
+    if x < 0.0:
+        raise error(f"{capital(what)} is {x:g}; it must not be negative.")
+    return x
+
+
+def not_zero(value: object, what: str, error: Error = ModelError) -> float:
+    """A finite number other than zero."""
+    x = number(value, what, error)
+    if x == 0.0:
+        raise error(f"{capital(what)} is 0; it must not be zero.")
+    return x
+
+
+def limit(value: object, what: str, error: Error = ModelError) -> float:
+    """A number that may be infinite: the end of a range."""
+    if not is_number(value):
+        raise error(f"{capital(what)} must be a number, not {shown(value)}.")
+    if value in (math.inf, -math.inf):
+        return float(value)
+    return number(value, what, error)
+
+
+def whole(
+    value: object, what: str, least: int | None = None, most: int | None = None, error: Error = ModelError
+) -> int:
+    """A whole number between limits; 2.0 is one."""
+    span = ""
+    if least is not None and most is not None:
+        span = f" from {least} to {most}"
+    elif least is not None:
+        span = ", zero or above" if least == 0 else f", {least} or above"
+    good = is_finite(value) and int(value) == value  # type: ignore[call-overload]
+    if least is not None and most is not None and most - least < 3:
+        few = [str(k) for k in range(least, most + 1)]
+        span = f": {', '.join(few[:-1])} or {few[-1]}" if len(few) > 1 else f": {few[0]}"
+    n = int(value) if good else 0  # type: ignore[call-overload]
+    if not good or (least is not None and n < least) or (most is not None and n > most):
+        must = span[2:] if span.startswith(":") else f"a whole number{span}"
+        raise error(f"{capital(what)} is {shown(value)}; it must be {must}.")
+    return n
+
+
+def flag(value: object, what: str, error: Error = ModelError) -> bool:
+    """True or False, of Python or of NumPy."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise error(f"{capital(what)} is {shown(value)}; it must be True or False.")
+    return bool(value)
+
+
+def text(value: object, what: str, error: Error = ModelError, lines: bool = False) -> str:
+    """Text that a file can hold: no control characters (with `lines` but line ends and tabs), no half characters."""
+    if not isinstance(value, str):
+        raise error(f"{capital(what)} must be text, not {shown(value)}.")
+    for c in value:
+        if unicodedata.category(c) in ("Cc", "Cs") and not (lines and c in "\n\t"):
+            raise error(f"{capital(what)} is {value!r}; {c!r} is no character that a file can hold.")
+    return str(value)
+
+
+def named(value: object, what: str, error: Error = ModelError) -> str:
+    """A name: text that is not empty."""
+    if not isinstance(value, str) or not value.strip():
+        raise error(f"{capital(what)} needs a name that is not empty, got {shown(value)}.")
+    return text(value, f"the name of {what}", error)
+
+
+def one_of(value: object, words: Collection[str], what: str, error: Error = ModelError) -> str:
+    """One of some words."""
+    if not isinstance(value, str) or value not in words:
+        known = [repr(w) for w in words] if len(words) < 4 or all(len(w) == 1 for w in words) else list(words)
+        said = " or ".join([", ".join(known[:-1]), known[-1]] if len(known) > 1 else known)
+        raise error(f"{capital(what)} is {shown(value)}; it must be {said}.")
+    return str(value)
+
+
+def instance_of(kind: type[Thing] | tuple[type[Thing], ...], value: object, what: str, wanted: str) -> Thing:
+    """A value of some class.
+
+    Raises
+    ------
+    ArgumentTypeError
+        Where it is none; `wanted` says in a few words what would be.
+    """
+    if not isinstance(value, kind):
+        raise ArgumentTypeError(f"{capital(what)} must be {wanted}, not {shown(value)}.")
+    return value
+
+
+def mapping(value: object, what: str, of: str) -> Mapping[Any, Any]:
+    """A mapping, None being an empty one."""
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise ArgumentTypeError(f"{capital(what)} must map {of}, not {shown(value)}.")
+    return value
+
+
+def array(
+    value: object, shape: Sequence[int | None], what: str, error: Error = ModelError, wanted: str = ""
+) -> NDArray[np.float64]:
+    """Finite numbers in an array of a shape; None stands for any length.
+
+    Parameters
+    ----------
+    wanted : str
+        What it must be, in words; by default from the shape.
+    """
+    wanted = wanted or _shape_text(shape)
+    found = numbers(value, what, error, wanted)
+    if not found.shape:
+        raise error(f"{capital(what)} is {shown(value)}; it must be {wanted}.")
+    if len(found.shape) != len(shape) or any(n is not None and n != m for n, m in zip(shape, found.shape, strict=True)):
+        raise error(f"{capital(what)} has shape {found.shape}; it must be {wanted}.")
+    wrong = ~(np.abs(found) < LARGEST)
+    if wrong.any():
+        x = float(found[wrong][0])
+        given = found.tolist() if found.size <= 4 else f"an array with the entry {x:g}"
+        if math.isfinite(x):
+            raise error(f"{capital(what)} is {given}; all numbers must be of a size below {LARGEST:g}.")
+        raise error(f"{capital(what)} is {given}, which is not finite; all numbers must be finite.")
+    return found
+
+
+def numbers(
+    value: object, what: str, error: Error = ValueError, wanted: str = "a sequence of numbers"
+) -> NDArray[np.float64]:
+    """Numbers in an array of any shape, which need not be finite: NumPy would take text and truth values too."""
+    if isinstance(value, np.ndarray) and value.dtype.kind in "iuf":
+        return np.array(value, dtype=float)
+    try:
+        entries = np.array(value, dtype=object)
+        good = all(is_number(entry) for entry in entries.ravel())
+        found = np.array(value, dtype=float) if good else None
+    except (TypeError, ValueError, OverflowError):
+        found = None
+    if found is None:
+        raise error(f"{capital(what)} must be {wanted}, not {shown(value)}.")
+    return found
+
+
+def _shape_text(shape: Sequence[int | None]) -> str:
+    if len(shape) == 1:
+        return f"{shape[0]} numbers" if shape[0] is not None else "a sequence of numbers"
+    names = iter("nmk")
+    return f"numbers of shape ({', '.join(str(n) if n is not None else next(names) for n in shape)})"
+
+
+def vector(value: object, dimension: int, what: str, error: Error = ModelError) -> Vector:
+    """`dimension` finite numbers, shape (dimension,)."""
+    return array(value, (dimension,), what, error)
+
+
+def direction(value: object, dimension: int, what: str) -> Vector:
+    """A unit vector along `value`, shape (dimension,)."""
+    v = vector(value, dimension, what)
+    length = float(np.linalg.norm(v))
+    if length <= 1.0 / LARGEST:
+        raise ModelError(f"{capital(what)} is zero; it must have a direction.")
+    return v / length

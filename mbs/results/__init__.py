@@ -1,0 +1,1 @@
+"""What a run gives: trajectories, poses, reports, accuracy, animations."""

@@ -1,0 +1,290 @@
+"""What a run with fixed steps finds about its own error: from the energy balance at no cost, and for suspect runs from
+a repeated run with shorter steps.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.kernel.header import BALANCE_WRONG, HALVINGS_SUSPECT, GuideType, SensorType
+from mbs.results.run_report import Report
+from mbs.settings.input_signals import unit_text
+from mbs.settings.methods import METHOD_TABLE
+from mbs.system.system import System
+
+Array = NDArray[np.float64]
+
+WRONG_ERROR = 0.05  # of the largest range in a unit
+WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
+SUSPECT_DRIFT = 0.03  # energy balance times (1 + radians turned); half of the smallest of a wrong run
+GOAL_ERROR, GOAL_DRIFT = 0.01, 0.01  # what the step that is proposed aims at
+FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
+INSTANTS = 50  # intervals at whose ends two runs are compared
+STILL = 1e-4  # of the largest value in the unit: a smaller range is rest
+STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
+BLIND_MISS, BLIND = 0.6, 0.01
+"""The first of these is enough where the energy is better than the angle of a step lets expect, by the second: a free
+body that tumbles keeps its energy to third order, and flips at times that depend on its phase."""
+LONG_MISS, LONG = 0.05, 30.0
+"""The same of motions that have turned by more radians than the second: unstable ones double an error every few."""
+COORDINATES = "1"
+WITH_ORDER = (SensorType.COMPONENT, SensorType.NORM)  # their first integer
+LENGTHS, RATES = ("m", "rad", "N"), ("m/s", "rad/s")
+
+
+class AccuracyWarning(UserWarning):
+    """The result of a run is not what was asked for: its energy balance or a repeat with shorter steps say so."""
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """What is known of the error of a run.
+
+    Parameters
+    ----------
+    energy_balance : float or None
+        Work that constraint forces and projections did, over the energy that was in the motion; they should do none.
+        None where the method measures none (see `Report.energy_error`).
+    energy_error : float or None
+        That work, J.
+    halvings_per_step : float
+        How often steps were halved.
+    repeated_with : float or None
+        Step of the repeat, s; None where there was none.
+    order : float or None
+        With which errors fall, as the energy of the two runs shows, else that of the method.
+    units : dict of str to float
+        Estimated largest error over the largest range, per unit that was judged ("1": coordinates of the System).
+    sensors : dict of str to float
+        Estimated largest error of the sensors that were judged, in their units.
+    message : str
+        Evidence against the result, with a remedy; empty where there is none.
+    """
+
+    energy_balance: float | None
+    energy_error: float | None
+    halvings_per_step: float
+    repeated_with: float | None = None
+    order: float | None = None
+    units: dict[str, float] = field(default_factory=dict)
+    sensors: dict[str, float] = field(default_factory=dict)
+    message: str = ""
+
+    @property
+    def error(self) -> float | None:
+        """Largest of `units`; None where no repeat estimated one."""
+        return max(self.units.values(), default=0.0) if self.repeated_with is not None and self.units else None
+
+    def __str__(self) -> str:
+        said = []
+        if self.energy_balance is not None:
+            said.append(f"energy balance open by {_percent(self.energy_balance)}")
+        if self.halvings_per_step > 0.0:
+            said.append(f"{self.halvings_per_step:.2g} halvings a step")
+        if self.units:
+            parts = (f"{_percent(e)}{_of(unit)}" for unit, e in self.units.items())
+            said.append(f"estimated error {', '.join(parts)}")
+        return "; ".join(said)
+
+
+def judged_sensors(system: System) -> dict[str, list[str]]:
+    """Names of the sensors that a repeat is judged by, by unit.
+
+    Positions and lengths, angles that are not wrapped, forces of elements such as wheel loads; of a System without
+    them velocities. Wrapped angles, gears, energies and accelerations change in jumps, or change sign, where a small
+    shift in time is a large difference: they say nothing.
+    """
+    arrays = system.arrays
+    found: dict[str, list[str]] = {}
+    for i, sensor in enumerate(system.meta["sensors"]):
+        kind, unit = SensorType(arrays["sen_type"][i]), sensor["unit"]
+        first, last = arrays["sen_int_ptr"][i : i + 2]
+        order = int(arrays["sen_int"][first]) if kind in WITH_ORDER and last > first else 0
+        place = kind == SensorType.SIGNAL or (kind in WITH_ORDER and order == 0)
+        rate = kind in (SensorType.SIGNAL_RATE, SensorType.ANGULAR_RATE) or (kind in WITH_ORDER and order == 1)
+        if (
+            (place and unit in ("m", "rad"))
+            or (kind == SensorType.ELEMENT_OUTPUT and unit in ("m", "N"))
+            or (rate and unit in RATES)
+        ):
+            found.setdefault(unit, []).append(sensor["name"])
+    units = LENGTHS if any(unit in found for unit in ("m", "rad")) else (*RATES, *LENGTHS)
+    return {unit: names for unit, names in found.items() if unit in units}
+
+
+def has_motion_sensor(system: System) -> bool:
+    """Whether some sensor measures positions or velocities; else the coordinates of the System are compared."""
+    return any(unit != "N" for unit in judged_sensors(system))
+
+
+def is_suspect(report: Report, steps: int, halvings: int, method: str) -> bool:
+    """Whether a run should be repeated to check it."""
+    if halvings > SUSPECT_HALVINGS * steps or report.energy_balance > WRONG_BALANCE:
+        return True
+    speed = report.speed_peak or math.inf
+    miss = report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
+    turned = report.velocity_path / speed
+    blind = (
+        METHOD_TABLE[method].balance_decides
+        and turned > 0.0
+        and report.energy_balance < BLIND * (2.0 * miss / turned) ** 2
+    )
+    most = METHOD_TABLE[method].suspect_miss
+    if blind:
+        most = LONG_MISS if turned > LONG else BLIND_MISS
+    return miss > most or drift(report) > SUSPECT_DRIFT
+
+
+def drift(report: Report) -> float:
+    """Energy balance times (1 + radians that the motion has turned): what a wrong energy does to the place adds up."""
+    turned = report.velocity_path / report.speed_peak if report.speed_peak > 0.0 else 0.0
+    return report.energy_balance * (1.0 + turned)
+
+
+def divisor(steps: int, halvings: int) -> int:
+    """By what the step is divided for the repeat: twice as fine as the steps that were really made."""
+    return max(2, math.ceil(2.0 * (1.0 + halvings / max(steps, 1)) - 1e-9))
+
+
+def recorded_every(every: int, steps: int) -> int:
+    """A divisor of `every` with which a run of so many steps has enough samples to be compared."""
+    least = max(1, steps // INSTANTS)
+    return next(k for k in range(min(every, least), 0, -1) if every % k == 0) if isinstance(every, int) else every
+
+
+def instants(samples: int) -> NDArray[np.int_]:
+    """Numbers of the samples at which two runs are compared."""
+    return np.unique(np.linspace(0, max(samples - 1, 0), INSTANTS + 1).round().astype(int))
+
+
+def extent(unit: str, values: Sequence[Array]) -> float:
+    """What errors of sensors of one unit are compared with: their largest range, of forces their largest value, since
+    they carry loads that stay; 0 where nothing moves.
+    """
+    largest = max(float(np.abs(v).max()) for v in values)
+    moved = max(float(np.ptp(v)) for v in values)
+    if moved <= STILL * largest:
+        return 0.0
+    return largest if unit == "N" else moved
+
+
+def differences(
+    coarse: Mapping[str, Array], fine: Mapping[str, Array], groups: Mapping[str, Sequence[str]]
+) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
+    """Largest differences of two runs.
+
+    Returns
+    -------
+    units : dict of str to float
+        Largest difference over the `extent`, per unit; units in which nothing moves are left out.
+    sensors : dict of str to float
+        Largest difference per sensor.
+    ranges : dict of str to float
+        Largest range per unit, see `extent`.
+    """
+    units: dict[str, float] = {}
+    sensors: dict[str, float] = {}
+    ranges: dict[str, float] = {}
+    for unit, names in groups.items():
+        rows = instants(len(coarse[names[0]]))
+        gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
+        size = extent(unit, [fine[name] for name in names])
+        if size > 0.0:
+            sensors |= gaps
+            units[unit] = max(gaps.values()) / size
+            ranges[unit] = size
+    return units, sensors, ranges
+
+
+def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
+    """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
+    most = float(METHOD_TABLE[method].order)
+    first, second = abs(coarse.energy_error), abs(fine.energy_error)
+    if not METHOD_TABLE[method].balance_decides or not (second > 0.0 and first > second):
+        return most
+    return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
+
+
+def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
+    """What is known without a repeat."""
+    known = report.kinetic_peak > 0.0
+    return Accuracy(
+        report.energy_balance if known else None,
+        report.energy_error if known else None,
+        halvings / max(steps, 1),
+    )
+
+
+def balance_says(report: Report, method: str, driven: bool) -> bool:
+    """Whether the energy balance alone shows that a result is wrong; a drive whose rate jumps adds energy instantly."""
+    return METHOD_TABLE[method].balance_decides and not driven and report.energy_balance > WRONG_BALANCE
+
+
+def balance_text(report: Report) -> str:
+    """The energy balance in a sentence."""
+    size = report.kinetic_peak + report.work
+    return (
+        f"Constraint forces and projections did {report.energy_error:.3g} J of work, {_percent(report.energy_balance)} "
+        f"of the {size:.3g} J in the motion; they should do none."
+    )
+
+
+def remedy(system: System, method: str, h: float, accuracy: Accuracy, report: Report) -> str:
+    """A step or a method with which the result would be right to about a hundredth, in a sentence."""
+    order = accuracy.order or float(METHOD_TABLE[method].order)
+    made = h / (1.0 + accuracy.halvings_per_step)
+    shares = [GOAL_DRIFT / drift(report)] if METHOD_TABLE[method].balance_decides and drift(report) > GOAL_DRIFT else []
+    if accuracy.error:
+        shares.append(GOAL_ERROR / accuracy.error)
+    step = _rounded_down(made * min([*shares, 0.5**order]) ** (1.0 / order))
+    said = f"Steps of {step:g} s or less would bring it to about {_percent(GOAL_ERROR)}"
+    better = _higher_orders(system, method)
+    if better:
+        said += f"; so would longer ones with a method of higher order ({' or '.join(map(repr, better))})"
+    return f"{said}."
+
+
+def error_text(accuracy: Accuracy, ranges: Mapping[str, float], groups: Mapping[str, Sequence[str]]) -> str:
+    """The estimated error in a sentence, with the worst sensor."""
+    unit, share = max(accuracy.units.items(), key=lambda item: item[1])
+    name = max(groups[unit], key=lambda n: accuracy.sensors[n])
+    least = "at least" if share > FAR else "about"
+    what, of = "coordinate" if unit == COORDINATES else "sensor", unit_text(unit)
+    gap, size = f"{accuracy.sensors[name]:.3g}{of}", f"{ranges[unit]:.3g}{of}"
+    return (
+        f"The result is off by {least} {_percent(share)} of the largest range, as a repeat with steps of "
+        f"{accuracy.repeated_with:g} s shows: {what} '{name}' by {gap} of {size}."
+    )
+
+
+def _higher_orders(system: System, method: str) -> list[str]:
+    """Methods of higher order that take the System, for a method of order two."""
+    arrays = system.arrays
+    if (
+        METHOD_TABLE[method].order > 2
+        or len(arrays["y0"])
+        or (np.asarray(arrays["guide_type"]) != GuideType.OF_TIME).any()
+    ):
+        return []
+    open_tree = not system.report["no_tree"] and len(arrays["tree_cut_body"]) == 0
+    explicit = "semi_recursive" if open_tree else "runge_kutta_8"
+    return [explicit] + (["radau_5"] if len(arrays["velocity_row"]) == 0 else [])
+
+
+def _rounded_down(x: float) -> float:
+    """One digit, towards zero."""
+    power = 10.0 ** math.floor(math.log10(x))
+    return float(f"{math.floor(x / power + 1e-9) * power:.1g}")
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2g} %" if not 0.995 <= share < 100.0 else f"{100.0 * share:.0f} %"
+
+
+def _of(unit: str) -> str:
+    return f" of the range in {unit}" if unit != COORDINATES else " of the range of coordinates"

@@ -1,0 +1,196 @@
+"""Poses of all bodies over a run: columns by name, from the coordinates that a run keeps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from mbs.common.checks import shown
+from mbs.system.drawing import POSE, POSE_UNITS, BodyPlace, Places, twist
+
+Array = NDArray[np.float64]
+MOST_SAMPLES, MOST_NUMBERS = 100_000, 4_000_000
+"""Poses that a run keeps: so many samples at most, and so many coordinates in all (32 MB)."""
+
+
+def kept_every(samples: int, nq: int, every: int = 1) -> int:
+    """Of how many samples one is kept, a multiple of `every`."""
+    most = max(100, min(MOST_SAMPLES, MOST_NUMBERS // max(nq, 1)))
+    return every * max(1, math.ceil(samples / every / most))
+
+
+class Poses(Mapping[str, Array]):
+    """Poses over time: ``poses["rod.x"]`` is an array of shape (n,).
+
+    A body has ``BODY.x``, ``.y``, ``.z``, the place of its centre of mass (of a flexible body the origin of its
+    floating frame) in earth axes, m, and the quaternion ``BODY.qw``, ``.qx``, ``.qy``, ``.qz`` that turns its axes from
+    the drawing, scalar first and ``qw`` not negative. Planar bodies have z = 0 and turn about z, particles do not turn.
+    Wheels and what else turns on a body have ``NAME.angle``, rad; flexible bodies ``BODY.MODE``, their amplitudes.
+
+    Attributes
+    ----------
+    t : ndarray, shape (n,)
+        Times, s. A run keeps at most 100 000 samples and 4 million coordinates: beyond that one of `every` samples.
+    every : int
+        One of that many samples of the trajectory has its poses here.
+    bodies : tuple of str
+    """
+
+    def __init__(self, t: Array, every: int, q: Array, places: Places) -> None:
+        self.t = t
+        self.every = every
+        self._q, self._places = q, places
+        self._made: dict[str, Array] = {}
+        self.bodies = tuple(body.name for body in places.bodies)
+
+    @classmethod
+    def of_columns(cls, t: Array, columns: Mapping[str, Array]) -> Poses | None:
+        """Poses from named columns, of what has all seven parts.
+
+        Parameters
+        ----------
+        t : ndarray, shape (n,)
+            Times, s.
+        columns : mapping of str to ndarray, shape (n,)
+            By name, such as ``rod.x``.
+
+        Returns
+        -------
+        Poses or None
+            None where nothing has all parts.
+        """
+        parts = [f".{part}" for part in POSE]
+        names = [n.removesuffix(".qw") for n in columns if n.endswith(".qw")]
+        whole = [n for n in names if all(n + part in columns for part in parts) and f"{n}.pose.qw" not in columns]
+        if not whole:
+            return None
+        q = np.column_stack([columns[n + part] for n in whole for part in parts])
+        bodies = [
+            BodyPlace(n.removesuffix(".pose"), "pose", 7 * k, tuple(n + part for part in parts))
+            for k, n in enumerate(whole)
+        ]
+        size = q.shape[1]
+        return cls(t, 1, q, Places(sparse.csr_matrix(np.eye(size)), np.zeros(size), tuple(bodies)))
+
+    def __getitem__(self, name: str) -> Array:
+        if not isinstance(name, str) or name not in self._columns:
+            known = ", ".join(self.bodies) or "none"
+            raise KeyError(f"There is no pose {shown(name)}; each body has .x to .qz, the bodies are: {known}.")
+        kind, number, part = self._columns[name]
+        if kind == "body":
+            return self._pose(number)[:, part]
+        return self._turn(number) if kind == "turn" else self._amplitudes(number)[:, part]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def __repr__(self) -> str:
+        thinned = f", one of {self.every} samples" if self.every > 1 else ""
+        return f"Poses({len(self.bodies)} bodies, {len(self.t)} samples{thinned})"
+
+    def position(self, body: str) -> Array:
+        """Positions of a body.
+
+        Parameters
+        ----------
+        body : str
+            Its name.
+
+        Returns
+        -------
+        ndarray, shape (n, 3)
+            Earth axes, m.
+
+        Raises
+        ------
+        KeyError
+            There is no such body.
+        """
+        return self._pose(self._number(body))[:, :3]
+
+    def quaternion(self, body: str) -> Array:
+        """Quaternions of a body, scalar first and not negative: earth vector = rotation of the vector as drawn.
+
+        Parameters
+        ----------
+        body : str
+            Its name.
+
+        Returns
+        -------
+        ndarray, shape (n, 4)
+
+        Raises
+        ------
+        KeyError
+            There is no such body.
+        """
+        return self._pose(self._number(body))[:, 3:]
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of each column."""
+        of_kind = {"turn": "rad", "mode": "1"}
+        return {name: of_kind.get(kind) or POSE_UNITS[part] for name, (kind, _, part) in self._columns.items()}
+
+    @property
+    def recorded_names(self) -> dict[str, str]:
+        """Names of the columns in recordings and files, where those of a sensor of the same name go first."""
+        p = self._places
+        found = dict(zip(self._columns, [c for b in p.bodies for c in b.columns], strict=False))
+        found |= {f"{turn.name}.angle": turn.column for turn in p.turns}
+        return found | {f"{a.body}.{m}": c for a in p.amplitudes for m, c in zip(a.modes, a.columns, strict=True)}
+
+    def thinned(self, every: int) -> Poses:
+        """The poses at every so many samples of the trajectory.
+
+        Parameters
+        ----------
+        every : int
+            Above zero.
+
+        Returns
+        -------
+        Poses
+            Of those samples that are kept here, too.
+        """
+        rows = math.lcm(self.every, every) // self.every
+        return Poses(self.t[::rows], self.every * rows // every, self._q[::rows], self._places)
+
+    @cached_property
+    def _columns(self) -> dict[str, tuple[str, int, int]]:
+        p = self._places
+        found = {f"{b.name}.{part}": ("body", k, i) for k, b in enumerate(p.bodies) for i, part in enumerate(POSE)}
+        found |= {f"{turn.name}.angle": ("turn", k, 0) for k, turn in enumerate(p.turns)}
+        modes = [(k, i, f"{a.body}.{mode}") for k, a in enumerate(p.amplitudes) for i, mode in enumerate(a.modes)]
+        return found | {name: ("mode", k, i) for k, i, name in modes}
+
+    def _number(self, body: str) -> int:
+        if body not in self.bodies:
+            raise KeyError(f"There is no body {shown(body)}; the bodies are: {', '.join(self.bodies) or 'none'}.")
+        return self.bodies.index(body)
+
+    def _pose(self, number: int) -> Array:
+        body = self._places.bodies[number]
+        if body.name not in self._made:
+            self._made[body.name] = self._places.pose(self._q, body)
+        return self._made[body.name]
+
+    def _turn(self, number: int) -> Array:
+        turn = self._places.turns[number]
+        angle = self._places.rows(self._q, turn.row, 1)[:, 0]
+        if not turn.absolute:
+            return angle
+        return angle - twist(self.quaternion(turn.carrier), np.array(turn.axis))
+
+    def _amplitudes(self, number: int) -> Array:
+        of = self._places.amplitudes[number]
+        return self._places.rows(self._q, of.row, len(of.modes))

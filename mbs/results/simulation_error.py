@@ -1,0 +1,29 @@
+"""The errors of stepping; they carry what a run has recorded so far."""
+
+from __future__ import annotations
+
+from mbs.results.trajectory import Trajectory
+
+
+class SimulationError(RuntimeError):
+    """A step, an initialisation or a restore that the kernel refused; the last good state is kept.
+
+    Attributes
+    ----------
+    time : float
+        Of the last good state, s.
+    status : int
+        Code of the kernel.
+    trajectory : Trajectory or None
+        What a run had recorded so far.
+    """
+
+    def __init__(self, message: str, time: float, status: int, trajectory: Trajectory | None = None) -> None:
+        super().__init__(message)
+        self.time = time
+        self.status = status
+        self.trajectory = trajectory
+
+
+class PoseError(SimulationError, ValueError):
+    """A pose for a System that takes none: a start that is refused, and an argument that cannot be."""

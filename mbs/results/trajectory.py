@@ -1,0 +1,367 @@
+"""Results of a run: arrays by sensor name, with units."""
+
+from __future__ import annotations
+
+import csv
+import html
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.decimal_number import DECIMAL
+from ali3.errors import UserError
+from ali3.files import whole_file
+from mbs.common.checks import flag, shown, whole
+from mbs.elements.road import Road
+from mbs.results.accuracy import Accuracy
+from mbs.results.poses import Poses
+from mbs.results.run_report import Report
+from mbs.roads.scene_part import drawn_roads, scene_part
+from mbs.settings.control import Control
+from mbs.settings.settings import Settings
+from mbs.system.drawing import Drawing
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from viewer.recording import Recording
+
+_NUMBER = re.compile(rf"\s*[+-]?({DECIMAL}|inf|nan)\s*", re.ASCII)
+_HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
+
+
+class Trajectory(Mapping[str, NDArray[np.float64]]):
+    """Sensor values over time: ``trajectory["bob.x"]`` is an array of shape (n,).
+
+    Parameters
+    ----------
+    t : array of shape (n,)
+        Times, s.
+    values : array of shape (n, ns)
+        Sensor values, one column per name.
+    names, units : sequence of str
+        Of the ns sensors.
+    report : Report, optional
+        Counters and residuals of the solver.
+    settings : Settings, optional
+        How the steps were solved.
+    wall_s : float
+        Time spent stepping, s; preparing inputs, reporting progress and a repeat are not counted. All runs that a
+        tolerance needed are.
+    accuracy : Accuracy, optional
+        What is known of the error.
+    notices : sequence of str
+        Notices of the scene, see `Model.notice`; evaluated at the recorded times.
+    branch_change : str
+        A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
+    control : Control, optional
+        How method and steps were chosen, where `simulate` chose them.
+    poses : Poses, optional
+        Of all bodies.
+    drawing : Drawing, optional
+        What `mbs.animate` draws.
+    roads : mapping of int to road or str, optional
+        Roads of the run that are not those of the drawing, by their numbers: moved by parameters, or paths of files.
+    """
+
+    def __init__(
+        self,
+        t: NDArray[np.float64],
+        values: NDArray[np.float64],
+        names: list[str],
+        units: list[str],
+        report: Report | None = None,
+        settings: Settings | None = None,
+        wall_s: float = float("nan"),
+        accuracy: Accuracy | None = None,
+        notices: Sequence[str] = (),
+        branch_change: str = "",
+        control: Control | None = None,
+        poses: Poses | None = None,
+        drawing: Drawing | None = None,
+        roads: Mapping[int, Road | str] | None = None,
+    ) -> None:
+        self.t = t
+        self.units = dict(zip(names, units, strict=True))
+        self.report = report
+        self.settings = settings
+        self.wall_s = wall_s
+        self.accuracy = accuracy
+        self.notices = tuple(notices)
+        self.branch_change = branch_change
+        self.control = control
+        self.drawing = drawing
+        self.roads = dict(roads or {})
+        self._poses = poses
+        self._columns = {name: values[:, i] for i, name in enumerate(names)}
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        if not isinstance(name, str) or name not in self._columns:
+            known = ", ".join(self._columns) or "none"
+            raise KeyError(f"There is no sensor {shown(name)}; the trajectory has: {known}.")
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    @property
+    def poses(self) -> Poses:
+        """Poses of all bodies, ``run.poses["rod.x"]``; they have times of their own, `Poses.t`.
+
+        Raises
+        ------
+        ValueError
+            There are none: the System came from a file without a drawing, or the results from one without poses.
+        """
+        if self._poses is None:
+            raise ValueError(
+                "This trajectory has no poses; runs of compiled models have them, and files that "
+                "to_csv(..., poses=True) wrote."
+            )
+        return self._poses
+
+    def recording(self, scene: Mapping[str, Any] | None = None, name: str = "") -> Recording:
+        """The run as what draws takes it: a scene, times, and sensors and poses as columns.
+
+        Parameters
+        ----------
+        scene : mapping, optional
+            In place of that of the run.
+        name : str
+            Of the run; by default that of the model.
+
+        Returns
+        -------
+        Recording
+            At the times of the poses.
+
+        Raises
+        ------
+        ValueError
+            The run has no scene and none is given, it is no mapping, or the run has none of its poses.
+        viewer.errors.ViewerError
+            The scene is not of the format.
+        mbs.RoadFileError
+            The file of its road cannot be read any more.
+        """
+        from viewer.recording import Recording
+        from viewer.scene import check_scene
+
+        if scene is None:
+            if self.drawing is None:
+                raise ValueError(
+                    "This trajectory does not know what is drawn of it; give the System as the scene, as in "
+                    "animate(run, scene=system)."
+                )
+            scene = self.drawing.scene
+        elif not isinstance(scene, Mapping):
+            raise ValueError(f"What is drawn of a trajectory must be a System or its scene, not {shown(scene)}.")
+        else:
+            check_scene(scene)
+        scene = {**scene, "roads": self._drawn_roads(scene.get("roads", []))}
+        poses = self._poses
+        every = 1 if poses is None else poses.every
+        columns, units = {n: v[::every] for n, v in self._columns.items()}, dict(self.units)
+        if poses is not None:
+            names = poses.recorded_names
+            columns |= {names[column]: values for column, values in poses.items()}
+            units |= {names[column]: unit for column, unit in poses.units.items()}
+        found = Recording(scene, self.t[::every] if poses is None else poses.t, columns, units, name)
+        if found.scene is None:
+            drawn = shown(scene["name"])
+            if poses is not None:
+                bodies = ", ".join(poses.bodies)
+                raise ValueError(f"This trajectory has none of the poses of {drawn}; its bodies are: {bodies}.")
+            raise ValueError(
+                f"This trajectory has no poses, by which {drawn} would be drawn; files have them that "
+                "to_csv(..., poses=True) wrote."
+            )
+        if every > 1:
+            found.notes.append(f"Poses were kept of one of {every} samples of the run.")
+        return found
+
+    def _drawn_roads(self, roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+        """Roads of a scene as this run had them, those of files read."""
+        found = [dict(road) for road in roads]
+        for number, road in self.roads.items():
+            if number < len(found):
+                found[number] = {"kind": "file", "path": road} if isinstance(road, str) else scene_part(road)
+        return drawn_roads(found)
+
+    def _repr_html_(self) -> str | None:
+        """In a notebook a run shows itself."""
+        if self.drawing is None or len(self.t) < 2:
+            return None
+        try:
+            from viewer.notebook import html_of
+
+            return html_of(self.recording())
+        except (UserError, ValueError) as error:
+            return f"<pre>{html.escape(repr(self))}</pre><p>{html.escape(str(error))}</p>"
+
+    def thinned(self, every: int) -> Trajectory:
+        """Every so many samples, the first one among them, with the same report, settings and accuracy.
+
+        Parameters
+        ----------
+        every : int
+            One of that many samples is kept.
+
+        Returns
+        -------
+        Trajectory
+            This one, where all are kept.
+
+        Raises
+        ------
+        ValueError
+            It is no whole number above zero.
+        """
+        every = whole(every, "every", 1, 10**9, ValueError)
+        if every == 1:
+            return self
+        values = np.column_stack(list(self.values())) if self._columns else np.empty((len(self.t), 0))
+        names, units = list(self.units), list(self.units.values())
+        rest = (self.report, self.settings, self.wall_s, self.accuracy, self.notices, self.branch_change, self.control)
+        poses = None if self._poses is None else self._poses.thinned(every)
+        return Trajectory(self.t[::every], values[::every], names, units, *rest, poses, self.drawing, self.roads)
+
+    @property
+    def realtime_factor(self) -> float:
+        """Simulated time over wall time: above 1 is faster than real time."""
+        return float((self.t[-1] - self.t[0]) / self.wall_s)
+
+    def __repr__(self) -> str:
+        known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
+        told = "".join(f" {text}" for text in (*self.notices, self.branch_change) if text)
+        samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
+        text = f"Trajectory({samples}, {len(self)} sensors{known}){told}"
+        return text if self.control is None else f"{text}\n  {self.control}"
+
+    def to_csv(self, path: str | PathLike[str], poses: bool = False) -> None:
+        """Write one column per sensor, headed ``name [unit]``, with all digits.
+
+        Parameters
+        ----------
+        path : str or path-like
+            File to write; one that exists is replaced when the new one is whole.
+        poses : bool
+            Whether with the poses of all bodies, ``rod.x [m]`` to ``rod.qz [1]``, by which `from_csv`, ``animate(...,
+            scene=system)`` and ``ali3 view`` draw the run. Where a sensor has such a name, the columns are
+            ``rod.pose.x`` to ``rod.pose.qz``.
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        ValueError
+            The run has no poses, or not at all of its samples.
+        """
+        columns, units = dict(self._columns), dict(self.units)
+        if flag(poses, "The poses of to_csv", ValueError):
+            if self.poses.every > 1:
+                raise ValueError(
+                    f"Poses were kept of one of {self.poses.every} samples; write "
+                    f"run.thinned({self.poses.every}).to_csv(..., poses=True)."
+                )
+            names = self.poses.recorded_names
+            columns |= {names[column]: values for column, values in self.poses.items()}
+            units |= {names[column]: unit for column, unit in self.poses.units.items()}
+        with whole_file(path, make_parents=False) as made, made.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in units.items())])
+            writer.writerows(np.column_stack([self.t, *columns.values()]).tolist())
+
+    @classmethod
+    def from_csv(cls, path: str | PathLike[str]) -> Trajectory:
+        """Read what `to_csv` wrote; counters and settings are not in the file.
+
+        Parameters
+        ----------
+        path : str or path-like
+            File to read.
+
+        Returns
+        -------
+        Trajectory
+            Times, values, names and units; poses of what has all seven columns ``.x`` to ``.qz``, which are among the
+            sensors too.
+
+        Raises
+        ------
+        OSError
+            The file cannot be read.
+        ValueError
+            A heading or a value is not what `to_csv` writes; the message names the line.
+        """
+        try:
+            with Path(path).open(newline="", encoding="utf-8") as file:
+                rows = list(csv.reader(file))
+        except (UnicodeDecodeError, csv.Error) as error:
+            raise ValueError(f"{path} cannot be read as a table of text: {error}.") from None
+        headings = [_HEADING.fullmatch(text) for text in rows[0]] if rows else []
+        if not headings or headings[0] is None or headings[0]["name"] != "time":
+            raise ValueError(f"{path}: the first line must be 'time [s]' and one 'name [unit]' per sensor.")
+        for text, match in zip(rows[0], headings, strict=True):
+            if match is None:
+                raise ValueError(f"{path}: the heading {text!r} must read 'name [unit]'.")
+        for number, row in enumerate(rows[1:], start=2):
+            if len(row) != len(headings):
+                raise ValueError(f"{path}, line {number}: {len(row)} values where {len(headings)} belong.")
+            wrong = [cell for cell in row if not _NUMBER.fullmatch(cell)]
+            if wrong:
+                raise ValueError(f"{path}, line {number}: {shown(wrong[0])} is no number.")
+        data = np.array(rows[1:], float).reshape(-1, len(headings))
+        found = [match for match in headings[1:] if match is not None]
+        names = [m["name"] for m in found]
+        poses = Poses.of_columns(data[:, 0], dict(zip(names, data[:, 1:].T, strict=True)))
+        return cls(data[:, 0], data[:, 1:], names, [m["unit"] for m in found], poses=poses)
+
+    def plot(self, *names: str) -> Figure:
+        """Draw sensors over time with matplotlib, one diagram per unit.
+
+        Parameters
+        ----------
+        *names : str
+            Sensors; all when none is named.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Not shown yet.
+
+        Raises
+        ------
+        KeyError
+            There is no such sensor.
+        ValueError
+            The trajectory has no sensors.
+        """
+        import matplotlib.pyplot as plt
+
+        chosen = names or tuple(self)
+        groups: dict[str, list[str]] = {}
+        for name in chosen:
+            self[name]
+            groups.setdefault(self.units[name], []).append(name)
+        if not groups:
+            raise ValueError("There is nothing to draw: the trajectory has no sensors.")
+        figure, axes = plt.subplots(
+            len(groups), 1, sharex=True, squeeze=False, figsize=(9, 2.5 + 2 * len(groups)), layout="constrained"
+        )
+        for ax, (unit, members) in zip(axes[:, 0], groups.items(), strict=True):
+            for name in members:
+                ax.plot(self.t, self[name], label=name)
+            ax.set_ylabel(unit)
+            ax.grid(True, alpha=0.3)
+            ax.legend(loc="upper right", fontsize="small")
+        axes[-1, 0].set_xlabel("time, s")
+        return figure

@@ -1,0 +1,91 @@
+"""What a run with a tolerance, or without a step, was asked for and did."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from mbs.common.checks import is_finite, shown
+
+LEAST_TOLERANCE, MOST_TOLERANCE = 1e-11, 0.5
+ALLOWED = 10.0
+"""Errors up to so many tolerances pass without a warning."""
+
+
+@dataclass(frozen=True)
+class Control:
+    """How `simulate` chose its steps.
+
+    Parameters
+    ----------
+    tolerance : float
+        Accepted error of positions in parts of `length`.
+    length : float
+        Of the model, m.
+    method : str
+        Name of the method that made the run.
+    reason : str
+        Why this method; empty where the caller named it.
+    error : float
+        Estimate of the largest error of positions over the run in parts of `length`, from this run and a coarser one;
+        no bound: what both runs miss is not in it, and where guides prescribe all motion it is 0. NaN where the step
+        was given: nothing was estimated.
+    h : float or None
+        The fixed step, s; None: steps under error control.
+    steps, rejected, failed : int
+        Steps of the run that is shown; those that erred too much, and those that did not converge, were repeated.
+    forced : int
+        Steps that err more than their share of the tolerance and no less when they are shorter.
+    smallest, largest : float
+        Accepted steps, s.
+    side_steps : int
+        Made for times between the steps, where no polynomial through the steps served.
+    runs : int
+        Whole runs that were made, those for the estimate and for the choice of the method included.
+    """
+
+    tolerance: float
+    length: float
+    method: str
+    reason: str
+    error: float
+    h: float | None
+    steps: int
+    rejected: int
+    failed: int
+    forced: int
+    smallest: float
+    largest: float
+    side_steps: int
+    runs: int
+
+    @property
+    def kept(self) -> bool:
+        """Whether the estimated error is at most ten times the tolerance, or there is none."""
+        return not self.error > ALLOWED * self.tolerance
+
+    def __str__(self) -> str:
+        steps = (
+            f"fixed steps of {self.h:.4g} s"
+            if self.h is not None
+            else f"{self.steps} steps of {self.smallest:.3g} to {self.largest:.3g} s ({self.rejected} rejected)"
+        )
+        reason = f" ({self.reason})" if self.reason else ""
+        if math.isnan(self.error):
+            return f"{self.method}{reason}: {steps}"
+        return (
+            f"{self.method}{reason}: {steps}; error estimated from a coarser run, no bound: {self.error:.1e} of the "
+            f"model's length of {self.length:.4g} m, tolerance {self.tolerance:g}"
+        )
+
+
+def checked_tolerance(tolerance: object) -> float:
+    """The tolerance as a number, or one sentence."""
+    value = float(tolerance) if is_finite(tolerance) else math.nan  # type: ignore[arg-type]
+    if LEAST_TOLERANCE <= value <= MOST_TOLERANCE:
+        return value
+    what = "it is below what round-off leaves; " if 0.0 < value < LEAST_TOLERANCE else ""
+    raise ValueError(
+        f"The tolerance is {shown(tolerance)}; {what}it must be a number between {LEAST_TOLERANCE:g} and "
+        f"{MOST_TOLERANCE:g}: the largest error of positions in parts of the model's length."
+    )

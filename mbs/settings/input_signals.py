@@ -1,0 +1,197 @@
+"""Inputs over time: a constant, a function of time, or a table."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.common.checks import is_number, numbers, shown
+from mbs.kernel.binding import Instance
+
+Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
+
+
+def unit_text(unit: str) -> str:
+    """A unit behind a number: nothing for pure numbers."""
+    return "" if unit in ("", "1") else f" {unit}"
+
+
+class InputSignals:
+    """Values of the named inputs of a System at given times.
+
+    Parameters
+    ----------
+    signals : mapping of str to signal
+        Per input a constant, a function of time in s, or a pair (times, values) of equal length: linear in between,
+        held outside. A time given twice is a jump; at that very instant the value before it counts, because the step
+        that ends there lies before it. An input of whole numbers keeps each value of a table until the next one.
+    declared : sequence of mapping
+        Entries `name`, `unit`, `min`, `max` (None: open), `whole` of every input of the System, in order.
+    """
+
+    def __init__(self, signals: Mapping[str, Signal], declared: list[dict[str, Any]]) -> None:
+        self._names = [str(d["name"]) for d in declared]
+        self._units = [str(d["unit"]) for d in declared]
+        self._min = np.array([-np.inf if d["min"] is None else d["min"] for d in declared], float)
+        self._max = np.array([np.inf if d["max"] is None else d["max"] for d in declared], float)
+        self._whole = np.array([bool(d.get("whole")) for d in declared])
+        self._signals: dict[int, Signal] = {}
+        for name, signal in signals.items():
+            if not isinstance(name, str) or name not in self._names:
+                known = ", ".join(self._names) or "none"
+                raise ValueError(f"There is no input {shown(name)}; the System has: {known}.")
+            i = self._names.index(name)
+            signal = _checked(name, signal)
+            if self._whole[i] and isinstance(signal, tuple):
+                self._check(i, *_table(signal))
+                signal = _stairs(signal)
+            self._signals[i] = signal
+
+    def columns(self) -> list[int]:
+        """Numbers of the inputs that have a signal."""
+        return list(self._signals)
+
+    def at(self, t: NDArray[np.float64], tolerance: float, after_jump: bool = False) -> NDArray[np.float64]:
+        """Values at times `t` (n,), shape (n, number of signals), in the order of `columns`.
+
+        Times within `tolerance` (s) of a jump are at the jump; `after_jump` takes the value behind it.
+        """
+        values = np.empty((len(t), len(self._signals)))
+        for k, (i, signal) in enumerate(self._signals.items()):
+            if callable(signal):
+                values[:, k] = [_value_of(self._names[i], signal, float(time)) for time in t]
+            elif isinstance(signal, tuple):
+                values[:, k] = _interpolate(t, np.asarray(signal[0]), np.asarray(signal[1]), tolerance, after_jump)
+            else:
+                values[:, k] = signal
+            self._check(i, t, values[:, k])
+        return values
+
+    def attach(self, instance: Instance, t0: float, t_end: float, tolerance: float) -> None:
+        """Let the kernel ask for the values at every time at which its method evaluates inputs, from `t0` to `t_end`.
+
+        Without functions of time no step calls Python. `instance.set_input_function(None)` ends it.
+        """
+        if not self._signals:
+            return
+        for i, signal in self._signals.items():
+            if not callable(signal):
+                times, values = _table(signal)
+                if not np.isfinite(values).all():
+                    self._check(i, times, values)
+                inside = times[(times >= t0 - tolerance) & (times <= t_end + tolerance)]
+                ends = np.array([t0, t_end])
+                self._check(i, ends, _interpolate(ends, times, values, tolerance, after_jump=False))
+                for after in (False, True):
+                    self._check(i, inside, _interpolate(inside, times, values, tolerance, after))
+        if not any(callable(signal) for signal in self._signals.values()):
+            instance.set_input_tables({i: _table(signal) for i, signal in self._signals.items()}, tolerance)
+            return
+        ask = [(i, self._asker(i, signal, tolerance)) for i, signal in self._signals.items()]
+
+        def function(t: float, after: bool, values: Any) -> None:
+            for i, value in ask:
+                values[i] = value(t, after)
+
+        instance.set_input_function(function)
+
+    def _asker(self, i: int, signal: Signal, tolerance: float) -> Callable[[float, bool], float]:
+        """Value of one signal at a time, before or behind a jump."""
+        low, high, whole = float(self._min[i]), float(self._max[i]), bool(self._whole[i])
+        if callable(signal):
+
+            def of_function(t: float, after: bool) -> float:
+                value = _value_of(self._names[i], signal, t)
+                if not low <= value <= high or math.isinf(value) or (whole and value != math.floor(value)):
+                    self._check(i, np.array([t]), np.array([value]))
+                return value
+
+            return of_function
+        times, values = (part.tolist() for part in _table(signal))
+
+        def of_table(t: float, after: bool) -> float:
+            right = bisect_right(times, t + tolerance) if after else bisect_left(times, t - tolerance)
+            if right == 0 or right == len(times):
+                return float(values[right and -1])
+            begin, span = times[right - 1], times[right] - times[right - 1]
+            share = min(1.0, max(0.0, (t - begin) / span)) if span > 0.0 else 0.0
+            return float(values[right - 1] + share * (values[right] - values[right - 1]))
+
+        return of_table
+
+    def _check(self, i: int, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
+        inside = (values >= self._min[i]) & (values <= self._max[i]) & np.isfinite(values)
+        good = inside & (values == np.floor(values)) if self._whole[i] else inside
+        if not good.all():
+            k = int(np.argmin(good))
+            right = f"lie between {self._min[i]:g} and {self._max[i]:g}" if np.isfinite(values[k]) else "be finite"
+            right = "be a whole number" if inside[k] else right
+            value = f"{values[k]:g}{unit_text(self._units[i])}"
+            raise ValueError(f"Input {self._names[i]!r} is {value} at t = {t[k]:g} s; it must {right}.")
+
+
+def _table(signal: Signal) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Times and values of a signal that is not a function; a constant has one point."""
+    if isinstance(signal, tuple):
+        return np.array(signal[0], float), np.array(signal[1], float)
+    return np.zeros(1), np.array([signal], float)
+
+
+def _stairs(table: tuple[ArrayLike, ArrayLike]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The table that keeps each value until the next time, where it jumps."""
+    times, values = _table(table)
+    return np.repeat(times, 2)[1:], np.repeat(values, 2)[:-1]
+
+
+def _value_of(name: str, signal: Callable[[float], float], t: float) -> float:
+    """What a function of time gives at a time, s."""
+    value = signal(t)
+    if not is_number(value):
+        raise ValueError(f"The function of input {name!r} gives {shown(value)} at t = {t:g} s; it must give a number.")
+    return float(value)
+
+
+def _checked(name: str, signal: Signal) -> Signal:
+    if callable(signal):
+        return signal
+    if not isinstance(signal, tuple):
+        if not is_number(signal):
+            raise ValueError(
+                f"Input {name!r} is {shown(signal)}; it must be a number, a function of time or a tuple "
+                "(times, values)."
+            )
+        return float(signal)
+    if len(signal) != 2:
+        raise ValueError(f"The table of input {name!r} has {len(signal)} parts; it must be a pair (times, values).")
+    times, values = (numbers(part, f"the table of input {name!r}") for part in signal)
+    if times.ndim != 1 or times.shape != values.shape or len(times) == 0:
+        raise ValueError(
+            f"The table of input {name!r} has times of shape {times.shape} and values of shape {values.shape}; "
+            "both must be lists of the same length."
+        )
+    if not np.isfinite(times).all() or (np.diff(times) < 0.0).any():
+        raise ValueError(f"The times of input {name!r} must be finite and must not decrease.")
+    if not np.isfinite(values).all():  # named here: interpolated, an infinite value is a nan at another time
+        k = int(np.argmin(np.isfinite(values)))
+        raise ValueError(f"The table of input {name!r} has {values[k]:g} at t = {times[k]:g} s; it must be finite.")
+    return times, values
+
+
+def _interpolate(
+    t: NDArray[np.float64], times: NDArray[np.float64], values: NDArray[np.float64], tolerance: float, after_jump: bool
+) -> NDArray[np.float64]:
+    if after_jump:
+        right = np.searchsorted(times, t + tolerance, side="right")
+    else:
+        right = np.searchsorted(times, t - tolerance, side="left")
+    left = np.clip(right - 1, 0, len(times) - 1)
+    right = np.clip(right, 0, len(times) - 1)
+    span = times[right] - times[left]
+    share = np.where(span > 0.0, (t - times[left]) / np.where(span > 0.0, span, 1.0), 0.0)
+    result: NDArray[np.float64] = values[left] + np.clip(share, 0.0, 1.0) * (values[right] - values[left])
+    return result

@@ -1,0 +1,273 @@
+"""The System: an immutable set of flat arrays with names, which one file carries to the kernel and into an FMU."""
+
+from __future__ import annotations
+
+import copy
+import json
+import struct
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ali3.files import whole_file
+from mbs.common.checks import instance_of
+from mbs.common.frames import Frames
+from mbs.kernel.header import FLOAT_ARRAYS, INTEGER_ARRAYS, OPTIONAL_ARRAYS, SYSTEM_VERSION
+from mbs.system.drawing import Drawing
+from mbs.system.meta_check import problem_of
+from mbs.system.text import system_text
+
+MAGIC = b"ALI3SYS\n"
+VERSION = SYSTEM_VERSION
+HEADER = struct.Struct("<8sIIQII")
+ENTRY = struct.Struct("<40sIIQQ")
+INT32, FLOAT64, BYTES = 1, 2, 3
+TEXTS = ("meta", "drawing")
+
+FLOATS, INTEGERS, OPTIONAL = frozenset(FLOAT_ARRAYS), frozenset(INTEGER_ARRAYS), frozenset(OPTIONAL_ARRAYS)
+"""Names of the arrays; the optional ones may be missing: then nothing is known of assembly modes or of a start in
+equilibrium."""
+
+
+class SystemFileError(ValueError):
+    """A file that is no valid System; the message says why."""
+
+
+class System:
+    """What `compile` makes of a model; immutable.
+
+    Attributes
+    ----------
+    arrays : mapping of str to ndarray
+        The arrays of the System file (`docs/system_file.md`), read-only.
+    meta : mapping
+        Names, units and the report.
+    frames : Frames or None
+        Points and axes of the bodies among the coordinates; None where the System was read from a file.
+    drawing : Drawing or None
+        What is drawn and how the coordinates move it; None where the file had none.
+    """
+
+    def __init__(
+        self,
+        arrays: Mapping[str, ArrayLike],
+        meta: Mapping[str, Any],
+        frames: Frames | None = None,
+        drawing: Drawing | None = None,
+    ) -> None:
+        names = set(arrays)
+        if names | OPTIONAL != FLOATS | INTEGERS:
+            wrong = sorted((names | OPTIONAL) ^ (FLOATS | INTEGERS))
+            raise SystemFileError(f"The arrays of a System are incomplete or unknown: {', '.join(wrong)}.")
+        frozen: dict[str, NDArray[Any]] = {}
+        for name in sorted(FLOATS | INTEGERS):
+            values = np.array(arrays.get(name, ()), dtype=np.float64 if name in FLOATS else np.int32)
+            values.setflags(write=False)
+            frozen[name] = values
+        self.arrays: Mapping[str, NDArray[Any]] = MappingProxyType(frozen)
+        self.frames = frames
+        self.drawing = drawing
+        self._meta_text = json.dumps(meta, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+
+    @property
+    def meta(self) -> dict[str, Any]:
+        """Names, units and the report; a fresh copy."""
+        loaded: dict[str, Any] = json.loads(self._meta_text)
+        return loaded
+
+    @property
+    def name(self) -> str:
+        """Name of the model."""
+        return str(self.meta["name"])
+
+    @property
+    def nq(self) -> int:
+        """Number of coordinates."""
+        return len(self.arrays["q0"])
+
+    @property
+    def nc(self) -> int:
+        """Number of constraint rows."""
+        return len(self.arrays["row_const"])
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """Coordinates, rows, rank, degrees of freedom and non-zeros as numbers."""
+        found: dict[str, Any] = self.meta["report"]
+        return found
+
+    def __str__(self) -> str:
+        meta = self.meta
+        return system_text(meta["name"], meta["dimension"], meta["report"])
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """What is drawn: frames, shapes, arrows and roads in the format of `docs/animation.md`; a fresh copy.
+
+        Raises
+        ------
+        ValueError
+            The System comes from a file without a drawing.
+        """
+        if self.drawing is None:
+            raise ValueError(f"The System '{self.name}' carries no drawing; compile its model again.")
+        found: dict[str, Any] = copy.deepcopy(dict(self.drawing.scene))
+        return found
+
+    def to_bytes(self, drawing: bool = True) -> bytes:
+        """The System file; equal Systems give equal bytes.
+
+        Parameters
+        ----------
+        drawing : bool
+            Whether with what is drawn, which the kernel does not read.
+
+        Returns
+        -------
+        bytes
+            As `docs/system_file.md` describes.
+        """
+        items: list[tuple[str, int, bytes, int]] = []
+        for name, values in self.arrays.items():
+            kind = FLOAT64 if name in FLOATS else INT32
+            items.append((name, kind, values.astype(values.dtype.newbyteorder("<")).tobytes(), len(values)))
+        text = self._meta_text.encode()
+        items.append(("meta", BYTES, text, len(text)))
+        if drawing and self.drawing is not None:
+            drawn = self.drawing.to_bytes()
+            items.append(("drawing", BYTES, drawn, len(drawn)))
+        offset = HEADER.size + ENTRY.size * len(items)
+        directory, data = [], []
+        for name, kind, raw, count in items:
+            directory.append(ENTRY.pack(name.encode(), kind, 0, offset, count))
+            padded = raw + b"\0" * (-len(raw) % 8)
+            data.append(padded)
+            offset += len(padded)
+        body = b"".join([*directory, *data])
+        return HEADER.pack(MAGIC, VERSION, len(items), offset, zlib.crc32(body), 0) + body
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> System:
+        """A System from its file content; everything is checked, also by the kernel.
+
+        Parameters
+        ----------
+        data : bytes
+            What `to_bytes` gave.
+
+        Returns
+        -------
+        System
+            Without `frames`, which are not in the file.
+
+        Raises
+        ------
+        ArgumentTypeError
+            The data are no bytes.
+        SystemFileError
+            With one sentence that says what is wrong.
+        """
+        data = bytes(instance_of((bytes, bytearray, memoryview), data, "The content of a System file", "bytes"))
+        from mbs.kernel.binding import KernelError, LoadedSystem
+
+        found = _parse(data)
+        try:
+            LoadedSystem(data)
+        except KernelError as error:
+            raise SystemFileError(f"Not a valid System file: {error}") from None
+        try:
+            meta = json.loads(found.pop("meta"))
+            problem = problem_of(meta, {name: len(values) for name, values in found.items()})
+            if problem:
+                raise SystemFileError(f"The names in the System file were altered: {problem}.")
+            drawn = found.pop("drawing", None)
+            system = cls(found, meta, None, None if drawn is None else Drawing.from_bytes(drawn, len(found["q0"])))
+            str(system)
+        except SystemFileError:
+            raise
+        except (KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
+            raise SystemFileError(f"The names in the System file are damaged: {error}") from None
+        return system
+
+    def save(self, path: str | Path) -> None:
+        """Write the System file.
+
+        Parameters
+        ----------
+        path : str or Path
+            File to write; one that exists is replaced when the new one is whole.
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        """
+        with whole_file(path, make_parents=False) as made:
+            made.write_bytes(self.to_bytes())
+
+    @classmethod
+    def load(cls, path: str | Path) -> System:
+        """Read a System file.
+
+        Parameters
+        ----------
+        path : str or Path
+            File to read.
+
+        Returns
+        -------
+        System
+            Without `frames`, which are not in the file.
+
+        Raises
+        ------
+        OSError
+            The file cannot be read.
+        SystemFileError
+            It is no valid System file.
+        """
+        if Path(path).exists() and not Path(path).is_file():
+            raise SystemFileError(f"{path} is not a file that can be read to its end.")
+        return cls.from_bytes(Path(path).read_bytes())
+
+
+def _parse(data: bytes) -> dict[str, Any]:
+    """Arrays by name and the text of `meta`, after checks of header, directory and extents."""
+    if len(data) < HEADER.size:
+        raise SystemFileError(f"Not a System file: {len(data)} bytes are fewer than its header has.")
+    magic, version, count, size, crc, zero = HEADER.unpack_from(data)
+    if magic != MAGIC:
+        raise SystemFileError("Not a System file: it does not begin with the mark of one.")
+    if version != VERSION:
+        raise SystemFileError(f"The System file has version {version}; this program reads version {VERSION}.")
+    if size != len(data):
+        raise SystemFileError(f"The System file is cut or extended: {len(data)} bytes instead of {size}.")
+    if crc != zlib.crc32(data[HEADER.size :]):
+        raise SystemFileError("The System file was altered: its checksum does not fit.")
+    if zero != 0:
+        raise SystemFileError("The System file was altered: the last four bytes of its header are not zero.")
+    if HEADER.size + ENTRY.size * count > len(data):
+        raise SystemFileError(f"The System file lists {count} arrays, more than it can hold.")
+    found: dict[str, Any] = {}
+    types: dict[int, np.dtype[Any]] = {INT32: np.dtype("<i4"), FLOAT64: np.dtype("<f8"), BYTES: np.dtype("u1")}
+    for k in range(count):
+        raw, kind, _, offset, items = ENTRY.unpack_from(data, HEADER.size + k * ENTRY.size)
+        name = raw.rstrip(b"\0").decode("ascii", "replace")
+        expected = FLOAT64 if name in FLOATS else INT32 if name in INTEGERS else BYTES if name in TEXTS else 0
+        if kind != expected or name in found:
+            raise SystemFileError(f"The System file holds an unknown, repeated or mistyped array '{name}'.")
+        dtype = types[kind]
+        if offset % 8 or offset + items * dtype.itemsize > len(data):
+            raise SystemFileError(f"The array '{name}' of the System file lies outside the file.")
+        if kind == BYTES:
+            found[name] = data[offset : offset + items]
+        else:
+            found[name] = np.frombuffer(data, dtype, items, offset)
+    if "meta" not in found:
+        raise SystemFileError("The System file has no names (array 'meta').")
+    return found

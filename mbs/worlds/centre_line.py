@@ -1,0 +1,183 @@
+"""The line in the middle of a course: a curve through points, its stations and what lies beside it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from mbs.roads.road_header import RoadFileError
+from mbs.worlds.world_types import Segment
+
+Float = NDArray[np.float64]
+STEP = 1.0
+"""m, about: distance of the points of the spline."""
+ITERATIONS = 3
+GAP = 0.05
+"""m: by how much the ends of a closed course may miss each other."""
+
+
+@dataclass(frozen=True)
+class CentreLine:
+    """A cubic spline through points at equal distances.
+
+    Parameters
+    ----------
+    step : float
+        Of the points, m.
+    points : ndarray, shape (n, 2)
+        The first one again at the end of a closed line, m.
+    coefficients : ndarray, shape (2, 4, n - 1)
+        Of x and y by powers of the way behind a point.
+    closed : bool
+    straight : bool
+    """
+
+    step: float
+    points: Float
+    coefficients: Float
+    closed: bool
+    straight: bool
+
+    @property
+    def length(self) -> float:
+        """In m."""
+        return self.step * (len(self.points) - 1)
+
+    @property
+    def stations(self) -> Float:
+        """Of the points, m."""
+        return np.asarray(self.step * np.arange(len(self.points)))
+
+    def at(self, s: Float) -> tuple[Float, Float, Float]:
+        """Position and its first two derivatives by the station, each of shape (2, ...)."""
+        k = np.clip((s / self.step).astype(np.int64), 0, len(self.points) - 2)
+        t = s - k * self.step
+        c = self.coefficients[:, :, k]
+        position = ((c[:, 3] * t + c[:, 2]) * t + c[:, 1]) * t + c[:, 0]
+        first = (3.0 * c[:, 3] * t + 2.0 * c[:, 2]) * t + c[:, 1]
+        return position, first, 6.0 * c[:, 3] * t + 2.0 * c[:, 2]
+
+    def beside(self, x: Float, y: Float, guess: Float) -> tuple[Float, Float, Float]:
+        """Nearest station, offset to the left and distance of places, m; `guess` lies near the station."""
+        if self.straight:
+            way = self.points[-1] - self.points[0]
+            unit = way / np.hypot(*way)
+            dx, dy = x - self.points[0, 0], y - self.points[0, 1]
+            along = dx * unit[0] + dy * unit[1]
+            s, offset = np.clip(along, 0.0, self.length), unit[0] * dy - unit[1] * dx
+            return s, offset, np.hypot(offset, along - s)
+        s = guess
+        for _ in range(ITERATIONS):
+            p, first, second = self.at(s)
+            away = p - np.stack([x, y])
+            slope = np.maximum((first * first).sum(axis=0) + (away * second).sum(axis=0), 0.3)
+            s = self._within(s - np.clip((away * first).sum(axis=0) / slope, -5.0, 5.0))
+        p, first, _ = self.at(s)
+        dx, dy = x - p[0], y - p[1]
+        size = np.hypot(first[0], first[1])
+        return s, (first[0] * dy - first[1] * dx) / size, np.hypot(dx, dy)
+
+    def _within(self, s: Float) -> Float:
+        return np.asarray(np.mod(s, self.length) if self.closed else np.clip(s, 0.0, self.length))
+
+    def place(self, s: float, offset: float = 0.0) -> tuple[float, float, float]:
+        """x, y and yaw beside a station, m and rad."""
+        p, first, _ = self.at(np.array(self._within(np.array(s))))
+        size = math.hypot(first[0], first[1])
+        return (
+            float(p[0] - offset * first[1] / size),
+            float(p[1] + offset * first[0] / size),
+            math.atan2(first[1], first[0]),
+        )
+
+
+def through(points: Float, closed: bool, name: str) -> CentreLine:
+    """A line through any points, at least two.
+
+    Raises
+    ------
+    RoadFileError
+        Points coincide.
+    """
+    if closed and np.hypot(*(points[0] - points[-1])) > 1e-9:
+        points = np.vstack([points, points[:1]])
+    way = np.hypot(*np.diff(points, axis=0).T)
+    if (way <= 1e-6).any():
+        k = int(np.argmin(way))
+        raise RoadFileError(f"Points {k + 1} and {k + 2} of the course '{name}' are the same; leave one out.")
+    u = np.concatenate([[0.0], np.cumsum(way)])
+    if len(points) == 2:
+        return _equal(points, closed)
+    curve = CubicSpline(u, points, bc_type="periodic" if closed else "natural")
+    fine = np.linspace(0.0, u[-1], max(20 * len(points), int(u[-1] / 0.05)))
+    dense = curve(fine)
+    s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(dense, axis=0).T))])
+    n = max(4, math.ceil(s[-1] / STEP))
+    return _equal(curve(np.interp(np.linspace(0.0, s[-1], n + 1), s, fine)), closed, s[-1])
+
+
+def of_segments(start: tuple[float, float, float], segments: Sequence[Segment], closed: bool, name: str) -> CentreLine:
+    """A line of straights and arcs.
+
+    Raises
+    ------
+    RoadFileError
+        A segment is neither, or the ends of a closed line miss each other.
+    """
+    lengths, curvatures = [], []
+    for k, segment in enumerate(segments):
+        if segment.length is not None and segment.radius is None and segment.angle is None:
+            lengths.append(segment.length)
+            curvatures.append(0.0)
+        elif segment.length is None and segment.radius is not None and segment.angle:
+            lengths.append(segment.radius * math.radians(abs(segment.angle)))
+            curvatures.append(math.copysign(1.0 / segment.radius, segment.angle))
+        else:
+            raise RoadFileError(
+                f"Segment {k + 1} of the course '{name}' must have a length, or a radius and an angle that is not 0."
+            )
+    ends = np.concatenate([[0.0], np.cumsum(lengths)])
+    n = max(4, math.ceil(ends[-1] / STEP))
+    s = np.linspace(0.0, ends[-1], n + 1)
+    points = np.empty((n + 1, 2))
+    x, y, yaw = start[0], start[1], math.radians(start[2])
+    for k, (length, curvature) in enumerate(zip(lengths, curvatures, strict=True)):
+        inside = (s >= ends[k] - 1e-9) & (s <= ends[k + 1] + 1e-9)
+        points[inside] = np.stack(_arc(x, y, yaw, curvature, s[inside] - ends[k]), axis=1)
+        (x,), (y,) = _arc(x, y, yaw, curvature, np.array([length]))
+        yaw += curvature * length
+    gap = float(np.hypot(*(points[-1] - points[0])))
+    if closed and gap > GAP:
+        raise RoadFileError(
+            f"The course '{name}' is closed, but its end misses its start by {gap:.3g} m; change its segments."
+        )
+    if closed:
+        points[-1] = points[0]
+    return _equal(points, closed, float(ends[-1]))
+
+
+def _arc(x: float, y: float, yaw: float, curvature: float, s: Float) -> tuple[Float, Float]:
+    if curvature == 0.0:
+        return x + s * math.cos(yaw), y + s * math.sin(yaw)
+    end = yaw + curvature * s
+    return x + (np.sin(end) - math.sin(yaw)) / curvature, y - (np.cos(end) - math.cos(yaw)) / curvature
+
+
+def _equal(points: Float, closed: bool, length: float | None = None) -> CentreLine:
+    way = points[-1] - points[0]
+    size = float(np.hypot(*way))
+    off = np.abs(way[0] * (points[:, 1] - points[0, 1]) - way[1] * (points[:, 0] - points[0, 0]))
+    straight = not closed and bool((off <= 1e-9 * size * max(size, 1.0)).all())
+    if straight:
+        points = np.linspace(points[0], points[-1], max(5, math.ceil(size / STEP) + 1))
+        length = size
+    step = (length if length is not None else size) / (len(points) - 1)
+    if closed:
+        points = np.vstack([points[:-1], points[:1]])
+    spline = CubicSpline(step * np.arange(len(points)), points, bc_type="periodic" if closed else "not-a-knot")
+    return CentreLine(step, points, np.ascontiguousarray(spline.c[::-1].transpose(2, 0, 1)), closed, straight)

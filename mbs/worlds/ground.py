@@ -1,0 +1,120 @@
+"""The ground of a world before anything is laid on it."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates, spline_filter
+
+from mbs.roads.road_header import RoadFileError
+from mbs.worlds.profiles import spaced
+from mbs.worlds.world_types import WorldDescription
+
+Float = NDArray[np.float64]
+
+
+class Surface:
+    """Heights at the points of a regular grid, a C2 cubic spline between them.
+
+    Parameters
+    ----------
+    x, y : ndarray, shapes (n,) and (m,)
+        Rising at equal distances, at least four each, m.
+    heights : ndarray, shape (n, m)
+        m.
+    """
+
+    def __init__(self, x: Float, y: Float, heights: Float) -> None:
+        self.x, self.y = x, y
+        self._steps = (x[-1] - x[0]) / (len(x) - 1), (y[-1] - y[0]) / (len(y) - 1)
+        self._level = float(heights.flat[0]) if (heights == heights.flat[0]).all() else None
+        self._weights = heights if self._level is not None else spline_filter(heights, order=3, mode="mirror")
+
+    def on_grid(self, x: Float, y: Float) -> Float:
+        """Heights at all pairs of coordinates, shape (n, m)."""
+        if self._level is not None:
+            return np.full((len(x), len(y)), self._level)
+        (i, a), (j, b) = self._basis(x, 0), self._basis(y, 1)
+        rows = np.zeros((len(x), self._weights.shape[1]))
+        for k in range(4):
+            rows += a[k][:, None] * self._weights[i[k]]
+        found = np.zeros((len(x), len(y)))
+        for k in range(4):
+            found += b[k] * rows[:, j[k]]
+        return found
+
+    def _basis(self, values: Float, axis: int) -> tuple[list[NDArray[np.int64]], list[Float]]:
+        """Four points about each value, mirrored at the border, and the weights of cubic B-splines."""
+        n = self._weights.shape[axis]
+        place = np.clip((values - (self.x, self.y)[axis][0]) / self._steps[axis], 0.0, n - 1.0)
+        first = np.minimum(np.floor(place), n - 2.0)
+        t = place - first
+        weights = [
+            (1.0 - t) ** 3 / 6.0,
+            (3.0 * t**3 - 6.0 * t**2 + 4.0) / 6.0,
+            (3.0 * (1.0 - t) ** 3 - 6.0 * (1.0 - t) ** 2 + 4.0) / 6.0,
+            t**3 / 6.0,
+        ]
+        near = [np.abs(np.asarray(first, np.int64) + k) for k in (-1, 0, 1, 2)]
+        return [np.where(k > n - 1, 2 * (n - 1) - k, k) for k in near], weights
+
+    def at(self, x: Float, y: Float) -> Float:
+        """Heights at places."""
+        if self._level is not None:
+            return np.full(np.shape(x), self._level)
+        place = [(v - (self.x, self.y)[k][0]) / self._steps[k] for k, v in enumerate((x, y))]
+        inside = [np.clip(place[k], 0.0, self._weights.shape[k] - 1.0) for k in range(2)]
+        return np.asarray(map_coordinates(self._weights, inside, order=3, mode="mirror", prefilter=False))
+
+
+def ground_of(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
+    """The ground, and the distance of its points where it is a height map, else infinity.
+
+    Raises
+    ------
+    RoadFileError
+        The height map cannot be read, or does not cover the world.
+    """
+    ground, (x0, y0, x1, y1) = world.ground, world.bounds
+    if ground.heights is not None and ground.variation is not None:
+        raise RoadFileError("The ground has heights and a variation; it may have one of them.")
+    if ground.heights is not None:
+        return _map(world, folder)
+    step = ground.variation.length if ground.variation is not None else max(x1 - x0, y1 - y0)
+    x = spaced(x0 - 2.0 * step, step, math.ceil((x1 - x0) / step) + 5)
+    y = spaced(y0 - 2.0 * step, step, math.ceil((y1 - y0) / step) + 5)
+    heights = np.full((len(x), len(y)), ground.height)
+    if ground.variation is not None:
+        random = np.random.default_rng(ground.variation.seed)
+        heights += ground.variation.height * random.standard_normal(heights.shape)
+    return Surface(x, y, heights), math.inf
+
+
+def _map(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
+    from mbs.roads.description import grid_road
+
+    ground = world.ground
+    assert ground.heights is not None
+    file = folder / ground.heights
+    grid = grid_road(file, None, ground.origin, ground.spacing, ground.height_range, None)
+    heights = np.asarray(grid.heights, float) + ground.height
+    x, y = (spaced(grid.origin[k], grid.spacing[k], heights.shape[k]) for k in range(2))
+    for axis, low, high, first, last in zip(
+        "xy", world.bounds[:2], world.bounds[2:], (x[0], y[0]), (x[-1], y[-1]), strict=True
+    ):
+        if low < first - 1e-6 or high > last + 1e-6:
+            raise RoadFileError(
+                f"The world reaches from {axis} = {low:g} to {high:g} m, its height map {file} from {first:g} to "
+                f"{last:g} m; the map must cover it."
+            )
+    if min(heights.shape) < 4:
+        raise RoadFileError(f"{file} has {heights.shape[0]} x {heights.shape[1]} points; at least 4 x 4 are needed.")
+    steepest = max(float(np.abs(np.diff(heights, axis=k)).max()) / grid.spacing[k] for k in range(2))
+    if steepest > 5.0:
+        raise RoadFileError(
+            f"The height map {file} is as steep as {100.0 * steepest:.0f} %; its heights and spacing must be in metres."
+        )
+    return Surface(x, y, heights), min(grid.spacing)

@@ -1,0 +1,165 @@
+"""What is laid on the ground of a world: courses and level areas. Each has a height and a weight at every place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+from scipy.ndimage import gaussian_filter1d
+from scipy.spatial import cKDTree
+
+from mbs.worlds.centre_line import CentreLine
+from mbs.worlds.profiles import soft_rise, steps, vertical_curve
+from mbs.worlds.world_types import Area, Course
+
+Float = NDArray[np.float64]
+HeightOf = Callable[[Float, Float], Float]
+FAR = 1e6
+"""m: where a layer is out of reach."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A layer at places.
+
+    Parameters
+    ----------
+    excess : ndarray
+        Distance from its surface, m; 0 or less on it.
+    height : ndarray
+        m.
+    station : ndarray
+        Of a course, m.
+    offset : ndarray
+        From the middle of a course to the left, m.
+    """
+
+    excess: Float
+    height: Float
+    station: Float
+    offset: Float
+
+
+class Layer(Protocol):
+    """A course or an area."""
+
+    name: str
+    surface: str
+    shoulder: float
+    blend: float
+
+    def near(self, x: Float, y: Float) -> tuple[Float, Float]:
+        """About how far places are from the surface, m, and their station; beyond its reach FAR."""
+
+    def at(self, x: Float, y: Float, guess: Float) -> Found:
+        """The layer at places whose stations are about known."""
+
+
+def weight(layer: Layer, excess: Float) -> Float:
+    """1 on a layer and its shoulder, 0 where the ground is as it was: C2."""
+    return np.asarray(1.0 - soft_rise((excess - layer.shoulder) / layer.blend))
+
+
+class CourseLayer:
+    """A course on the ground.
+
+    Parameters
+    ----------
+    course : Course
+    line : CentreLine
+    ground : callable
+        Heights of what lies below, which a course without heights of its own follows.
+    heights, widths, banks : ndarray, shape (n,), optional
+        At the points of the line, of a course from a file.
+    """
+
+    def __init__(
+        self,
+        course: Course,
+        line: CentreLine,
+        ground: HeightOf,
+        heights: Float | None = None,
+        widths: Float | None = None,
+        banks: Float | None = None,
+    ) -> None:
+        self.name: str = course.name
+        self.surface: str = course.surface
+        self.course, self.line = course, line
+        self.shoulder, self.blend = course.shoulder, course.blend
+        self.widths, self.banks = widths, banks
+        self.reach = 0.5 * (course.width if widths is None else float(widths.max())) + self.shoulder + self.blend
+        self._height: Callable[[Float], Float]
+        if course.heights is not None:
+            roundings = [course.rounding] * len(course.heights)
+            vertices = course.heights
+            self._height = lambda s: vertical_curve(s, vertices, roundings)
+        else:
+            if heights is None:
+                heights = ground(*line.points.T)
+            self._height = _smoothed(heights, line, 0.25 * course.smoothing / line.step)
+        self.tree = cKDTree(line.points)
+
+    def half(self, s: Float) -> Float:
+        """Half the width at stations, m."""
+        if self.widths is None:
+            return np.full(np.shape(s), 0.5 * self.course.width)
+        return np.asarray(0.5 * np.interp(s, self.line.stations, self.widths))
+
+    def bank(self, s: Float) -> Float:
+        """Slope across at stations, positive where the right side is higher."""
+        if self.banks is not None:
+            return np.asarray(np.interp(s, self.line.stations, self.banks))
+        bank = self.course.bank
+        return np.zeros(np.shape(s)) if bank is None else steps(s, bank.grades)
+
+    def near(self, x: Float, y: Float) -> tuple[Float, Float]:
+        distance, k = self.tree.query(np.stack([x, y], axis=-1), distance_upper_bound=self.reach + 5.0)
+        s = self.line.step * np.minimum(k, len(self.line.points) - 1)
+        return np.where(np.isfinite(distance), distance - self.half(s), FAR), s
+
+    def at(self, x: Float, y: Float, guess: Float) -> Found:
+        s, offset, distance = self.line.beside(x, y, guess)
+        half = self.half(s)
+        bank = self.course.bank
+        pivot = {"left": half, "centre": 0.0 * half, "right": -half}[bank.pivot if bank is not None else "centre"]
+        height = self._height(s) + self.bank(s) * (pivot - offset)
+        return Found(distance - half, height, s, offset)
+
+
+def _smoothed(heights: Float, line: CentreLine, width: float) -> Callable[[Float], Float]:
+    """A spline through heights at the points of a line, smoothed by a Gaussian whose deviation is so many points."""
+    if not line.closed:
+        found = CubicSpline(line.stations, gaussian_filter1d(heights, width, mode="nearest"), bc_type="natural")
+    else:
+        smooth = gaussian_filter1d(heights[:-1], width, mode="wrap")
+        found = CubicSpline(line.stations, np.append(smooth, smooth[0]), bc_type="periodic")
+    return lambda s: np.asarray(found(s), np.float64)
+
+
+class AreaLayer:
+    """A level circle or rectangle on the ground."""
+
+    def __init__(self, area: Area) -> None:
+        self.name: str = area.name
+        self.surface: str = area.surface
+        self.area = area
+        self.shoulder, self.blend = area.shoulder, area.blend
+
+    def near(self, x: Float, y: Float) -> tuple[Float, Float]:
+        return self._excess(x, y), np.zeros(np.shape(x))
+
+    def at(self, x: Float, y: Float, guess: Float) -> Found:
+        zero = np.zeros(np.shape(x))
+        return Found(self._excess(x, y), zero + self.area.height, zero, zero)
+
+    def _excess(self, x: Float, y: Float) -> Float:
+        dx, dy = x - self.area.at[0], y - self.area.at[1]
+        if self.area.radius is not None:
+            return np.asarray(np.hypot(dx, dy) - self.area.radius)
+        assert self.area.size is not None
+        a, b = np.abs(dx) - 0.5 * self.area.size[0], np.abs(dy) - 0.5 * self.area.size[1]
+        return np.asarray(np.hypot(np.maximum(a, 0.0), np.maximum(b, 0.0)) + np.minimum(np.maximum(a, b), 0.0))

@@ -1,0 +1,128 @@
+"""From a file to a world: its road file and its record."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mbs.roads.road_header import CHECKED_FROM, HEADER, RoadFileError
+from mbs.worlds.world_file import read_table
+
+if TYPE_CHECKING:
+    from mbs.worlds.world_types import WorldDescription
+
+PLAIN = 250.0
+"""m: bounds of a world that is a plane or a kerb, to all sides."""
+
+
+def read_world(file: Path) -> WorldDescription:
+    """A checked description.
+
+    Raises
+    ------
+    RoadFileError
+        With file, key, value and what would be right.
+    """
+    from pydantic import ValidationError
+
+    from mbs.worlds.world_types import WorldDescription
+
+    try:
+        world = WorldDescription.model_validate(read_table(file))
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        where = ".".join(str(part) for part in first["loc"]) or "the file"
+        given = first["input"]
+        value = f" is {given!r}" if not isinstance(given, (dict, list)) and first["type"] != "missing" else ""
+        raise RoadFileError(f"{file}: {where}{value}: {first['msg']}.") from None
+    x0, y0, x1, y1 = world.bounds
+    if not (x1 - x0 >= 1.0 and y1 - y0 >= 1.0):
+        raise RoadFileError(
+            f"{file}: bounds are {list(world.bounds)}; they must be [x0, y0, x1, y1] with x0 < x1, y0 < y1."
+        )
+    for place in world.places:
+        x, y, _ = place.at
+        if not (x0 <= x <= x1 and y0 <= y <= y1):
+            raise RoadFileError(f"{file}: the place '{place.name}' lies at ({x:g}, {y:g}), outside of the world.")
+    return world
+
+
+def make_world(file: Path, name: str, road: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
+    """Write the road file of a world, and return its record.
+
+    Parameters
+    ----------
+    file : Path
+        ``.toml`` of a world or of a road, or ``.road``.
+    name : str
+        Of the world.
+    road : Path
+        To write.
+    tell : callable
+        Called with what is done and its part, 0 to 1.
+
+    Raises
+    ------
+    RoadFileError
+        With what is wrong.
+    """
+    if file.suffix.lower() == ".toml" and read_table(file).get("kind") == "world":
+        from mbs.worlds.road_of_world import write_world_road
+        from mbs.worlds.terrain import Terrain
+        from mbs.worlds.world_record import world_record
+
+        world = read_world(file)
+        tell("ground and courses", 0.0)
+        try:
+            terrain = Terrain(world, file.parent)
+            record = world_record(terrain, lambda part: tell("drawing", part))
+        except RoadFileError as error:
+            raise RoadFileError(str(error) if str(file) in str(error) else f"{file}: {error}") from None
+        write_world_road(terrain, road, lambda part: tell("road", part))
+        return record | {"checksum": checksum_of(road)}
+    return _of_road(file, name, road)
+
+
+def checksum_of(road: Path) -> int:
+    """CRC-32 of the header of a road file, which holds that of its parts: what its world's record is bound to."""
+    with road.open("rb") as file:
+        return zlib.crc32(file.read(HEADER.size)[CHECKED_FROM:])
+
+
+def part_of_world(road: Path) -> dict[str, Any] | None:
+    """What is drawn of a road file by the record beside it, where there is one and it is of this road."""
+    beside = road.with_suffix(".json")
+    try:
+        record = json.loads(beside.read_text(encoding="utf-8"))
+        if record["format"] == "ALi3 world" and record["road"] == road.name and record["checksum"] == checksum_of(road):
+            part: dict[str, Any] = record["roads"][0]
+            return part
+    except (OSError, ValueError, KeyError, TypeError, IndexError):
+        return None
+    return None
+
+
+def _of_road(file: Path, name: str, target: Path) -> dict[str, Any]:
+    """A world that is a road alone."""
+    import numpy as np
+
+    from mbs.elements.road import GridRoad
+    from mbs.roads.read_road import read_road
+    from mbs.roads.scene_part import read_thinned, scene_part
+    from mbs.roads.write_road import write_road
+    from mbs.worlds.world_record import record_of
+
+    road = read_thinned(file) if file.suffix.lower() == ".road" else read_road(file)
+    if file.suffix.lower() == ".road":
+        shutil.copyfile(file, target)
+    else:
+        write_road(road, target)
+    bounds = (-PLAIN, -PLAIN, PLAIN, PLAIN)
+    if isinstance(road, GridRoad):
+        ends = np.array(road.origin) + np.array(road.spacing) * (np.array(np.shape(road.heights)) - 1)
+        bounds = (float(road.origin[0]), float(road.origin[1]), float(ends[0]), float(ends[1]))
+    return record_of(name, bounds, [], [scene_part(road)], []) | {"checksum": checksum_of(target)}

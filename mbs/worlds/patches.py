@@ -1,0 +1,169 @@
+"""What is drawn of a terrain: patches of regular points, finer where straight lines between them would be off."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.worlds.terrain import Terrain
+
+Float = NDArray[np.float64]
+CELLS = 16
+"""Along each side of a patch."""
+COARSEST = 4.0
+"""m: distance of the points where the ground is smooth."""
+FINEST = 1.0 / 64.0
+TOLERANCE = 4e-3
+"""m: the lines between points are as near to the terrain, at the places that are looked at."""
+BOUND = 5e-3
+"""m: what is promised of any place."""
+BATCH = 256
+
+
+@dataclass(frozen=True)
+class DrawnPatch:
+    """A rectangle of 17 x 17 points.
+
+    Parameters
+    ----------
+    x, y : float
+        First point, m.
+    dx, dy : float
+        Distances of the points, m.
+    heights : ndarray, shape (17, 17)
+        m.
+    """
+
+    x: float
+    y: float
+    dx: float
+    dy: float
+    heights: Float
+
+
+def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> list[DrawnPatch]:
+    """Patches that cover a world, those of finer points on the edges of their coarser neighbours.
+
+    Parameters
+    ----------
+    terrain : Terrain
+    tell : callable
+        Called with the part that is done, 0 to 1.
+    """
+    x0, y0, x1, y1 = terrain.world.bounds
+    nx, ny = (max(1, round(side / (CELLS * COARSEST))) for side in (x1 - x0, y1 - y0))
+    sx, sy = (x1 - x0) / nx, (y1 - y0) / ny
+    waiting = [(x0 + i * sx, y0 + j * sy, sx, sy) for i in range(nx) for j in range(ny)]
+    whole, done = (x1 - x0) * (y1 - y0), 0.0
+    found: list[DrawnPatch] = []
+    while waiting:
+        batch, waiting = waiting[-BATCH:], waiting[:-BATCH]
+        fine = _sampled(terrain, np.array(batch))
+        for (x, y, a, b), z in zip(batch, fine, strict=True):
+            cut = _cut(terrain, (x, y, a, b), z)
+            if cut == "x":
+                waiting += [(x, y, 0.5 * a, b), (x + 0.5 * a, y, 0.5 * a, b)]
+            elif cut == "y":
+                waiting += [(x, y, a, 0.5 * b), (x, y + 0.5 * b, a, 0.5 * b)]
+            else:
+                found.append(DrawnPatch(x, y, a / CELLS, b / CELLS, z[::2, ::2].copy()))
+                done += a * b
+        tell(done / whole)
+    found.sort(key=lambda patch: (patch.x, patch.y))
+    _close(found)
+    return found
+
+
+def _sampled(terrain: Terrain, rectangles: Float) -> Float:
+    """Heights at the points of patches and in the middle between them, shape (n, 33, 33)."""
+    t = np.arange(2 * CELLS + 1) / (2 * CELLS)
+    x = (rectangles[:, 0, None] + rectangles[:, 2, None] * t)[:, :, None] + 0.0 * t
+    y = (rectangles[:, 1, None] + rectangles[:, 3, None] * t)[:, None, :] + 0.0 * t[:, None]
+    return terrain.at(x, y)
+
+
+def _cut(terrain: Terrain, rectangle: tuple[float, float, float, float], z: Float) -> str:
+    """The side that is cut in two, "x" or "y"; "" where the patch is good."""
+    _, _, a, b = rectangle
+    dx, dy = a / CELLS, b / CELLS
+    if (cut := _detail(terrain, rectangle, dx, dy)) != "":
+        return cut
+    along_x = np.abs(z[1::2, :] - 0.5 * (z[:-1:2, :] + z[2::2, :])).max() if dx > FINEST else 0.0
+    along_y = np.abs(z[:, 1::2] - 0.5 * (z[:, :-1:2] + z[:, 2::2])).max() if dy > FINEST else 0.0
+    middle = z[1::2, 1::2]
+    one = 0.5 * (z[:-1:2, :-1:2] + z[2::2, 2::2])
+    other = 0.5 * (z[:-1:2, 2::2] + z[2::2, :-1:2])
+    across = np.maximum(np.abs(middle - one), np.abs(middle - other)).max() if max(dx, dy) > FINEST else 0.0
+    if max(along_x, along_y, across) <= TOLERANCE:
+        return ""
+    if max(along_x, along_y) > TOLERANCE:
+        return "x" if along_x >= along_y else "y"
+    return "x" if dx >= dy else "y"
+
+
+def _detail(terrain: Terrain, rectangle: tuple[float, float, float, float], dx: float, dy: float) -> str:
+    """Patches on obstacles are cut until their points cannot miss them."""
+    x, y, a, b = rectangle
+    for base, part in terrain.obstacles:
+        x0, y0, x1, y1 = base.box()
+        if x >= x1 or y >= y1 or x + a <= x0 or y + b <= y0:
+            continue
+        along = {"kerb": "face", "washboard": "wavelength"}.get(part.kind)
+        least = getattr(part, along) / 4.0 if along else part.roundings[1] / 2.0  # type: ignore[union-attr]
+        inside = x >= x0 and y >= y0 and x + a <= x1 and y + b <= y1
+        if part.kind == "kerb" and inside and _level(base, part.face, part.flank, rectangle):
+            continue
+        turned = abs(np.sin(base.yaw)) > 1e-9, abs(np.cos(base.yaw)) > 1e-9
+        limit = [least if along_x else part.flank / 2.0 for along_x in (turned[1], turned[0])]
+        if dx > limit[0] or dy > limit[1]:
+            return "x" if dx / limit[0] >= dy / limit[1] else "y"
+    return ""
+
+
+def _level(base: object, face: float, flank: float, rectangle: tuple[float, float, float, float]) -> bool:
+    """Whether a patch lies on the top of a kerb."""
+    x, y, a, b = rectangle
+    u, v = base.local(np.array([x, x + a, x, x + a]), np.array([y, y, y + b, y + b]))  # type: ignore[attr-defined]
+    inside_u = (u >= face) & (u <= base.length - face)  # type: ignore[attr-defined]
+    inside_v = (v >= base.right + flank) & (v <= base.left - flank)  # type: ignore[attr-defined]
+    return bool((inside_u & inside_v).all())
+
+
+def _close(patches: list[DrawnPatch]) -> None:
+    """Put the points of an edge onto the edge of the coarser neighbour, from coarse to fine."""
+    edges: dict[tuple[str, float], list[tuple[float, float, float, int, bool]]] = {}
+    for k, p in enumerate(patches):
+        for last in (False, True):
+            at_x, at_y = p.x + (CELLS * p.dx if last else 0.0), p.y + (CELLS * p.dy if last else 0.0)
+            edges.setdefault(("x", _key(at_x)), []).append((p.dy, p.y, p.y + CELLS * p.dy, k, last))
+            edges.setdefault(("y", _key(at_y)), []).append((p.dx, p.x, p.x + CELLS * p.dx, k, last))
+    for _ in range(4):
+        moved = 0.0
+        for (side, _at), parts in edges.items():
+            parts.sort(key=lambda part: -part[0])
+            for n, (step, low, high, k, last) in enumerate(parts):
+                mine = _edge(patches[k].heights, side, last)
+                t = low + step * np.arange(CELLS + 1)
+                for coarse, low2, high2, other, last2 in parts[:n]:
+                    if coarse <= step * 1.0001 or high2 <= low + 1e-9 or low2 >= high - 1e-9:
+                        continue
+                    on = (t >= low2 - 1e-9) & (t <= high2 + 1e-9)
+                    theirs = _edge(patches[other].heights, side, last2)
+                    value = np.interp(t[on], low2 + coarse * np.arange(CELLS + 1), theirs)
+                    moved = max(moved, float(np.abs(mine[on] - value).max()))
+                    mine[on] = value
+        if moved < 1e-7:
+            return
+
+
+def _key(value: float) -> float:
+    return round(value * 1024.0) / 1024.0
+
+
+def _edge(heights: Float, side: str, last: bool) -> Float:
+    """A view of the points of one edge."""
+    k = -1 if last else 0
+    return heights[k, :] if side == "x" else heights[:, k]

@@ -1,0 +1,98 @@
+"""The road file of a world: its heights and frictions at regular points, row of tiles by row of tiles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.files import whole_file
+from mbs.kernel.header import ROAD_TILE
+from mbs.roads.road_header import RoadFileError, check_grid
+from mbs.roads.shared_tiles import TILE_PLACES, TOLERANCE, SharedWriter, simplest
+from mbs.worlds.profiles import spaced
+from mbs.worlds.terrain import Terrain
+
+Float = NDArray[np.float64]
+Classes = NDArray[np.uint8]
+MOST_POINTS = 1.2e9
+SOME = np.array([*range(0, ROAD_TILE - 1, 3), ROAD_TILE - 1])
+"""Points along the side of a tile that say whether it is smooth."""
+
+
+def write_world_road(terrain: Terrain, file: Path, tell: Callable[[float], None] = lambda part: None) -> None:
+    """Write the road file of a world.
+
+    Parameters
+    ----------
+    terrain : Terrain
+    file : Path
+        To write.
+    tell : callable
+        Called with the part that is done, 0 to 1.
+
+    Raises
+    ------
+    RoadFileError
+        The world has too many points.
+    """
+    x0, y0, x1, y1 = terrain.world.bounds
+    dx, dy = terrain.world.spacing
+    shape = math.ceil((x1 - x0) / dx - 1e-9) + 1, math.ceil((y1 - y0) / dy - 1e-9) + 1
+    if shape[0] * shape[1] > MOST_POINTS:
+        raise RoadFileError(
+            f"The world has {shape[0]} x {shape[1]} points, more than {MOST_POINTS:g}; make its bounds smaller or its "
+            "spacing larger."
+        )
+    uniform = float(terrain.frictions[0]) if len(terrain.names) == 1 else None
+    with whole_file(file) as made, made.open("wb") as out:
+        writer = SharedWriter(out, shape, (x0, y0), (dx, dy), uniform, file, TOLERANCE)
+        rows, columns = writer.head.tiles
+        y = spaced(y0, dy, columns * ROAD_TILE)
+        for i in range(rows):
+            for heights, surfaces in _tiles(terrain, spaced(x0 + i * ROAD_TILE * dx, dx, ROAD_TILE), y):
+                writer.tile(heights, None if uniform is not None else terrain.frictions[surfaces])
+            tell((i + 1) / rows)
+        writer.finish()
+
+
+def _tiles(terrain: Terrain, x: Float, y: Float) -> Iterator[tuple[Float, Classes]]:
+    """Heights, or their coefficients, and surfaces of the tiles of a row: smooth ones from a part of their points."""
+    count = len(y) // ROAD_TILE
+    some = (ROAD_TILE * np.arange(count)[:, None] + SOME).ravel()
+    z, surfaces, same = terrain.on_grid(x[SOME], y[some])
+    check_grid(z, None, "the world")
+    blocks = [_blocks(values, count) for values in (z, surfaces, same)]
+    forms = simplest(blocks[0], TILE_PLACES[SOME], 0.5 * TOLERANCE)
+    step = 0.75 * math.hypot(x[1] - x[0], y[1] - y[0]) * (SOME[1] - SOME[0])
+    level = (blocks[1] == blocks[1][:, :1, :1]).all(axis=(1, 2)) & (blocks[2].min(axis=(1, 2)) > step)
+    whole = (
+        np.array([form is None for form in forms])
+        | ~level
+        | terrain.has_borders(x, y[::ROAD_TILE], y[ROAD_TILE - 1 :: ROAD_TILE])
+    )
+    numbers = np.flatnonzero(whole)
+    found: dict[int, tuple[Float, Classes]] = {}
+    if len(numbers):
+        z, surfaces, _ = terrain.on_grid(x, (y.reshape(count, ROAD_TILE)[numbers]).ravel())
+        check_grid(z, None, "the world")
+        fine, kinds = _blocks(z, len(numbers)), _blocks(surfaces, len(numbers))
+        close = simplest(fine, TILE_PLACES, TOLERANCE)
+        for k, number in enumerate(numbers.tolist()):
+            form = close[k]
+            found[number] = np.ascontiguousarray(fine[k]) if form is None else form, np.ascontiguousarray(kinds[k])
+    for k, form in enumerate(forms):
+        if k in found:
+            yield found[k]
+        elif form is not None:
+            yield form, blocks[1][k, :1, :1]
+
+
+def _blocks(values: NDArray[Any], count: int) -> NDArray[Any]:
+    """Tiles of a row, shape (count, n, n)."""
+    n = len(values)
+    return np.asarray(values.reshape(n, count, n).transpose(1, 0, 2))

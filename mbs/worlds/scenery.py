@@ -1,0 +1,247 @@
+"""Scenery of a world: what its description names, put onto the ground."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.roads.road_header import RoadFileError
+from mbs.worlds.layers import CourseLayer
+from mbs.worlds.terrain import Terrain
+from mbs.worlds.world_types import Cones, Line
+
+Float = NDArray[np.float64]
+SAMPLE = 0.25
+"""m: along a line its heights are looked at so often."""
+OFF = 4e-3
+"""m: points of a line are left out where a straight line is as near to it."""
+EDGE = 0.25
+"""m: of an edge line from the edge of the road to its middle."""
+
+
+def scenery_of(terrain: Terrain) -> list[dict[str, Any]]:
+    """Entries of the list `scenery` of a scene."""
+    world = terrain.world
+    courses = [layer for layer in terrain.layers if isinstance(layer, CourseLayer)]
+    found: list[dict[str, Any]] = []
+    for layer in courses:
+        found += _course_lines(terrain, layer)
+        found += _posts(terrain, layer)
+    for line in world.lines:
+        found += _painted(terrain, line)
+    for cones in world.cones:
+        places = np.array(cone_places(cones), float)
+        found += [
+            {"kind": "cone", "at": at, "height": cones.height, "colour": cones.colour}
+            for at in _on_ground(terrain, places)
+        ]
+    for kind, parts in (("sign", world.signs), ("arrow", world.arrows), ("building", world.buildings)):
+        for part in parts:
+            (at,) = _on_ground(terrain, np.array([part.at[:2]]))
+            rest = part.model_dump(exclude={"at"})
+            found.append({"kind": kind, "at": at, "yaw": math.radians(part.at[2])} | rest)
+    for barrier in world.barriers:
+        found.append({"kind": "barrier", "points": _barrier(terrain, barrier, courses), "height": barrier.height})
+    return [*found, *_trees(terrain)]
+
+
+def cone_places(cones: Cones) -> list[tuple[float, float]]:
+    """x and y of cones, m.
+
+    Raises
+    ------
+    RoadFileError
+        It is not said where they stand.
+    """
+    given = [cones.at is not None, cones.lane_change is not None, cones.slalom is not None]
+    if sum(given) != 1 or (cones.at is None and cones.start is None):
+        raise RoadFileError("Cones must have `at`, or `start` and one of `lane_change` and `slalom`.")
+    if cones.at is not None:
+        return list(cones.at)
+    assert cones.start is not None
+    if cones.slalom is not None:
+        local = [(cones.distance * k, 0.0) for k in range(cones.slalom)]
+    else:
+        local = lane_change_cones(cones.lane_change or "", cones.vehicle_width)
+    x, y, yaw = cones.start
+    c, s = math.cos(math.radians(yaw)), math.sin(math.radians(yaw))
+    return [(x + c * u - s * v, y + s * u + c * v) for u, v in local]
+
+
+def lane_change_cones(standard: str, width: float) -> list[tuple[float, float]]:
+    """Cones of a lane change: u ahead from its beginning, v to the left from the middle of its first lane.
+
+    ISO 3888-1: sections of 15, 30, 25, 25, 15 and 15 m; lanes 1.1, 1.2 and 1.3 times as wide as the vehicle and 0.25 m
+    more; the second one 3.5 m to the left, taken from middle to middle. ISO 3888-2: sections of 12, 13.5, 11, 12.5 and
+    12 m; lanes of 1.1 widths and 0.25 m, of the width and 1 m, and of 1.3 widths and 0.25 m, at least 3 m; the second
+    one begins 1 m to the left of the first one; the left sides of the first and the last one are taken in one line.
+
+    Parameters
+    ----------
+    standard : str
+        "ISO 3888-1" or "ISO 3888-2".
+    width : float
+        Of the vehicle without mirrors, m.
+    """
+    first = 0.5 * (1.1 * width + 0.25)
+    if standard == "ISO 3888-1":
+        second, third = 0.5 * (1.2 * width + 0.25), 0.5 * (1.3 * width + 0.25)
+        lanes = [(0.0, 15.0, -first, first), (45.0, 70.0, 3.5 - second, 3.5 + second), (95.0, 125.0, -third, third)]
+    else:
+        last = max(1.3 * width + 0.25, 3.0)
+        lanes = [
+            (0.0, 12.0, -first, first),
+            (25.5, 36.5, first + 1.0, first + 2.0 + width),
+            (49.0, 61.0, first - last, first),
+        ]
+    return [(u, v) for a, b, right, left in lanes for u in np.linspace(a, b, _count(b - a)) for v in (right, left)]
+
+
+def _count(length: float) -> int:
+    """Cones along a lane: at its ends and about every 5 m."""
+    return max(2, round(length / 5.0) + 1)
+
+
+def _on_ground(terrain: Terrain, places: Float) -> list[list[float]]:
+    z = terrain.at(places[:, 0], places[:, 1])
+    return [[round(float(v), 4) for v in (*place, height)] for place, height in zip(places, z, strict=True)]
+
+
+def draped(terrain: Terrain, x: Float, y: Float) -> list[list[float]]:
+    """A line on the ground through dense places: points between which straight lines are near enough."""
+    points = np.stack([x, y, terrain.at(x, y)], axis=1)
+    kept = _thinned(points)
+    return [[round(float(v), 4) for v in point] for point in points[kept]]
+
+
+def _thinned(points: Float) -> list[int]:
+    """Indices of the points that a line needs (Ramer, Douglas and Peucker), without recursion."""
+    keep = {0, len(points) - 1}
+    waiting = [(0, len(points) - 1)]
+    while waiting:
+        a, b = waiting.pop()
+        if b - a < 2:
+            continue
+        way = points[b] - points[a]
+        size = float(way @ way)
+        inner = points[a + 1 : b] - points[a]
+        share = np.clip(inner @ way / size, 0.0, 1.0) if size > 0.0 else np.zeros(len(inner))
+        off = np.linalg.norm(inner - share[:, None] * way, axis=1)
+        k = int(np.argmax(off))
+        if off[k] > OFF:
+            keep.add(a + 1 + k)
+            waiting += [(a, a + 1 + k), (a + 1 + k, b)]
+    return sorted(keep)
+
+
+def _dense(points: Sequence[tuple[float, float]]) -> tuple[Float, Float]:
+    """Places along a polyline."""
+    at = np.array(points, float)
+    s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(at, axis=0).T))])
+    fine = np.unique(np.concatenate([np.arange(0.0, s[-1], SAMPLE), s]))
+    return np.interp(fine, s, at[:, 0]), np.interp(fine, s, at[:, 1])
+
+
+def _beside(layer: CourseLayer, s: Float, offset: Float) -> tuple[Float, Float]:
+    p, first, _ = layer.line.at(s)
+    size = np.hypot(first[0], first[1])
+    return p[0] - offset * first[1] / size, p[1] + offset * first[0] / size
+
+
+def _stretches(terrain: Terrain, layer: CourseLayer, s: Float, offset: Float) -> Iterator[tuple[Float, Float]]:
+    """Parts of a line beside a course that do not lie on later layers."""
+    x, y = _beside(layer, s, offset)
+    free = np.ones(len(x), bool)
+    for other in terrain.layers:
+        if other is not layer:
+            excess, station = other.near(x, y)
+            close = np.flatnonzero(excess < 3.0)
+            if len(close):
+                free[close] &= other.at(x[close], y[close], station[close]).excess > 0.1
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], free.astype(int), [0]])))
+    for a, b in zip(edges[::2], edges[1::2], strict=True):
+        if b - a > 4:
+            yield x[a:b], y[a:b]
+
+
+def _course_lines(terrain: Terrain, layer: CourseLayer) -> Iterator[dict[str, Any]]:
+    s = np.linspace(0.0, layer.line.length, max(2, math.ceil(layer.line.length / SAMPLE)))
+    half = layer.half(s) - EDGE
+    if layer.course.edge_lines:
+        for side in (-1.0, 1.0):
+            for x, y in _stretches(terrain, layer, s, side * half):
+                yield {"kind": "line", "points": draped(terrain, x, y), "width": 0.15}
+    if layer.course.centre_line:
+        for x, y in _stretches(terrain, layer, s, 0.0 * half):
+            yield {"kind": "line", "points": draped(terrain, x, y), "width": 0.15, "dash": [4.0, 8.0]}
+
+
+def _posts(terrain: Terrain, layer: CourseLayer) -> Iterator[dict[str, Any]]:
+    if layer.course.posts > 0.0:
+        s = np.arange(0.0, layer.line.length, layer.course.posts)
+        for side in (-1.0, 1.0):
+            x, y = _beside(layer, s, side * (layer.half(s) + 1.0))
+            kept = terrain.nearest_layer(x, y) > -0.5
+            for at in _on_ground(terrain, np.stack([x, y], axis=1)[kept]):
+                yield {"kind": "post", "at": at, "height": 1.0}
+
+
+def _painted(terrain: Terrain, line: Line) -> Iterator[dict[str, Any]]:
+    if (line.points is None) == (line.centre is None or line.radius is None):
+        raise RoadFileError("A line must have points, or a centre and a radius.")
+    for k in range(line.repeat):
+        dx, dy = k * line.step[0], k * line.step[1]
+        if line.points is not None:
+            x, y = _dense(line.points)
+        else:
+            assert line.centre is not None
+            assert line.radius is not None
+            angle = np.linspace(0.0, 2.0 * np.pi, max(32, math.ceil(2.0 * np.pi * line.radius / SAMPLE)))
+            x, y = line.centre[0] + line.radius * np.cos(angle), line.centre[1] + line.radius * np.sin(angle)
+        entry: dict[str, Any] = {"kind": "line", "points": draped(terrain, x + dx, y + dy), "width": line.width}
+        if line.colour != "white":
+            entry["colour"] = line.colour
+        yield entry | ({"dash": list(line.dash)} if line.dash is not None else {})
+
+
+def _barrier(terrain: Terrain, barrier: Any, courses: Sequence[CourseLayer]) -> list[list[float]]:
+    if (barrier.points is None) == (barrier.course is None):
+        raise RoadFileError("A barrier must have points or a course.")
+    if barrier.points is not None:
+        x, y = _dense(barrier.points)
+        return draped(terrain, x, y)
+    layer = next((layer for layer in courses if layer.name == barrier.course), None)
+    if layer is None:
+        names = ", ".join(f"'{layer.name}'" for layer in courses) or "none"
+        raise RoadFileError(f"A barrier stands beside the course '{barrier.course}'; there are {names}.")
+    if not 0.0 <= barrier.begin < barrier.end <= layer.line.length:
+        raise RoadFileError(
+            f"A barrier goes from station {barrier.begin:g} to {barrier.end:g} m of the course '{barrier.course}'; it "
+            f"is {layer.line.length:.4g} m long."
+        )
+    s = np.arange(barrier.begin, barrier.end, SAMPLE)
+    x, y = _beside(layer, s, (1.0 if barrier.side == "left" else -1.0) * (layer.half(s) + barrier.offset))
+    return draped(terrain, x, y)
+
+
+def _trees(terrain: Terrain) -> Iterator[dict[str, Any]]:
+    trees = terrain.world.trees
+    if trees is None:
+        return
+    random = np.random.default_rng(trees.seed)
+    x0, y0, x1, y1 = terrain.world.bounds
+    n = 40 * trees.count
+    x, y = x0 + (x1 - x0) * random.random(n), y0 + (y1 - y0) * random.random(n)
+    low, high = trees.heights
+    height, seed = low + (high - low) * random.random(n), random.integers(0, 2**16, n)
+    free = terrain.nearest_layer(x, y) > trees.distance
+    for building in terrain.world.buildings:
+        free &= np.hypot(x - building.at[0], y - building.at[1]) > 0.7 * max(building.size[:2]) + 5.0
+    kept = np.flatnonzero(free)[: trees.count]
+    places = _on_ground(terrain, np.stack([x, y], axis=1)[kept])
+    for at, h, k in zip(places, height[kept], seed[kept], strict=True):
+        yield {"kind": "tree", "at": at, "height": round(float(h), 2), "seed": int(k)}

@@ -1,0 +1,195 @@
+"""Heights and surfaces of a world at any place, for the road file and for what is drawn alike."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.roads.road_header import RoadFileError
+from mbs.worlds.course_file import course_layer
+from mbs.worlds.ground import Surface, ground_of
+from mbs.worlds.layers import FAR, AreaLayer, Layer, weight
+from mbs.worlds.obstacles import Footprint, added, footprint
+from mbs.worlds.profiles import soft_rise, spaced
+from mbs.worlds.world_types import FRICTIONS, Area, WorldDescription
+
+Float = NDArray[np.float64]
+MOST_NODES = 1_500_000
+"""Of the lattice on which the ground with what is carved into it is kept."""
+STEEPEST = 3.0
+"""Slope of what is carved into the ground, times its weight, that only a step has."""
+EDGE = 1.0
+"""m: beside a layer and its shoulder, where its own heights go over into those of the lattice."""
+
+
+class Terrain:
+    """A world's ground with all that is laid on it.
+
+    Heights on courses, areas and their shoulders are computed at each place; elsewhere they are those of a C2 spline
+    through the points of a lattice of about 1 m, where they are computed.
+
+    Parameters
+    ----------
+    world : WorldDescription
+    folder : Path
+        Of the files it names.
+    """
+
+    def __init__(self, world: WorldDescription, folder: Path) -> None:
+        self.world = world
+        self.ground, map_step = ground_of(world, folder)
+        self.layers: list[Layer] = []
+        for course in world.courses:
+            self.layers.append(course_layer(course, folder, world.bounds, self.ground.at))
+        self.layers += [AreaLayer(_checked(area)) for area in world.areas]
+        names = [world.ground.surface, *(layer.surface for layer in self.layers)]
+        names += [part.surface for part in (*world.bands, *world.obstacles)]
+        self.names = list(dict.fromkeys(names))
+        given = {str(name): value for name, value in world.frictions.items()}
+        self.frictions = np.array([given.get(name, FRICTIONS[name]) for name in self.names])
+        self.obstacles = [(footprint(part), part) for part in world.obstacles]
+        self.bands = [(footprint(part), part) for part in world.bands]
+        self._lattice(map_step)
+
+    def _lattice(self, map_step: float) -> None:
+        x0, y0, x1, y1 = self.world.bounds
+        step = max(min(1.0, map_step), math.sqrt((x1 - x0) * (y1 - y0) / MOST_NODES))
+        self.step = step
+        self.x = spaced(x0 - 4.0 * step, step, math.ceil((x1 - x0) / step) + 9)
+        self.y = spaced(y0 - 4.0 * step, step, math.ceil((y1 - y0) / step) + 9)
+        z = self.ground.on_grid(
+            np.clip(self.x, self.ground.x[0], self.ground.x[-1]), np.clip(self.y, self.ground.y[0], self.ground.y[-1])
+        )
+        x, y = np.meshgrid(self.x, self.y, indexing="ij")
+        self.excess = np.full((len(self.layers), *z.shape), FAR, np.float32)
+        self.station = np.zeros((len(self.layers), *z.shape), np.float32)
+        self.nearest = np.full(z.shape, FAR, np.float32)
+        for k, layer in enumerate(self.layers):
+            excess, station = layer.near(x, y)
+            self.excess[k], self.station[k] = excess, station
+            self.nearest = np.minimum(self.nearest, self.excess[k] - np.float32(layer.shoulder))
+            part = excess < layer.shoulder + layer.blend + step
+            found = layer.at(x[part], y[part], station[part])
+            share = weight(layer, found.excess)
+            z[part] += share * (found.height - z[part])
+            self._steps(layer, part, share, found.height)
+        self.carved = Surface(self.x, self.y, z)
+
+    def _steps(self, layer: Layer, part: NDArray[np.bool_], share: Float, height: Float) -> None:
+        """Refuse a course that comes so near to itself that one part of it cuts into the other."""
+        level, shares = np.zeros(part.shape), np.zeros(part.shape)
+        level[part], shares[part] = height, share
+        for axis in (0, 1):
+            rise = np.abs(np.diff(level, axis=axis))
+            both = np.minimum(*(np.delete(shares, k, axis=axis) for k in (0, -1)))
+            step = rise * both
+            if step.size and step.max() > STEEPEST * self.step:
+                i, j = np.unravel_index(int(np.argmax(step)), step.shape)
+                other = (i + 1, j) if axis == 0 else (i, j + 1)
+                raise RoadFileError(
+                    f"The course '{layer.name}' comes so near to itself at x = {self.x[i]:.5g}, y = {self.y[j]:.5g} m "
+                    f"that its heights there, {level[i, j]:.3g} and {level[other]:.3g} m, leave a step; make its blend "
+                    "smaller or move it."
+                )
+
+    def _node(self, values: Float, first: Float) -> NDArray[np.int64]:
+        """Nearest point of the lattice along an axis."""
+        return np.asarray(np.clip(np.rint((values - first[0]) / self.step), 0.0, len(first) - 1.0), np.int64)
+
+    def on_grid(self, x: Float, y: Float) -> tuple[Float, NDArray[np.uint8], Float]:
+        """Heights, surfaces as places in `names`, and how far they go on, at all pairs of rising coordinates.
+
+        Parameters
+        ----------
+        x, y : ndarray, shapes (n,) and (m,)
+            m.
+
+        Returns
+        -------
+        heights : ndarray, shape (n, m)
+            m.
+        surfaces : ndarray, shape (n, m)
+        same : ndarray, shape (n, m)
+            At least as far from each place the surface is the same, as far as courses and areas make it, m.
+        """
+        z = self.carved.on_grid(x, y)
+        surfaces, same = np.zeros(z.shape, np.uint8), np.full(z.shape, EDGE)
+        i, j = self._node(x, self.x), self._node(y, self.y)
+        rows, columns = np.nonzero(self.nearest[np.ix_(i, j)] < EDGE + self.step)
+        if len(rows):
+            part = (rows, columns)
+            z[part], surfaces[part], same[part] = self._laid(x[rows], y[columns], i[rows], j[columns], z[part])
+        for base, band in self.bands:
+            if (block := _block(base, x, y)) is not None:
+                inside = base.inside(x[block[0], None], y[None, block[1]])
+                surfaces[block][inside] = self.names.index(band.surface)
+        for base, part_ in self.obstacles:
+            if (block := _block(base, x, y)) is not None:
+                px, py = x[block[0], None], y[None, block[1]]
+                z[block] += added(part_, px, py)
+                surfaces[block][base.inside(px, py)] = self.names.index(part_.surface)
+        return z, surfaces, same
+
+    def at(self, x: Float, y: Float) -> Float:
+        """Heights at places, arrays of one shape, m."""
+        shape, x, y = np.shape(x), np.ravel(x), np.ravel(y)
+        z = self.carved.at(x, y)
+        i, j = self._node(x, self.x), self._node(y, self.y)
+        part = np.flatnonzero(self.nearest[i, j] < EDGE + self.step)
+        if len(part):
+            z[part] = self._laid(x[part], y[part], i[part], j[part], z[part])[0]
+        for base, obstacle in self.obstacles:
+            inside = np.flatnonzero(base.inside(x, y))
+            if len(inside):
+                z[inside] += added(obstacle, x[inside], y[inside])
+        return np.asarray(z.reshape(shape))
+
+    def has_borders(self, x: Float, first: Float, last: Float) -> NDArray[np.bool_]:
+        """Whether rectangles meet an obstacle or the border of a band: from x[0] to x[-1], from first to last in y."""
+        found = np.zeros(len(first), bool)
+        for base, _ in (*self.bands, *self.obstacles):
+            x0, y0, x1, y1 = base.box()
+            if x[-1] < x0 or x[0] > x1:
+                continue
+            found |= (last >= y0) & (first <= y1)
+        return found
+
+    def nearest_layer(self, x: Float, y: Float) -> Float:
+        """About how far places are from the nearest course or area and its shoulder, m; beyond its reach 1e6."""
+        return self.nearest[self._node(x, self.x), self._node(y, self.y)].astype(float)
+
+    def _laid(
+        self, x: Float, y: Float, i: NDArray[np.int64], j: NDArray[np.int64], carved: Float
+    ) -> tuple[Float, NDArray[np.uint8], Float]:
+        """As `on_grid`, near layers, at places to which lattice points (i, j) are nearest."""
+        z = self.ground.at(x, y)
+        surfaces = np.zeros(len(x), np.uint8)
+        nearest, same = np.full(len(x), FAR), np.full(len(x), FAR)
+        for k, layer in enumerate(self.layers):
+            part = np.flatnonzero(self.excess[k][i, j] < layer.shoulder + layer.blend + self.step)
+            if len(part) == 0:
+                continue
+            guess = self.station[k][i[part], j[part]].astype(float)
+            found = layer.at(x[part], y[part], guess)
+            z[part] += weight(layer, found.excess) * (found.height - z[part])
+            surfaces[part[found.excess <= 0.0]] = self.names.index(layer.surface)
+            same[part] = np.minimum(same[part], np.abs(found.excess))
+            nearest[part] = np.minimum(nearest[part], found.excess - layer.shoulder)
+        return carved + (1.0 - soft_rise(nearest / EDGE)) * (z - carved), surfaces, same
+
+
+def _block(base: Footprint, x: Float, y: Float) -> tuple[slice, slice] | None:
+    """What a footprint reaches of a grid."""
+    x0, y0, x1, y1 = base.box()
+    rows = slice(int(np.searchsorted(x, x0)), int(np.searchsorted(x, x1, "right")))
+    columns = slice(int(np.searchsorted(y, y0)), int(np.searchsorted(y, y1, "right")))
+    return None if rows.start >= rows.stop or columns.start >= columns.stop else (rows, columns)
+
+
+def _checked(area: Area) -> Area:
+    if (area.radius is None) == (area.size is None):
+        raise RoadFileError(f"The area '{area.name}' must have a radius or a size.")
+    return area

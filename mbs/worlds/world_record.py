@@ -1,0 +1,98 @@
+"""The JSON file of a world: what is drawn of it and where a car may start."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from mbs.worlds.patches import BOUND, DrawnPatch, patches_of
+from mbs.worlds.profiles import spaced
+from mbs.worlds.scenery import scenery_of
+from mbs.worlds.terrain import Terrain
+from viewer.base64_numbers import encoded, encoded_octets
+
+FORMAT, VERSION = "ALi3 world", 1
+MOST_CELLS = 1_500_000
+"""Of the map of surfaces."""
+FINEST_CELL = 0.25
+
+
+def world_record(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> dict[str, Any]:
+    """What the JSON file of a world says.
+
+    Parameters
+    ----------
+    terrain : Terrain
+    tell : callable
+        Called with the part that is done, 0 to 1.
+    """
+    world = terrain.world
+    patches = patches_of(terrain, lambda part: tell(0.9 * part))
+    road = {
+        "kind": "terrain",
+        "patches": [_patch(patch) for patch in patches],
+        "surface": _surface(terrain),
+        "note": f"Drawn within {1e3 * BOUND:g} mm of what the wheels feel; scenery is only seen.",
+    }
+    return record_of(
+        world.name,
+        world.bounds,
+        [place.model_dump(exclude={"at"}) | _pose(place.at) for place in world.places],
+        [road],
+        scenery_of(terrain),
+        world.description,
+    )
+
+
+def record_of(
+    name: str,
+    bounds: tuple[float, float, float, float],
+    places: list[dict[str, Any]],
+    roads: list[dict[str, Any]],
+    scenery: list[dict[str, Any]],
+    description: str = "",
+) -> dict[str, Any]:
+    """The JSON file of any world."""
+    start = {"name": "start", "text": "the origin", "x": 0.0, "y": 0.0, "yaw": 0.0}
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "name": name,
+        "description": description,
+        "road": f"{name}.road",
+        "bounds": list(bounds),
+        "places": places or [start],
+        "roads": roads,
+        "scenery": scenery,
+    }
+
+
+def _pose(at: tuple[float, float, float]) -> dict[str, float]:
+    return {"x": at[0], "y": at[1], "yaw": math.radians(at[2])}
+
+
+def _patch(patch: DrawnPatch) -> dict[str, Any]:
+    return {
+        "origin": [patch.x, patch.y],
+        "spacing": [patch.dx, patch.dy],
+        "shape": list(patch.heights.shape),
+        "heights": encoded(patch.heights),
+    }
+
+
+def _surface(terrain: Terrain) -> dict[str, Any]:
+    x0, y0, x1, y1 = terrain.world.bounds
+    step = max(FINEST_CELL, math.sqrt((x1 - x0) * (y1 - y0) / MOST_CELLS))
+    n = [max(2, math.ceil(side / step)) for side in (x1 - x0, y1 - y0)]
+    cell = [(x1 - x0) / n[0], (y1 - y0) / n[1]]
+    x, y = spaced(x0 + 0.5 * cell[0], cell[0], n[0]), spaced(y0 + 0.5 * cell[1], cell[1], n[1])
+    _, classes, _ = terrain.on_grid(x, y)
+    return {
+        "origin": [float(x[0]), float(y[0])],
+        "spacing": cell,
+        "shape": n,
+        "classes": encoded_octets(classes),
+        "names": list(terrain.names),
+        "frictions": [float(value) for value in terrain.frictions],
+    }
