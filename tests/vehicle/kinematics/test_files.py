@@ -46,7 +46,7 @@ def test_two_readers_find_the_same_numbers(made, found):
     assert len(found.curves) == 7
     for (axle, motion), curve in found.curves.items():
         file = folder / f"{axle}_{motion}.csv"
-        mine, theirs = read_curve(file), pandas.read_csv(file)
+        mine, theirs = read_curve(file), pandas.read_csv(file, float_precision="round_trip")
         assert (mine.axle, mine.motion) == (axle, motion)
         assert list(theirs.columns) == [f"{name} [{quantity_of(name).unit}]" for name in curve.columns]
         for name, values in curve.columns.items():
