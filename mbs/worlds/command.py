@@ -13,9 +13,8 @@ from typing import Any
 from ali3.errors import UserError
 from ali3.running import run_command
 
-_HERE = Path(__file__).parent
-WORLDS = _HERE / "worlds"
-ROADS = _HERE / "files"
+WORLDS = Path(__file__).parent
+ROADS = Path(__file__).parents[1] / "roads" / "files"
 _EPILOG = """\
 DIR gets NAME.road, what wheels feel (road.file of an FMU), NAME.json, what is drawn and where a car may start, and
 with --picture NAME.png, a map. A world is kept and copied when it is asked for again; ALI3_CACHE names the folder.

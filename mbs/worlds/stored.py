@@ -14,7 +14,7 @@ from typing import Any
 from ali3.cache import cache_folder
 from ali3.files import make_folder, whole_file
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 CODE = ("mbs/roads", "mbs/worlds", "mbs/kernel/header.py", "viewer/road_types.py", "viewer/base64_numbers.py")
 """What worlds are made by."""
 MOST_KEPT = 12
