@@ -79,7 +79,7 @@ def test_the_command_ends_with_one_for_what_is_not_ready(
 def test_all_of_the_release_is_checked_by_what_the_files_hold_today(tmp_path: Path, check_release: ModuleType) -> None:
     """The places that are read are where they are read: a tag of another version is refused by three of them."""
     for name in FILES:
-        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, tmp_path / name)
     version = check_release.version_of(tmp_path)
     assert version is not None

@@ -19,9 +19,9 @@ from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from fmu_src.description.documentation import documentation
 from fmu_src.variables.variables import Variable
-from hosts import page, view
 from hosts.catalogue.report import write_report
 from hosts.compare.command import main as compare
+from hosts.view import page, view
 from tests.hosts.catalogue import synthetic_records
 from tests.in_browser import wait_until
 from tests.viewer.hand_scenes import floats

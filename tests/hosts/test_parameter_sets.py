@@ -27,11 +27,12 @@ from fmu_src.build.build import FmuBuilder, build_fmu
 from fmu_src.build.car_registry import build_car
 from fmu_src.build.parameter_file import write_beside
 from fmu_src.build.scene_registry import load_scene
-from hosts import drive, parameters, run
 from hosts.common.errors import HostError
+from hosts.fmu import parameters
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import Settings
 from hosts.fmu.variables import Variables
+from hosts.run import drive, run
 
 HERE = Path(__file__).parent
 PLATFORM = fmpy.platform

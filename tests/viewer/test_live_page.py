@@ -17,9 +17,10 @@ import pytest
 import mbs
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities, load_scene
-from hosts import page, run
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.geometry import scene_of
+from hosts.run import run
+from hosts.view import page
 from mbs.scenes import prototype_car
 from tests.in_browser import wait_until
 from viewer.browser import BrowserError, find_chromium, launch_arguments
