@@ -18,6 +18,7 @@ import tempfile
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -82,7 +83,9 @@ class Attempts:
         return row
 
     def one(self, scratch: Scratch, mutant: Sampled) -> Row:
-        """Try a mutant."""
+        """Try a mutant, which is told with the file that has its line now."""
+        with suppress(ValueError):
+            mutant = replace(mutant, file=mutant.find(scratch.root)[0].relative_to(scratch.root).as_posix())
         while True:
             unsound = [test for test, sound in self._sound.items() if not sound]
             left_out = [f"--deselect={test}" for test in unsound]

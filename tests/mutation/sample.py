@@ -160,6 +160,7 @@ def draw(number: int, seed: int, root: Path = ROOT) -> list[Iterator[Sampled]]:
         first, ends = math.ceil(ends - start), ends + number * weight / total
         last = min(math.ceil(ends - start), number)
         drawn += [_stream(files, random.Random(f"{seed} {k}"), root, seen) for k in range(first, last)]
+    random.Random(seed).shuffle(drawn)  # what is known of a run that was stopped is a sample too
     return drawn
 
 

@@ -204,7 +204,7 @@ class Scratch:
             count = sum(note[0] == "at" for note in noted)
             why = f"{count} tests pass" if count else said[-1]
             return Verdict(SURVIVED if count or not batches else BROKEN, why, "", seconds)
-        why = next((line for line in said if line.startswith(("FAILED", "ERROR"))), said[-1])
+        why = next((line for line in said if line.startswith(("FAILED ", "ERROR "))), said[-1])
         return Verdict(KILLED if test else BROKEN, why, test, seconds)
 
     def attempt(self, mutant: Applied, batches: Sequence[Batch], limit: float = LIMIT, build: bool = True) -> Verdict:
