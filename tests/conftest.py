@@ -1,10 +1,18 @@
-"""What every test needs: the compiled kernel, commands as they are before the first, and Ctrl-C."""
+"""What every test needs: the compiled kernel, commands as before the first, and Ctrl-C; the order of the tests, and one
+line for those that need a browser.
+"""
 
 from __future__ import annotations
 
+import functools
+import os
 import signal
+from pathlib import Path
 
 import pytest
+
+# Before NumPy is loaded: beside other processes, threads of BLAS make small matrices several times as slow.
+os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 # Where a shell runs the tests in the background Ctrl-C is ignored; programs that the tests start would inherit that.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -22,7 +30,63 @@ def _kernel_library() -> None:
         pytest.fail(f"The kernel library cannot be loaded ({error}); first run: pip install -e .", pytrace=False)
 
 
+@pytest.fixture(scope="session")
+def shared(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder that all processes of pytest-xdist have."""
+    base = tmp_path_factory.getbasetemp()
+    return base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+
 @pytest.fixture(autouse=True)
 def _typed_as_modules(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sentences name commands as the test calls them, whatever a test before has typed."""
     monkeypatch.setattr("ali3.running._prefix", None)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Files with slow tests come first.
+
+    Each process of pytest-xdist starts with an equal part of the list, and takes from the end of another's when it has
+    done its own: files with slow tests are dealt out to the beginnings of the parts.
+    """
+    files: dict[Path, list[pytest.Item]] = {}
+    for item in items:
+        files.setdefault(item.path, []).append(item)
+    slow = {p: sum(item.get_closest_marker("slow") is not None for item in tests) for p, tests in files.items()}
+    parts: list[list[pytest.Item]] = [[] for _ in range(getattr(config, "workerinput", {}).get("workercount", 1))]
+    for k, path in enumerate(sorted(filter(slow.get, files), key=lambda p: -slow[p])):
+        parts[k % len(parts)] += files[path]
+    for path in files:
+        if not slow[path]:
+            min(parts, key=len).extend(files[path])
+    items[:] = [item for part in parts for item in part]
+
+
+_UNSEEN = "not looked at without a browser"
+
+
+@functools.cache
+def _why_unseen() -> str:
+    """What is said where a page cannot be looked at; empty where there is a browser."""
+    from viewer.browser import BrowserError, find_chromium
+
+    try:
+        find_chromium()
+    except BrowserError as error:
+        return str(error)
+    return ""
+
+
+def pytest_report_teststatus(report: pytest.TestReport) -> tuple[str, str, str] | None:
+    """Tests of pages that are skipped without a browser are a kind of their own, which is not listed one by one."""
+    if report.skipped and _why_unseen() and _why_unseen() in str(report.longrepr):
+        return _UNSEEN, "s", "SKIPPED"
+    return None
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """One line for all of them."""
+    unseen = len(terminalreporter.stats.get(_UNSEEN, ()))
+    if unseen:
+        terminalreporter.write_line(f"Pages were not looked at: {unseen} tests were skipped. {_why_unseen()}")

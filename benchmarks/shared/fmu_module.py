@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 import wasmtime
 from fmpy.fmi1 import FMICallException
 
 _FORMATS = {"Real": "d", "Integer": "i", "String": "I"}
+_ENGINE = wasmtime.Engine()
+
+
+@lru_cache(maxsize=4)
+def _compiled(wasm: bytes) -> wasmtime.Module:
+    return wasmtime.Module(_ENGINE, wasm)
 
 
 class FmuModule:
@@ -27,9 +34,8 @@ class FmuModule:
     """
 
     def __init__(self, wasm: bytes, resources: Mapping[str, bytes], guid: str, memory_limit: int | None = None) -> None:
-        engine = wasmtime.Engine()
-        module = wasmtime.Module(engine, wasm)
-        self._store = wasmtime.Store(engine)
+        module = _compiled(wasm)
+        self._store = wasmtime.Store(_ENGINE)
         if memory_limit is not None:
             self._store.set_limits(memory_size=memory_limit)
         exports: Any = wasmtime.Instance(self._store, module, []).exports(self._store)

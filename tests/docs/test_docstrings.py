@@ -11,8 +11,6 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-import pytest
-
 import mbs.scenes
 
 ROOMS = ("mbs", "mbs.model", "mbs.elements", "mbs.flexible", "mbs.simulation")
@@ -57,20 +55,26 @@ def _documented(text: str) -> set[str]:
     return {name.strip().lstrip("*") for head in heads for name in head.split(",")}
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
-def test_all_parameters_are_described(name):
-    function = FUNCTIONS[name]
-    parameters = {p for p in inspect.signature(function).parameters if p not in ("self", "cls")}
-    assert _documented(inspect.getdoc(function) or "") == parameters
+def _parameters(function: Any) -> list[str]:
+    return [p for p in inspect.signature(function).parameters if p not in ("self", "cls")]
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
-def test_what_is_returned_is_described(name):
-    function = FUNCTIONS[name]
-    given = str(inspect.signature(function).return_annotation)
-    parameters = [p for p in inspect.signature(function).parameters if p not in ("self", "cls")]
-    if parameters and given not in ("None", "NoReturn"):
-        assert "Returns\n-------\n" in (inspect.getdoc(function) or "")
+def test_all_parameters_are_described():
+    wrong = []
+    for name, function in FUNCTIONS.items():
+        described = _documented(inspect.getdoc(function) or "")
+        if described != set(_parameters(function)):
+            wrong.append(f"{name} describes {sorted(described)}")
+    assert not wrong, "\n".join(wrong)
+
+
+def test_what_is_returned_is_described():
+    wrong = []
+    for name, function in FUNCTIONS.items():
+        gives = str(inspect.signature(function).return_annotation) not in ("None", "NoReturn")
+        if _parameters(function) and gives and "Returns\n-------\n" not in (inspect.getdoc(function) or ""):
+            wrong.append(name)
+    assert not wrong, "\n".join(wrong)
 
 
 def test_there_are_as_many_as_there_were():

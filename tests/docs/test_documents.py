@@ -24,6 +24,7 @@ ROOT = Path(__file__).parents[2]
 PLATFORM = fmpy.platform
 PAGES = ("README.md", "CONTRIBUTING.md", "mbs/kernel/src/methods/README.md")
 DOCUMENTS = [*(ROOT / page for page in PAGES), *sorted((ROOT / "docs").rglob("*.md"))]
+TEXTS = {file: file.read_text(encoding="utf-8") for file in DOCUMENTS}
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 THEORY = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
 FILE = r"[\w./]+\.(?:c|h|py|md|cff)"
@@ -115,27 +116,33 @@ def test_tables_of_variables_are_those_of_the_cars():
     assert {re.sub(r"_(FL|FR|RL|RR)$", "", c.partition(".")[0]) for c in cells if c[0] != "."} == groups
 
 
-@pytest.mark.parametrize("file", DOCUMENTS, ids=lambda p: p.name)
-def test_links_and_named_files_exist(file):
-    text = file.read_text(encoding="utf-8")
-    for target in re.findall(r"\]\(([^)#:]+)\)", text):
-        assert (file.parent / target).exists(), target
-    for name in re.findall(rf"`((?:mbs|fmu_src|hosts|benchmarks|tests|docs|examples)/{FILE})`", text):
-        assert (ROOT / name).is_file(), name
+def test_links_and_named_files_exist():
+    missing = []
+    for file, text in TEXTS.items():
+        links = [file.parent / target for target in re.findall(r"\]\(([^)#:]+)\)", text)]
+        named = re.findall(rf"`((?:mbs|fmu_src|hosts|benchmarks|tests|docs|examples)/{FILE})`", text)
+        missing += [f"{file.name}: {target}" for target in links if not target.exists()]
+        missing += [f"{file.name}: {name}" for name in named if not (ROOT / name).is_file()]
+    assert not missing, "\n".join(missing)
 
 
-@pytest.mark.parametrize("file", DOCUMENTS, ids=lambda p: p.name)
-def test_lines_have_at_most_120_characters(file):
-    text = re.sub(r"^```.*?^```", "", file.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
-    assert [line for line in text.splitlines() if len(line) > 120 and not line.startswith(("|", "    "))] == []
+def test_lines_have_at_most_120_characters():
+    long = []
+    for file, text in TEXTS.items():
+        lines = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL).splitlines()
+        long += [f"{file.name}: {line}" for line in lines if len(line) > 120 and not line.startswith(("|", "    "))]
+    assert not long, "\n".join(long)
 
 
-@pytest.mark.parametrize("file", DOCUMENTS, ids=lambda p: p.name)
-def test_linked_headings_exist(file):
-    for target, anchor in re.findall(r"\]\(([^)#:]*)#([^)]+)\)", file.read_text(encoding="utf-8")):
-        page = (file.parent / target if target else file).read_text(encoding="utf-8")
-        headings = re.findall(r"^#+ (.*)$", page, re.MULTILINE)
-        assert anchor in {re.sub(r"[^\w -]", "", h.lower()).replace(" ", "-") for h in headings}, (target, anchor)
+def test_linked_headings_exist():
+    missing = []
+    for file, text in TEXTS.items():
+        for target, anchor in re.findall(r"\]\(([^)#:]*)#([^)]+)\)", text):
+            page = (file.parent / target).read_text(encoding="utf-8") if target else text
+            headings = re.findall(r"^#+ (.*)$", page, re.MULTILINE)
+            if anchor not in {re.sub(r"[^\w -]", "", h.lower()).replace(" ", "-") for h in headings}:
+                missing.append(f"{file.name}: {target}#{anchor}")
+    assert not missing, "\n".join(missing)
 
 
 def test_the_pages_name_every_method_and_the_readme_counts_methods_and_scenes():

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import subprocess
 import sys
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import fmpy
 import pytest
+
+from ali3.command import main
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -27,11 +31,11 @@ def blocks(language):
 
 
 def ali3(line, folder, status=0):
-    """Run a command line of the page."""
-    command = [sys.executable, "-m", "ali3", *line.split()]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder, env=ENVIRONMENT)
-    assert done.returncode == status, done.stderr
-    return done.stdout + done.stderr
+    """Run a command line of the page; the process that a user starts for it is tested with the commands."""
+    with chdir(folder), redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as error:
+        code = main(line.split())
+    assert code == status, error.getvalue()
+    return out.getvalue() + error.getvalue()
 
 
 def edit(file, changes, table=""):

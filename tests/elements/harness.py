@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -53,6 +53,12 @@ def library() -> ctypes.CDLL:
 def _doubles(values: ArrayLike) -> ctypes.Array[ctypes.c_double]:
     flat = np.ravel(np.asarray(values, float))
     return (ctypes.c_double * max(1, len(flat)))(*flat)
+
+
+@lru_cache(maxsize=64)
+def _constants(values: tuple[float, ...]) -> ctypes.Array[ctypes.c_double]:
+    """Of data that stay from call to call; the kernel does not write there."""
+    return _doubles(values)
 
 
 def _ints(values: ArrayLike) -> ctypes.Array[ctypes.c_int32]:
@@ -153,12 +159,12 @@ class Element:
             _doubles(e.states if y is None else y),
             y_new,
             *(ctypes.c_double(v) for v in (h, wC, wK)),
-            _doubles(e.real),
+            _constants(tuple(e.real)),
             _ints(e.integer),
             _doubles(given),
             self.road.type,
             len(real),
-            _doubles(real),
+            _constants(tuple(real)),
             f,
             S,
             out,

@@ -19,6 +19,13 @@ DRIVE = ElectricDrive(
 )
 BASE = DRIVE.max_power / DRIVE.max_torque  # rad/s, where constant power begins
 H = 0.01
+EDGES = np.array(
+    [
+        *(0.0, DRIVE.regeneration_speed, DRIVE.regeneration_power / DRIVE.regeneration_torque, BASE),
+        *np.outer((1.0, 1.05), (DRIVE.limit_speed, DRIVE.reverse_speed)).flat,
+    ]
+)
+"""Motor speeds, rad/s, between which the law is smooth, and either side of which it is another."""
 
 
 def drive_element(drive: ElectricDrive = DRIVE, selector: bool = False) -> Element:
@@ -112,7 +119,8 @@ def test_the_tangent_is_the_derivative_where_torque_falls(selector: float | None
     inputs = [throttle, selector or 0.0]
     y = None if selector is None else settled(element, 0.0, throttle, selector)
     fell = 0
-    for W in np.linspace(-125.0, 125.0, 701) + 0.0131:
+    near = np.add.outer(np.concatenate([EDGES, -EDGES]) / DRIVE.ratio, np.linspace(-1.5, 1.5, 7)).ravel()
+    for W in np.concatenate([np.linspace(-125.0, 125.0, 71), near]) + 0.0131:
         u, ud = signals_of(W, W + 0.2)
         r = element(u, ud, y, H, 0.5 * H, 0.0, inputs)
         wanted = tangent_by_differences(element, u, ud, y, H, 0.5 * H, 0.0, inputs)

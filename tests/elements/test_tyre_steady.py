@@ -39,6 +39,8 @@ def steady(load: float, sx: float, sy: float, element: Element | None = None, sp
     y = np.zeros(4)
     for _ in range(100):
         r = element(upright(height(load)), ud, y, max(0.01, 0.2 / speed))
+        if np.array_equal(r.y, y):
+            break
         y = r.y
     return r
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import hashlib
+import os
 import shutil
 import struct
 import subprocess
 import sys
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import fmpy
@@ -38,29 +41,49 @@ def compile_host(folder: Path, target: str | None = None, source: Path = HOST_SO
     return program
 
 
-def compile_stress(fmu_folder: Path, program: Path) -> tuple[Path, bool]:
+def _objects(compiler: Sequence[str], sources: Sequence[Path], folder: Path) -> list[str] | None:
+    """Compile what `folder` does not hold from another FMU; None where the compiler refuses."""
+    headers = sorted({h for s in sources for h in s.parent.glob("*.h")})
+    common = b"".join(h.read_bytes() for h in headers) + " ".join(c for c in compiler if "-I" not in c).encode()
+    folder.mkdir(exist_ok=True)
+    made = []
+    for source in sources:
+        name = hashlib.sha256(common + source.name.encode() + source.read_bytes()).hexdigest()
+        if not (folder / name).is_file():
+            part = folder / f"{name}.{os.getpid()}"  # whole at once: other processes look for it too
+            if subprocess.run([*compiler, "-c", source, "-o", part], capture_output=True, check=False).returncode:
+                return None
+            part.replace(folder / name)
+        made.append(str(folder / name))
+    return made
+
+
+def compile_stress(fmu_folder: Path, program: Path, objects: Path) -> None:
     """Link `stress.c` with the FMU's own sources; with sanitizers where the system's gcc has them.
 
-    Returns
-    -------
-    Path
-        The program.
-    bool
-        Whether it is sanitized.
+    Parameters
+    ----------
+    fmu_folder : Path
+        The unpacked FMU.
+    program : Path
+        The file to write.
+    objects : Path
+        Folder of what gcc compiled, for the next FMU.
     """
     sources = [C_FOLDER / "stress.c", *sorted((fmu_folder / "sources").rglob("*.c"))]
     include = [f"-I{fmu_folder / 'sources'}"]
     flags = ["-std=gnu11", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off"]
-    tail = ["-o", str(program), *map(str, sources), "-lm", *([] if sys.platform == "win32" else ["-lpthread"])]
+    libraries = ["-lm", *([] if sys.platform == "win32" else ["-lpthread"])]
     gcc = shutil.which("gcc") if sys.platform == "linux" else None
     if gcc is not None:
         sanitize = ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"]
-        if subprocess.run([gcc, *flags, *sanitize, *include, *tail], capture_output=True, check=False).returncode == 0:
-            return program, True
+        made = _objects([gcc, *flags, *sanitize, *include], sources, objects)
+        link = [gcc, *sanitize, "-o", str(program), *(made or []), *libraries]
+        if made and subprocess.run(link, capture_output=True, check=False).returncode == 0:
+            return
     trapped = ["-fsanitize=undefined", "-fsanitize-trap=undefined"]
     command = [sys.executable, "-m", "ziglang", "cc", "-target", build.host_target(), *flags, *trapped]
-    subprocess.run([*command, *include, *tail], check=True)
-    return program, False
+    subprocess.run([*command, *include, "-o", str(program), *map(str, sources), *libraries], check=True)
 
 
 def guid_of(folder: Path) -> str:

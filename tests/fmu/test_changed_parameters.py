@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import mbs
-from tests.changed_parameters import changes
+from tests.changed_parameters import SAME, changes
 from tests.fmu.scenes import loaded_beam
 
-SAME = 1e-9
 OK, ERROR = 0, 3
 
 
@@ -18,7 +17,7 @@ def test_every_parameter_is_as_if_the_model_were_built_with_it(build: Callable[.
     system = mbs.compile(loaded_beam())
     found = changes(
         system,
-        lambda name, value: mbs.compile(loaded_beam(**{name: value})),
+        lambda values: mbs.compile(loaded_beam(**values)),
         fmu=build("loaded_beam", kind),
         inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
         t_end=1.0,
@@ -35,10 +34,20 @@ def test_it_falls_where_a_value_is_written_elsewhere() -> None:
     old = {p["name"]: p["value"] for p in system.meta["parameters"]}
     found = changes(
         system,
-        lambda name, value: mbs.compile(loaded_beam(**{name: 0.5 * (value + old[name])})),
+        lambda values: mbs.compile(loaded_beam(**{n: 0.5 * (v + old[n]) for n, v in values.items()})),
         inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
     )
     assert min(c.difference for c in found) > 1e-4
+
+
+def test_of_several_that_are_changed_the_wrong_one_is_named() -> None:
+    system = mbs.compile(loaded_beam())
+    found = changes(
+        system,
+        lambda values: mbs.compile(loaded_beam(**{n: v for n, v in values.items() if n != "gain"})),
+        inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
+    )
+    assert [c.name for c in found if c.difference > SAME] == ["gain"]
 
 
 def test_a_start_without_an_equilibrium_names_the_parameter(

@@ -169,10 +169,11 @@ STRESS = [("leak", 1000), ("memory", 0), ("states", 4000), ("systems", 4000), ("
 FLEXIBLE_STRESS = [("leak", 20), ("states", 400), ("systems", 400), ("crowd", 20)]
 
 
-def stress_run(fmu: Path, folder: Path, system: str, output: str) -> Callable[[str, int], str]:
+def stress_run(fmu: Path, folder: Path, objects: Path, system: str, output: str) -> Callable[[str, int], str]:
     """Runs `stress.c`, linked with the FMU's sources under sanitizers."""
     native.unpack(fmu, folder)
-    program, _ = native.compile_stress(folder, folder / ("stress.exe" if sys.platform == "win32" else "stress"))
+    program = folder / ("stress.exe" if sys.platform == "win32" else "stress")
+    native.compile_stress(folder, program, objects)
     variables = fmpy.read_model_description(str(folder)).modelVariables
     reference = next(v.valueReference for v in variables if v.name == output)
     command = [str(program), folder.joinpath("resources").as_uri(), native.guid_of(folder)]
@@ -187,8 +188,9 @@ def stress_run(fmu: Path, folder: Path, system: str, output: str) -> Callable[[s
 
 
 @pytest.fixture(scope="session")
-def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, int], str]:
-    return stress_run(build("crane", "native"), tmp_path_factory.mktemp("stress"), "system_0.ali3", "rod.x")
+def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory, shared: Path) -> Callable[..., str]:
+    folder = tmp_path_factory.mktemp("stress")
+    return stress_run(build("crane", "native"), folder, shared / "objects", "system_0.ali3", "rod.x")
 
 
 @pytest.mark.parametrize(("what", "count"), STRESS, ids=[w for w, _ in STRESS])
@@ -197,12 +199,12 @@ def test_stress(stress: Callable[[str, int], str], what: str, count: int) -> Non
 
 
 @pytest.fixture(scope="session")
-def flexible_stress(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, int], str]:
+def flexible_stress(tmp_path_factory: pytest.TempPathFactory, shared: Path) -> Callable[[str, int], str]:
     """A car with a flexible chassis and several fidelities."""
     folder = tmp_path_factory.mktemp("flexible_stress")
     name, systems, fidelity = load_fidelities("kerb_test")
     fmu = build_fmu(systems, name, folder, [fmpy.platform], kind="native", fidelity=fidelity)
-    return stress_run(fmu, folder / "fmu", f"system_{fidelity}.ali3", "bending_moment.SG1")
+    return stress_run(fmu, folder / "fmu", shared / "objects", f"system_{fidelity}.ali3", "bending_moment.SG1")
 
 
 @pytest.mark.slow

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-import pytest
-
-from tests.mutation.table import ROOT, Mutant, all_mutants
+from tests.mutation.table import ROOT, all_mutants
 
 LEAST = 200
 
 
-@pytest.mark.parametrize("mutant", all_mutants(), ids=str)
-def test_a_row_applies_exactly_once(mutant: Mutant) -> None:
-    mutant.apply()
-    assert [test for test in mutant.tests if not (ROOT / test).is_file()] == []
+def test_every_row_applies_exactly_once() -> None:
+    mutants = all_mutants()
+    assert len(mutants) > LEAST
+    wrong = []
+    for mutant in mutants:
+        wrong += [f"{mutant}: there is no {test}" for test in mutant.tests if not (ROOT / test).is_file()]
+        try:
+            mutant.apply()
+        except ValueError as error:
+            wrong.append(str(error))
+    assert not wrong, "\n".join(wrong)

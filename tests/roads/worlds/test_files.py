@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -158,29 +159,38 @@ def test_all_places_are_good_starts(proving_ground, car):
         assert abs(run["chassis.z"][-1] - run["chassis.z"][0]) < 0.05, place["name"]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("speed", [2.0, 5.0, 8.0, 15.0, 22.0, 30.0, 40.0])
-@pytest.mark.parametrize("yaw", [0.0, math.pi, 0.4])
+OBSTACLES = [
+    *((83.0, 30.0), (123.0, 30.0), (153.0, 30.0), (275.0, 30.0)),
+    *((400.0, 30.0), (92.0, 62.0), (213.0, 62.0), (365.0, 62.0)),
+]
+APPROACHES = (0.0, math.pi, 0.4)
+SPEEDS = (2.0, 5.0, 8.0, 15.0, 22.0, 30.0, 40.0)
+COURSES = list(itertools.product(*map(enumerate, (OBSTACLES, APPROACHES, SPEEDS))))
+
+
 @pytest.mark.parametrize(
-    ("x", "y"),
+    "courses",
     [
-        (83.0, 30.0),
-        (123.0, 30.0),
-        (153.0, 30.0),
-        (275.0, 30.0),
-        (400.0, 30.0),
-        (92.0, 62.0),
-        (213.0, 62.0),
-        (365.0, 62.0),
+        # each obstacle with each approach, each of both with each speed
+        pytest.param([c for c in COURSES if sum(k for k, _ in c) % 3 == 0], id="pairs"),
+        pytest.param(COURSES, id="all", marks=pytest.mark.proof),
     ],
 )
-def test_every_obstacle_from_both_sides_and_aslant(proving_ground, car, x, y, yaw, speed):
+def test_every_obstacle_from_both_sides_and_aslant(proving_ground, car, courses):
     """Also into the steep backs of the ramps."""
-    simulation = mbs.Simulation(
-        car,
-        pose=mbs.Pose(x - 14.0 * math.cos(yaw), y - 14.0 * math.sin(yaw), 0.0, yaw, speed),
-        parameters={"road.file": proving_ground.road},
-        inputs={"throttle": 0.3},
-    )
-    run = simulation.run(min(8.0, 60.0 / speed), 0.002)
-    assert np.all(np.isfinite(run["chassis.z"]))
+    failed = []
+    for (_, (x, y)), (_, yaw), (_, speed) in courses:
+        simulation = mbs.Simulation(
+            car,
+            pose=mbs.Pose(x - 14.0 * math.cos(yaw), y - 14.0 * math.sin(yaw), 0.0, yaw, speed),
+            parameters={"road.file": proving_ground.road},
+            inputs={"throttle": 0.3},
+        )
+        try:
+            run = simulation.run(min(8.0, 60.0 / speed), 0.002)
+        except mbs.SimulationError as error:
+            failed.append(f"{x:g} {y:g} m, {yaw:g} rad, {speed:g} m/s: {error}")
+        else:
+            if not np.all(np.isfinite(run["chassis.z"])):
+                failed.append(f"{x:g} {y:g} m, {yaw:g} rad, {speed:g} m/s: not finite")
+    assert not failed, "\n".join(failed)

@@ -1,0 +1,17 @@
+"""The stored motions are those that their command computes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from benchmarks.references.cases import CASES, SAMPLES, computed, exact_of
+from benchmarks.references.store import NAMES
+
+
+@pytest.mark.proof
+@pytest.mark.parametrize("name", NAMES)
+def test_a_stored_motion_is_made_again(name: str) -> None:
+    stored = exact_of(name)
+    assert np.ptp(stored, axis=0).max() > 0.01
+    assert np.abs(computed(name, CASES[name].end, SAMPLES) - stored).max() < 1e-8
