@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
+import io
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import fmpy
@@ -12,13 +12,11 @@ import pytest
 from fmpy.util import read_csv
 
 import mbs
-from fmu_src.build import build_fmu
 from fmu_src.scene_registry import load_scene
+from hosts.drive import main
 from hosts.load_manoeuvre import load_manoeuvre
 from mbs.simulation import Pose
 
-ROOT = Path(__file__).parents[2]
-PLATFORM = fmpy.platform
 WHEELS = ("FL", "FR", "RL", "RR")
 GRAVITY = 9.81
 STEP = 0.01
@@ -32,19 +30,18 @@ KERB_PEAK_SHARE, KERB_AIR_SHARE = 0.1, 0.4
 
 
 @pytest.fixture(scope="module")
-def car(tmp_path_factory: pytest.TempPathFactory) -> tuple[mbs.System, Path]:
-    name, system = load_scene("prototype_car")
-    return system, build_fmu(system, name, tmp_path_factory.mktemp("car"), [PLATFORM])
+def car(prototype_fmu: Path) -> tuple[mbs.System, Path]:
+    return load_scene("prototype_car")[1], prototype_fmu
 
 
 def drive(car: tuple[mbs.System, Path], manoeuvre: str, folder: Path, step: float = STEP) -> tuple[np.ndarray, str]:
     """Results and what the command printed; every step must have been accepted, without a word from the FMU."""
-    command = [sys.executable, "-m", "hosts.drive", str(car[1]), "--manoeuvre", manoeuvre]
-    command += ["--step", str(step), "--out", str(folder)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "FMU:" not in done.stdout
-    return read_csv(folder / f"prototype_car_{manoeuvre}.csv"), done.stdout
+    arguments = [str(car[1]), "--manoeuvre", manoeuvre, "--step", str(step), "--out", str(folder)]
+    with redirect_stdout(io.StringIO()) as said, redirect_stderr(said):
+        status = main(arguments)
+    assert status == 0, said.getvalue()
+    assert "FMU:" not in said.getvalue()
+    return read_csv(folder / f"prototype_car_{manoeuvre}.csv"), said.getvalue()
 
 
 def test_the_car_is_what_its_constants_tell(car: tuple[mbs.System, Path]) -> None:

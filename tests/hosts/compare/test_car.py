@@ -6,12 +6,9 @@ import json
 from collections.abc import Mapping
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build import build_fmu
-from fmu_src.scene_registry import load_scene
 from hosts.co_simulation import Result, run
 from hosts.compare.command import main
 from hosts.fmu import Fmu
@@ -37,9 +34,8 @@ LARGEST = 8.97597901025655  # rad of the steering wheel at steering 1
 
 
 @pytest.fixture(scope="module")
-def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene("prototype_car")
-    return build_fmu(system, name, tmp_path_factory.mktemp("car"), [fmpy.platform])
+def car(prototype_fmu: Path) -> Path:
+    return prototype_fmu
 
 
 def driven(car: Path, start: Mapping[str, float], **inputs: np.ndarray) -> Result:
