@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import fmpy
@@ -16,6 +14,7 @@ from fmu_src.scene_registry import load_scene
 from hosts.drive import main
 from hosts.load_manoeuvre import load_manoeuvre
 from mbs.simulation import Pose
+from tests.in_process import run
 
 WHEELS = ("FL", "FR", "RL", "RR")
 GRAVITY = 9.81
@@ -36,12 +35,10 @@ def car(prototype_fmu: Path) -> tuple[mbs.System, Path]:
 
 def drive(car: tuple[mbs.System, Path], manoeuvre: str, folder: Path, step: float = STEP) -> tuple[np.ndarray, str]:
     """Results and what the command printed; every step must have been accepted, without a word from the FMU."""
-    arguments = [str(car[1]), "--manoeuvre", manoeuvre, "--step", str(step), "--out", str(folder)]
-    with redirect_stdout(io.StringIO()) as said, redirect_stderr(said):
-        status = main(arguments)
-    assert status == 0, said.getvalue()
-    assert "FMU:" not in said.getvalue()
-    return read_csv(folder / f"prototype_car_{manoeuvre}.csv"), said.getvalue()
+    done = run(main, car[1], "--manoeuvre", manoeuvre, "--step", step, "--out", folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "FMU:" not in done.stdout
+    return read_csv(folder / f"prototype_car_{manoeuvre}.csv"), done.stdout
 
 
 def test_the_car_is_what_its_constants_tell(car: tuple[mbs.System, Path]) -> None:
@@ -49,8 +46,8 @@ def test_the_car_is_what_its_constants_tell(car: tuple[mbs.System, Path]) -> Non
     told = {n.removeprefix("vehicle."): float(v.start) for n, v in variables.items() if n.startswith("vehicle.")}
     names = ["wheel_FL.steer", "wheel_FR.steer", "steering_wheel_angle"]
     start = {"steering": 1.0, "brake": 1.0}
-    run = fmpy.simulate_fmu(str(car[1]), stop_time=2.0, start_values=start, output=names)
-    left, right, turned = (float(run[n][-1]) for n in names)
+    driven = fmpy.simulate_fmu(str(car[1]), stop_time=2.0, start_values=start, output=names)
+    left, right, turned = (float(driven[n][-1]) for n in names)
     assert left > right > 0.0
     assert told["front_wheel_angle_max"] == pytest.approx(0.5 * (left + right), rel=2e-3)
     assert told["steering_wheel_angle_max"] == pytest.approx(turned, rel=1e-9)
