@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.paper.animations import ANIMATIONS
 from viewer import browser, bundle
 from viewer.recording import Recording
 
@@ -92,6 +91,8 @@ def drawn(_page: Any) -> Iterator[DrawnPage]:
 @pytest.fixture(scope="session")
 def recorded(shared: Path) -> Callable[[str], Recording]:
     """The run of a film, driven once for all tests that look at it."""
+    from benchmarks.paper.animations import ANIMATIONS  # takes a second, which other pages do not need
+
     folder = shared / "recordings"
     folder.mkdir(exist_ok=True)
 
