@@ -68,6 +68,7 @@ def _soak(options: argparse.Namespace, prog: str) -> int:
 
     for file in (options.json,) if options.json is not None else ():
         check_writable(file)
+    _check(options)
     with Fmu(options.fmu) as fmu:
         start = settings_of(fmu.table, wishes(options)).start
         fidelities = _fidelities(fmu, options.fidelity)
@@ -81,6 +82,13 @@ def _soak(options: argparse.Namespace, prog: str) -> int:
         write_text(options.json, json.dumps(record, indent=1) + "\n")
         print(f"written: {options.json}")
     return 0 if all(map(is_good, outcomes)) else 1
+
+
+def _check(options: argparse.Namespace) -> None:
+    if not options.seconds > 0.0 or not options.step > 0.0:
+        raise HostError(f"A drive of {options.seconds:g} s in steps of {options.step:g} s; both must be positive.")
+    if options.hours is not None and not 0.0 < options.hours < 1e5:
+        raise HostError(f"The soak test is to last {options.hours:g} hours; a positive number is needed.")
 
 
 def _fidelities(fmu: Fmu, asked: Sequence[int] | None) -> list[int | None]:
@@ -107,12 +115,8 @@ def _tasks(
 ) -> list[Task]:
     from hosts.soak.drive import Task
 
-    if not options.seconds > 0.0 or not options.step > 0.0:
-        raise HostError(f"A drive of {options.seconds:g} s in steps of {options.step:g} s; both must be positive.")
     count = _SEEDS * len(fidelities)
     if options.hours is not None:
-        if not 0.0 < options.hours < 1e5:
-            raise HostError(f"The soak test is to last {options.hours:g} hours; a positive number is needed.")
         count = math.ceil(3600.0 * options.hours / options.seconds - 1e-9)
     left = math.inf if options.hours is None else 3600.0 * options.hours
     tasks = []

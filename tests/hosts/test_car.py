@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import fmpy
@@ -12,13 +10,12 @@ import pytest
 from fmpy.util import read_csv
 
 import mbs
-from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.recordings.load_manoeuvre import load_manoeuvre
+from hosts.run.drive import main
 from mbs.simulation import Pose
+from tests.in_process import run
 
-ROOT = Path(__file__).parents[2]
-PLATFORM = fmpy.platform
 WHEELS = ("FL", "FR", "RL", "RR")
 GRAVITY = 9.81
 STEP = 0.01
@@ -32,16 +29,13 @@ KERB_PEAK_SHARE, KERB_AIR_SHARE = 0.1, 0.4
 
 
 @pytest.fixture(scope="module")
-def car(tmp_path_factory: pytest.TempPathFactory) -> tuple[mbs.System, Path]:
-    name, system = load_scene("prototype_car")
-    return system, build_fmu(system, name, tmp_path_factory.mktemp("car"), [PLATFORM])
+def car(prototype_fmu: Path) -> tuple[mbs.System, Path]:
+    return load_scene("prototype_car")[1], prototype_fmu
 
 
 def drive(car: tuple[mbs.System, Path], manoeuvre: str, folder: Path, step: float = STEP) -> tuple[np.ndarray, str]:
     """Results and what the command printed; every step must have been accepted, without a word from the FMU."""
-    command = [sys.executable, "-m", "hosts.run.drive", str(car[1]), "--manoeuvre", manoeuvre]
-    command += ["--step", str(step), "--out", str(folder)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+    done = run(main, car[1], "--manoeuvre", manoeuvre, "--step", step, "--out", folder)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "FMU:" not in done.stdout
     return read_csv(folder / f"prototype_car_{manoeuvre}.csv"), done.stdout
@@ -52,8 +46,8 @@ def test_the_car_is_what_its_constants_tell(car: tuple[mbs.System, Path]) -> Non
     told = {n.removeprefix("vehicle."): float(v.start) for n, v in variables.items() if n.startswith("vehicle.")}
     names = ["wheel_FL.steer", "wheel_FR.steer", "steering_wheel_angle"]
     start = {"steering": 1.0, "brake": 1.0}
-    run = fmpy.simulate_fmu(str(car[1]), stop_time=2.0, start_values=start, output=names)
-    left, right, turned = (float(run[n][-1]) for n in names)
+    driven = fmpy.simulate_fmu(str(car[1]), stop_time=2.0, start_values=start, output=names)
+    left, right, turned = (float(driven[n][-1]) for n in names)
     assert left > right > 0.0
     assert told["front_wheel_angle_max"] == pytest.approx(0.5 * (left + right), rel=2e-3)
     assert told["steering_wheel_angle_max"] == pytest.approx(turned, rel=1e-9)

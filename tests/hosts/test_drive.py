@@ -1,4 +1,4 @@
-"""The command from FMU to table and picture, run as a user runs it."""
+"""The command from FMU to table and picture: once as a program, as a user runs it, then in this process."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from matplotlib import image
 
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
+from hosts.run.drive import main
+from tests.in_process import run
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -23,14 +25,7 @@ TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1
 
 
 def drive(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "hosts.run.drive", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-        cwd=ROOT,
-        env=os.environ | {"PYTHONIOENCODING": "utf-8"},
-    )
+    return run(main, *arguments)
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +51,10 @@ def colours(picture: Path) -> int:
 
 
 def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
-    done = drive(fmus["sledge"], "--manoeuvre", turn, "--step", 0.02, "--out", tmp_path / "out")
+    command = [sys.executable, "-m", "hosts.run.drive", fmus["sledge"], "--manoeuvre", turn, "--step", "0.02"]
+    utf8 = os.environ | {"PYTHONIOENCODING": "utf-8"}
+    command = [*map(str, command), "--out", str(tmp_path / "out")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT, env=utf8)
     assert done.returncode == 0, done.stderr
     for row in (
         "distance driven",

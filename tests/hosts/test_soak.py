@@ -10,12 +10,9 @@ from mmap import mmap
 from pathlib import Path
 from typing import Any
 
-import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.driving.co_simulation import run
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.recordings.load_manoeuvre import load_manoeuvre
@@ -33,9 +30,8 @@ STEP = 0.002
 
 
 @pytest.fixture(scope="module")
-def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene("prototype_car")
-    return build_fmu(system, name, tmp_path_factory.mktemp("car"), [fmpy.platform])
+def car(prototype_fmu: Path) -> Path:
+    return prototype_fmu
 
 
 @pytest.fixture(scope="module")

@@ -1,15 +1,19 @@
-"""One Chromium for the pictures of a module of tests, and a page with one view in it."""
+"""Recordings of films, one Chromium for the pictures of a module of tests, and a page with one view in it."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+import os
+import pickle
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from viewer import browser, bundle
+from viewer.recording import Recording
 
 _MAKE = """([scene, options]) => {
   window.view?.dispose();
@@ -82,3 +86,22 @@ def drawn(_page: Any) -> Iterator[DrawnPage]:
     yield made
     _page.evaluate("window.view?.dispose(); window.view = undefined;")
     assert made.errors == []
+
+
+@pytest.fixture(scope="session")
+def recorded(shared: Path) -> Callable[[str], Recording]:
+    """The run of a film, driven once for all tests that look at it."""
+    from benchmarks.paper.animations import ANIMATIONS  # takes a second, which other pages do not need
+
+    folder = shared / "recordings"
+    folder.mkdir(exist_ok=True)
+
+    def get(name: str) -> Recording:
+        file = folder / name
+        if not file.is_file():
+            part = folder / f"{name}.{os.getpid()}"  # whole at once: other processes look for it too
+            part.write_bytes(pickle.dumps(ANIMATIONS[name].record()))
+            part.replace(file)
+        return pickle.loads(file.read_bytes())
+
+    return get

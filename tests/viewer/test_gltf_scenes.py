@@ -16,9 +16,9 @@ CORNERS = np.vstack([np.zeros(3), np.eye(3)])
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
-def test_a_scene_is_a_gltf_file(tmp_path, name):
+def test_a_scene_is_a_gltf_file(tmp_path, recorded, name):
     film = ANIMATIONS[name]
-    recording = film.record().between(film.begin, film.end)
+    recording = recorded(name).between(film.begin, film.end)
     path = tmp_path / f"{name}.glb"
     write_gltf(path, recording, rate=200.0, speed=film.speed)
     assert run_node("validate_gltf.mjs", path)[0]["issues"]["messages"] == []

@@ -6,7 +6,7 @@ import csv
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from fmu_src.build.scene_registry import load_fidelities, load_scene
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.geometry import scene_of
 from hosts.run import run
-from hosts.view import page
+from hosts.view import page, page_parts
 from mbs.scenes import prototype_car
 from tests.in_browser import wait_until
 from viewer.browser import BrowserError, find_chromium, launch_arguments
@@ -28,6 +28,22 @@ from viewer.browser import BrowserError, find_chromium, launch_arguments
 SCENES = Path(__file__).parents[1] / "fmu" / "scenes.py"
 PLATFORMS = [fmpy.platform, "wasm32"]
 STEP = 0.002
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _roads_once() -> Iterator[None]:
+    """Each road of an FMU is read in a program of its own: of the same FMU not again for each page."""
+    known: dict[tuple[Any, ...], Any] = {}
+
+    def once(fmu: Path, settings: Mapping[str, Any]) -> Any:
+        key = (fmu, *sorted(settings.items()))
+        if key not in known:
+            known[key] = scene_of(fmu, settings)
+        return known[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(page_parts, "scene_of", once)
+        yield
 
 
 @pytest.fixture(scope="module")

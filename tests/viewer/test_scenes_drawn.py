@@ -49,9 +49,9 @@ def plain(recording: Recording) -> dict[str, Any]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
-def test_bodies_are_drawn_where_they_are(drawn, name):
+def test_bodies_are_drawn_where_they_are(drawn, recorded, name):
     film = ANIMATIONS[name]
-    recording = film.record()
+    recording = recorded(name)
     assert recording.missing == []
     scene = plain(recording)
     t = recording.t

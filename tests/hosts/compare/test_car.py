@@ -6,12 +6,9 @@ import json
 from collections.abc import Mapping
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.compare.command import main
 from hosts.driving.co_simulation import Result, run
 from hosts.driving.manoeuvre import Manoeuvre
@@ -37,9 +34,8 @@ LARGEST = 8.97597901025655  # rad of the steering wheel at steering 1
 
 
 @pytest.fixture(scope="module")
-def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene("prototype_car")
-    return build_fmu(system, name, tmp_path_factory.mktemp("car"), [fmpy.platform])
+def car(prototype_fmu: Path) -> Path:
+    return prototype_fmu
 
 
 def driven(car: Path, start: Mapping[str, float], **inputs: np.ndarray) -> Result:

@@ -17,14 +17,16 @@ _SCENES |= {"reach": TESTS / "fmu" / "scenes.py"}
 
 
 @pytest.fixture(scope="session")
-def fmu(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+def fmu(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Callable[[str], Path]:
     """The FMU of a scene: sledge (a car by its names, in the plane), reach (can be pulled beyond its reach),
     switched (an input is a whole number), prototype_car; each is built once."""
     made: dict[str, Path] = {}
 
     def build(scene: str) -> Path:
+        if scene == "prototype_car":
+            return Path(request.getfixturevalue("prototype_fmu"))
         if scene not in made:
-            name, system = load_scene(f"{_SCENES[scene]}:{scene}" if scene in _SCENES else scene)
+            name, system = load_scene(f"{_SCENES[scene]}:{scene}")
             made[scene] = build_fmu(system, name, tmp_path_factory.mktemp(scene), [fmpy.platform])
         return made[scene]
 

@@ -3,34 +3,23 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
-import fmpy
 import pytest
 
-import mbs
-from fmu_src.build.build import build_fmu
 from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.hands import Hands
-from mbs.scenes import prototype_car
 from tests.hosts.simulator.devices.haptics import Haptics
 from tests.hosts.simulator.devices.virtual import until
 
 
-@pytest.fixture(scope="module")
-def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("car")
-    return build_fmu(mbs.compile(prototype_car.build()), "prototype_car", folder, [fmpy.platform])
-
-
 @pytest.mark.slow
-def test_the_car_follows_the_angle_of_the_wheel_and_pulls_it_back(fmu, attach, start, monkeypatch):
+def test_the_car_follows_the_angle_of_the_wheel_and_pulls_it_back(prototype_fmu, attach, start, monkeypatch):
     haptics = Haptics().install(monkeypatch)
     wheel = attach()
     for k in (1, 2, 3):
         wheel.axis(k, 1.0)
-    with Car(CarSettings(fmu=fmu, start={"initial.speed": 12.0}, priority=False)) as car:
+    with Car(CarSettings(fmu=prototype_fmu, start={"initial.speed": 12.0}, priority=False)) as car:
 
         def now(name: str) -> float:
             return float(car.latest().values[car.names.index(name)])

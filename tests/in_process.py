@@ -1,0 +1,19 @@
+"""Commands run in the process of the tests: what their programs print, without a start of Python for each."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from subprocess import CompletedProcess
+
+
+def run(main: Callable[[Sequence[str]], int], *arguments: object) -> CompletedProcess[str]:
+    """What a command's `main` gives back and prints."""
+    typed = [*map(str, arguments)]
+    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as error:
+        try:
+            status = main(typed)
+        except SystemExit as end:  # of argparse
+            status = int(end.code or 0)
+    return CompletedProcess(typed, status, out.getvalue(), error.getvalue())
