@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import traceback
+from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from importlib.metadata import version
@@ -152,10 +153,8 @@ def report(rows: Sequence[store.Difference], found: dict[str, store.Entry], take
         print(f"{size}  {row.entry}{': ' if row.signal else ''}{row.signal}")
     if len(rows) > most:
         print(f"... and {len(rows) - most} more (--most)")
-        by_entry: dict[str, int] = {}
-        for row in rows:
-            by_entry[row.entry] = by_entry.get(row.entry, 0) + 1
-        print("differences by entry: " + ", ".join(f"{name} {count}" for name, count in sorted(by_entry.items())))
+        counts = Counter(group_of(row.entry) or row.entry for row in rows)
+        print("by group: " + ", ".join(f"{name} {count}" for name, count in counts.most_common()))
 
 
 def with_what() -> dict[str, str]:

@@ -34,7 +34,7 @@ stop_time = 1.5
 peak = "max(abs(chassis.ay))"
 load = "min(wheel_FL.Fz)"
 mean = "mean(chassis.wz, after=1.1)"
-spread = "range(chassis.roll) + 2 * rms(chassis.ay) - final(speed) / 3"
+spread = "range(chassis.roll) / 2 - 3 * final(chassis.roll)"
 
 [signals]
 names = ["chassis.ay"]

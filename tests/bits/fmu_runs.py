@@ -62,7 +62,7 @@ def _kind_runs(
             stop_time=table["time"][-1],
             logger=lambda *words: None,
         )
-        return {name: result[name] for name in result.dtype.names}
+        return _scalars(result)
 
     for manoeuvre in STARTS:
         yield manoeuvre, run(manoeuvre, {})
@@ -73,6 +73,16 @@ def _kind_runs(
         yield road, run("launch_and_brake", {"initial.speed": 12.0, "road.file": f"{road}.road"})
     if kind != "python":
         yield "derivatives", _derivatives(description, folder)
+
+
+def _scalars(result: np.ndarray) -> dict[str, np.ndarray]:
+    """Columns of a result; elements of arrays one by one, which are the scalars of another kind."""
+    found = {}
+    for name in result.dtype.names:
+        shape = result[name].shape[1:]
+        for index in np.ndindex(shape):
+            found[name + "".join(f"[{k}]" for k in index)] = result[name][(slice(None), *index)]
+    return found
 
 
 def _inputs(table: Mapping[str, np.ndarray]) -> np.ndarray:

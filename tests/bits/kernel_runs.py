@@ -80,7 +80,7 @@ PEDALS = {
     "brake": lambda t: 0.0 if t < 0.6 else 0.7,
 }
 PUSHES = {name: _wave(6.0, 3.0 + k, 0.1 * k) for k, name in enumerate(("push.x", "push.y", "push.z", "turn"))}
-CAR = ("ali3p", "ali3p_generalised_alpha", "energy_momentum", "radau_5")
+CAR = ("ali3p", "ali3p_generalised_alpha", "energy_momentum", "radau_5")  # the others refuse tyres
 
 
 def _scenes() -> dict[str, Scene]:
@@ -119,10 +119,12 @@ def _scenes() -> dict[str, Scene]:
     for fidelity in range(4):
         for car in ("prototype", "hatchback"):
             start, methods = mbs.Pose(1.0, -0.5, 0.02, 0.2, 8.0), CAR if fidelity == 0 else CAR[:2]
-            scenes[f"{car}_{fidelity}"] = Scene(
-                partial(doors.car, car, fidelity), 0.005, 200, PEDALS, start, methods, others=fidelity == 0
+            name = f"{car}_{fidelity}"
+            scenes[name] = Scene(
+                partial(doors.car, car, fidelity), 0.005, 200, PEDALS, start, methods, others=name == "prototype_0"
             )
-        scenes[f"kerb_test_{fidelity}"] = Scene(partial(doors.scene, "kerb_test", fidelity=fidelity), 0.01, 150)
+        make = partial(doors.scene, "kerb_test", fidelity=fidelity)
+        scenes[f"kerb_test_{fidelity}"] = Scene(make, 0.01, 150, methods=CAR[:1] if fidelity else CAR)
     return scenes
 
 

@@ -20,7 +20,7 @@ def baseline():
 
 
 def test_runs_of_mechanisms_are_as_stored(baseline):
-    """A quarter of the entries, which take seconds; the others take minutes."""
+    """More than half of the entries, which take seconds; the others take minutes."""
     found, failed = make_all(["mechanisms"], 1)
     assert failed == {}
     stored = {name: entry for name, entry in baseline.items() if group_of(name) == "mechanisms"}
