@@ -19,4 +19,5 @@ def files(log: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    print("\n".join(files(Path(sys.argv[1]).read_text(encoding="utf-8", errors="replace"))))
+    for file in files(Path(sys.argv[1]).read_text(encoding="utf-8", errors="replace")):
+        print(file)

@@ -72,7 +72,7 @@ static void keep_python(const pythonfmu *py) {
   void (*const initialize)(int) = (void (*)(int))find(python(), "Py_InitializeEx");
   void *(*const unlock)(void) = (void *(*)(void))find(python(), "PyEval_SaveThread");
   if (!py->is_initialized()) {
-    initialize(0); /* without handlers of signals: they are the host's */
+    initialize(0); /* signals are the host's */
     unlock();
   }
   atexit(py->release_record); /* registered last, so called before what the library does at the end */

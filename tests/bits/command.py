@@ -121,10 +121,8 @@ def plain_processor() -> dict[str, str]:
     BLAS and LAPACK of OpenBLAS, the functions of NumPy and those of the C library have variants that differ in the last
     bits; the compiler of models uses them.
     """
-    try:
-        from numpy._core import _multiarray_umath as core
-    except ImportError:  # NumPy 1
-        from numpy.core import _multiarray_umath as core
+    from numpy._core import _multiarray_umath as core
+
     chosen = [name for name in core.__cpu_dispatch__ if core.__cpu_features__.get(name)]
     vectors = ",".join(f"-{name}{end}" for name in ("AVX512F", "AVX2", "FMA", "FMA4") for end in ("", "_Usable"))
     threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")

@@ -26,6 +26,8 @@ ENDS = (
 )
 C_ENDS = ("nothing", "freed", "unloaded", "unloaded alone", "handler", "threads", "interpreter ended", "fork")
 BY_EXCEPTION = {"exception": 1}
+FOUND = 99
+"""Exit code where `freed.c` has found something."""
 SECONDS = 120.0
 LEAST = 300
 FIRST_MINOR, LAST_MINOR = 10, 16
@@ -104,6 +106,15 @@ def own_python() -> Python:
     found = about(sys.executable)
     assert found is not None
     return found[1]
+
+
+@pytest.mark.parametrize(("act", "code"), [("", 0), ("ctypes.memset(block, 0, 1)", FOUND), ("c.free(block)", FOUND)])
+def test_a_write_to_a_freed_block_and_a_second_free_are_seen(ends: Ends, act: str, code: int) -> None:
+    make = "import ctypes; c = ctypes.CDLL(None); c.malloc.restype = ctypes.c_void_p; "
+    free = f"block = ctypes.c_void_p(c.malloc(64)); c.free(block); {act}"
+    environment = os.environ | {"LD_PRELOAD": str(ends.freed)}
+    done = subprocess.run([sys.executable, "-c", make + free], env=environment, capture_output=True, check=False)
+    assert done.returncode == code
 
 
 @pytest.mark.parametrize("end", ENDS)

@@ -195,6 +195,8 @@ def main() -> int:
     arguments = parser.parse_args()
     jobs = max(1, arguments.jobs)
     if arguments.sample is not None:
+        if arguments.only:
+            parser.error("--only does not go with --sample, which draws from all files")
         if arguments.sample < 1:
             parser.error(f"--sample {arguments.sample} is no number of mutants; it must be 1 or more")
         drawn = draw(arguments.sample, arguments.seed)
