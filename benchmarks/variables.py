@@ -1,4 +1,4 @@
-"""Write the tables of the cars' variables into README and `docs/variables.md`: ``python -m benchmarks.variables``."""
+"""Write the tables of the cars' variables into `docs/variables.md`: ``python -m benchmarks.variables``."""
 
 from __future__ import annotations
 
@@ -12,22 +12,17 @@ from ali3.running import run_command
 from benchmarks.car.variable_tables import full, overview, tables
 from benchmarks.shared.pages import DOCS, replace
 
-PAGES = (Path("..", "README.md"), Path("variables.md"))
-
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.variables", description=__doc__)
-    parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages; the README is beside it")
-    folder = parser.parse_args(arguments).docs
+    parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the page")
+    file = parser.parse_args(arguments).docs / "variables.md"
     found = tables()
-    blocks = {"car variables": overview(found)} | full(found)
-    for page in PAGES:
-        file = folder / page
-        before = file.read_text(encoding="utf-8")
-        after = replace(before, blocks)
-        write_text(file, after)
-        print(f"{file.resolve()}: {'unchanged' if after == before else 'written'}")
+    before = file.read_text(encoding="utf-8")
+    after = replace(before, {"car variables": overview(found)} | full(found))
+    write_text(file, after)
+    print(f"{file.resolve()}: {'unchanged' if after == before else 'written'}")
     return 0
 
 

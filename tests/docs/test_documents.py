@@ -60,12 +60,18 @@ def car():
     return load_scene("prototype_car")[1]
 
 
-def test_readme_runs_the_fmu_in_fmpy(car, tmp_path):
-    code = next(s for s in snippets(README) if "fmpy" in s)
+def test_stepping_page_runs_and_both_ways_give_what_it_says(car, tmp_path):
+    page = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
+    whole, fmu, model = snippets(page)
+    said = re.search(r"^    (after .*)$", page, re.MULTILINE)[1]
     build_fmu(car, "prototype_car", tmp_path / "dist", (PLATFORM,))
-    x, y = map(float, re.search(r"x = ([\d.-]+) m, y = ([\d.-]+) m", run(code, tmp_path)).groups())
+    x, y = map(float, re.search(r"x = ([\d.-]+) m, y = ([\d.-]+) m", run(whole, tmp_path)).groups())
     assert x > 10.0
     assert y > 10.0  # steering is positive to the left
+    by_fmu = run(f"{fmu}\nprint([speed, yaw_rate])", tmp_path).splitlines()
+    by_model = run(f"{model}\nprint([now['speed'], now['chassis.wz']])", tmp_path).splitlines()
+    assert by_fmu[0] == said
+    assert by_fmu == by_model  # the page: to the last bit
 
 
 def test_readme_models_a_pendulum(tmp_path):
@@ -87,12 +93,14 @@ def test_modelling_page_runs(tmp_path):
     assert "friction 0.1: slides 2.04 m" in printed
 
 
-def test_readme_lists_the_manoeuvres_and_the_scene_of_ones_own():
+def test_pages_list_the_manoeuvres_and_the_scene_of_ones_own():
+    driving = (ROOT / "docs" / "fmu.md").read_text(encoding="utf-8").partition("## Driving it")[2]
     for name in manoeuvre_names():
-        assert name in README
-    scene = re.search(r"--scene (\S+\.py:\w+)", README)[1]
+        assert f"`{name}`" in driving
+    examples = (ROOT / "docs" / "examples.md").read_text(encoding="utf-8")
+    scene = re.search(r"--scene (\S+\.py:\w+)", examples)[1]
     lines = (ROOT / scene.split(":")[0]).read_text(encoding="utf-8").splitlines()
-    assert f"in {len(lines)} lines" in README
+    assert f"in {len(lines)} lines" in examples
     assert load_scene(str(ROOT / scene))[0] == scene.split(":")[1]
 
 
@@ -101,17 +109,16 @@ def test_tables_of_variables_are_those_of_the_cars():
     found = tables()
     blocks = {"car variables": overview(found)} | full(found)
     page = (ROOT / "docs" / "variables.md").read_text(encoding="utf-8")
-    for text in (README, page):
-        assert replace(text, blocks) == text, "run: python -m benchmarks.variables"
-    assert all(f"<!-- begin {name} -->" in README + page for name in blocks)
+    assert replace(page, blocks) == page, "run: python -m benchmarks.variables"
+    assert all(f"<!-- begin {name} -->" in page for name in blocks)
     # and, whatever wrote them, nothing is missing and nothing is there that no car has
-    names = {v.name for table in found.values() for v in table}
-    shown = set(re.findall(r"^\| ((?:`[^`]+`[,. ]*)+)", page, re.MULTILINE))
+    table = re.search(r"\| variables \|.*?\n<!--", page, re.DOTALL)[0]
+    names = {v.name for variables in found.values() for v in variables}
+    shown = set(re.findall(r"^\| ((?:`[^`]+`[,. ]*)+)", page.replace(table, ""), re.MULTILINE))
     listed = {name for cell in shown for name in re.findall(r"`([^`]+)`", cell)}
     four = {re.sub(r"_FL\b", f"_{wheel}", name) for name in listed for wheel in ("FL", "FR", "RL", "RR")}
     assert listed <= names == listed | (four & names)
     groups = {re.sub(r"_(FL|FR|RL|RR)$", "", n.partition(".")[0]) for n in names}
-    table = re.search(r"\| variables \|.*?\n<!--", README, re.DOTALL)[0]
     cells = re.findall(r"`([^`]+)`", "\n".join(line.split("|")[1] for line in table.splitlines() if "|" in line))
     assert {re.sub(r"_(FL|FR|RL|RR)$", "", c.partition(".")[0]) for c in cells if c[0] != "."} == groups
 

@@ -27,9 +27,9 @@ def site(out: Path) -> SimpleNamespace:
     return SimpleNamespace(outdir=str(out), builder=builder, config=SimpleNamespace(live_pages=None))
 
 
-def text(live_pages: ModuleType, app: SimpleNamespace) -> str:
-    source = [(ROOT / "docs" / "drive.md").read_text(encoding="utf-8")]
-    live_pages.listed(app, "drive", source)
+def text(live_pages: ModuleType, app: SimpleNamespace, page: str = "docs/drive.md") -> str:
+    source = [(ROOT / page).read_text(encoding="utf-8")]
+    live_pages.listed(app, page, source)
     assert live_pages.MARK not in source[0]
     return source[0]
 
@@ -54,6 +54,7 @@ def test_pages_that_cannot_be_made_are_left_out_with_one_line(
     assert said.count("\n") == 1
     shown = text(live_pages, app)
     assert '<a href="live/prototype.html">Open it</a> (1.6 MB)' in shown
+    assert '<a href="live/prototype.html">Open it</a> (1.6 MB)' in text(live_pages, app, "README.md")
     assert "puma.html" not in shown
 
     monkeypatch.setenv(live_pages.MODE, "required")

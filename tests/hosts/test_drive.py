@@ -176,7 +176,7 @@ def test_the_host_knows_fmi_only() -> None:
 
 
 @pytest.mark.slow  # the first time, the kernel is compiled for Windows too
-def test_example_of_the_readme_builds_and_swings(tmp_path: Path) -> None:
+def test_example_of_an_fmu_of_ones_own_builds_and_swings(tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, str(ROOT / "examples" / "motor_pendulum.py")],
         capture_output=True,
