@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+import sys
 from pathlib import Path
 
 from ali3.files import make_folder
@@ -43,4 +44,5 @@ def road_value(given: str, out: Path) -> str:
     if done.returncode != 0:
         words = done.stderr.strip().splitlines()
         raise HostError(words[-1].removeprefix("error: ") if words else f"{given} is no road.")
+    print(done.stderr, end="", file=sys.stderr)  # what is odd about the road
     return str(made.absolute())

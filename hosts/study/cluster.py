@@ -90,7 +90,7 @@ def _check_encryption(address: str) -> None:
     else:
         print(
             f"note: The scheduler {address} is used without TLS: whoever reaches it or its workers can run programs as "
-            "their user. docs/studies.md says how certificates are set.",
+            "their user. The page on studies of the documentation says how certificates are set.",
             file=sys.stderr,
         )
 
