@@ -152,7 +152,7 @@ def _next_direction(J: Array, went: Array) -> tuple[Array, float] | None:
         return None
     second = float(values[-free - 1] / values[0]) if free < len(values) else 1.0
     if free == 1 and len(J) == len(went) - 1:
-        # one elimination takes a fifth of the time of the vectors of all singular values
+        # one elimination in place of all singular vectors
         t = np.linalg.solve(np.vstack([J, went]), np.append(np.zeros(len(J)), 1.0))
         length = 1.0 / float(np.linalg.norm(t))
         return (t * length, second) if length > 0.5 else None
