@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 
 Welded = dict[int, Body]
 """The body that stands for a welded one, by the identity of that."""
+EXACT = 1e-13
+"""Misfit of a drawing that is as exact as its numbers, parts of its size."""
 SAME_POINT = 1e-9
 """Points of a body that are no farther apart, parts of the size, move together."""
 
@@ -76,6 +78,9 @@ class Loops:
         Largest extent of the joint points, m.
     rows, constants : int
         Numbers of conditions and of constants of the drawing.
+    hinges : int
+        Pairs of bodies that two ball joints connect, as far apart on one body as on the other: one of their conditions
+        is redundant in every position, and never contradicts the others.
     """
 
     def __init__(self, model: Model, joints: list[Joint], welded: Welded) -> None:
@@ -91,6 +96,7 @@ class Loops:
         for joint in joints:
             self.conditions.append(self._condition(joint, number))
         self.rows = sum(len(self._rows(c, self.drawn(), None)[0]) for c in self.conditions)
+        self.hinges = self._hinges()
         columns = [0, 1, 5] if self.planar else range(6)
         self.columns = np.array([6 * k + c for k in range(len(self.bodies)) for c in columns], dtype=np.int64)
 
@@ -173,6 +179,19 @@ class Loops:
         length = self._new(1) if "distance" in given.conditions else -1
         cosine = float(ends[0].frame[:, 2] @ ends[1].frame[:, 2])
         return Condition(joint, (ends[0], ends[1]), given.conditions, given.length, length, cosine)
+
+    def _hinges(self) -> int:
+        pairs: dict[frozenset[int], list[Condition]] = {}
+        for c in self.conditions:
+            pairs.setdefault(frozenset(end.body for end in c.ends), []).append(c)
+        found = 0
+        for joints in pairs.values():
+            if [c.conditions for c in joints] != [("point",), ("point",)]:
+                continue
+            ends = [{end.body: end.point for end in c.ends} for c in joints]
+            one, other = (float(np.linalg.norm(ends[1][body] - ends[0][body])) for body in ends[0])
+            found += one > SAME_POINT * self.size and abs(one - other) <= EXACT * self.size
+        return found
 
     def _shift(self, body: int, point: Array) -> int:
         """First constant of the shift of a point; joints at one point of a body share it."""

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.errors import ModelError
-from mbs.compiler.loop_conditions import Condition, Loops, Places, loops_of
+from mbs.compiler.loop_conditions import EXACT, Condition, Loops, Places, loops_of
 from mbs.compiler.mobility import Closed, close, motion
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
@@ -37,8 +37,6 @@ MOST_TOLERANCE = 0.01
 """Beyond, a drawing is not one of the loop that moves but of another one."""
 NEAR = 0.03
 """A singular value below this part of the largest may be that of a redundant condition drawn badly."""
-EXACT = 1e-13
-"""Misfit of a drawing that is as exact as its numbers, parts of its size."""
 TIGHT = 1e-9
 """A singular value below this part of the largest is none."""
 MOST_BODIES = 40
@@ -127,8 +125,11 @@ def _correct(loops: Loops, tolerance: float) -> list[Corrected]:
     larger: list[Corrected] | None = None
     nearly: list[Closed] = []
     for share in sorted({min(20.0 * tolerance, NEAR), max(20.0 * tolerance, NEAR)}):
-        if np.sum(values > share * values[0]) == loops.rows:
-            continue  # no condition is redundant, not even nearly
+        rank = int(np.sum(values > share * values[0]))
+        if rank == loops.rows - loops.hinges:  # no other condition is redundant, not even nearly
+            if loops.hinges and rank < J.shape[1]:
+                return []  # it moves, and a hinge of two points closes wherever it turns
+            continue
         positions = _loose_motion(loops, share)
         if not positions:
             continue

@@ -70,19 +70,20 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
     sine, cosine = angles(x)
     sines, cosines, steps, seconds = [sine], [cosine], [], []
     for _ in range(MOST_STEPS):
-        y = _corrected(phi, x + step * t, t, CLOSED * size)
-        if y is not None:
+        corrected = _corrected(phi, x + step * t, t, CLOSED * size)
+        if corrected is not None:
+            y, J = corrected
             s, c = angles(y)
             turn = np.arctan2(s * cosine - c * sine, c * cosine + s * sine)
             largest = float(np.max(np.abs(turn)))
-        if y is None or largest > TURN:
+        if corrected is None or largest > TURN:
             step *= 0.5
             if step < 1e-6 * size:
                 return None
             continue
         went = y - x
         length = float(np.linalg.norm(went))
-        new = _next_direction(phi.at(y)[1], went / length)
+        new = _next_direction(J, went / length)
         if new is None:
             return None
         sines.append(s)
@@ -100,15 +101,16 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
     return None
 
 
-def _corrected(phi: Quadratics, x: Array, t: Array, tolerance: float) -> Array | None:
-    """The position on the rows across the direction."""
+def _corrected(phi: Quadratics, x: Array, t: Array, tolerance: float) -> tuple[Array, Array] | None:
+    """The position on the rows across the direction, and their gradients there."""
     for _ in range(8):
         value, J = phi.at(x)
         move = _solved(np.vstack([J, t]), np.append(-value, 0.0))
         x = x + move
         if np.linalg.norm(move) < CLOSED * np.linalg.norm(x):
             break
-    return x if np.max(np.abs(phi.at(x)[0])) <= tolerance else None
+    value, J = phi.at(x)
+    return (x, J) if np.max(np.abs(value)) <= tolerance else None
 
 
 def _solved(A: Array, b: Array) -> Array:
@@ -143,13 +145,18 @@ def _next_direction(J: Array, went: Array) -> tuple[Array, float] | None:
 
     Of several directions at a singular position the one that goes straight on.
     """
-    _, values, right = np.linalg.svd(J)
+    values = np.linalg.svd(J, compute_uv=False)
     values = np.append(values, np.zeros(J.shape[1] - len(values)))
     free = int(np.sum(values <= SMALL * values[0]))
     if free == 0:
         return None
     second = float(values[-free - 1] / values[0]) if free < len(values) else 1.0
-    null = right[-free:]
+    if free == 1 and len(J) == len(went) - 1:
+        # one elimination in place of all singular vectors
+        t = np.linalg.solve(np.vstack([J, went]), np.append(np.zeros(len(J)), 1.0))
+        length = 1.0 / float(np.linalg.norm(t))
+        return (t * length, second) if length > 0.5 else None
+    null = np.linalg.svd(J)[2][-free:]
     t = null.T @ (null @ went)
     length = float(np.linalg.norm(t))
     return (t / length, second) if length > 0.5 else None

@@ -87,7 +87,7 @@ def _of_joints(model: Model, names: FrameNames) -> list[Arrow]:
         rows = joint.force_equations
         if len(rows) == model.dimension and len(sensor.integers) == 1 and sensor.reals[0] == -joint.rows_weight:
             components.setdefault(joint.name, {}).setdefault(rows.index(sensor.integers[0]), sensor.name)
-    found = []
+    found, drawn = [], model.drawn()
     for name, read in components.items():
         ends = joints[name].ends
         if len(read) < model.dimension or ends is None:
@@ -95,6 +95,6 @@ def _of_joints(model: Model, names: FrameNames) -> list[Arrow]:
         # in the plane the third component is a place that is always 0
         moving = next(b for b in ends.bodies if not b.is_ground)
         vector = [read.get(k) or names.columns[f"{moving.owner.name}.z"] for k in range(3)]
-        at = list(names.anchor(ends.bodies[0], place_drawn(model, ends.points[0])))
+        at = list(names.anchor(ends.bodies[0], place_drawn(drawn, ends.points[0])))
         found.append({"name": name, "unit": "N", "vector": vector, "axes": "ground", "at": at})
     return found

@@ -12,6 +12,7 @@ import numpy as np
 
 from mbs.common.checks import Vector
 from mbs.model.body import Body
+from mbs.model.carried import Spin
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.joints.joint import RollingBody, RollingSpin
 from mbs.model.model import Model
@@ -56,6 +57,37 @@ class Defaults:
         longest = max((float(np.linalg.norm(np.ptp(points, axis=0))) for points in bodies), default=0.0)
         return min(TUBE * self.extent, LONGEST_TUBE * longest) if longest > 0.0 else TUBE * self.extent
 
+    @cached_property
+    def _discs(self) -> dict[Body, list[RollingBody]]:
+        """Discs that roll, by their body."""
+        found: dict[Body, list[RollingBody]] = {}
+        for joint in self.model.joints:
+            if isinstance(joint.rolls, RollingBody):
+                found.setdefault(joint.rolls.body, []).append(joint.rolls)
+        return found
+
+    @cached_property
+    def _sensed(self) -> dict[Body, list[Vector]]:
+        return sensed_points(self.model)
+
+    @cached_property
+    def _turning(self) -> set[str]:
+        """Frames with a joint that turns."""
+        return {self.names.of_body(body) for pivot in self.touched.pivots for body in pivot.bodies}
+
+    @cached_property
+    def _sliding(self) -> dict[str, list[Slide]]:
+        """Slides by the frame that slides."""
+        found: dict[str, list[Slide]] = {}
+        for slide in self.touched.slides:
+            found.setdefault(self.names.of_body(slide.bodies[0]), []).append(slide)
+        return found
+
+    @cached_property
+    def _middle(self) -> Vector:
+        """Mean of all places where the bodies are touched, m."""
+        return np.asarray(np.mean([p for points in self.touched.points.values() for p in points], axis=0))
+
     def all(self, drawn: set[str], named: set[str]) -> list[Shape]:
         """Shapes of all frames and lines but those that are drawn by the user, by frame and by name."""
         found: list[Shape] = []
@@ -66,7 +98,7 @@ class Defaults:
                 found += [s | {"body": body.name, "color": s.get("color", color)} for s in self._body(body, frame)]
         for spin in self.model.spins:
             if self.names.turns[spin.name] not in drawn:
-                found.append(self._wheel(spin.name) | {"body": spin.name})
+                found.append(self._wheel(spin) | {"body": spin.name})
         for line in self.touched.lines:
             if line.name not in named:
                 found += self._line(line)
@@ -81,7 +113,7 @@ class Defaults:
     def _body(self, body: Body, frame: str) -> list[Shape]:
         if isinstance(body, FlexibleBody):
             return []  # its beams are drawn
-        discs = [j.rolls for j in self.model.joints if isinstance(j.rolls, RollingBody) and j.rolls.body is body]
+        discs = self._discs.get(body)
         if discs:
             return [
                 {
@@ -101,7 +133,7 @@ class Defaults:
         com = origin_of(body)
         points = apart(self.touched.points.get(frame, []), least)
         if len(points) < 2:
-            points = apart([*points, *sensed_points(self.model, body)], least)
+            points = apart([*points, *self._sensed.get(body, [])], least)
             ends = [p for p in points if np.linalg.norm(p - com) > least]
             if not ends:
                 return [self._lump(body, frame)]
@@ -114,16 +146,10 @@ class Defaults:
             return shapes
         if _beyond(com, points[0], points[1]):
             shapes = [*self._tubes(frame, [*points, com], com), self._ball(frame)]
-        block = [
-            self._block(frame, com, slide)
-            for slide in self.touched.slides
-            if self.names.of_body(slide.bodies[0]) == frame
-        ]
-        return shapes + block
+        return shapes + [self._block(frame, com, slide) for slide in self._sliding.get(frame, [])]
 
     def _only_slides(self, frame: str) -> bool:
-        turning = any(self.names.of_body(b) == frame for pivot in self.touched.pivots for b in pivot.bodies)
-        return not turning and any(self.names.of_body(slide.bodies[0]) == frame for slide in self.touched.slides)
+        return frame in self._sliding and frame not in self._turning
 
     def _edges(self, body: Body) -> Vector:
         """Edges of the box with the second moments of a body along the earth axes as drawn, m."""
@@ -179,9 +205,8 @@ class Defaults:
             "axes": [numbers(column) for column in axes.T],
         }
 
-    def _wheel(self, name: str) -> Shape:
+    def _wheel(self, spin: Spin) -> Shape:
         """The wheel of a spin: as large as its tyre or its rolling joint says."""
-        spin = next(s for s in self.model.spins if s.name == name)
         rolling = [
             j.rolls.radius for j in self.model.joints if isinstance(j.rolls, RollingSpin) and j.rolls.spin is spin
         ]
@@ -194,7 +219,7 @@ class Defaults:
         radius = next((float(r) for r in [*tyres, *rolling, spin.rolling_radius] if r), 0.1 * self.extent)
         return {
             "kind": "wheel",
-            "frame": self.names.turns[name],
+            "frame": self.names.turns[spin.name],
             "axis": numbers(spin.axis_reference),
             "radius": radius,
             "width": (0.1 if thin else 0.6) * radius,
@@ -237,8 +262,7 @@ class Defaults:
         unit = slide.axis / np.linalg.norm(slide.axis)
         middle = slide.place
         if base.is_ground:
-            every = [p for points in self.touched.points.values() for p in points]
-            middle = slide.place + np.dot(np.mean(every, axis=0) - slide.place, unit) * unit
+            middle = slide.place + np.dot(self._middle - slide.place, unit) * unit
         frame, local = self.names.anchor(base, middle)
         if not base.is_ground and (frame in drawn or len(self.touched.points.get(frame, [])) > 2):
             return []

@@ -116,29 +116,27 @@ def _angle_column(turn: Spin | Turning, names: FrameNames) -> str:
 
 def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64], names: FrameNames) -> Places:
     """Where the bodies are, of a model whose full coordinates are ``T q + constant``."""
+    full: list[int] = []
     rows: list[sparse.csr_matrix] = []
-    constants: list[NDArray[np.float64]] = []
-    count = 0
-    bodies, turns, amplitudes = [], [], []
+    angles: list[NDArray[np.float64]] = []
+    bodies: list[BodyPlace] = []
+    turns: list[TurnPlace] = []
+    amplitudes: list[AmplitudePlace] = []
 
-    def add(part: sparse.csr_matrix, fixed: NDArray[np.float64]) -> int:
-        nonlocal count
-        rows.append(part)
-        constants.append(fixed)
-        count += part.shape[0]
-        return count - part.shape[0]
+    def add(start: int, end: int) -> int:
+        full.extend(range(start, end))
+        return len(full) - (end - start)
 
     for body in model.bodies:
         kind = ("planar " if model.dimension == 2 else "") + "point" if body.is_point else ""
         kind = kind or ("planar" if model.dimension == 2 else "rigid")
         size = {"rigid": 12, "planar": 4, "point": 3, "planar point": 2}[kind]
-        part = slice(body.start, body.start + size)
         columns = tuple(names.columns[f"{body.name}.{p}"] for p in POSE)
-        bodies.append(BodyPlace(body.name, kind, add(T[part], constant[part]), columns))
+        bodies.append(BodyPlace(body.name, kind, add(body.start, body.start + size), columns))
         if isinstance(body, FlexibleBody):
-            part, modes = slice(body.start + 12, body.start + body.size), modes_of(body)
+            modes, row = modes_of(body), add(body.start + 12, body.start + body.size)
             columns = tuple(names.columns[f"{body.name}.{m}"] for m in modes)
-            amplitudes.append(AmplitudePlace(body.name, modes, add(T[part], constant[part]), columns))
+            amplitudes.append(AmplitudePlace(body.name, modes, row, columns))
     for turn in turns_of(model):
         angle = turn.affine if isinstance(turn, Spin) else turn.angle
         if isinstance(angle, str):
@@ -146,26 +144,32 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
         weights = sparse.csr_matrix(
             (list(angle.terms.values()), ([0] * len(angle.terms), list(angle.terms))), shape=(1, len(constant))
         )
-        row = add((weights @ T).tocsr(), np.asarray(weights @ constant) + angle.constant)
+        rows.append((weights @ T).tocsr())
+        angles.append(np.asarray(weights @ constant) + angle.constant)
+        row = len(full) + len(turns)
         column = names.columns[f"{turn.name}.angle"]
         carrier, axis = turn.carrier.owner.name, tuple(numbers(turn.axis_reference))
         turns.append(TurnPlace(turn.name, row, carrier, axis, isinstance(turn, Spin), column))
-    matrix = sparse.vstack(rows).tocsr() if rows else sparse.csr_matrix((0, T.shape[1]))
+    matrix = sparse.vstack([T[full], *rows]).tocsr()
     matrix.sort_indices()
-    return Places(matrix, np.concatenate([*constants, np.zeros(0)]), tuple(bodies), tuple(turns), tuple(amplitudes))
+    fixed = np.concatenate([constant[full], *angles])
+    return Places(matrix, fixed, tuple(bodies), tuple(turns), tuple(amplitudes))
 
 
-def anchors_of_difference(model: Model, names: FrameNames, gap: Sequence[Affine]) -> tuple[Anchor, Anchor] | None:
-    """Both ends of a difference ``p2 - p1`` of points of two bodies; None where it is not one.
+def anchors_of_difference(
+    model: Model, names: FrameNames, bodies: Mapping[int, Body], drawn: Vector, gap: Sequence[Affine]
+) -> tuple[Anchor, Anchor] | None:
+    """Both ends of a difference ``p2 - p1`` of points of two bodies, given by their first coordinate; None where it is
+    not one.
 
     The coefficient of the position of a body says which end it has, those of its axes where; coordinates of a node or a
     port count as drawn.
     """
-    d, drawn = model.dimension, model.drawn()
+    d = model.dimension
     found: dict[float, Anchor] = {}
     used: set[int] = set()
-    for body in model.bodies:
-        sign = gap[0].terms.get(body.start, 0.0)
+    for body in (bodies[i] for i in sorted(gap[0].terms) if i in bodies):
+        sign = gap[0].terms[body.start]
         if abs(sign) != 1.0 or sign in found or any(gap[k].terms.get(body.start + k) != sign for k in range(d)):
             continue
         own = set(range(body.start, body.start + body.size))
@@ -184,6 +188,6 @@ def anchors_of_difference(model: Model, names: FrameNames, gap: Sequence[Affine]
     return found[-1.0], found[1.0]
 
 
-def place_drawn(model: Model, point: AffineVector) -> Vector:
-    """A point as drawn, three components, m."""
-    return in_space(point.value(model.drawn()))
+def place_drawn(drawn: Vector, point: AffineVector) -> Vector:
+    """A point, three components, m, at the full coordinates of the drawing."""
+    return in_space(point.value(drawn))

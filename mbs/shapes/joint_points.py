@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -78,13 +78,13 @@ class Touched:
 
 def touched(model: Model, names: FrameNames) -> Touched:
     """Joints, springs and wheels of a model, with the points at which they touch its bodies."""
-    found = Touched()
+    found, drawn = Touched(), model.drawn()
     for joint in model.joints:
         where = joint.ends or joint.actuator
         if where is None:
             continue
         bodies = where.bodies
-        places = [place_drawn(model, p) for p in where.points]
+        places = [place_drawn(drawn, p) for p in where.points]
         if where.rod:
             ends = (names.anchor(bodies[0], places[0]), names.anchor(bodies[1], places[1]))
             if joint.slide is not None:
@@ -93,21 +93,23 @@ def touched(model: Model, names: FrameNames) -> Touched:
                 if not way:
                     found.sliding.append(joint.name)
                     continue
-                sliding = _sliding_frame(model, names, slide, way)
+                sliding = _sliding_frame(model, names, drawn, slide, way)
                 found.frames |= sliding
                 end = next(iter(sliding)), [0.0, 0.0, 0.0]
                 ends = (end, ends[1]) if number == 0 else (ends[0], end)
             found.lines.append(Line(joint.name, ends, drives=joint.actuator is not None))
         elif where.slides and where.axis is not None:
-            axis = in_space(where.axis.value(model.drawn()))
-            found.slides.append(Slide(joint, bodies, places[0], axis))
+            found.slides.append(Slide(joint, bodies, places[0], place_drawn(drawn, where.axis)))
         elif joint.type in ("revolute", "spherical", "universal"):
-            found.pivots.append(Pivot(joint, bodies, places[0], _axis(model, joint)))
+            found.pivots.append(Pivot(joint, bodies, places[0], _axis(model.dimension, drawn, joint)))
         for body, place in zip(bodies, places, strict=True):
             found.points.setdefault(names.of_body(body), []).append(place)
     origins = {names.of_body(b): origin_of(b) for b in model.bodies} | {"ground": np.zeros(3)}
+    starts = {body.start: body for body in model.bodies}
     for record in model.elements:
-        if record.type in LINES and (ends_ := anchors_of_difference(model, names, record.signals)) is not None:
+        if record.type not in LINES:
+            continue
+        if (ends_ := anchors_of_difference(model, names, starts, drawn, record.signals)) is not None:
             found.lines.append(Line(record.name, ends_, record))
             for frame, local in ends_:
                 found.points.setdefault(frame, []).append(origins[frame] + np.array(local))
@@ -128,32 +130,38 @@ def _way(model: Model, slide: SlidingPoint) -> str:
     return ""
 
 
-def _sliding_frame(model: Model, names: FrameNames, slide: SlidingPoint, way: str) -> dict[str, dict[str, Any]]:
+def _sliding_frame(
+    model: Model, names: FrameNames, drawn: Vector, slide: SlidingPoint, way: str
+) -> dict[str, dict[str, Any]]:
     """The frame of a sliding point, by its name."""
-    parent, at = names.anchor(slide.body, place_drawn(model, slide.start))
-    direction = numbers(place_drawn(model, slide.direction))
+    parent, at = names.anchor(slide.body, place_drawn(drawn, slide.start))
+    direction = numbers(place_drawn(drawn, slide.direction))
     start = model.guides[slide.guide].start
     taken = {"ground", *names.bodies.values(), *names.turns.values()}
     name = f"end of {slide.name}" if slide.name in taken else slide.name
     return {name: {"parent": parent, "at": at, "direction": direction, "way": way, "start": float(start)}}
 
 
-def _axis(model: Model, joint: Joint) -> Vector | None:
+def _axis(dimension: int, drawn: Vector, joint: Joint) -> Vector | None:
     if joint.type != "revolute":
         return None
-    if model.dimension == 2:
+    if dimension == 2:
         return np.array([0.0, 0.0, 1.0])
-    return None if joint.ends is None or joint.ends.axis is None else in_space(joint.ends.axis.value(model.drawn()))
+    return None if joint.ends is None or joint.ends.axis is None else place_drawn(drawn, joint.ends.axis)
 
 
-def sensed_points(model: Model, body: Body) -> Iterator[Vector]:
-    """Places of a rigid body whose position a sensor reads, earth axes as drawn, m."""
+def sensed_points(model: Model) -> dict[Body, list[Vector]]:
+    """Places of rigid bodies whose position a sensor reads, by body; earth axes as drawn, m."""
+    bodies = {body.start + k: body for body in model.bodies for k in range(model.dimension)}
+    found: dict[Body, list[Vector]] = {}
     for sensor in model.sensors:
         if sensor.type != SensorType.SIGNAL or len(sensor.signals) != 1 or list(sensor.reals) != [1.0]:
             continue
-        local = _local(body, sensor.signals[0])
-        if local is not None:
-            yield in_space(body.com) + local
+        for body in {bodies[i] for i in sensor.signals[0].terms if i in bodies}:
+            local = _local(body, sensor.signals[0])
+            if local is not None:
+                found.setdefault(body, []).append(in_space(body.com) + local)
+    return found
 
 
 def _local(body: Body, signal: Affine) -> Vector | None:

@@ -13,7 +13,7 @@ from mbs.common.checks import Vector
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
-from mbs.model.shapes import Shape
+from mbs.model.shapes import Shape, in_space
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
@@ -156,7 +156,7 @@ def _places_of_bodies(model: Model) -> list[Vector]:
     found: list[Vector] = []
     for body in model.bodies:
         nodes = body.node_positions if isinstance(body, FlexibleBody) else [body.com]
-        found += [np.pad(np.asarray(p, float), (0, 3 - len(p))) for p in nodes]
+        found += [in_space(p) for p in nodes]
     if len(found) == 1 and not isinstance(model.bodies[0], FlexibleBody) and not model.bodies[0].is_point:
         body = model.bodies[0]
         radius = float(np.sqrt(np.trace(body.second_moment) / body.mass))

@@ -7,7 +7,6 @@ import numpy as np
 from mbs.common.checks import Vector
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
-from mbs.model.shapes import in_space
 from mbs.shapes.frames import FrameNames, numbers, place_drawn
 
 JOINTS = ("spherical", "revolute", "universal", "weld")
@@ -21,27 +20,27 @@ def shared_points(model: Model, names: FrameNames) -> list[tuple[str, list[float
     A joint with an axis gives two points of it, a weld three. Of a body that bends it is the place in its floating
     frame, from which a node is away by what it bends. Joints that a parameter takes away stay out.
     """
-    found = []
+    found, drawn = [], model.drawn()
     for joint in model.joints:
         ends = joint.ends
         if ends is None or joint.type not in JOINTS or joint.switch is not None:
             continue
         if any(body.is_point for body in ends.bodies):
             continue
-        places = [place_drawn(model, point) for point in ends.points]
-        for way in _ways(model, joint):
+        places = [place_drawn(drawn, point) for point in ends.points]
+        for way in _ways(model.dimension, drawn, joint):
             one, two = (names.anchor(body, place + way) for body, place in zip(ends.bodies, places, strict=True))
             found.append((one[0], numbers(one[1]), two[0], numbers(two[1])))
     return found
 
 
-def _ways(model: Model, joint: Joint) -> list[Vector]:
+def _ways(dimension: int, drawn: Vector, joint: Joint) -> list[Vector]:
     """From the point of a joint to all that its bodies share."""
     ways = [np.zeros(3)]
     if joint.type == "weld":
         ways += [ALONG * e for e in np.eye(3)[:2]]
-    elif joint.type == "revolute" and model.dimension == 2:
+    elif joint.type == "revolute" and dimension == 2:
         ways.append(np.array([0.0, 0.0, ALONG]))
     elif joint.type == "revolute" and joint.ends is not None and joint.ends.axis is not None:
-        ways.append(ALONG * in_space(joint.ends.axis.value(model.drawn())))
+        ways.append(ALONG * place_drawn(drawn, joint.ends.axis))
     return ways

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
 
-from mbs import Model, compile
+from mbs import Model, compile, vehicle
+from mbs.compiler import mobility
 from mbs.scenes import bricard, double_four_bar, pendulum
 
 
@@ -67,3 +70,45 @@ def test_report_says_it_in_words():
     text = str(compile(bricard.build()))
     for line in ("coordinates                 24", "rank at reference           23", "degrees of freedom           1"):
         assert line in text
+
+
+def calls(model):
+    """How many Python functions compile calls, also those of comprehensions."""
+    count = 0
+
+    def profile(frame, event, argument):
+        nonlocal count
+        count += event in ("call", "c_call")
+
+    sys.setprofile(profile)
+    try:
+        compile(model)
+    finally:
+        sys.setprofile(None)
+    return count
+
+
+def test_calls_grow_linearly():
+    compile(double_four_bar.build(2))  # what is imported late
+    small, middle, large = (calls(double_four_bar.build(n)) for n in (50, 100, 200))
+    assert large - middle <= 2.1 * (middle - small)
+
+
+def test_every_coordinate_is_read_so_many_times_whatever_their_number(monkeypatch):
+    """Of a drawing that reads all coordinates for each body the number of times grows with the bodies."""
+    reads = []
+    drawn = Model.drawn
+    monkeypatch.setattr(Model, "drawn", lambda model: reads.append(model) or drawn(model))
+    for windows in (5, 50):
+        compile(double_four_bar.build(windows))
+    assert len(set(reads)) == 2
+    assert reads.count(reads[0]) == reads.count(reads[-1])
+
+
+@pytest.mark.parametrize("car", ["prototype", "hatchback"])
+def test_a_wishbone_on_two_ball_joints_is_no_reason_to_search_its_loop(car, monkeypatch):
+    searched = []
+    motion = mobility.motion
+    monkeypatch.setattr("mbs.compiler.overconstrained.motion", lambda *given: searched.append(given) or motion(*given))
+    compile(vehicle.load(car).model())
+    assert searched == []
