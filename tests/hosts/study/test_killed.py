@@ -36,7 +36,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 
 NOT_ENCRYPTED = (
     "note: The scheduler {} is used without TLS: whoever reaches it or its workers can run programs as their user. "
-    "docs/studies.md says how certificates are set.\n"
+    "The page on studies of the documentation says how certificates are set.\n"
 )
 
 
