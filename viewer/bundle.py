@@ -86,15 +86,10 @@ def node() -> tuple[str, str]:
     )
 
 
-def packages(page: Path, *, development: bool = False) -> None:
+def packages(page: Path) -> None:
     """Install the packages that the lock file names into `node_modules`, unless they are there.
 
-    Parameters
-    ----------
-    page : Path
-        Folder of the sources.
-    development : bool, optional
-        Also those that only tests and checks need; they stay once they are there.
+    What only the check of the sources needs is left out, and stays where it is there.
 
     Raises
     ------
@@ -103,20 +98,19 @@ def packages(page: Path, *, development: bool = False) -> None:
     """
     modules = page / "node_modules"
     with _locked(page), tempfile.TemporaryDirectory(dir=page, prefix=_PART, ignore_cleanup_errors=True) as folder:
-        if _installed(page, development):
+        if _installed(page):
             return
         program, npm = node()
         for name in ("package.json", "package-lock.json"):
             shutil.copy(page / name, folder)
         quiet = ["--ignore-scripts", "--no-audit", "--no-fund", "--no-update-notifier", "--loglevel=error"]
-        omitted = [] if development else ["--omit=dev"]
-        _run([program, npm, "ci", *omitted, *quiet], Path(folder), "npm could not fetch its packages")
+        _run([program, npm, "ci", "--omit=dev", *quiet], Path(folder), "npm could not fetch its packages")
         if modules.exists():
             modules.rename(Path(folder, "old"))
         Path(folder, "node_modules").rename(modules)
 
 
-def _installed(page: Path, development: bool) -> bool:
+def _installed(page: Path) -> bool:
     """Whether npm's own record of what it installed has each package that the lock file names."""
     try:
         record = json.loads((page / "node_modules" / ".package-lock.json").read_text(encoding="utf-8"))["packages"]
@@ -127,7 +121,7 @@ def _installed(page: Path, development: bool) -> bool:
         record.get(name, {}).get("integrity") == entry["integrity"]
         for name, entry in named.items()
         # The first entry is the page itself; an optional package may be for another platform.
-        if name and not entry.get("optional") and (development or not entry.get("dev"))
+        if name and not entry.get("optional") and not entry.get("dev")
     )
 
 

@@ -19,7 +19,7 @@ TO_EARTH = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])  # from glTF's axes, y
 
 def run_node(script, *arguments):
     try:
-        bundle.packages(PAGE, development=True)
+        bundle.packages(PAGE)
         node = bundle.node()[0]
     except RuntimeError as error:
         pytest.skip(str(error))
