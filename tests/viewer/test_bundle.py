@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 import os
 import shutil
 import signal
@@ -141,6 +142,19 @@ def test_without_a_network_one_sentence_names_the_remedy(page, tmp_path, monkeyp
     assert "\n" not in str(caught.value)
     assert [path.name for path in page.glob(".part-*")] == []
     assert not (page / "node_modules").exists()
+
+
+def test_packages_of_another_version_are_not_those_of_the_lock_file(page):
+    assert bundle._installed(page)
+    lock = page / "package-lock.json"
+    named = json.loads(lock.read_text(encoding="utf-8"))
+    assert named["packages"]["node_modules/eslint"]["dev"]  # what only a check needs is not asked for
+    named["packages"]["node_modules/eslint"]["integrity"] = "sha512-another"
+    lock.write_text(json.dumps(named), encoding="utf-8")
+    assert bundle._installed(page)
+    named["packages"]["node_modules/three"]["integrity"] = "sha512-another"
+    lock.write_text(json.dumps(named), encoding="utf-8")
+    assert not bundle._installed(page)
 
 
 def test_a_wheel_uses_its_script_and_one_without_it_says_so(tmp_path):

@@ -38,7 +38,8 @@ void main() {
 export class Dust {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{most?: number}} [options] most: particles in the air at once
+   * @param {{most?: number, limits?: Data, surface?: (x: number, y: number) => string}} [options] most: particles in the air
+   *   at once; the others are those of Wheels
    */
   constructor(view, options = {}) {
     this.view = view;
@@ -49,10 +50,10 @@ export class Dust {
     this.cloud = new Cloud(this.wheels.list.length, this.most);
     if (this.problem || view.problem) return;
     this.geometry = new THREE.BufferGeometry();
-    for (const [name, size] of [["position", 3], ["tint", 4], ["size", 1]]) {
+    for (const [name, size] of Object.entries({ position: 3, tint: 4, size: 1 })) {
       const buffer = new THREE.BufferAttribute(new Float32Array(this.most * size), size);
       this.geometry.setAttribute(name, buffer.setUsage(THREE.DynamicDrawUsage));
-    } // prettier-ignore
+    }
     this.geometry.setDrawRange(0, 0);
     const material = new THREE.ShaderMaterial({
       vertexShader: VERTEX,

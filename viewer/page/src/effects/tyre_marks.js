@@ -60,11 +60,11 @@ export class TyreMarks {
       this.#drawn = -1;
     }
     if (this.#drawn !== this.tracks.changes) this.#draw();
-    this.mesh.position.set(...subtract(this.#base, origin));
+    this.mesh.position.fromArray(subtract(this.#base, origin));
   }
 
   #draw() {
-    const { position, mark } = this.geometry.attributes;
+    const { position, mark } = /** @type {Record<string, THREE.BufferAttribute>} */ (this.geometry.attributes);
     const index = this.geometry.index;
     const { up } = this.view;
     let [point, used] = [0, 0];

@@ -25,7 +25,7 @@ export const use = (slip, angle, limits = LIMITS) => Math.hypot(slip / limits.sl
 
 /** The wheels of a scene: those whose tyre forces it draws as arrows. */
 export class Wheels {
-  /** @param {object} scene @param {{limits?: object, surface?: (x: number, y: number) => string}} [options] */
+  /** @param {Data} scene @param {{limits?: Data, surface?: (x: number, y: number) => string}} [options] */
   constructor(scene, options = {}) {
     this.limits = { ...LIMITS, ...options.limits };
     this.surface = options.surface ?? surfaceOf(scene);
@@ -67,5 +67,5 @@ export class Wheels {
   }
 }
 
-/** Distance of two places. @param {number[]} a @param {number[]} b */
+/** Distance of two places. @param {ArrayLike<number>} a @param {ArrayLike<number>} b */
 export const apart = (a, b) => Math.hypot(...subtract(a, b));

@@ -6,7 +6,7 @@ const SPEEDS = [[1, "real time"], ...SLOW, [2, "fast × 2"], [5, "fast × 5"]];
 
 /** The bar; it calls `act` of the page and shows what it is told. */
 export class Bar {
-  /** @param {object} act - Functions: reset, toggle, step, back, speed, scrub, camera, csv. */
+  /** @param {Data} act - Functions: reset, toggle, step, back, speed, scrub, camera, csv. */
   constructor(act, { cameras, steps, step, views }) {
     this._play = button("play", "Run", "run or pause (P)", act.toggle);
     this._line = el("input", { type: "range", min: 0, max: 1, step: "any", title: "go back, then drive on from there", data: "timeline" });
@@ -45,9 +45,9 @@ export class Bar {
    */
   show({ running, oldest, time, end, scrubbed }) {
     this._play.textContent = running ? "Pause" : scrubbed ? "Run from here" : "Run";
-    this._line.min = oldest;
-    this._line.max = Math.max(end, oldest + 1e-6);
-    if (document.activeElement !== this._line || running) this._line.value = time;
+    this._line.min = String(oldest);
+    this._line.max = String(Math.max(end, oldest + 1e-6));
+    if (document.activeElement !== this._line || running) this._line.value = String(time);
     this._time.textContent = `${time.toFixed(2)} s`;
   }
 }

@@ -4,7 +4,7 @@
 
 /**
  * Columns of a scene that turn.
- * @param {object} scene
+ * @param {Data} scene
  * @returns {Turns}
  */
 export function turnsOf(scene) {
@@ -28,7 +28,7 @@ function turned(a, b) {
 export class Blend {
   /**
    * @param {Map<string, number>} columns - Index in a row by name.
-   * @param {Turns} [turns]
+   * @param {Partial<Turns>} [turns]
    * @param {Set<string>} [whole] - Names of whole numbers: those of the nearer row count.
    */
   constructor(columns, { angles = new Set(), quaternions = [] } = {}, whole = new Set()) {

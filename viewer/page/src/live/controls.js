@@ -5,11 +5,11 @@ import { choicesOf, fromSlider, rangeOf, toSlider } from "./ranges.js";
 const POSITIONS = 1000;
 
 /**
- * @param {object} variable - Of the description of the FMU.
+ * @param {Data} variable - Of the description of the FMU.
  * @param {object} options
  * @param {(value: number|boolean|string) => void} options.change - Called with a value that fits the variable.
  * @param {string} [options.note] - Behind the name, such as what a change does.
- * @param {[string, string][]} [options.texts] - Values of a text and their words.
+ * @param {string[][]} [options.texts] - Values of a text and their words.
  * @returns {{element: HTMLElement, show: (value: number|boolean|string) => void}}
  */
 export function control(variable, { change, note = "", texts = [] }) {
@@ -32,13 +32,13 @@ function number(variable, change) {
   let held = false; // while a hand is on it, the run does not move it
   const show = (value) => {
     if (held || document.activeElement === field) return;
-    slider.value = POSITIONS * toSlider(range, value);
-    field.value = Number(Number(value).toPrecision(6));
+    slider.value = String(POSITIONS * toSlider(range, value));
+    field.value = String(Number(Number(value).toPrecision(6)));
   };
   slider.addEventListener("pointerdown", () => (held = true));
   for (const end of ["pointerup", "pointercancel", "change"]) slider.addEventListener(end, () => (held = false));
   slider.addEventListener("input", () => {
-    const value = fromSlider(range, slider.value / POSITIONS);
+    const value = fromSlider(range, Number(slider.value) / POSITIONS);
     field.value = value;
     change(value);
   });
@@ -48,7 +48,7 @@ function number(variable, change) {
     const good = field.value.trim() !== "" && value >= min && value <= max && (!range.whole || Number.isInteger(value));
     field.classList.toggle("a3-wrong", !good);
     if (!good) return;
-    slider.value = POSITIONS * toSlider(range, value);
+    slider.value = String(POSITIONS * toSlider(range, value));
     change(value);
   });
   const ends = `${short(range.low)} to ${short(range.high)}${unit}`;

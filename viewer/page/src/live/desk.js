@@ -2,12 +2,12 @@
 import { Runner } from "./worker.js";
 
 // While the script of the page runs; later it is no longer known.
-const script = typeof document === "undefined" ? null : document.currentScript;
+const script = typeof document === "undefined" ? null : /** @type {HTMLScriptElement | null} */ (document.currentScript);
 
 /** Where the FMUs run: a worker, or, where there can be none, the page itself. */
 export class Desk {
   /**
-   * @param {(message: object) => void} take - What the worker tells.
+   * @param {(message: Data) => void} take - What the worker tells.
    * @param {{worker?: boolean}} [options] - `worker: false`: in the page.
    */
   constructor(take, { worker = true } = {}) {
@@ -26,7 +26,7 @@ export class Desk {
     }
   }
 
-  /** @param {object} message - As `Runner.take` has it. */
+  /** @param {Data} message - As `Runner.take` has it. */
   send(message) {
     if (this._worker) this._worker.postMessage(message);
     else if (this._runner) this._runner.take(message);

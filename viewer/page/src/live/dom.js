@@ -2,19 +2,20 @@
 
 /**
  * An element.
- * @param {string} tag - Name, with classes after dots.
- * @param {object} [set] - Properties; `data` becomes the attribute data-a3, by which programs find it.
- * @param {...(Node|string)} children
- * @returns {HTMLElement}
+ * @template {string} Tag
+ * @param {Tag} tag - Name, with classes after dots.
+ * @param {Data} [set] - Properties; `data` becomes the attribute data-a3, by which programs find it.
+ * @param {...(Node | string | number)} children
+ * @returns {ElementOf<Tag>}
  */
 export function el(tag, set = {}, ...children) {
   const [name, ...classes] = tag.split(".");
-  const element = document.createElement(name);
+  const element = /** @type {ElementOf<Tag>} */ (document.createElement(name));
   if (classes.length) element.className = classes.join(" ");
   const { data, ...properties } = set;
   if (data) element.setAttribute("data-a3", data);
   Object.assign(element, properties);
-  element.append(...children);
+  element.append(.../** @type {(Node | string)[]} */ (children));
   return element;
 }
 
@@ -38,13 +39,13 @@ export function button(data, text, title, work) {
  * A choice that gives the focus back.
  * @param {string} data
  * @param {string} title
- * @param {[string | number, string][]} options - Values and their words.
+ * @param {(string | number)[][]} options - Values and their words.
  * @param {(value: string) => void} work
  * @param {string | number} [value] - Chosen at first.
  */
 export function select(data, title, options, work, value) {
   const made = el("select", { title, data }, ...options.map(([v, words]) => el("option", { value: v }, words)));
-  if (value !== undefined) made.value = value;
+  if (value !== undefined) made.value = String(value);
   made.addEventListener("change", () => {
     work(made.value);
     made.blur();
@@ -60,7 +61,7 @@ export function write(element, text) {
 /** An element of a drawing. @param {string} tag @param {Object<string, string | number>} [set] @param {...Node} children */
 export function svg(tag, set = {}, ...children) {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(set)) element.setAttribute(name, value);
+  for (const [name, value] of Object.entries(set)) element.setAttribute(name, String(value));
   element.append(...children);
   return element;
 }

@@ -23,7 +23,7 @@ const RESTART_MS = 250;
 /**
  * Fill an element with an FMU that runs.
  * @param {HTMLElement} container
- * @param {object} given - `{scene, description, wasm, resources, title}` of one FMU, or `fmus`: several of them side by
+ * @param {Data} given - `{scene, description, wasm, resources, title}` of one FMU, or `fmus`: several of them side by
  *   side; `beside`: a page of recordings (viewer/page_data.py) that go along, `ends`: a sentence for the end of each;
  *   `script`: inputs over time, packed JSON `{t, columns}`; `options`.
  * @returns {Drive}
@@ -34,7 +34,9 @@ export function drive(container, given) {
 
 /** The page of an FMU. */
 class Drive {
+  /** @param {HTMLElement} container @param {Data} given - See `drive`. */
   constructor(container, { options = {}, fmus, beside, ends = [], script, ...one }) {
+    /** @type {Data} */
     this.options = options;
     this.container = container;
     const parts = (fmus ?? [one]).map((f) => ({ ...f, title: f.title ?? f.description.modelName }));
@@ -199,6 +201,8 @@ class Drive {
     await this.session.ready;
     this.plots.open();
     this.draw();
+    this._drawn = NaN; // what the last picture showed
+    this._ran = false;
     this._listen();
     this._frame();
     if (this.options.run !== false) await this.run(this.options.speed ?? 1);

@@ -60,7 +60,7 @@ export function scriptAt({ t, columns }, time, whole = new Set()) {
 /** The run of one or more FMUs. */
 export class Engine {
   /**
-   * @param {object[]} fmus - As `loadFmu` gives them.
+   * @param {Data[]} fmus - As `loadFmu` gives them.
    * @param {number} step - Communication step, s.
    */
   constructor(fmus, step) {

@@ -43,7 +43,7 @@ export function sourcesOf(pad) {
 
 /** The device that drives. */
 export class Gamepad {
-  /** @param {() => (object|null)[]} list - `navigator.getGamepads`, or one for a test. */
+  /** @param {() => (Data|null)[]} list - `navigator.getGamepads`, or one for a test. */
   constructor(list) {
     this._list = list;
     this.zone = 0.08;

@@ -2,7 +2,10 @@
 import { Keyboard, RATES } from "./keyboard.js";
 import { Gamepad } from "./gamepad.js";
 
-/** Whether somebody writes or chooses where an event comes from, so that its key is not for driving. */
+/**
+ * Whether somebody writes or chooses where an event comes from, so that its key is not for driving.
+ * @param {Partial<HTMLInputElement>} target
+ */
 export function typing({ tagName, type, isContentEditable }) {
   return tagName === "SELECT" || tagName === "TEXTAREA" || isContentEditable || (tagName === "INPUT" && /^(number|text|search)$/.test(type));
 }
@@ -13,7 +16,7 @@ export class Hands {
    * @param {object} options
    * @param {string[]} options.inputs - Of the FMU; what is no input is not asked for.
    * @param {Object<string, number> | null} options.constants - Of a car; null: keys do nothing.
-   * @param {() => (object | null)[]} [options.pads] - `navigator.getGamepads`.
+   * @param {() => (Data | null)[]} [options.pads] - `navigator.getGamepads`.
    * @param {(source: string, wants: [string, number, number?][]) => void} options.want - Input, value, largest change
    *   per second (none: at once), of "keys" or "gamepad".
    */

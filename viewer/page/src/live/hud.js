@@ -31,7 +31,7 @@ export function gearWords(lookup, { selector, gear }) {
 /** Head-up figures of one FMU. */
 export class Hud {
   /**
-   * @param {Map<string, object>} variables - Of the FMU by name.
+   * @param {Map<string, Data>} variables - Of the FMU by name.
    * @param {string} title
    */
   constructor(variables, title) {
@@ -51,7 +51,7 @@ export class Hud {
   /**
    * @param {(name: string) => number} lookup
    * @param {number} time - s.
-   * @param {object | null} pace - See `paceWords`; null for a recording.
+   * @param {Parameters<typeof paceWords>[0] | null} pace - See `paceWords`; null for a recording.
    */
   show(lookup, time, pace) {
     if (this._speed) this._big.textContent = `${(3.6 * lookup(this._speed)).toFixed(0)} km/h`;

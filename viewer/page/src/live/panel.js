@@ -10,7 +10,7 @@ export function section(title, open, ...children) {
 
 /**
  * Inputs as sliders.
- * @param {object[]} variables
+ * @param {Data[]} variables
  * @param {(name: string, value: number) => void} want
  * @returns {{element: HTMLElement, show: (name: string, value: number) => void}}
  */
@@ -22,7 +22,7 @@ export function inputPanel(variables, want, hint) {
   return { element: section("Inputs", true, ...children), show: (name, value) => controls.get(name)?.show(value) };
 }
 
-/** The group that a parameter stands in: what is before its first dot. */
+/** The group that a parameter stands in: what is before its first dot. @param {Data} variable */
 function groupOf({ name }) {
   if (!name.includes(".")) return "run";
   const head = name.split(".")[0];
@@ -31,9 +31,9 @@ function groupOf({ name }) {
 
 /**
  * Parameters by group.
- * @param {object[]} variables
+ * @param {Data[]} variables
  * @param {object} options
- * @param {(variable: object, value: number|boolean|string) => void} options.set
+ * @param {(variable: Data, value: number|boolean|string) => void} options.set
  * @param {string[]} options.roads - Files of roads in the FMU.
  * @returns {{element: HTMLElement, show: (name: string, value: any) => void}}
  */
@@ -106,7 +106,7 @@ export function gamepadPanel(gamepad, inputs) {
 /**
  * What the pictures show beside shapes.
  * @param {{arrows?: boolean, stress?: boolean, deformation?: boolean}[]} has - What each picture can.
- * @param {(wishes: object) => void} set - Told what a person wants, as `SceneView.set` has it.
+ * @param {(wishes: Data) => void} set - Told what a person wants, as `SceneView.set` has it.
  * @returns {HTMLElement | null} Nothing where there is nothing to choose.
  */
 export function picturePanel(has, set) {

@@ -8,13 +8,14 @@ import { section } from "./panel.js";
 const MOST_POINTS = 1000;
 const HEIGHT = 120;
 const COLOURS = ["#1f77b4", "#d62728", "#2ca02c", "#9467bd"];
+/** @type {[number, string][]} */
 const SPANS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [Infinity, "all"]];
 
 /** The plots of the panel. */
 export class Plots {
   /**
    * @param {string[]} names - Of inputs and outputs that can be chosen.
-   * @param {Map<string, object>} variables - For units and descriptions.
+   * @param {Map<string, Data>} variables - For units and descriptions.
    * @param {string[]} first - Chosen at the start.
    */
   constructor(names, variables, first) {

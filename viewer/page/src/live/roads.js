@@ -2,9 +2,9 @@
 
 /**
  * Roads with their kerbs where parameters have them; the higher side stays where it is.
- * @param {object[]} roads - Of a scene; `variables` names the parameters.
+ * @param {Data[]} roads - Of a scene; `variables` names the parameters.
  * @param {(name: string) => number | undefined} lookup
- * @returns {{roads: object[], key: string}} `key` is another one when they look different.
+ * @returns {{roads: Data[], key: string}} `key` is another one when they look different.
  */
 export function movedRoads(roads, lookup) {
   const key = [];

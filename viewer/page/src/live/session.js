@@ -10,9 +10,9 @@ const BEHIND = 0.03;
 /** A run as the page sees it. */
 export class Session {
   /**
-   * @param {object[]} fmus - `{description, wasm, resources, title}` with unpacked bytes.
-   * @param {object} options - `step`, `start`, `script` (inputs over time), `worker`.
-   * @param {object} hears - Functions: started, refused, message, error.
+   * @param {Data[]} fmus - `{description, wasm, resources, title}` with unpacked bytes.
+   * @param {Data} options - `step`, `start`, `script` (inputs over time), `worker`.
+   * @param {Data} hears - Functions: started, refused, message, error.
    */
   constructor(fmus, options, hears) {
     const descriptions = fmus.map((f) => f.description);

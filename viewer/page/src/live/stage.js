@@ -14,12 +14,13 @@ const SURVEYED_UNTIL = 20;
 /** Pictures that are drawn when something has changed. */
 export class Stage {
   /**
-   * @param {object[]} items - `{title, scene, variables}` of an FMU, or `{title, scene, recording}`.
-   * @param {object} options - Of SceneView.
+   * @param {Data[]} items - `{title, scene, variables}` of an FMU, or `{title, scene, recording}`.
+   * @param {Data} options - Of SceneView.
    */
   constructor(items, options) {
     this.element = el("div.a3-stage");
     this._surveyed = 0;
+    /** @type {Data[]} one for each item: what it has, the elements, and what is made of them */
     this.parts = items.map((item) => {
       const holder = el("div.a3-picture");
       const notice = el("div.a3-notice", { data: "notice", hidden: true });
@@ -83,8 +84,11 @@ export class Stage {
     this._surveyed = 0;
     for (const [which, part] of this.parts.filter((p) => p.variables).entries()) {
       const names = [...part.variables.values()].filter((v) => v.causality === "output").map((v) => v.name);
+      /** @type {[string, number][]} */
+      const held = record.held.map((name, k) => [name, k]);
+      /** @type {[string, number][]} */
       const own = names.map((name) => [name, record.column(prefixes[which] + name)]);
-      part.columns = new Map([...record.held.map((name, k) => [name, k]), ...own.filter(([, index]) => index >= 0)]);
+      part.columns = new Map([...held, ...own.filter(([, index]) => index >= 0)]);
       part.blend = new Blend(part.columns, turnsOf(part.scene));
       const others = [...part.variables.values()].filter((v) => !part.columns.has(v.name));
       part.fixed = new Map(others.map((v) => [v.name, start[v.name] ?? v.start]));

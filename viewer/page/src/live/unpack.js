@@ -3,8 +3,8 @@ import { bytesOf, gunzipped } from "../bytes.js";
 
 /**
  * Bytes of base64, unpacked where they are gzip.
- * @param {string | ArrayBuffer | Uint8Array} given - Bytes stay as they are.
- * @returns {Promise<Uint8Array>}
+ * @param {string | ArrayBuffer | Uint8Array<ArrayBuffer>} given - Bytes stay as they are.
+ * @returns {Promise<Uint8Array<ArrayBuffer>>}
  */
 export async function unpack(given) {
   if (typeof given !== "string") return given instanceof Uint8Array ? given : new Uint8Array(given);

@@ -16,7 +16,7 @@ export function clock() {
 
 /** Answers the messages of a page. */
 export class Runner {
-  /** @param {(message: object, transfer?: ArrayBuffer[]) => void} post - To the page. */
+  /** @param {(message: Data, transfer?: ArrayBuffer[]) => void} post - To the page. */
   constructor(post) {
     this._post = post;
     this._timer = null;
@@ -25,7 +25,7 @@ export class Runner {
     this._cost = 0; // s a step, smoothed
   }
 
-  /** @param {object} message - `{do: "open" | "restart" | ..., ...}` */
+  /** @param {Data} message - `{do: "open" | "restart" | ..., ...}` */
   async take(message) {
     try {
       await this[`_${message.do}`](message);
@@ -105,7 +105,7 @@ export class Runner {
     let now = begin;
     while (going && this.engine.k < due && now - begin < SLICE) {
       going = this._one();
-      done += going;
+      if (going) done += 1;
       now = clock();
     }
     if (done) this._cost += ((now - begin) / done - this._cost) * Math.min(1, done / 200);
@@ -152,6 +152,6 @@ export class Runner {
 
 /** Serve the page that started this worker. */
 export function serve() {
-  const runner = new Runner((message, transfer) => self.postMessage(message, transfer ?? []));
+  const runner = new Runner((message, transfer) => self.postMessage(message, { transfer: transfer ?? [] }));
   self.onmessage = (event) => runner.take(event.data);
 }

@@ -5,7 +5,7 @@ import { gridSurface } from "./grid.js";
 import { mirrorOf } from "./mirror.js";
 import { room } from "./room.js";
 
-/** @param {object} view the SceneView @param {boolean} fine */
+/** @param {Data} view the SceneView @param {boolean} fine */
 export function board(view, fine) {
   const { world, renderer, extent } = view;
   world.background = new THREE.Color("#ffffff");

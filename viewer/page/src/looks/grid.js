@@ -18,7 +18,7 @@ diffuseColor.a *= 1.0 - smoothstep(0.6, 1.0, far);
 /**
  * @param {{x: number[], y: number[], step: number, reach: number, color: string, ink: string, lit: boolean}} options
  *   x, y: unit vectors of the surface; step: metres between lines, every fifth is bold; reach: where it ends
- * @returns {{mesh: THREE.Mesh, follow: (origin: number[]) => void}} a square of side 2 reach, to be turned and placed
+ * @returns {{mesh: THREE.Mesh<THREE.PlaneGeometry, THREE.Material>, follow: (origin: number[]) => void}} a square of side 2 reach, to be turned and placed
  */
 export function gridSurface({ x, y, step, reach, color, ink, lit }) {
   const uniforms = {
@@ -49,7 +49,7 @@ export function gridSurface({ x, y, step, reach, color, ink, lit }) {
   mesh.renderOrder = -1;
   const follow = (origin) => {
     const at = [dot(origin, x), dot(origin, y)];
-    [step, 5 * step].forEach((period, i) => uniforms.aOffset.value[i].set(...at.map((a) => a - period * Math.floor(a / period))));
+    [step, 5 * step].forEach((period, i) => uniforms.aOffset.value[i].fromArray(at.map((a) => a - period * Math.floor(a / period))));
   };
   return { mesh, follow };
 }

@@ -12,7 +12,7 @@ const TABLE = 64;
 
 /** Heights between the points of all patches of a terrain; beyond the border the values there go on. */
 export class HeightField {
-  /** @param {object} road an entry of a scene's `roads` of the kind terrain */
+  /** @param {Data} road an entry of a scene's `roads` of the kind terrain */
   constructor(road) {
     /** @type {Patch[]} */
     this.patches = road.patches.map((patch) => ({ ...patch, heights: floats(patch.heights) }));
@@ -92,7 +92,7 @@ export const SURFACES = ["asphalt", "grass", "wet", "gravel", "concrete", "ice",
 
 /** The raster that says what a terrain is made of. */
 export class SurfaceRaster {
-  /** @param {object | undefined} surface the key `surface` of a terrain; without one all is asphalt */
+  /** @param {Data | undefined} surface the key `surface` of a terrain; without one all is asphalt */
   constructor(surface) {
     this.names = surface?.names ?? ["asphalt"];
     this.origin = surface?.origin ?? [0, 0];
@@ -113,7 +113,7 @@ export class SurfaceRaster {
   }
 }
 
-/** What lies at a place of a scene. @param {object} scene @returns {(x: number, y: number) => string} name of a surface */
+/** What lies at a place of a scene. @param {Data} scene @returns {(x: number, y: number) => string} name of a surface */
 export function surfaceOf(scene) {
   const terrain = (scene.roads ?? []).find(({ kind }) => kind === "terrain");
   if (terrain === undefined) return () => "asphalt";

@@ -6,13 +6,13 @@ import { Pace } from "./pace.js";
 
 const LOOKS = { board, outdoors, studio };
 
-/** Name of the look of a scene. @param {object} scene */
+/** Name of the look of a scene. @param {Data} scene */
 export function lookOf(scene) {
   if (scene.planar) return "board";
   return (scene.roads ?? []).length > 0 ? "outdoors" : "studio";
 }
 
-/** @param {object} view the SceneView */
+/** @param {Data} view the SceneView */
 export function makeLook(view) {
   const { options, scene, renderer, software } = view;
   const name = options.look ?? lookOf(scene);

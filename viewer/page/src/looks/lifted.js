@@ -8,7 +8,7 @@ export const LIFT = 0.004;
 /**
  * Lines thinner than a pixel are drawn a pixel wide and so much fainter: the same light, and no dots instead of a line.
  * The attribute `aside` goes from the middle of a line to its edge.
- * @param {{vertexShader: string, fragmentShader: string, uniforms: object}} shader @param {{value: object}} viewport pixels
+ * @param {{vertexShader: string, fragmentShader: string, uniforms: Data}} shader @param {{value: Data}} viewport pixels
  */
 export function widen(shader, viewport) {
   shader.uniforms.aViewport = viewport;

@@ -20,9 +20,9 @@ export function mirrorOf(renderer, around, fine) {
   const generator = fine ? new THREE.PMREMGenerator(renderer) : new CoarseGenerator(renderer);
   const target = generator.fromScene(around, 0, 0.1, 100);
   generator.dispose();
-  around.traverse((part) => {
+  around.traverse((/** @type {THREE.Mesh} */ part) => {
     part.geometry?.dispose();
-    part.material?.dispose();
+    for (const material of [part.material ?? []].flat()) material.dispose();
   });
   return target;
 }

@@ -9,7 +9,7 @@ import { HAZE, skyBall } from "./sky.js";
 import { sharpen, sunLight } from "./sun.js";
 import { makeWorld } from "./world.js";
 
-/** @param {object} view the SceneView @param {boolean} fine whether the machine draws by a graphics card */
+/** @param {Data} view the SceneView @param {boolean} fine whether the machine draws by a graphics card */
 export function outdoors(view, fine) {
   const { world, renderer, up, extent, scene } = view;
   const x = across(up);

@@ -13,7 +13,7 @@ const STEP = 200;
 const PIECE = 64;
 
 /**
- * @param {object} scene
+ * @param {Data} scene
  * @param {{up: number[], asphalt: THREE.Material, road: THREE.Material, grass: THREE.Material, extent: number}} looks
  */
 export function makeRoads(scene, looks) {
@@ -34,7 +34,7 @@ export function makeRoads(scene, looks) {
     group,
     unknown,
     follow(origin) {
-      for (const piece of pieces) piece.follow(origin);
+      for (const { follow } of pieces) follow(origin);
     },
     dispose() {
       for (const { mesh } of pieces) mesh.geometry.dispose();
@@ -48,7 +48,7 @@ function endless(point, normal, material) {
   dry(geometry);
   const mesh = new THREE.Mesh(geometry, material);
   turn(mesh, alongY(normal));
-  const follow = (origin) => mesh.position.set(...scale(normal, dot(normal, subtract(point, origin))));
+  const follow = (origin) => mesh.position.fromArray(scale(normal, dot(normal, subtract(point, origin))));
   return [{ mesh, follow }];
 }
 
@@ -77,7 +77,7 @@ function profile(road, { up, road: material }) {
       built = { s, aside, at: add(base, add(scale(forward, s), scale(side, aside))) };
       rebuild(mesh.geometry, strip(road, s, ENDLESS), { forward, side, up, half: (road.width ?? 2 * ENDLESS) / 2 });
     }
-    mesh.position.set(...subtract(built.at, origin));
+    mesh.position.fromArray(subtract(built.at, origin));
   };
   return [{ mesh, follow }];
 }
@@ -106,10 +106,11 @@ const STONE = 0.15;
  * @param {number[][]} pairs of station and level
  */
 export function surfaces(pairs) {
-  const steep = ([s0, h0], [s1, h1]) => Math.abs(h1 - h0) > 0.5 * (s1 - s0);
+  const steep = (/** @type {number[]} */ [s0, h0], /** @type {number[]} */ [s1, h1]) => Math.abs(h1 - h0) > 0.5 * (s1 - s0);
   const found = [];
   for (let i = 0; i + 1 < pairs.length; i++) {
-    let [from, to] = [pairs[i], pairs[i + 1]];
+    let from = pairs[i];
+    const to = pairs[i + 1];
     const kerb = steep(from, to);
     const at = (s) => [s, from[1] + ((s - from[0]) / (to[0] - from[0])) * (to[1] - from[1])];
     const long = to[0] - from[0] > 3 * STONE;
@@ -140,9 +141,9 @@ function rebuild(geometry, pairs, { forward, side, up, half }) {
       wets.push(kerb ? -1 : 0); // below zero: a kerb's stone
     }
   }
-  const flat = new THREE.BufferGeometry();
-  flat.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
-  const creased = toCreasedNormals(flat, CREASE);
+  const made = new THREE.BufferGeometry();
+  made.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
+  const creased = toCreasedNormals(made, CREASE);
   geometry.dispose();
   geometry.setAttribute("position", creased.getAttribute("position"));
   geometry.setAttribute("normal", creased.getAttribute("normal"));
@@ -195,5 +196,5 @@ function piece(at, positions, triangles, wets, material) {
   if (wets === null) dry(geometry);
   else geometry.setAttribute("wet", new THREE.BufferAttribute(Float32Array.from(wets), 1));
   const mesh = new THREE.Mesh(geometry, material);
-  return { mesh, follow: (origin) => mesh.position.set(...subtract(at, origin)) };
+  return { mesh, follow: (origin) => mesh.position.fromArray(subtract(at, origin)) };
 }

@@ -18,6 +18,7 @@ export function room(up) {
     return new THREE.Mesh(new THREE.PlaneGeometry(wide, high), new THREE.MeshBasicMaterial({ color: colour, side: THREE.DoubleSide }));
   };
   const floor = lamp(0.3, 30, 30);
+  /** @type {[THREE.Mesh, number, number, number][]} */
   const lamps = [[lamp(7, 10, 6), 2, 1, 13], [lamp(4, 4, 10), 13, -4, 4], [lamp(3, 3, 9), -12, -6, 3], [lamp(2.5, 8, 3), -3, 13, 6], [floor, 0, 0, -9]]; // prettier-ignore
   for (const [mesh, a, b, c] of lamps) {
     place(mesh, a, b, c);

@@ -3,7 +3,7 @@
 /** Follows the lights of a Lambert material of three.js. */
 export const SKYLIGHT = "reflectedLight.indirectDiffuse += vec3(0.34, 0.39, 0.47) * diffuseColor.rgb;";
 
-/** @param {import("three").Material} material @param {(shader: object) => void} [more] further changes of the shader */
+/** @param {import("three").Material} material @param {(shader: Data) => void} [more] further changes of the shader */
 export function skylit(material, more = () => {}) {
   material.onBeforeCompile = (shader) => {
     shader.fragmentShader = shader.fragmentShader.replace("#include <lights_fragment_end>", `#include <lights_fragment_end>\n${SKYLIGHT}`);

@@ -10,7 +10,7 @@ import { sharpen, sunLight } from "./sun.js";
 
 const BACKGROUND = "#dfe4e8";
 
-/** @param {object} view the SceneView @param {boolean} fine */
+/** @param {Data} view the SceneView @param {boolean} fine */
 export function studio(view, fine) {
   const { world, renderer, up, extent } = view;
   const x = Math.abs(dot(up, [1, 0, 0])) < 0.9 ? unit([1, 0, 0].map((a, i) => a - up[0] * up[i])) : across(up);
@@ -38,7 +38,7 @@ export function studio(view, fine) {
     caption: `grid ${step} m`,
     follow(origin) {
       floor.follow(origin);
-      floor.mesh.position.set(...scale(up, view.floor - dot(up, origin)));
+      floor.mesh.position.fromArray(scale(up, view.floor - dot(up, origin)));
     },
     quality: (high) => sharpen(sun, high ? 2048 : 1024),
     restore: bake,

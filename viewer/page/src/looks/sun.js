@@ -7,7 +7,7 @@ import * as THREE from "three";
  */
 export function sunLight({ direction, reach, strength, color, size }) {
   const light = new THREE.DirectionalLight(color, strength);
-  light.position.set(...direction.map((d) => d * 4 * reach));
+  light.position.fromArray(direction.map((d) => d * 4 * reach));
   light.castShadow = true;
   Object.assign(light.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.5 * reach, far: 9 * reach });
   light.shadow.mapSize.set(size, size);

@@ -16,7 +16,7 @@ const POINTS = 60000;
 const [LEAST, THIN, ERROR] = [2e-3, 150, 7e-4];
 
 /**
- * @param {object} road an entry of a scene's `roads` of the kind terrain
+ * @param {Data} road an entry of a scene's `roads` of the kind terrain
  * @param {THREE.Material} material
  * @param {number[][]} axes x, y and up of the world
  * @param {HeightField} field
@@ -67,5 +67,5 @@ function drawnPiece(piece, field, material) {
   return { mesh, base, levels: made, middle: ball.center.toArray(), radius: ball.radius };
 }
 
-/** Heights and surfaces of a terrain, and what of it has no look of its own. @param {object} road */
+/** Heights and surfaces of a terrain, and what of it has no look of its own. @param {Data} road */
 export const groundOf = (road) => ({ field: new HeightField(road), raster: new SurfaceRaster(road.surface) });

@@ -10,9 +10,9 @@ import { groundOf, terrain } from "./terrain.js";
 const axesOf = (up) => (Math.abs(up[2]) > 0.5 ? [[1, 0, 0], [0, 1, 0], up] : [[1, 0, 0], [0, 0, -1], up]); // prettier-ignore
 
 /**
- * @param {object} scene
+ * @param {Data} scene
  * @param {{up: number[], noise: THREE.Texture, sun: THREE.Vector3, fine: boolean}} looks sun: unit vector to it
- * @returns {object | null} null where a scene has neither terrain nor scenery
+ * @returns {Data | null} null where a scene has neither terrain nor scenery
  */
 export function makeWorld(scene, { up, noise, sun, fine }) {
   const roads = (scene.roads ?? []).filter(({ kind }) => kind === "terrain");

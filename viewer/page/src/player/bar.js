@@ -4,7 +4,7 @@ import { element, icon } from "./elements.js";
 
 /** The bar; it asks the player and tells it. */
 export class Bar {
-  /** @param {HTMLElement} parent @param {object} player */
+  /** @param {HTMLElement} parent @param {Data} player */
   constructor(parent, player) {
     this.player = player;
     const { clock } = player;
@@ -38,7 +38,9 @@ export class Bar {
       element("div", { class: "ali3-group" }, [this.speed, this.rate]),
       element("div", { class: "ali3-group" }, this.#views()),
     );
-    for (const control of [...parent.querySelectorAll(".ali3-group:first-child button"), this.speed]) control.disabled = !moves;
+    /** @type {NodeListOf<HTMLButtonElement>} */
+    const buttons = parent.querySelectorAll(".ali3-group:first-child button");
+    for (const control of [...buttons, this.speed]) control.disabled = !moves;
     this.now();
   }
 

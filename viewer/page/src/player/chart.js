@@ -18,12 +18,19 @@ export class Chart {
 
   /**
    * @param {HTMLElement} parent
-   * @param {{unit: string, names: string[], runs: object[], colours: (name: string) => string, player: object,
+   * @param {{unit: string, names: string[], runs: Data[], colours: (name: string) => string, player: Data,
    *   zoomed: (chart: Chart, range: [number, number]) => void, difference: boolean,
    *   compare: (unit: string, on: boolean) => void}} options
    */
-  constructor(parent, options) {
-    Object.assign(this, options);
+  constructor(parent, { unit, names, runs, colours, player, zoomed, difference, compare }) {
+    this.unit = unit;
+    this.names = names;
+    this.runs = runs;
+    this.colours = colours;
+    this.player = player;
+    this.zoomed = zoomed;
+    this.difference = difference;
+    this.compare = compare;
     this.curves = this.#curves();
     this.legend = this.#legend();
     this.box = element("div", { class: "ali3-chart" }, [this.legend]);
@@ -72,6 +79,7 @@ export class Chart {
     return [joined[0], ...this.curves.map(({ data }) => at.get(data))];
   }
 
+  /** @returns {uPlot.Options} */
   #settings() {
     const ink = () => getComputedStyle(this.box).getPropertyValue("--soft").trim() || "#555";
     const grid = () => getComputedStyle(this.box).getPropertyValue("--grid").trim() || "#ddd";

@@ -11,7 +11,12 @@ export class Clock {
    * @param {{speed?: number, loop?: boolean}} [options]
    */
   constructor(begin, end, { speed = 1, loop = true } = {}) {
-    Object.assign(this, { begin, end, speed, loop, time: begin, playing: false });
+    this.begin = begin;
+    this.end = end;
+    this.speed = speed;
+    this.loop = loop;
+    this.time = begin;
+    this.playing = false;
     /** Time shown per time passed, measured while it plays; null before that is known. */
     this.rate = null;
     this.#measure();

@@ -2,7 +2,7 @@
 import { bytesOf, gunzipped } from "../bytes.js";
 
 /**
- * @typedef {{scene: object | null, t: Float64Array, columns: Object<string, {unit: string, data: ArrayLike<number>}>,
+ * @typedef {{scene: Data | null, t: Float64Array, columns: Object<string, {unit: string, data: ArrayLike<number>}>,
  *   name: string, notes: string[], missing: {name: string, why: string}[]}} Run
  */
 
@@ -22,7 +22,7 @@ export function fromPlanes(planes, kind) {
   return kind === "f8" ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
 }
 
-/** @param {{names: string[], kind: string, data: string}} block @returns {Promise<Map<string, ArrayLike<number>>>} */
+/** @param {{names: string[], kind: "f8" | "f4", data: string}} block @returns {Promise<Map<string, ArrayLike<number>>>} */
 async function columnsOf(block) {
   const numbers = fromPlanes(await gunzipped(bytesOf(block.data)), block.kind);
   const count = numbers.length / block.names.length;
@@ -30,8 +30,8 @@ async function columnsOf(block) {
 }
 
 /**
- * @param {object} page JSON that viewer/page_data.py makes
- * @returns {Promise<{runs: Run[], options: object}>}
+ * @param {Data} page JSON that viewer/page_data.py makes
+ * @returns {Promise<{runs: Run[], options: Data}>}
  */
 export async function decoded(page) {
   if (page.format !== "ALi3 page" || page.version !== 1) throw new Error("The data of this page are of another format.");

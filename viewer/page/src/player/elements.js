@@ -1,10 +1,11 @@
 // Elements of the page, made by code.
 
 /**
- * @param {string} tag
- * @param {object} [attributes] `text` is its content, `style` its style, `on...` a listener, all others are attributes
+ * @template {keyof HTMLElementTagNameMap} Tag
+ * @param {Tag} tag
+ * @param {Data} [attributes] `text` is its content, `style` its style, `on...` a listener, all others are attributes
  * @param {(Node | string)[]} [children]
- * @returns {HTMLElement}
+ * @returns {HTMLElementTagNameMap[Tag]}
  */
 export function element(tag, attributes = {}, children = []) {
   const made = document.createElement(tag);

@@ -1,7 +1,7 @@
 // The keys of the player.
 import { SPEEDS } from "./clock.js";
 
-/** Listen to the keys of a page. @param {object} player */
+/** Listen to the keys of a page. @param {Data} player */
 export function keys(player) {
   const { root, clock } = player;
   const nextSpeed = (way) => {
@@ -33,7 +33,10 @@ export function keys(player) {
     const own = typed === null || (typed.tagName === "BUTTON" && event.key !== " " && event.key !== "Enter");
     const act = acts[event.key];
     if (!own || act === undefined || event.ctrlKey || event.altKey || event.metaKey) return;
-    if (!document.contains(root)) return document.removeEventListener("keydown", listener, true);
+    if (!document.contains(root)) {
+      document.removeEventListener("keydown", listener, true);
+      return;
+    }
     event.preventDefault();
     act(event);
   };

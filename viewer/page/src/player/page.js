@@ -5,10 +5,11 @@ import { play } from "./play.js";
 /**
  * Unpack the data of a page and play them.
  * @param {HTMLElement} container
- * @param {object} page JSON
- * @returns {{ready: Promise<void>}} once that is resolved with the members of Player, or with `problem`
+ * @param {Data} page JSON
+ * @returns {Data & {ready?: Promise<void>}} once that is resolved with the members of Player, or with `problem`
  */
 export function playPage(container, page) {
+  /** @type {Data} */
   const made = { problem: "" };
   made.ready = decoded(page).then(
     async (given) => {

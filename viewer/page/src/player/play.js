@@ -21,18 +21,25 @@ let count = 0;
 /**
  * Show runs in an element.
  * @param {HTMLElement} container an element with a size
- * @param {{runs: import("./decode.js").Run[], options?: object}} given the first run is drawn solid, others as ghosts
+ * @param {{runs: import("./decode.js").Run[], options?: Data}} given the first run is drawn solid, others as ghosts
  * @returns {Player}
  */
 export const play = (container, given) => new Player(container, given);
 
 /** A page of recordings; `seek`, `camera`, `view` and `ready` are for programs. */
 export class Player {
+  /** @type {Plots | undefined} made when it is first shown */
+  plots;
+  /** @type {MediaQueryList | undefined} */
+  dark;
+
+  /** @param {HTMLElement} container @param {{runs: import("./decode.js").Run[], options?: Data}} given */
   constructor(container, { runs, options = {} }) {
     styled(uplotStyle);
     styled(style);
     this.id = count++;
     this.runs = runs;
+    /** @type {Data} */
     this.options = { ...options, ...(options.controls === false ? {} : fromHash(location.hash)) };
     this.clock = new Clock(Math.min(...runs.map(({ t }) => t[0])), Math.max(...runs.map(({ t }) => t[t.length - 1])), {
       speed: this.options.speed ?? 1,
@@ -145,7 +152,7 @@ export class Player {
     this.dirty = true;
   }
 
-  /** @param {{name: string}} ghost @param {boolean} on */
+  /** @param {Data} ghost @param {boolean} on */
   showGhost(ghost, on) {
     if (on) ghost.drawn ??= this.view.addGhost(ghost.run.scene, ghost.options);
     else {
@@ -239,9 +246,9 @@ export class Player {
   /** Lets the view look through the run, so that floor, arrows and colours keep one scale. */
   #scan() {
     const { t, columns } = this.runs[this.solid];
-    const count = Math.min(t.length, SCANNED);
-    const sample = (i) => (count > 1 ? Math.round((i * (t.length - 1)) / (count - 1)) : 0);
-    this.view.scan?.((i) => (name) => columns[name]?.data[sample(i)], count);
+    const looks = Math.min(t.length, SCANNED);
+    const sample = (i) => (looks > 1 ? Math.round((i * (t.length - 1)) / (looks - 1)) : 0);
+    this.view.scan?.((i) => (name) => columns[name]?.data[sample(i)], looks);
   }
 
   #controls() {
@@ -315,6 +322,10 @@ export class Player {
 
   /** Two pictures later the browser has shown what was drawn. */
   #painted() {
-    return new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve())));
+    /** @type {Promise<void>} */
+    const shown = new Promise((resolve) => {
+      requestAnimationFrame(() => requestAnimationFrame(() => resolve()));
+    });
+    return shown;
   }
 }

@@ -8,7 +8,7 @@ const LOWEST = 130; // pixels of a diagram
 
 /** Signals and diagrams. */
 export class Plots {
-  /** @param {HTMLElement} parent @param {object} player @param {string[]} chosen names at the start */
+  /** @param {HTMLElement} parent @param {Data} player @param {string[]} chosen names at the start */
   constructor(parent, player, chosen) {
     this.player = player;
     this.runs = player.runs;
@@ -70,6 +70,7 @@ export class Plots {
   #list() {
     if (this.list.hidden) return;
     const names = found(this.names, this.search.value);
+    /** @type {HTMLElement[]} */
     const rows = names.slice(0, LISTED).map((name) => {
       const box = element("input", { type: "checkbox", onchange: () => this.#toggle(name) });
       box.checked = this.chosen.includes(name);

@@ -3,7 +3,7 @@ import { element } from "./elements.js";
 
 /** The panel. */
 export class Settings {
-  /** @param {HTMLElement} parent @param {object} player */
+  /** @param {HTMLElement} parent @param {Data} player */
   constructor(parent, player) {
     this.player = player;
     /** Shows a value that was set elsewhere, by its name. */
@@ -18,7 +18,7 @@ export class Settings {
     this.player.bar.settings.setAttribute("aria-pressed", String(open));
   }
 
-  /** @param {object} look values that were set, by their names */
+  /** @param {Data} look values that were set, by their names */
   refresh(look) {
     for (const [key, value] of Object.entries(look)) this.shown[key]?.(value);
   }

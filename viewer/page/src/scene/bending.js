@@ -3,7 +3,7 @@ import { floats } from "./data.js";
 
 /** The arrays of one entry of a scene's `flexible`. */
 export class Bending {
-  /** @param {object} body one of a scene's `flexible` */
+  /** @param {Data} body one of a scene's `flexible` */
   constructor(body) {
     this.nodes = body.nodes;
     this.beams = body.beams;

@@ -12,14 +12,14 @@ const VIEW_ANGLES = { orbit: 34, chase: 42, driver: 66, wheel: 40, side: 30, top
 
 /** The cameras of a view; places are relative to the origin of the picture. */
 export class Cameras {
-  /** @param {object} view the SceneView @param {HTMLElement} element takes mouse and touch */
+  /** @param {Data} view the SceneView @param {HTMLElement} element takes mouse and touch */
   constructor(view, element) {
     this.view = view;
     const { extent, up, scene } = view;
     const [near, far] = [extent * 4e-3, Math.max(extent * 400, 3000)];
     this.rig = new THREE.PerspectiveCamera(VIEW_ANGLES.orbit, 1, near, far);
     this.free = scene.planar ? new THREE.OrthographicCamera(-1, 1, 1, -1, -far, far) : new THREE.PerspectiveCamera(VIEW_ANGLES.orbit, 1, near, far);
-    this.free.up.set(...up);
+    this.free.up.fromArray(up);
     const shapes = scene.shapes ?? [];
     this.wheels = [...new Set(shapes.filter(({ kind }) => kind === "wheel").map(({ frame }) => frame))];
     this.seat = shapes.find(({ kind }) => kind === "steering_wheel");
@@ -61,7 +61,7 @@ export class Cameras {
       const [left, forward] = this.#axes();
       const from = unit(add(add(scale(forward, 0.78), scale(left, -1)), scale(up, 0.34)));
       const half = (VIEW_ANGLES.orbit / 2) * (Math.PI / 180);
-      this.free.position.set(...scale(from, (0.98 * this.view.radius) / Math.sin(half * Math.min(1, this.aspect))));
+      this.free.position.fromArray(scale(from, (0.98 * this.view.radius) / Math.sin(half * Math.min(1, this.aspect))));
     }
     this.free.lookAt(0, 0, 0);
   }
@@ -118,9 +118,9 @@ export class Cameras {
   }
 
   #look(from, at, up) {
-    this.rig.up.set(...up);
-    this.rig.position.set(...from);
-    this.rig.lookAt(...at);
+    this.rig.up.fromArray(up);
+    this.rig.position.fromArray(from);
+    this.rig.lookAt(new THREE.Vector3().fromArray(at));
   }
 
   /** The driver's eyes, fixed in the body. */
@@ -153,7 +153,7 @@ export class Cameras {
     const { lift = 0 } = this.view.options;
     for (const camera of [this.rig, this.free]) if (lift) camera.setViewOffset(width, height, 0, lift * height, width, height);
     this.rig.updateProjectionMatrix();
-    if (this.free.isPerspectiveCamera) {
+    if (this.free instanceof THREE.PerspectiveCamera) {
       this.free.aspect = width / height;
     } else {
       const [wide, high] = this.view.reach;

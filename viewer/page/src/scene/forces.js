@@ -2,7 +2,7 @@
 import { cross, finite, rotate, scale, subtract, unit } from "./math.js";
 
 /**
- * @param {object} arrow one of a scene's `arrows`
+ * @param {Data} arrow one of a scene's `arrows`
  * @param {import("./frames.js").Frames} frames
  * @param {(name: string) => number | undefined} lookup
  * @returns {{at: number[], vector: number[]}[] | string} the forces, or the sentence why there are none
@@ -65,6 +65,7 @@ export function niceStep(length) {
   return [5, 2, 1].map((n) => n * power).find((step) => step <= length * 1.0000001) ?? power;
 }
 
+/** @type {[number, string][]} */
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "u"]]; // prettier-ignore
 
 /** A number with its unit for people: 2.5e8 Pa is "250 MPa". @param {number} value @param {string} unitName */

@@ -8,7 +8,7 @@ import { IDENTITY, aboutAxis, add, axesOfPoints, finite, fromQuaternion, product
 
 /** The poses of all frames of a scene. */
 export class Frames {
-  /** @param {object} scene the scene; its `frames` may stand in any order */
+  /** @param {Data} scene the scene; its `frames` may stand in any order */
   constructor(scene) {
     this.scene = scene;
     /** @type {Map<string, Pose>} */

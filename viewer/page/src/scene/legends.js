@@ -17,7 +17,7 @@ export class Legends {
   /**
    * Show a state under a name; none takes the box away.
    * @param {string} name
-   * @param {object | string | null} state
+   * @param {Data | string | null} state
    * @param {(state: any) => (Node | string)[]} draw
    */
   put(name, state, draw) {

@@ -96,8 +96,8 @@ export function axesOfPoints(a, b, c) {
   const x = unit(subtract(b, a));
   if (x === null) return null;
   const to = subtract(c, a);
-  const across = subtract(to, scale(x, dot(x, to)));
-  if (!(length(across) > 1e-9 * length(to))) return null;
-  const y = unit(across);
+  const aside = subtract(to, scale(x, dot(x, to)));
+  if (!(length(aside) > 1e-9 * length(to))) return null;
+  const y = unit(aside);
   return fromColumns(x, y, cross(x, y));
 }

@@ -16,7 +16,7 @@ const THINNEST = 0.003;
 /** The moving things of a scene: the run itself, or a ghost of another run. */
 export class Parts {
   /**
-   * @param {object} scene
+   * @param {Data} scene
    * @param {{ghost?: boolean, tint?: string, opacity?: number, tell: (sentence: string) => void}} options
    */
   constructor(scene, options) {
@@ -35,7 +35,7 @@ export class Parts {
     this.flexible = (scene.flexible ?? []).map((body) => this.#bend(body, options));
     /** Times that displacements are drawn, whether stress is coloured, and the stress at the end of the colours. */
     this.bending = { factor: 1, coloured: true, most: Math.max(0, ...this.flexible.map(({ bending }) => bending.range)) };
-    this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []), options.extent ?? 1);
+    this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []));
     this.group.add(this.arrows.group);
     for (const carrier of this.carriers.values()) join(carrier);
     for (const { name, why } of scene.missing ?? []) this.tell(`'${name}' is not drawn: ${why.replace(/\.$/, "")}.`);
@@ -126,7 +126,7 @@ export class Parts {
   }
 
   dispose() {
-    this.group.traverse((part) => part.geometry?.dispose());
+    this.group.traverse((/** @type {THREE.Mesh} */ part) => part.geometry?.dispose());
     for (const body of this.flexible) body.dispose();
     this.arrows.dispose();
     for (const thing of this.owned) thing.dispose();

@@ -7,7 +7,7 @@ export const UNIT = /^[^\u0000-\u001f"&'<>`\u007f-\u009f\u2028\u2029]{0,40}$/;
 
 /**
  * The first name or unit that is none.
- * @param {object} scene
+ * @param {Data} scene
  * @returns {string} a sentence; empty where all are good
  */
 export function wrongName(scene) {

@@ -21,7 +21,8 @@ export function makeRenderer(container, { antialias, keep = false }) {
   const canvas = document.createElement("canvas");
   canvas.style.cssText = "display:block;width:100%;height:100%;outline:none;touch-action:none";
   // The context is asked for here: three.js writes an error to the console where there is none.
-  let gl = null;
+  /** @type {WebGL2RenderingContext | null} */
+  let gl;
   let software = false;
   try {
     const probe = document.createElement("canvas").getContext("webgl2");
@@ -29,7 +30,7 @@ export function makeRenderer(container, { antialias, keep = false }) {
     software = drawsBySoftware(probe);
     probe.getExtension("WEBGL_lose_context")?.loseContext();
     const settings = { antialias: antialias ?? !software, alpha: false, powerPreference: "high-performance", preserveDrawingBuffer: keep };
-    gl = canvas.getContext("webgl2", settings);
+    gl = /** @type {WebGL2RenderingContext | null} */ (canvas.getContext("webgl2", settings));
   } catch {
     gl = null;
   }

@@ -13,7 +13,7 @@ import { makeLook } from "../looks/index.js";
 export class SceneView {
   /**
    * @param {HTMLElement} container an element with a size; the picture fills it
-   * @param {object} scene see viewer/scene.schema.json
+   * @param {Data} scene see viewer/scene.schema.json
    * @param {object} [options]
    * @param {"high" | "low" | "auto"} [options.quality] auto: by the measured time of a picture
    * @param {"outdoors" | "studio" | "board"} [options.look] by default after the scene
@@ -171,7 +171,7 @@ export class SceneView {
 
   /**
    * Another run beside this one, see-through; its `update` takes numbers as that of the view.
-   * @param {object} scene
+   * @param {Data} scene
    * @param {{tint?: string, opacity?: number, name?: string}} [options]
    * @returns {{update: Function, remove: Function}}
    */
@@ -215,7 +215,7 @@ export class SceneView {
     camera.updateMatrixWorld();
     const [x, y, z] = subtract(point, this.origin);
     const seen = new THREE.Vector3(x, y, z).applyMatrix4(camera.matrixWorldInverse);
-    if (camera.isPerspectiveCamera && seen.z >= 0) return null;
+    if (camera instanceof THREE.PerspectiveCamera && seen.z >= 0) return null;
     seen.applyMatrix4(camera.projectionMatrix);
     return [((seen.x + 1) / 2) * this.size[0], ((1 - seen.y) / 2) * this.size[1]];
   }
@@ -225,7 +225,7 @@ export class SceneView {
     if (this.problem) return;
     this.size = [Math.max(1, this.container.clientWidth), Math.max(1, this.container.clientHeight)];
     this.renderer.setPixelRatio(this.look.pixelRatio);
-    this.renderer.setSize(...this.size, false);
+    this.renderer.setSize(this.size[0], this.size[1], false);
     this.cameras.resize(...this.size);
   }
 

@@ -12,10 +12,11 @@ const LONGEST = 0.35;
 
 /** The arrows of a scene. */
 export class Arrows {
-  /** @param {object[]} list a scene's `arrows` @param {number} extent size of the drawing */
-  constructor(list, extent) {
+  /** @param {Data[]} list a scene's `arrows` */
+  constructor(list) {
     this.list = list;
-    this.extent = extent;
+    /** Size of the drawing, set by the view that measures it. */
+    this.extent = 1;
     /** Arrows are drawn so many times longer than fits. */
     this.factor = 1;
     /** Names of the arrows that are drawn. */
@@ -30,7 +31,7 @@ export class Arrows {
     this.pool = [];
   }
 
-  /** @param {Function | null} lookup @param {object} frames @param {(sentence: string) => void} tell */
+  /** @param {((name: string) => number | undefined) | null} lookup @param {import("../scene/frames.js").Frames} frames @param {(sentence: string) => void} tell */
   update(lookup, frames, tell) {
     this.now = [];
     if (lookup === null) return;

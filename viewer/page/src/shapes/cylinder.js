@@ -11,12 +11,12 @@ export function bevelled(radius, height) {
   );
 }
 
-/** @param {object} shape @param {import("./index.js").Context} context */
+/** @param {Data} shape @param {import("./index.js").Context} context */
 export function cylinder(shape, { materials }) {
   const [a, b] = shape.ends;
   const along = subtract(b, a);
   const mesh = new THREE.Mesh(new THREE.LatheGeometry(bevelled(shape.radius, length(along)), 32), materials.of(shape));
-  mesh.position.set(...middle(a, b));
+  mesh.position.fromArray(middle(a, b));
   turn(mesh, alongY(unit(along) ?? [0, 1, 0]));
   return { object: mesh, frame: shape.frame };
 }

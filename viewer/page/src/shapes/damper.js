@@ -6,7 +6,7 @@ import { stretch } from "./place.js";
 /** Length of the tube and of the rod beside that of the damper as drawn: they overlap by a fifth. */
 const SHARE = 0.6;
 
-/** A telescopic damper between two points: a tube at the first end, a rod at the second. @param {object} shape */
+/** A telescopic damper between two points: a tube at the first end, a rod at the second. @param {Data} shape */
 export function damper(shape, { materials, frames }) {
   const { radius, ends } = shape;
   const unitBody = new THREE.LatheGeometry(bevelled(1, 1), 20);
@@ -30,7 +30,7 @@ export function damper(shape, { materials, frames }) {
     stretch(body, add(from, scale(along, Math.min(radius, part / 4))), top, radius);
     stretch(collar, subtract(top, scale(along, Math.min(0.6 * radius, part / 8))), add(top, scale(along, 0.02 * radius)), 1.1 * radius);
     stretch(rod, subtract(to, scale(along, part)), to, 0.42 * radius);
-    eyes.forEach((mesh, i) => mesh.position.set(...[from, to][i]));
+    eyes.forEach((mesh, i) => mesh.position.fromArray([from, to][i]));
   };
   return { object, update };
 }

@@ -8,7 +8,7 @@ import { FrameTubes } from "./frame_tubes.js";
 /** One entry of a scene's `flexible`, drawn. */
 export class Flexible {
   /**
-   * @param {object} body
+   * @param {Data} body
    * @param {import("../looks/materials.js").Materials} materials
    * @param {number} [thinnest] radius below which tubes would not be seen
    */
@@ -38,7 +38,7 @@ export class Flexible {
     return this.stressed ? this.bending.stress.reduce((a, b) => Math.max(a, b), 0) : 0;
   }
 
-  /** @param {Function | null} lookup @param {number} factor of the displacement @returns {string} what has no number */
+  /** @param {((name: string) => number | undefined) | null} lookup @param {number} factor of the displacement @returns {string} what has no number */
   update(lookup, factor) {
     this.absent = this.bending.update(lookup, factor);
     this.tubes.move(this.bending.displaced);

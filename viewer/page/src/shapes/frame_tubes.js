@@ -17,9 +17,9 @@ export class FrameTubes {
     this.first = beams.length * 2 * AROUND;
     const count = this.first + nodes.length * (this.ball.length / 3);
     this.geometry = new THREE.BufferGeometry();
-    for (const [name, size] of [["position", 3], ["normal", 3], ["level", 1]]) {
+    for (const [name, size] of Object.entries({ position: 3, normal: 3, level: 1 })) {
       this.geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(count * size), size));
-    } // prettier-ignore
+    }
     this.geometry.setIndex(this.#triangles(count));
   }
 

@@ -14,15 +14,15 @@ import { wheel } from "./wheel.js";
  * @typedef {object} Context
  * @property {import("../looks/materials.js").Materials} materials
  * @property {import("../scene/frames.js").Frames} frames poses as drawn while shapes are made
- * @property {object} scene
+ * @property {Data} scene
  */
 
 const MAKERS = { box, cylinder, damper, mesh, plate, sphere, spring, steering_wheel: steeringWheel, tube, wheel };
 
 /**
- * @param {object} shape one of a scene
+ * @param {Data} shape one of a scene
  * @param {Context} context
- * @returns {{object: import("three").Object3D, frame?: string, update?: Function, frames: string[]} | null}
+ * @returns {{object: import("three").Object3D, frame?: string, update?: Function, owned?: Data[], frames: string[]} | null}
  *   null for a kind that this page does not know
  */
 export function makeShape(shape, context) {

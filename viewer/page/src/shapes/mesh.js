@@ -7,19 +7,19 @@ import { turnByAxes } from "./place.js";
 /** Edges sharper than this stay edges where a mesh brings no normals. */
 const CREASE = Math.PI / 6;
 
-/** A mesh of the scene's `meshes`. @param {object} shape @param {import("./index.js").Context} context */
+/** A mesh of the scene's `meshes`. @param {Data} shape @param {import("./index.js").Context} context */
 export function mesh(shape, { materials, scene }) {
   const data = scene.meshes?.[shape.mesh];
   if (data === undefined) throw new Error(`The mesh '${shape.mesh}' is not in the scene.`);
   let geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(floats(data.positions), 3));
-  const [points, triangles] = [geometry.getAttribute("position").array, integers(data.triangles)];
+  const [points, triangles] = [floats(data.positions), integers(data.triangles)];
+  geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
   if (insideOut(points, triangles)) for (let i = 0; i < triangles.length; i += 3) [triangles[i], triangles[i + 1]] = [triangles[i + 1], triangles[i]];
   geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
   if (data.normals !== undefined) geometry.setAttribute("normal", new THREE.BufferAttribute(floats(data.normals), 3));
   else geometry = toCreasedNormals(geometry, CREASE);
   const object = new THREE.Mesh(geometry, materials.of(shape, "plastic", { double: true }));
-  object.position.set(...(shape.at ?? [0, 0, 0]));
+  object.position.fromArray(shape.at ?? [0, 0, 0]);
   turnByAxes(object, shape.axes);
   return { object, frame: shape.frame };
 }

@@ -33,7 +33,7 @@ export function stretch(mesh, from, to, radius) {
 /** @param {THREE.Object3D} object its meshes cast and take shadows */
 export function shaded(object) {
   object.traverse((part) => {
-    if (part.isMesh) part.castShadow = part.receiveShadow = true;
+    if (part instanceof THREE.Mesh) part.castShadow = part.receiveShadow = true;
   });
   return object;
 }

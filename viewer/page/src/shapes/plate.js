@@ -19,7 +19,7 @@ function trianglesOf(points, normal) {
   return THREE.ShapeUtils.triangulateShape(flat, []);
 }
 
-/** A thin plate through points of any frames, with a round edge. @param {object} shape */
+/** A thin plate through points of any frames, with a round edge. @param {Data} shape */
 export function plate(shape, { materials }) {
   const { points, thickness } = shape;
   const material = materials.of(shape, "steel");

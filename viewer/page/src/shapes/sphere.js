@@ -1,8 +1,8 @@
 import * as THREE from "three";
 
-/** @param {object} shape @param {import("./index.js").Context} context */
+/** @param {Data} shape @param {import("./index.js").Context} context */
 export function sphere(shape, { materials }) {
   const mesh = new THREE.Mesh(new THREE.SphereGeometry(shape.radius, 32, 20), materials.of(shape));
-  mesh.position.set(...(shape.at ?? [0, 0, 0]));
+  mesh.position.fromArray(shape.at ?? [0, 0, 0]);
   return { object: mesh, frame: shape.frame };
 }

@@ -7,7 +7,7 @@ import { stretch } from "./place.js";
 /** Of the way between the ends the seat is at most at this part. */
 const MOST = 0.95;
 
-/** A coil spring between two points; its wire keeps its thickness when it is compressed. @param {object} shape */
+/** A coil spring between two points; its wire keeps its thickness when it is compressed. @param {Data} shape */
 export function spring(shape, { materials, frames }) {
   const { radius, wire = radius / 5, coils = 6, seat: begin = 0, ends } = shape;
   const material = materials.of({ color: "#d9a21b", ...shape }, "paint");

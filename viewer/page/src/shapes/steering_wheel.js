@@ -2,7 +2,7 @@ import * as THREE from "three";
 import { across, cross, dot, fromColumns, rotate, scale, subtract, transpose, unit } from "../scene/math.js";
 import { turn } from "./place.js";
 
-/** A steering wheel about the axis of its frame, with a mark that stands on top as drawn. @param {object} shape */
+/** A steering wheel about the axis of its frame, with a mark that stands on top as drawn. @param {Data} shape */
 export function steeringWheel(shape, { materials, frames, scene }) {
   const { radius, frame } = shape;
   const axis = unit(shape.axis ?? scene.frames?.[frame]?.axis ?? [0, 0, 1]) ?? [0, 0, 1];
@@ -22,6 +22,6 @@ export function steeringWheel(shape, { materials, frames, scene }) {
   const up = rotate(transpose(frames.pose(frame).rotation), scene.up ?? [0, 0, 1]);
   const y = unit(subtract(up, scale(axis, dot(up, axis)))) ?? across(axis);
   turn(object, fromColumns(cross(y, axis), y, axis));
-  object.position.set(...(shape.at ?? [0, 0, 0]));
+  object.position.fromArray(shape.at ?? [0, 0, 0]);
   return { object, frame };
 }

@@ -12,12 +12,12 @@ export function roundTubes(count, closed, radius, material) {
   group.add(...rods, ...balls);
   const place = (points) => {
     rods.forEach((mesh, i) => stretch(mesh, points[i], points[(i + 1) % count], radius));
-    balls.forEach((mesh, i) => mesh.position.set(...points[i]));
+    balls.forEach((mesh, i) => mesh.position.fromArray(points[i]));
   };
   return { group, place };
 }
 
-/** A round tube through points of any frames. @param {object} shape @param {import("./index.js").Context} context */
+/** A round tube through points of any frames. @param {Data} shape @param {import("./index.js").Context} context */
 export function tube(shape, { materials }) {
   const { points, radius } = shape;
   const { group, place } = roundTubes(points.length, false, radius, materials.of(shape, "steel"));

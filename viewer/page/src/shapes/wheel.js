@@ -58,6 +58,7 @@ function rimParts(rim, w, out, materials) {
   const metal = materials.named("rim");
   const barrel = vectors([[0.93 * rim, -0.4 * w], [rim, -0.43 * w], [rim, -0.36 * w], [0.9 * rim, -0.3 * w], [0.86 * rim, 0], [0.9 * rim, 0.3 * w],
     [rim, 0.36 * w], [rim, 0.43 * w], [0.93 * rim, 0.4 * w]]); // prettier-ignore
+  /** @type {THREE.Mesh[]} */
   const parts = [
     new THREE.Mesh(new THREE.LatheGeometry(barrel, 44), materials.named("rim", undefined, undefined, true)),
     new THREE.Mesh(face(rim * 0.94, 0.08 * w).translate(0, 0.2 * w * out, 0), metal),
@@ -81,13 +82,13 @@ function outward(shape, axis, { frames, scene }) {
   return Math.abs(along) > 0.5 * shape.radius ? Math.sign(along) : 0;
 }
 
-/** A wheel with tyre, rim and spokes. @param {object} shape @param {import("./index.js").Context} context */
+/** A wheel with tyre, rim and spokes. @param {Data} shape @param {import("./index.js").Context} context */
 export function wheel(shape, context) {
   const { radius, width, rim = 0.65 * radius, axis = [0, 1, 0] } = shape;
   const out = outward(shape, axis, context);
   const { mesh, owned } = tyre(radius, rim, width, context.materials);
   const object = new THREE.Group().add(mesh, ...rimParts(rim, width, out, context.materials));
-  object.position.set(...(shape.at ?? [0, 0, 0]));
+  object.position.fromArray(shape.at ?? [0, 0, 0]);
   const y = unit(axis) ?? [0, 1, 0];
   const x = Math.abs(y[0]) < 0.9 ? unit(subtract([1, 0, 0], scale(y, y[0]))) : across(y);
   turn(object, fromColumns(x, y, cross(x, y)));

@@ -21,7 +21,7 @@ const NONE = "No steering wheel, pedals or gamepad is plugged in at the computer
 export class CalibrationPanel {
   /**
    * @param {object} options
-   * @param {(message: object) => void} options.send - Takes messages to the host.
+   * @param {(message: Data) => void} options.send - Takes messages to the host.
    */
   constructor({ send }) {
     styled(style);
@@ -34,7 +34,7 @@ export class CalibrationPanel {
 
   /**
    * What is plugged in now.
-   * @param {object[]} devices - As in the host's message “devices”.
+   * @param {Data[]} devices - As in the host's message “devices”.
    */
   show(devices) {
     const ids = new Set(devices.map(({ id }) => id));
@@ -67,7 +67,7 @@ class DevicePart {
     this.element = el("details.a3-section", { open: true }, this._title, this._body);
   }
 
-  /** @param {object} device */
+  /** @param {Data} device */
   show(device) {
     this.device = device;
     const shape = shapeOf(device);
@@ -80,7 +80,9 @@ class DevicePart {
       this._draw(device);
       for (const part of this._body.querySelectorAll("details")) part.open = open.get(part.getAttribute("data-a3")) ?? part.open;
       const again = focused?.getAttribute("data-a3");
-      if (again) this._body.querySelector(`[data-a3="${CSS.escape(again)}"]`)?.focus();
+      /** @type {HTMLElement | null} */
+      const same = again ? this._body.querySelector(`[data-a3="${CSS.escape(again)}"]`) : null;
+      same?.focus();
     }
     this._move(device);
   }
@@ -165,11 +167,12 @@ class DevicePart {
     zone.addEventListener("change", () => {
       this._assign(input, changed(now(), { dead_zone: Number(zone.value) }));
     });
+    /** @type {HTMLElement[]} */
     const parts = [el("label", {}, inverted, "inverted"), el("label", {}, "dead zone", zone, short(mapping.dead_zone))];
     if (isPedal(input)) {
       const names = [...PARTS.map(([name]) => name), ...(partOf(mapping) === "calibrated" ? ["calibrated"] : [])];
       const part = el("select", { data: `part ${input}` }, ...names.map((name) => el("option", { value: name }, name)));
-      part.value = partOf(mapping);
+      part.value = String(partOf(mapping));
       part.addEventListener("change", () => {
         const found = PARTS.find(([name]) => name === part.value);
         if (found) this._assign(input, changed(now(), { low: found[1], high: found[2] }));

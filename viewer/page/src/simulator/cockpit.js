@@ -32,12 +32,15 @@ const TRAIL = 0.18;
 export class Cockpit {
   /**
    * @param {HTMLElement} root - Filled.
-   * @param {object} hello - First message of the program, with the world's roads and scenery in its scene.
+   * @param {Data} hello - First message of the program, with the world's roads and scenery in its scene.
    * @param {import("./link.js").Link} link
    * @param {{frames: () => import("./frames.js").Frames, clock: () => number}} given
    */
   constructor(root, hello, link, { frames, clock }) {
-    Object.assign(this, { hello, link, _frames: frames, _clock: clock });
+    this.hello = hello;
+    this.link = link;
+    this._frames = frames;
+    this._clock = clock;
     const { scene, world = {} } = hello;
     this._beat = new Beat();
     this._hosts = []; // devices that the program reads itself
@@ -57,7 +60,7 @@ export class Cockpit {
     return { drawn: this._beat.rate, longest: this._beat.longest, received: frames.rate, delay: frames.delay, stalled: this._stalled ?? 0 };
   }
 
-  /** A frame has come. @param {object} frame @param {boolean} anew - It begins an epoch. */
+  /** A frame has come. @param {Data} frame @param {boolean} anew - It begins an epoch. */
   add(frame, anew) {
     this.notices.flag("lost", "");
     this.steps.add(frame);
@@ -96,7 +99,9 @@ export class Cockpit {
     const lookup = this.numbers.lookup(shown);
     const car = this.numbers.car(lookup);
     const still = before === this._before && after === this._after && share === this._share;
-    Object.assign(this, { _before: before, _after: after, _share: share });
+    this._before = before;
+    this._after = after;
+    this._share = share;
     if (!still || this._dirty) this._drawPicture(lookup, { time, car, epoch: after.epoch });
     this._dirty = false;
     this._display(lookup, { frame: this._frames().newest, time, stalled, car, now });

@@ -8,7 +8,7 @@ export const REWINDS = [2, 10];
 /** The controls over the picture. */
 export class Controls {
   /**
-   * @param {object} act - Functions: toggle, step, speed, rewind, upright, reset, place, camera, quality, mute, panels, help.
+   * @param {Data} act - Functions: toggle, step, speed, rewind, upright, reset, place, camera, quality, mute, panels, help.
    * @param {{cameras: string[], places: {name: string, text?: string}[]}} has
    */
   constructor(act, { cameras, places }) {
@@ -41,8 +41,8 @@ export class Controls {
     write(this._run, running ? "Pause" : "Run");
     const held = document.activeElement === this._saved;
     if (!held) {
-      this._saved.max = Math.max(0.1, saved);
-      this._saved.value = 0;
+      this._saved.max = String(Math.max(0.1, saved));
+      this._saved.value = "0";
       this._showFar();
     }
     this._saved.disabled = !held && !(saved > 0);

@@ -41,10 +41,10 @@ export function sourcesFor(device, input) {
 
 /**
  * The mapping to ask for when a person chooses another source.
- * @param {object | undefined} old - The mapping so far.
+ * @param {Data | undefined} old - The mapping so far.
  * @param {string} source
  * @param {string} input
- * @returns {object | null}
+ * @returns {Data | null}
  */
 export function chosen(old, source, input) {
   if (source === "none") return null;
@@ -55,8 +55,8 @@ export function chosen(old, source, input) {
 
 /**
  * The mapping with some fields changed, as it is sent: without what is only shown.
- * @param {object} mapping
- * @param {object} change
+ * @param {Data} mapping
+ * @param {Data} change
  */
 export function changed(mapping, change) {
   const { source, inverted, low, high, dead_zone, centre } = { ...mapping, ...change };

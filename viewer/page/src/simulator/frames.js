@@ -35,7 +35,7 @@ export class Frames {
 
   /**
    * A frame has come.
-   * @param {object} frame - As link.js gives it.
+   * @param {Data} frame - As link.js gives it.
    * @param {number} now - Clock of the page, s.
    * @returns {boolean} Whether it begins a new epoch.
    */
@@ -65,7 +65,7 @@ export class Frames {
   /**
    * Where the picture stands.
    * @param {number} now - Clock of the page, s.
-   * @returns {{before: object, after: object, share: number, time: number, stalled: number} | null} `stalled`: seconds
+   * @returns {{before: Data, after: Data, share: number, time: number, stalled: number} | null} `stalled`: seconds
    *   without a frame, 0 while they come.
    */
   at(now) {

@@ -30,7 +30,7 @@ export class Help {
   }
 
   /** @param {boolean} [open] */
-  toggle(open = this.element.hidden) {
+  toggle(open = this.element.hidden === true) {
     this.element.hidden = !open;
   }
 }

@@ -5,7 +5,7 @@ import { KEYS as CAMERAS } from "./views.js";
 
 /** The keys of the page. */
 export class Keys {
-  /** @param {import("../live/hands.js").Hands} hands @param {object} act - See cockpit.js. @param {() => number} speed - m/s. */
+  /** @param {import("../live/hands.js").Hands} hands @param {Data} act - See cockpit.js. @param {() => number} speed - m/s. */
   constructor(hands, act, speed) {
     this._hands = hands;
     this._speed = speed;
@@ -20,7 +20,7 @@ export class Keys {
   /** @param {KeyboardEvent} event */
   take(event) {
     const down = event.type === "keydown";
-    const other = typing(event.target) || event.ctrlKey || event.metaKey || event.altKey;
+    const other = typing(/** @type {HTMLElement} */ (event.target)) || event.ctrlKey || event.metaKey || event.altKey;
     if (down && other) return; // a key that was down is let go in any case
     if (this._hands.key(event, this._speed())) {
       event.preventDefault();

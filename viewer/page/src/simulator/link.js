@@ -13,7 +13,7 @@ const LONGEST_WAIT = 4000;
 /**
  * Read a frame.
  * @param {ArrayBuffer} buffer
- * @returns {object} Numbers of the header, three flags, and `values`, a Float64Array in the order of the columns.
+ * @returns {Data} Numbers of the header, three flags, and `values`, a Float64Array in the order of the columns.
  */
 export function readFrame(buffer) {
   const view = new DataView(buffer);
@@ -38,9 +38,9 @@ export function readFrame(buffer) {
 export class Link {
   /**
    * @param {string|URL} url - Of the socket, with the token where there is one.
-   * @param {object} handlers - `hello`, `frame`, `event`, `report`, `devices`, `refused` get what the simulator says;
+   * @param {Data} handlers - `hello`, `frame`, `event`, `report`, `devices`, `refused` get what the simulator says;
    *   `closed` gets a sentence and in how many ms it is tried again.
-   * @param {{WebSocket?: Function, now?: Function, wait?: Function}} [means] - Replaced in tests.
+   * @param {{WebSocket?: typeof WebSocket, now?: () => number, wait?: (work: () => void, ms: number) => void}} [means] - Replaced in tests.
    */
   constructor(url, handlers, means = {}) {
     this._url = url;
@@ -84,7 +84,7 @@ export class Link {
 
   /**
    * Say anything.
-   * @param {object} message
+   * @param {Data} message
    * @returns {boolean} Whether it could be said.
    */
   send(message) {

@@ -33,7 +33,7 @@ export class Trail {
 
 /** What all maps of a world show. */
 export class WorldPlan {
-  /** @param {object} scene - With roads and scenery. @param {{name?: string, places?: object[], bounds?: number[]}} world */
+  /** @param {Data} scene - With roads and scenery. @param {{name?: string, places?: Data[], bounds?: number[]}} world */
   constructor(scene, world = {}) {
     this.surfaces = new Surfaces(scene.roads);
     this.pictures = this.surfaces.pictures();
@@ -118,7 +118,7 @@ function drawThing(context, { kind, at, points, width, colour, dash, height = 1,
 export class WorldMap {
   /**
    * @param {WorldPlan} plan
-   * @param {{whole?: boolean, go?: (place: object) => void}} options - `go`: a place was clicked at.
+   * @param {{whole?: boolean, go?: (place: Data) => void}} options - `go`: a place was clicked at.
    */
   constructor(plan, { whole = false, go } = {}) {
     this.plan = plan;
@@ -184,6 +184,7 @@ export class WorldMap {
     }
   }
 
+  /** @param {CanvasRenderingContext2D} context @param {number[]} place pixels @param {number} yaw rad */
   _drawCar(context, [x, y], yaw) {
     context.save();
     context.translate(x, y);

@@ -8,6 +8,7 @@ const [MOST, LASTS] = [4, 7];
 export class Notices {
   constructor() {
     this._flags = new Map();
+    this._ends = new WeakMap(); // timers by line
     this._list = el("div.a3-flags", { data: "flags" });
     this._events = el("div.a3-events", { data: "events" });
     this.element = el("div.a3-notices", {}, this._list, this._events);
@@ -37,7 +38,7 @@ export class Notices {
     const line = last?.textContent === text ? last : el("div", {}, text);
     this._events.append(line);
     while (this._events.childElementCount > MOST) this._events.firstElementChild.remove();
-    clearTimeout(line.ends);
-    line.ends = setTimeout(() => line.remove(), 1000 * LASTS);
+    clearTimeout(this._ends.get(line));
+    this._ends.set(line, setTimeout(() => line.remove(), 1000 * LASTS));
   }
 }

@@ -7,7 +7,7 @@ const FRICTION = 1.0;
 /** The numbers of one car. */
 export class Numbers {
   /**
-   * @param {object} hello - First message of the program.
+   * @param {Data} hello - First message of the program.
    * @param {import("./surfaces.js").Surfaces} surfaces - Of the world.
    */
   constructor({ scene, columns, description, constants = {} }, surfaces) {
@@ -24,7 +24,7 @@ export class Numbers {
   }
 
   /**
-   * @param {{before: {values: Float64Array}, after: {values: Float64Array}, share: number}} shown - Of `Frames`.
+   * @param {{before: Data, after: Data, share: number}} shown - Of `Frames`.
    * @returns {(name: string) => number}
    */
   lookup({ before, after, share }) {

@@ -11,8 +11,8 @@ export class Panels {
    * @param {import("../live/gamepad.js").Gamepad} options.gamepad - Of the browser.
    * @param {string[]} options.inputs
    * @param {object} options.has - What the picture can show; see SceneView.
-   * @param {(wishes: object) => void} options.set - What it shall show.
-   * @param {(message: object) => void} options.send
+   * @param {(wishes: Data) => void} options.set - What it shall show.
+   * @param {(message: Data) => void} options.send
    * @param {string} options.recording - Path, or empty.
    */
   constructor({ gamepad, inputs, has, set, send, recording }) {
@@ -27,19 +27,20 @@ export class Panels {
   }
 
   /** @param {boolean} [open] */
-  toggle(open = this.element.hidden) {
+  toggle(open = this.element.hidden === true) {
     this.element.hidden = !open;
     this._send({ type: "watch devices", on: open });
     if (open) this._send({ type: "report" });
   }
 
-  /** Devices of the host. @param {object[]} devices */
+  /** Devices of the host. @param {Data[]} devices */
   devices(devices) {
     this._devices.show(devices);
   }
 
   /** A switch of the picture, as if it was clicked at. @param {"arrows" | "stress"} what @returns {boolean} Whether there is one. */
   flip(what) {
+    /** @type {HTMLElement | null | undefined} */
     const box = this.picture?.querySelector(`[data-a3="show ${what}"]`);
     box?.click();
     return Boolean(box);

@@ -57,7 +57,7 @@ export class Report {
     this.element = el("div", {}, button("ask report", "Report now", "times of the steps of this run", ask), this._body);
   }
 
-  /** @param {object} report - Of the program, times in s. */
+  /** @param {Data} report - Of the program, times in s. */
   show({ step, steps, simulated, wall, missed, skipped = 0, cost, lateness }) {
     if (!steps) return this._body.replaceChildren(el("p.a3-hint", {}, "No step was computed yet."));
     const spread = ({ median, p99, p999, largest }) => `${[median, p99, p999, largest].map(milli).join(" · ")} ms`;

@@ -21,6 +21,7 @@ export function simulate(container, options = {}) {
 
 /** A page of the simulator; `cockpit` is there once the program has said what car it drives. */
 class Simulator {
+  /** @param {HTMLElement} container @param {{url?: string, token?: string}} options */
   constructor(container, { url, token = new URLSearchParams(location.search).get("token") ?? "" }) {
     this.container = container;
     this.root = el("div.a3-sim", { tabIndex: -1 }, el("p.a3-wait", { data: "waiting" }, "Waiting for the program that drives the car …"));
@@ -30,7 +31,9 @@ class Simulator {
     this.cockpit = null;
     this.problem = "";
     this._token = token;
-    this.ready = new Promise((resolve) => (this._resolve = resolve));
+    this.ready = new Promise((resolve) => {
+      this._resolve = resolve;
+    });
     const address = new URL(url || "/drive", location.href);
     address.protocol = address.protocol.replace("http", "ws");
     if (token) address.searchParams.set("token", token);

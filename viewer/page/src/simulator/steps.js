@@ -13,7 +13,7 @@ export class Factor {
     this._marks = [];
   }
 
-  /** @param {object} frame @returns {number | null} null while it is too short to tell */
+  /** @param {Data} frame @returns {number | null} null while it is too short to tell */
   add({ epoch, running, speed, time, wall }) {
     const before = this._marks[this._marks.length - 1];
     if (!running || (before && (before.epoch !== epoch || before.speed !== speed))) this._marks = [];

@@ -13,7 +13,9 @@ const OTHER = [128, 118, 128];
 /** A grid of a road: where its points are. */
 class Grid {
   constructor({ origin, spacing, shape }) {
-    Object.assign(this, { origin, spacing, shape });
+    this.origin = origin;
+    this.spacing = spacing;
+    this.shape = shape;
   }
 
   /** Index of the point nearest to a place; beyond the border its points go on. */
@@ -28,7 +30,7 @@ class Grid {
 
 /** The surfaces of the roads of a scene, as they lie in it. */
 export class Surfaces {
-  /** @param {object[]} roads - Of a scene. */
+  /** @param {Data[]} roads - Of a scene. */
   constructor(roads = []) {
     this.grids = roads.map(gridOf).filter(Boolean);
   }

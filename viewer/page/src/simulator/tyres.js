@@ -6,6 +6,7 @@ const [HALF, RADIUS] = [50, 13];
 /** Places by the last letters of a wheel's name; ahead is up. */
 const PLACES = { FL: [-26, -27], FR: [26, -27], RL: [-26, 27], RR: [26, 27] };
 /** From no use of friction to all of it. */
+/** @type {[number, number[]][]} */
 const COLOURS = [[0, [64, 150, 90]], [0.5, [110, 190, 90]], [0.8, [245, 190, 60]], [1, [232, 60, 45]]]; // prettier-ignore
 
 /** Colour of a share of the friction. @param {number} use */

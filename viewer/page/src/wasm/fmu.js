@@ -11,20 +11,21 @@ const RESOURCES = "/resources";
 /**
  * Loads an FMU.
  * @param {object} parts
- * @param {ArrayBuffer|Uint8Array} parts.wasm the file binaries/wasm32/NAME.wasm
+ * @param {BufferSource} parts.wasm the file binaries/wasm32/NAME.wasm
  * @param {string|import("./description.js").Description} parts.description modelDescription.xml, or what it says
  * @param {Object<string, ArrayBuffer|Uint8Array>} parts.resources files by their paths inside the folder resources
  * @returns {Promise<Fmu>}
  */
 export async function loadFmu({ wasm, description, resources = {} }) {
   const described = describe(description);
+  /** @type {WebAssembly.Instance} */
   let instance;
   try {
     ({ instance } = await WebAssembly.instantiate(wasm, {}));
   } catch (error) {
-    throw new Error(`The binary of the FMU ${described.modelName} for wasm32 cannot be loaded: ${error.message}`);
+    throw new Error(`The binary of the FMU ${described.modelName} for wasm32 cannot be loaded: ${error.message}`, { cause: error });
   }
-  const { exports } = instance;
+  const exports = /** @type {Data} */ (instance.exports);
   const missing = ["memory", "malloc", "free", "fmi2DoStep", "ali3_file_add", "ali3_callbacks", "ali3_messages"].find(
     (name) => exports[name] === undefined,
   );
@@ -40,7 +41,7 @@ export async function loadFmu({ wasm, description, resources = {} }) {
 /** A loaded FMU; its instances share one memory. */
 export class Fmu {
   /**
-   * @param {object} exports of the module
+   * @param {Data} exports of the module
    * @param {import("./description.js").Description} description
    */
   constructor(exports, description) {
@@ -92,7 +93,7 @@ export class Fmu {
 
   /**
    * Calls a function of the module. After a trap its memory cannot be trusted: all later calls are refused.
-   * @param {function(): number} work
+   * @param {() => number} work
    * @returns {number} what `work` returns
    */
   call(work) {

@@ -117,7 +117,7 @@ export class FmuInstance {
   /**
    * The same for many calls: what can be prepared is.
    * @param {string[]} names
-   * @returns {function(): Float64Array} gives the array that the next call fills anew
+   * @returns {() => Float64Array} gives the array that the next call fills anew
    */
   reader(names) {
     const transfer = new Transfer(this, names);
@@ -128,7 +128,7 @@ export class FmuInstance {
   /**
    * Sets variables of the types Real and Integer, for many calls.
    * @param {string[]} names
-   * @returns {function(ArrayLike<number>): void} takes one value a name
+   * @returns {(values: ArrayLike<number>) => void} takes one value a name
    */
   writer(names) {
     const transfer = new Transfer(this, names);

@@ -5,7 +5,7 @@ const decoder = new TextDecoder();
 
 /** Blocks, texts and numbers in the memory of a module that exports `memory`, `malloc` and `free`. */
 export class ModuleMemory {
-  /** @param {object} exports what the module exports */
+  /** @param {Data} exports what the module exports */
   constructor(exports) {
     this.exports = exports;
     this.view();
@@ -63,7 +63,7 @@ export class ModuleMemory {
   /**
    * Does something with blocks for texts and frees them.
    * @param {string[]} texts
-   * @param {function(...number): T} work gets their addresses
+   * @param {(...addresses: number[]) => T} work gets their addresses
    * @returns {T} what `work` returns
    * @template T
    */

@@ -18,7 +18,7 @@ export class CarSound {
    * @param {string[]} car.columns names of its numbers
    * @param {Object<string, number>} [car.constants] of the FMU
    * @param {{slip: number, lateral: number}} [car.limits] slips of the largest force of its tyres
-   * @param {BaseAudioContext} [car.context] where it sounds: by default the loudspeakers
+   * @param {AudioContext | OfflineAudioContext} [car.context] where it sounds: by default the loudspeakers
    */
   constructor({ columns, constants = {}, limits = undefined, context = undefined }) {
     this.context = context;
@@ -37,7 +37,7 @@ export class CarSound {
         this.mixer = new Mixer(this.context);
         this.mixer.volume = this.#muted ? 0 : 1;
       }
-      if (this.context.state === "suspended" && this.context.startRendering === undefined) await this.context.resume();
+      if (this.context.state === "suspended" && !("startRendering" in this.context)) await this.context.resume();
     } catch {
       this.problem = NO_AUDIO;
       this.mixer = null;
@@ -63,6 +63,6 @@ export class CarSound {
   /** Ends the sound and gives the device back. @returns {Promise<void>} */
   async dispose() {
     this.mixer = null;
-    if (this.context !== undefined && this.context.state !== "closed") await this.context.close();
+    if (this.context !== undefined && "close" in this.context && this.context.state !== "closed") await this.context.close();
   }
 }

@@ -5,7 +5,7 @@ const PREFIX = /^(.+)\.slip_angle$/;
 
 /** Knows which numbers a car has; remembers the loads of the last time. */
 export class CarMix {
-  /** @param {string[]} columns @param {Object<string, number>} [constants] @param {object} [limits] slips of the largest force */
+  /** @param {string[]} columns @param {Object<string, number>} [constants] @param {{slip: number, lateral: number}} [limits] slips of the largest force */
   constructor(columns, constants = {}, limits = undefined) {
     const has = new Set(columns);
     this.limits = limits;

@@ -74,7 +74,9 @@ export class Thumps {
 
   /** @param {BaseAudioContext} context @param {AudioBuffer} noise @param {AudioNode} to */
   constructor(context, noise, to) {
-    Object.assign(this, { context, noise, to });
+    this.context = context;
+    this.noise = noise;
+    this.to = to;
   }
 
   /** Knocks that sound now. */

@@ -16,7 +16,7 @@ const [SQUARE, SQUARES] = [250, 20];
 const KINDS = ["line", "cone", "tree", "sign", "barrier", "post", "building", "arrow"];
 const placeOf = (thing) => thing.at ?? thing.points[Math.floor(thing.points.length / 2)];
 
-/** Things by squares. @param {object[]} things @returns {object[][]} */
+/** Things by squares. @param {Data[]} things @returns {Data[][]} */
 export function squares(things) {
   const places = things.map(placeOf);
   const side = [0, 1].map((k) => {
@@ -34,8 +34,8 @@ export function squares(things) {
 }
 
 /**
- * @param {object[]} things a scene's `scenery`
- * @param {{axes: number[][], paint: THREE.Material, ground: object | null}} looks ground: heights as drawn
+ * @param {Data[]} things a scene's `scenery`
+ * @param {{axes: number[][], paint: THREE.Material, ground: Data | null}} looks ground: heights as drawn
  */
 export function makeScenery(things, { axes, paint, ground }) {
   const group = new THREE.Group();
@@ -155,8 +155,8 @@ function many(geometry, material, things, base, sizeOf) {
   const mesh = new THREE.InstancedMesh(geometry, material, things.length);
   const [matrix, place, size, way] = [new THREE.Matrix4(), new THREE.Vector3(), new THREE.Vector3(), new THREE.Quaternion()];
   things.forEach((thing, k) => {
-    place.set(...thing.at.map((value, axis) => value - base[axis]));
-    size.set(...sizeOf(thing));
+    place.fromArray(thing.at.map((value, axis) => value - base[axis]));
+    size.fromArray(sizeOf(thing));
     way.setFromAxisAngle(new THREE.Vector3(0, 0, 1), thing.yaw ?? 0);
     mesh.setMatrixAt(k, matrix.compose(place, way, size));
   });

@@ -25,6 +25,7 @@ export function leafTexture() {
   return texture;
 }
 
+/** @param {Uint8Array} pixels @param {number[]} middle */
 function drawLeaf(pixels, [mx, my], length, turn, shade, yellow) {
   const [c, s] = [Math.cos(turn), Math.sin(turn)];
   for (let dy = -9; dy <= 9; dy++) {

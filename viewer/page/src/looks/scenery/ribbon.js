@@ -127,7 +127,7 @@ const ARROW = [
   { stations: [0.1, 0.5], halves: [0.14, 0.0] },
 ];
 
-/** @param {{at: number[], yaw: number, length: number}} arrow @param {object | null} ground @returns {number[][][][]} strips of pairs */
+/** @param {{at: number[], yaw: number, length: number}} arrow @param {Data | null} ground @returns {number[][][][]} strips of pairs */
 export function arrowStrips({ at, yaw, length = 4 }, ground) {
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
   return ARROW.map(({ stations, halves }) => {

@@ -59,7 +59,7 @@ export function signTexture(texts) {
 /**
  * One sign: its board, which faces whoever looks along the yaw, and its back and posts.
  * @param {import("./triangles.js").Triangles} boards @param {import("./triangles.js").Triangles} posts
- * @param {object} sign @param {number} index of its text @param {number} count of all texts
+ * @param {Data} sign @param {number} index of its text @param {number} count of all texts
  */
 export function addSign(boards, posts, { at, yaw, height = 2.5 }, index, count) {
   const ahead = [Math.cos(yaw), Math.sin(yaw)];

@@ -15,7 +15,7 @@ export function addBarrier(made, { points, height = 0.8 }) {
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     if (!(length > 0)) continue;
     const along = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
-    const at = ([x, y, z], [out, up]) => [x - along[1] * out, y + along[0] * out, z + up * height];
+    const at = (/** @type {number[]} */ [x, y, z], /** @type {number[]} */ [out, up]) => [x - along[1] * out, y + along[0] * out, z + up * height];
     for (const side of [1, -1]) {
       for (let k = 0; k + 1 < BEAM.length; k++) {
         const [low, high] = [BEAM[k], BEAM[k + 1]].map(([out, up]) => [side * (out + 0.01), up]);
@@ -54,7 +54,7 @@ export function addBuilding(made, { at, yaw, size }) {
   }
 }
 
-/** Windows in a regular order, by the metres of a wall. @param {object} shader of three.js */
+/** Windows in a regular order, by the metres of a wall. @param {Data} shader of three.js */
 export function windows(shader) {
   shader.vertexShader = `varying vec2 vWall;\n${shader.vertexShader}`.replace("#include <begin_vertex>", "#include <begin_vertex>\nvWall = uv;");
   shader.fragmentShader = `varying vec2 vWall;\n${shader.fragmentShader}`.replace(
