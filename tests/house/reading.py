@@ -5,8 +5,6 @@ python -m tests.house.reading
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import grimp
 
 from ali3.commands import COMMANDS
@@ -16,8 +14,8 @@ from tests.house.test_circles import FACADES, PACKAGES, ROOT
 def lines_of(module: str) -> int:
     """Lines of a module's file."""
     path = ROOT.joinpath(*module.split("."))
-    file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
-    return len(Path(file).read_text(encoding="utf-8").splitlines())
+    file = path.with_suffix(".py")
+    return len((file if file.is_file() else path / "__init__.py").read_text(encoding="utf-8").splitlines())
 
 
 def read_for(graph: grimp.ImportGraph, module: str) -> set[str]:
