@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -185,7 +184,7 @@ def test_ctrl_c_keeps_what_has_come(slow_study: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     process = command(slow_study, "--out", out, "--workers", 2)
     wait_for_part(out, process, 1)
-    threading.Timer(0.5, lambda: process.send_signal(signal.SIGINT)).start()
+    process.send_signal(signal.SIGINT)
     _, error = process.communicate(timeout=60.0)
     assert process.returncode == 130
     assert error.strip().splitlines()[-1] == "stopped by Ctrl-C"
