@@ -54,7 +54,7 @@ def car(built: Callable[[str], Path], kind: str) -> Path:
 def roads(tmp_path: Path) -> Path:
     rng = np.random.default_rng(1)
     write_road(
-        GridRoad((-10.0, -4.0), (0.1, 0.1), 0.004 * rng.standard_normal((900, 80)), 0.9), tmp_path / "rough.road"
+        GridRoad((-10.0, -4.0), (0.1, 0.1), 0.002 * rng.standard_normal((900, 80)), 0.9), tmp_path / "rough.road"
     )
     write_road(GridRoad((-10.0, -4.0), (0.1, 0.1), np.zeros((3000, 80)), 0.9), tmp_path / "long.road")
     write_road(PlaneRoad(2.0, 0.0, 0.0, FRICTION), tmp_path / "high.road")

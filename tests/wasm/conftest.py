@@ -35,7 +35,7 @@ def built(tmp: pytest.TempPathFactory, systems: object, name: str, added: dict[s
 def rough(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """A grid with bumps that lies in a few tiles."""
     file = tmp_path_factory.mktemp("road") / "rough.road"
-    heights = 0.004 * np.random.default_rng(1).standard_normal((900, 80))
+    heights = 0.002 * np.random.default_rng(1).standard_normal((900, 80))
     write_road(GridRoad((-10.0, -4.0), (0.1, 0.1), heights, 0.9), file)
     return file.read_bytes()
 
