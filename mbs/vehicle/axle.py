@@ -67,7 +67,7 @@ class Axle(Section):
             yield f"{bar.key('part')} is '{bar.part}'; the suspension has {', '.join(parts)}."
 
     def build(
-        self, b: CarBuilder, axle: str, tie_rod: TieRodEnd, brake: Callable[[CarBuilder, Corner, Spin], None]
+        self, b: CarBuilder, axle: str, tie_rod: TieRodEnd, brake: Callable[[CarBuilder, Corner, Spin, float], None]
     ) -> dict[str, Spin]:
         """Add the axle and return the spins of its wheels by the wheels' names.
 
@@ -80,14 +80,14 @@ class Axle(Section):
         tie_rod : TieRodEnd
             Gives what the inner ends of the tie rods hang on.
         brake : callable
-            Adds the brake of a wheel.
+            Adds the brake of a wheel, of which it is given the spin inertia, kg.m2.
         """
         spins, corners = {}, []
         springs = AxleSprings(self.spring, self.damper, self.stops)
         for corner in self.suspension.corners(b, axle, springs, tie_rod):
             corners.append(corner)
             spin = self._wheel(b, corner)
-            brake(b, corner, spin)
+            brake(b, corner, spin, self.wheel.spin_inertia)
             spins[corner.side.wheel] = spin
         if self.anti_roll_bar is not None:
             self.anti_roll_bar.build(b, axle, corners)

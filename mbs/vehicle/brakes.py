@@ -33,7 +33,7 @@ class Brakes(Section):
     rear: AxleBrakes
     """Brakes of the rear wheels."""
 
-    def build(self, b: CarBuilder, corner: Corner, spin: Spin) -> None:
+    def build(self, b: CarBuilder, corner: Corner, spin: Spin, spin_inertia: float) -> None:
         """Add the brake of a wheel.
 
         Parameters
@@ -44,10 +44,12 @@ class Brakes(Section):
             Where it is.
         spin : Spin
             Of the wheel.
+        spin_inertia : float
+            Of the wheel, kg.m2.
         """
         behind = corner.side.axle == "rear"
         stiffness = (self.rear if behind else self.front).stick_stiffness
-        damping = 2.0 * math.sqrt(stiffness * spin.spin_inertia)
+        damping = 2.0 * math.sqrt(stiffness * spin_inertia)
         share = 1.0 - self.balance if behind else self.balance
         brake = Brake(self.torque, stiffness, damping, share, self.hand_torque if behind else 0.0)
         hand = b.inputs["hand_brake"].index if behind else None

@@ -14,6 +14,8 @@ from benchmarks.car.measures import MEASURES
 KEYS = {
     "manoeuvre", "h_s", "path_error_m", "path_error_rel", "wheel_load_error_rel", "iterations_mean", "iterations_max",
     "halvings", "us_per_step", "realtime_factor", "us_per_step_fmpy", "realtime_factor_fmpy",
+    "path_error_rel_fmpy_held", "path_error_rel_fmpy_followed", "wheel_load_error_rel_fmpy_held",
+    "wheel_load_error_rel_fmpy_followed",
 }  # fmt: skip
 
 
