@@ -33,8 +33,25 @@ PAGES = (
 )
 
 
+def listening() -> set[tuple[str, int]]:
+    """Addresses and ports at which this process and its children listen."""
+    own = psutil.Process()
+    return {
+        (line.laddr.ip, line.laddr.port)
+        for process in (own, *own.children(recursive=True))
+        for line in process.net_connections("inet")
+        if line.status == psutil.CONN_LISTEN
+    }
+
+
 @pytest.fixture(scope="module")
-def cluster() -> Iterator[Client]:
+def before() -> set[tuple[str, int]]:
+    """Where the process of the tests listens by itself."""
+    return listening()
+
+
+@pytest.fixture(scope="module")
+def cluster(before: set[tuple[str, int]]) -> Iterator[Client]:
     with connected(None, 1) as client:
         yield client
 
@@ -84,16 +101,14 @@ def test_others_on_this_machine_are_refused(cluster: Client, role: str, key: str
         asyncio.run(identity(address.replace("tls:", "tcp:")))
 
 
-def test_every_port_is_of_this_machine_and_its_pages_show_nothing(cluster: Client) -> None:
+def test_every_port_is_of_this_machine_and_its_pages_show_nothing(
+    before: set[tuple[str, int]], cluster: Client
+) -> None:
     """The encrypted ones answer no HTTP; those of HTTP, which Dask opens in any case, have no page."""
-    own = psutil.Process()
     encrypted = {int(address_of(cluster, role).rpartition(":")[2]) for role in ROLES}
-    found = set()
-    for process in (own, *own.children(recursive=True)):
-        for line in process.net_connections("inet"):
-            if line.status == psutil.CONN_LISTEN:
-                assert line.laddr.ip == "127.0.0.1"
-                found.add(line.laddr.port)
+    opened = listening() - before
+    assert {address for address, _ in opened} == {"127.0.0.1"}
+    found = {port for _, port in opened}
     assert encrypted < found
     for port in found:
         for page in PAGES:
