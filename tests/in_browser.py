@@ -23,10 +23,22 @@ def wait_until(page: Any, expression: str, arg: Any = None, timeout: float = 30.
     end = time.monotonic() + timeout
     if arg is None:  # objects of the page stay there
         expression = f"(() => {{ const it = ({expression}); return typeof it === 'object' ? it !== null : it; }})()"
-    while not (value := page.evaluate(expression, arg)):
+    while not (value := _evaluated(page, expression, arg)):
         assert time.monotonic() < end, f"not within {timeout:g} s: {expression}"
         page.wait_for_timeout(20)
     return value
+
+
+def _evaluated(page: Any, expression: str, arg: Any) -> Any:
+    """The value of an expression; None while the page goes to another address."""
+    from playwright.sync_api import Error
+
+    try:
+        return page.evaluate(expression, arg)
+    except Error as error:
+        if "because of a navigation" not in str(error):
+            raise
+        return None
 
 
 def picture_of_simulator(page: Any) -> np.ndarray:

@@ -257,7 +257,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "sense_guide_force": lambda b: seen(b, guide=b.guide, joints=[b.drive], scale=2.0),
     "sense_rod_force": lambda b: seen(b, rods=[b.rod], body=b.arm, axis=X, scale=2.0),
     "sense_guide_excess": lambda b: seen(b, guide=b.limited, scale=2.0),
-    "sense_constant": lambda b: {**seen(b, value=1.0), "whole": True},
+    "sense_constant": lambda b: {**seen(b, value=1.0), "whole": True, "computed": False},
     "sense_input": lambda b: seen(b, input=b.pedal),
     "sense_guide": lambda b: seen(b, guide=b.guide, order=1, scale=2.0),
     "sense_solver": lambda b: {"name": "new", "kind": "violation", "description": "what it is"},

@@ -16,7 +16,7 @@ from tests.scenes.car import WHEELS, car, drive
 AIR = prototype_car.car().aerodynamics
 
 WORKS = ("drive", "brakes", "tyres", "dampers", "drag", "ground")
-MANOEUVRES = Path(__file__).parents[2] / "hosts" / "manoeuvres"
+MANOEUVRES = Path(__file__).parents[2] / "hosts" / "driving" / "manoeuvres"
 
 
 @cache

@@ -13,7 +13,7 @@ from mbs.worlds.scenery import cone_places, lane_change_cones, scenery_of
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.world_types import FRICTIONS, Cones
 
-FILE = Path(__file__).parents[3] / "mbs" / "roads" / "worlds" / "proving_ground.toml"
+FILE = Path(__file__).parents[3] / "mbs" / "worlds" / "proving_ground.toml"
 
 
 @pytest.fixture(scope="module")
