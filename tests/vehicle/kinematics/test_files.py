@@ -8,6 +8,7 @@ import json
 import math
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas
@@ -44,9 +45,11 @@ def found():
 def test_two_readers_find_the_same_numbers(made, found):
     folder, _ = made
     assert len(found.curves) == 7
+    # from version 3 on it reads to the last bit by itself
+    exact: dict[str, Any] = {"float_precision": "round_trip"} if pandas.__version__ < "3" else {}
     for (axle, motion), curve in found.curves.items():
         file = folder / f"{axle}_{motion}.csv"
-        mine, theirs = read_curve(file), pandas.read_csv(file, float_precision="round_trip")
+        mine, theirs = read_curve(file), pandas.read_csv(file, **exact)
         assert (mine.axle, mine.motion) == (axle, motion)
         assert list(theirs.columns) == [f"{name} [{quantity_of(name).unit}]" for name in curve.columns]
         for name, values in curve.columns.items():
