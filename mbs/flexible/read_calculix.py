@@ -69,7 +69,11 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
         node = numbers[int(held[0])] if held.size else numbers[0]
         raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
     entries = [read_foreign(path, lambda path: np.loadtxt(path, unpack=True, ndmin=2)) for path in files[1:3]]
-    if entries[0].shape != entries[1].shape or entries[0].shape[0] != 3:
+    lumped = len(entries[1]) == 3 and np.array_equal(entries[1][0], entries[1][1])
+    for path, found in zip(files[1:3], entries, strict=True):
+        if len(found) != 3 or not np.isin(table[used] + 1, found[0][found[0] == found[1]]).all():
+            raise ModelError(f"{path.name} must have a diagonal entry for each freedom; it is damaged.")
+    if entries[0].shape != entries[1].shape and not lumped:
         raise ModelError(f"{files[1].name} and {files[2].name} must have as many entries; one of them is damaged.")
     K, M = (
         read_foreign(path, partial(_triangle, size=len(freedoms), entries=e))

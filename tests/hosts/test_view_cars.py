@@ -13,8 +13,8 @@ from PIL import Image
 import mbs
 from fmu_src.build.build import build_fmu
 from hosts.run.drive import main as drive
+from hosts.view import view
 from hosts.view.recorded import read_table
-from hosts.view.view import view
 from mbs.vehicle import load
 from tests.hosts.test_view import shown
 from viewer.browser import BrowserError, find_chromium
