@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import atexit
+import functools
 import os
-import sys
+import shutil
 import tempfile
 from pathlib import Path
 
@@ -14,43 +15,61 @@ from ali3.files import reason
 VARIABLE = "ALI3_CACHE"
 
 
-def cache_folder(*parts: str) -> Path:
+def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> Path:
     """A folder in the cache of the user, made if it is not there.
 
-    The environment variable ``ALI3_CACHE`` names the cache; else it is the folder ``ali3`` where the system keeps
-    caches. Where none can be written, the folder is a temporary one that goes when this process ends.
+    An environment variable names the cache; else it is a folder where the system keeps caches. Where none can be
+    written, the folder is a temporary one that goes when this process ends.
 
     Parameters
     ----------
     parts : str
         Names of folders inside the cache.
+    name : str
+        Of the cache.
+    variable : str
+        Of the environment.
 
     Raises
     ------
     FileError
-        ``ALI3_CACHE`` names a folder that cannot be written.
+        The variable names a folder that cannot be written.
     """
-    given = os.environ.get(VARIABLE)
+    import platformdirs
+
+    given = os.environ.get(variable)
     try:
-        folder = (Path(given) if given else _usual() / "ali3").joinpath(*parts)
+        cache = Path(given) if given else platformdirs.user_cache_path(name, appauthor=False, opinion=False)
+        folder = cache.expanduser().joinpath(*parts)
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             return folder.absolute()
     except (OSError, RuntimeError) as error:  # no home folder, or none to write to
         if given:
             words = reason(error) if isinstance(error, OSError) else str(error)
-            raise FileError(f"{VARIABLE} is '{given}', which cannot be written: {words}.") from None
-    temporary = tempfile.TemporaryDirectory(prefix="ali3-", ignore_cleanup_errors=True)
-    atexit.register(temporary.cleanup)
-    folder = Path(temporary.name).joinpath(*parts)
+            raise FileError(f"{variable} is '{given}', which cannot be written: {words}.") from None
+    folder = _passing(name).joinpath(*parts)
     folder.mkdir(parents=True, exist_ok=True)
     return folder
 
 
-def _usual() -> Path:
-    """The folder of all caches of this user."""
-    if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches"
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+@functools.cache
+def _passing(name: str) -> Path:
+    temporary = tempfile.TemporaryDirectory(prefix=f"{name}-", ignore_cleanup_errors=True)
+    atexit.register(temporary.cleanup)
+    return Path(temporary.name)
+
+
+def forget_oldest(room: Path, kept: int) -> None:
+    """Remove the folders that were not used for the longest time.
+
+    Parameters
+    ----------
+    room : Path
+        Of the cache.
+    kept : int
+        How many stay.
+    """
+    folders = (f for f in room.iterdir() if f.is_dir() and not f.name.startswith("."))
+    for folder in sorted(folders, key=lambda f: f.stat().st_mtime, reverse=True)[kept:]:
+        shutil.rmtree(folder, ignore_errors=True)

@@ -8,7 +8,7 @@ import importlib
 import sys
 from collections.abc import Sequence
 
-from ali3.commands import COMMANDS, Command
+from ali3.commands import BEFORE, COMMANDS, Command
 from ali3.extras import command_needs
 from ali3.running import WRONG_USE, run_command, typed_as
 from ali3.search_path import forget_current_folder
@@ -35,7 +35,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
     if given and not given[0].startswith("-"):
         command = next((c for c in COMMANDS if c.name == given[0]), None)
         if command is None:
-            return _unknown(given[0], prog)
+            return _unknown(given[0], given[1:], prog)
         return run_command(lambda: _run(command, given[1:], prog))
     return run_command(lambda: _help(given, prog))
 
@@ -77,7 +77,10 @@ class _Version(argparse.Action):
         parser.exit(message=f"ali3 {version('ali3')}\n")
 
 
-def _unknown(name: str, prog: str) -> int:
+def _unknown(name: str, arguments: Sequence[str], prog: str) -> int:
+    if name in BEFORE:
+        print(f"error: The command '{name}' is now: {prog} {BEFORE[name].line(arguments)}", file=sys.stderr)
+        return WRONG_USE
     names = [c.name for c in COMMANDS]
     near = difflib.get_close_matches(name, names, 1)
     hint = f"Did you mean '{near[0]}'?" if near else f"The commands are {', '.join(names)}."

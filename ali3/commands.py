@@ -1,7 +1,9 @@
-"""The subcommands of ali3: name, module, the extra that it needs."""
+"""The subcommands of ali3: name, module, the extra that it needs; and what those of before are now."""
 
 from __future__ import annotations
 
+import shlex
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 
@@ -27,24 +29,29 @@ class Command(NamedTuple):
 
 
 COMMANDS = (
-    Command("build", "fmu_src.build.command", "fmu", "build the FMUs of a car or a scene"),
-    Command("car", "mbs.vehicle.command", "", "copy a car of the package to a folder, or check a car file"),
-    Command("drive", "hosts.run.drive", "hosts", "drive the FMU of a car through a manoeuvre"),
-    Command("run", "hosts.run.run", "hosts", "run any FMU with constant inputs and plot its outputs"),
+    Command("build", "fmu_src.build.command", "fmu", "build the FMUs of a car or a scene, or the C kernel"),
     Command(
-        "view", "hosts.view.view", "hosts", "show a result or an FMU moving, in a page; pictures, films and glTF of it"
+        "car",
+        "mbs.vehicle.command",
+        "",
+        "copy a car to a folder, check a car file, or draw the kinematics of its axles",
     ),
-    Command("page", "hosts.view.page", "hosts", "write a page that runs an FMU in a browser"),
+    Command(
+        "run", "hosts.run.command", "hosts", "run an FMU or drive a car through a manoeuvre; tables and charts of it"
+    ),
+    Command(
+        "view",
+        "hosts.view.command",
+        "hosts",
+        "show a result or an FMU moving, or running live, in a page; pictures, films",
+    ),
     Command(
         "simulator",
         "hosts.simulator.command",
         "simulator",
-        "drive an FMU in real time, from a page or by a steering wheel",
+        "drive a car in real time, from a page or by a steering wheel; repeat recordings",
     ),
-    Command(
-        "parameters", "hosts.fmu.parameters", "hosts", "show the parameters of an FMU, or write them as a parameter set"
-    ),
-    Command("check", "hosts.check.command", "hosts", "check an FMU and print a verdict"),
+    Command("check", "hosts.check.command", "hosts", "check an FMU, show its parameters, or drive it for hours"),
     Command(
         "catalogue",
         "hosts.catalogue.command",
@@ -52,24 +59,55 @@ COMMANDS = (
         "do standard tests with cars side by side and report their measures",
     ),
     Command(
+        "compare", "hosts.compare.command", "study", "hold an FMU against a log of a test drive, and fit parameters"
+    ),
+    Command(
         "study",
         "hosts.study.command",
         "study",
         "drive many variants of a car or another FMU, on one machine or a cluster",
     ),
-    Command(
-        "compare", "hosts.compare.command", "study", "hold an FMU against a log of a test drive, and fit parameters"
-    ),
-    Command("kinematics", "mbs.vehicle.kinematics.command", "hosts", "draw the wheel travel and steer curves of a car"),
-    Command("kerb", "hosts.run.kerb", "hosts", "run the paper's kerb test and draw the moments of the frame"),
-    Command(
-        "recording",
-        "hosts.recordings.command",
-        "simulator",
-        "say what a recording of the simulator holds; repeat it, or make a manoeuvre of it",
-    ),
-    Command("road", "mbs.worlds.road_command", "", "make, check and show road files"),
-    Command("soak", "hosts.soak.command", "simulator", "drive a car for hours by itself, and check every step"),
-    Command("world", "mbs.worlds.command", "", "make the road file and the drawing of a world to drive in"),
-    Command("kernel", "mbs.kernel.build", "fmu", "compile the C kernel for a platform"),
+    Command("road", "mbs.worlds.command", "", "make, check and show road files and worlds to drive in"),
 )
+
+
+class Before(NamedTuple):
+    """A command of before, which is a part of another one now.
+
+    Parameters
+    ----------
+    words : str
+        What stands in place of its name.
+    options : mapping of str to str
+        New words for its options; empty, the word is left out.
+    """
+
+    words: str
+    options: Mapping[str, str] = {}
+
+    def line(self, arguments: Sequence[str]) -> str:
+        """What the same arguments are now."""
+        words = [self._new(word) for word in arguments]
+        return shlex.join([*self.words.split(), *filter(None, words)])
+
+    def _new(self, word: str) -> str:
+        old, equals, value = word.partition("=")
+        new = self.options.get(old, old)
+        return f"{new}{equals}{value}" if new else value
+
+
+BEFORE = {
+    "drive": Before("run"),
+    "page": Before("view --live", {"--beside": ""}),
+    "parameters": Before("check --show-parameters", {"--out": "--save-parameters"}),
+    "kinematics": Before("car --kinematics"),
+    "kerb": Before("run --kerb"),
+    "recording": Before(
+        "simulator --recording",
+        {"replay": "--replay", "manoeuvre": "--save-manoeuvre", "--begin": "--from", "--end": "--to", "--fmu": ""},
+    ),
+    "soak": Before("check --soak", {"--seconds": "--stop-time"}),
+    "world": Before("road --world"),
+    "kernel": Before("build --kernel"),
+}
+"""Commands of before by name."""

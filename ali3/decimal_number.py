@@ -2,6 +2,45 @@
 
 from __future__ import annotations
 
+import argparse
+import math
+import re
+
 DECIMAL = r"(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?"
 """Pattern of a decimal number without its sign. What `float` takes besides, such as 1_0 or digits of other scripts, is
 more often a slip than a number."""
+
+_NUMBER = re.compile(rf"[+-]?{DECIMAL}", re.ASCII)
+_NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
+
+
+def parse_number(text: str) -> float:
+    """A finite number.
+
+    Raises
+    ------
+    ValueError
+        With the text and the reason, as the rest of a sentence after a colon.
+    """
+    word = text.strip()
+    if _NOT_FINITE.fullmatch(word):
+        raise ValueError(f"the value is {word}; only finite numbers can be used")
+    if not _NUMBER.fullmatch(word):
+        raise ValueError(f"{short(word)} is not a number")
+    value = float(word)
+    if not math.isfinite(value):
+        raise ValueError(f"{short(word)} is too large for a number")
+    return value
+
+
+def number(text: str) -> float:
+    """A number of the command line; whether it may be infinite or none at all depends on its use."""
+    try:
+        return float(text) if _NOT_FINITE.fullmatch(text.strip()) else parse_number(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def short(text: str) -> str:
+    """A word of the user in quotation marks, cut where it is long."""
+    return repr(text if len(text) <= 40 else text[:37] + "...")

@@ -9,3 +9,7 @@ class UserError(Exception):
 
 class FileError(UserError, OSError):
     """A file or folder that cannot be written or read; the message names it."""
+
+
+class TableError(FileError, ValueError):
+    """A table that cannot be read, or holds something else; the message names file and line."""

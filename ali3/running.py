@@ -12,15 +12,17 @@ from pathlib import Path
 from ali3.errors import UserError
 from ali3.extras import missing_module
 from ali3.files import reason
+from ali3.signals import Stopped, stopped_by_signals
 
 GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED = 0, 1, 2, 130
-"""Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT)."""
+"""Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT; so for others
+that end programs)."""
 
 _prefix: str | None = None
 
 
 def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ()) -> int:
-    """Do the work of a command.
+    """Do the work of a command. SIGTERM and SIGHUP are met in it as Ctrl-C is, by a `KeyboardInterrupt`.
 
     Parameters
     ----------
@@ -35,22 +37,38 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ())
         Exit code.
     """
     try:
-        status = work()
-        sys.stdout.flush()
+        with stopped_by_signals():
+            status = work()
+            sys.stdout.flush()
         return status
+    except Stopped as error:
+        return _end(f"stopped by {error.number.name}", 128 + error.number)
     except KeyboardInterrupt:
         return _end("stopped by Ctrl-C", INTERRUPTED)
     except BrokenPipeError:  # the reader of our output has gone: nobody is there to be told
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return NOT_GOOD
-    except ModuleNotFoundError as error:
-        return _end(f"error: {missing_module(error)}", WRONG_USE)
     except Exception as error:
-        if isinstance(error, (UserError, *errors)):
-            return _end(f"error: {error}", WRONG_USE)
-        if isinstance(error, OSError):
-            return _end(f"error: {_os_words(error)}", WRONG_USE)
-        raise
+        words = sentence(error, errors)
+        if words is None:
+            raise
+        return _end(f"error: {words}", WRONG_USE)
+
+
+def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | None:
+    """What a user is told of an error; None: it is none of the user's.
+
+    Parameters
+    ----------
+    error : Exception
+    errors : sequence of exception types
+        See `run_command`.
+    """
+    if isinstance(error, ModuleNotFoundError):
+        return missing_module(error)
+    if isinstance(error, (UserError, *errors)):
+        return str(error)
+    return _os_words(error) if isinstance(error, OSError) else None
 
 
 def command_name(name: str) -> str:

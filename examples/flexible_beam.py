@@ -28,7 +28,7 @@ def flexible_beam() -> mbs.Model:
     m.revolute("hub", m.ground, root, point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
     angle = m.relative_angle("angle", m.ground, root, axis=(0.0, 1.0, 0.0))
     motor = m.drive("motor", angle, m.guide_time("turn", ANGLE, unit="rad"))
-    m.sense_joint_force("torque", motor, "drive")
+    m.sense_joint("torque", motor, "drive")
     for component in "xz":
         m.sense_position(f"tip.{component}", tip, (LENGTH, 0.0, 0.0), component)
     return m

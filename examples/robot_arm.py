@@ -22,7 +22,7 @@ def robot_arm() -> mbs.Model:
         m.revolute(f"hinge {k}", before, link, point=(start, 0.0))
         angle = m.relative_angle(f"angle {k}", before, link)
         motor = m.drive(f"motor {k}", angle, m.guide_time(f"path {k}", PATH[k], unit="rad"))
-        m.sense_joint_force(f"torque {k}", motor, "drive")
+        m.sense_joint(f"torque {k}", motor, "drive")
         before, start = link, start + length
         for component in "xy":
             m.sense_position(f"end {k} {component}", link, (start, 0.0), component)

@@ -5,13 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from mbs.common.affine import Affine, AffineVector
-from mbs.common.errors import ArgumentTypeError
 from mbs.common.lazy_modules import lazy_modules
-from mbs.compiler import compile
-from mbs.model import Model, ModelError
-from mbs.simulation.branch_warning import BranchWarning
-from mbs.system.system import System, SystemFileError
 
 if TYPE_CHECKING:
     from mbs import elements as elements
@@ -23,6 +17,10 @@ if TYPE_CHECKING:
     from mbs.analysis.kinks import LinearisationWarning
     from mbs.analysis.linear_model import LinearModel, linearise
     from mbs.analysis.periodic_motion import FloquetModel, floquet
+    from mbs.common.affine import Affine, AffineVector
+    from mbs.common.errors import ArgumentTypeError
+    from mbs.compiler import compile
+    from mbs.model import Model, ModelError
     from mbs.results.accuracy import Accuracy, AccuracyWarning
     from mbs.results.animation import Animation, animate
     from mbs.results.poses import Poses
@@ -31,27 +29,40 @@ if TYPE_CHECKING:
     from mbs.roads import RoadFile, RoadFileError, RoadWarning, read_road, write_road
     from mbs.settings.control import Control
     from mbs.settings.settings import Settings
-    from mbs.simulation import Pose, Simulation, simulate
+    from mbs.simulation.branch_warning import BranchWarning
     from mbs.simulation.large_bending import BendingWarning
+    from mbs.simulation.run import simulate
+    from mbs.simulation.state import Pose
+    from mbs.simulation.stepping import Simulation
+    from mbs.system.system import System, SystemFileError
 
 # packages of their own, imported when they are first asked for: mbs.vehicle.load("prototype")
 _package = lazy_modules("mbs", ("elements", "flexible", "roads", "scenes", "shapes", "vehicle"))
-# what needs the compiled kernel is imported when it is first asked for
+# imported when they are first asked for: commands that need no engine start fast
 _LAZY = {
+    "Affine": "mbs.common.affine",
+    "AffineVector": "mbs.common.affine",
+    "ArgumentTypeError": "mbs.common.errors",
+    "BranchWarning": "mbs.simulation.branch_warning",
+    "Model": "mbs.model",
+    "ModelError": "mbs.model",
+    "System": "mbs.system.system",
+    "SystemFileError": "mbs.system.system",
+    "compile": "mbs.compiler",
     "Accuracy": "mbs.results.accuracy",
     "AccuracyWarning": "mbs.results.accuracy",
     "Animation": "mbs.results.animation",
     "animate": "mbs.results.animation",
     "Control": "mbs.settings.control",
     "Poses": "mbs.results.poses",
-    "Pose": "mbs.simulation",
+    "Pose": "mbs.simulation.state",
     "RoadFile": "mbs.roads",
     "RoadFileError": "mbs.roads",
     "RoadWarning": "mbs.roads",
     "read_road": "mbs.roads",
     "write_road": "mbs.roads",
     "Settings": "mbs.settings.settings",
-    "Simulation": "mbs.simulation",
+    "Simulation": "mbs.simulation.stepping",
     "SimulationError": "mbs.results.simulation_error",
     "Trajectory": "mbs.results.trajectory",
     "FloquetModel": "mbs.analysis.periodic_motion",
@@ -60,7 +71,7 @@ _LAZY = {
     "LinearisationWarning": "mbs.analysis.kinks",
     "floquet": "mbs.analysis.periodic_motion",
     "linearise": "mbs.analysis.linear_model",
-    "simulate": "mbs.simulation",
+    "simulate": "mbs.simulation.run",
 }
 
 __all__ = [

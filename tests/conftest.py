@@ -1,22 +1,32 @@
-"""What every test needs: the compiled kernel, commands as before the first, and Ctrl-C; the order of the tests, and one
-line for those that need a browser.
+"""What every test needs: the compiled kernel, commands as before the first, and Ctrl-C; what is made once for all
+processes; the order of the tests, and one line for those that need a browser.
 """
 
 from __future__ import annotations
 
 import functools
 import os
+import shutil
 import signal
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from filelock import FileLock
 
 # Before NumPy is loaded: beside other processes, threads of BLAS make small matrices several times as slow.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-# Where a shell runs the tests in the background Ctrl-C is ignored; programs that the tests start would inherit that.
-if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+# A shell that runs the tests in the background ignores Ctrl-C, `nohup` a closed terminal; programs that the tests start
+# would inherit that.
+for _name, _default in (
+    ("SIGINT", signal.default_int_handler),
+    ("SIGHUP", signal.SIG_DFL),
+    ("SIGTERM", signal.SIG_DFL),
+):
+    _number = getattr(signal, _name, None)
+    if _number is not None and signal.getsignal(_number) is signal.SIG_IGN:
+        signal.signal(_number, _default)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -35,6 +45,39 @@ def shared(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder that all processes of pytest-xdist have."""
     base = tmp_path_factory.getbasetemp()
     return base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+
+@pytest.fixture(scope="session")
+def made_once(shared: Path) -> Callable[[str, Callable[[Path], None]], Path]:
+    """A folder by its name that a function has filled, once for all processes of pytest-xdist."""
+
+    def make(name: str, fill: Callable[[Path], None]) -> Path:
+        folder, part = shared / name, shared / f"{name}.part"
+        with FileLock(f"{folder}.lock"):
+            if not folder.is_dir():
+                shutil.rmtree(part, ignore_errors=True)
+                part.mkdir()
+                fill(part)
+                part.rename(folder)
+        return folder
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def prototype_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Path:
+    """The FMU of the rigid prototype for this platform."""
+    from fmpy import platform
+
+    from fmu_src.build.build import build_fmu
+    from fmu_src.build.scene_registry import load_scene
+
+    def fill(folder: Path) -> None:
+        name, system = load_scene("prototype_car")
+        build_fmu(system, name, folder, [platform])
+
+    (path,) = made_once("prototype_fmu", fill).glob("*.fmu")
+    return path
 
 
 @pytest.fixture(autouse=True)

@@ -5,7 +5,7 @@
 One environment without extras and one for each extra gets a wheel of this clone (those of the clone itself: an editable
 installation of a copy). In each every command runs, with good files and with files that are cut, empty or of another
 format. It works, or says in one sentence which extra is missing or what is wrong with the file. `uv` is used where it
-is there. The files are made here, which needs the extras `fem` and `test`.
+is there. The files are made here, which needs the extra `test`.
 """
 
 from __future__ import annotations
@@ -34,25 +34,28 @@ UV = shutil.which("uv")
 LINES = {
     "build": "--scene pendulum --kind native --platforms this --out built",
     "car": "hatchback",
-    "drive": "car.fmu -m inputs.csv --out driven",
-    "run": "car.fmu --stop-time 0.1 --out ran",
+    "run": "car.fmu -m inputs.csv --out driven",
     "view": "result.csv --geometry car.fmu --no-open",
-    "page": "car.fmu --out page",
-    "simulator": "car.fmu --headless --seconds 0.2",
-    "parameters": "car.fmu --out all.ssv",
+    "simulator": "car.fmu --headless --stop-time 0.2",
     "check": "car.fmu --steps 5",
     "catalogue": "car.fmu --tests kerb --jobs 1 --out catalogue",
-    "study": "study.toml --workers 1 --out studied",
     "compare": "car.fmu result.csv --out compared",
-    "kinematics": "hatchback --points 5 --out kinematics",
-    "kerb": "kerb.fmu --fidelity 1 --out kerb",
-    "recording": "record replay",
+    "study": "study.toml --jobs 1 --out studied",
     "road": "heights.csv heights.road --spacing 1 1",
-    "soak": "car.fmu --seconds 2 --hours 0.0005 --jobs 1 --out soak",
-    "world": "plane --out world",
-    "kernel": "--out kernel.library",
 }
 """Arguments with which each command does its work."""
+
+BESIDES = (
+    ("fmu", "build --kernel --out kernel"),
+    ("hosts", "car hatchback --kinematics --points 5 --out kinematics"),
+    ("hosts", "run kerb.fmu --kerb --fidelity 1 --out kerb"),
+    ("hosts", "view car.fmu --live --no-open --out page"),
+    ("simulator", "simulator --recording record --replay"),
+    ("hosts", "check car.fmu --save-parameters all.ssv"),
+    ("simulator", "check car.fmu --soak --stop-time 2 --drives 1 --jobs 1 --out soak"),
+    ("", "road --world plane --out world"),
+)
+"""What commands do besides: the extra that it needs, and the line."""
 
 
 class Reader(NamedTuple):
@@ -70,10 +73,10 @@ TABLE = ("empty", "text", "bytes")
 READERS = (
     Reader("hosts", "ali3 run {} --stop-time 0.1 --out ran", ("car.fmu",)),
     Reader("hosts", "ali3 check {} --steps 5", ("car.fmu",)),
-    Reader("hosts", "ali3 drive car.fmu -m {} --out driven", ("inputs.csv",), TABLE),
-    Reader("hosts", "ali3 parameters car.fmu --parameters {}", ("car.ssv",)),
+    Reader("hosts", "ali3 run car.fmu -m {} --out driven", ("inputs.csv",), TABLE),
+    Reader("hosts", "ali3 check car.fmu --show-parameters --parameters {}", ("car.ssv",)),
     Reader("hosts", "ali3 road heights.road --picture road.png", ()),
-    Reader("hosts", "ali3 world plane --out world --picture", ()),
+    Reader("hosts", "ali3 road --world plane --out world --picture world.png", ()),
     Reader("simulator", "ali3 simulator car.fmu --headless -m {}", ("inputs.csv",), TABLE),
     Reader("study", "ali3 compare car.fmu {} --out compared", ("result.csv",), TABLE),
     Reader("study", "ali3 study {} --dry-run", ("study.toml",), TABLE),
@@ -90,11 +93,11 @@ READERS = (
         (),
     ),
     Reader(
-        "fem",
+        "",
         "from mbs.flexible.read_nastran import read_nastran as r; r('{}', 'bar.op4')",
         ("bar.bdf",),
     ),
-    Reader("fem", "from mbs.flexible.read_nastran import read_nastran as r; r('bar.bdf', '{}')", ("bar.op4",)),
+    Reader("", "from mbs.flexible.read_nastran import read_nastran as r; r('bar.bdf', '{}')", ("bar.op4",)),
     Reader(
         "fem",
         "import pathlib, shutil; from mbs.flexible.read_calculix import read_calculix; f = pathlib.Path('{}'); "
@@ -154,8 +157,8 @@ def _answers(name: str, python: Path, work: Path, clone: Path) -> Iterator[tuple
         return
     files = work / f"files of {name}"
     shutil.copytree(work / "files", files)
-    for command in COMMANDS:
-        yield _answer(name, command.extra, python, f"ali3 {command.name} {LINES[command.name]}", files)
+    for extra, line in (*((c.extra, f"{c.name} {LINES[c.name]}") for c in COMMANDS), *BESIDES):
+        yield _answer(name, extra, python, f"ali3 {line}", files)
     for reader in READERS:
         for file in reader.files or ("",):
             asked, words = _answer(name, reader.extra, python, reader.what.format(file), files)
@@ -238,8 +241,8 @@ def _make_files(folder: Path) -> None:
     for line in (
         "build --kind native --platforms this,wasm32 --out dist",
         "build --scene kerb_test --kind native --platforms this --out dist",
-        "drive dist/PrototypeCar.fmu -m inputs.csv --out dist",
-        "simulator dist/PrototypeCar.fmu --headless --seconds 0.2 --record record",
+        "run dist/PrototypeCar.fmu -m inputs.csv --out dist",
+        "simulator dist/PrototypeCar.fmu --headless --stop-time 0.2 --record record",
         "road heights.csv heights.road --spacing 1 1",
     ):
         subprocess.run([sys.executable, "-m", "ali3", *line.split()], cwd=folder, check=True, capture_output=True)

@@ -6,7 +6,7 @@ import os
 import shutil
 import sys
 import webbrowser
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -128,7 +128,7 @@ def open_secretly(address: str, folder: str | os.PathLike[str]) -> bool:
 
 def screenshot(
     page: str | os.PathLike[str], times: Iterable[float], size: tuple[int, int] = (1280, 720), camera: str | None = None
-) -> Iterator[bytes]:
+) -> Generator[bytes, None, None]:
     """Pictures of a page that `viewer.page_file.write_page` wrote, one after the other.
 
     Parameters

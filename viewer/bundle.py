@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import errno
 import hashlib
 import importlib.util
 import json
@@ -14,6 +13,8 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+
+from ali3.files import locked
 
 HERE = Path(__file__).resolve().parent
 SCRIPT = "ali3-viewer.js"
@@ -61,7 +62,8 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
                 if not _fresh(page, out):  # another process may have built it meanwhile
                     _build(page, out)
         except OSError as error:
-            raise RuntimeError(f"The page that draws cannot be built in {out}: {error.strerror or error}.") from None
+            why = f" in {out}: {error.strerror}." if error.strerror else f": {error}"
+            raise RuntimeError(f"The page that draws cannot be built{why}") from None
     return out / SCRIPT
 
 
@@ -158,34 +160,19 @@ def _hash(page: Path) -> str:
     """Digest of the names and contents of all sources."""
     digest = hashlib.sha256()
     sources = [page / name for name in ("package.json", "package-lock.json", "build.mjs")]
+    sources.append(page.parent / "looks.json")
     sources += sorted(path for path in (page / "src").rglob("*") if path.is_file())
     for path in sources:
         content = path.read_bytes()
-        digest.update(f"{path.relative_to(page).as_posix()} {len(content)}\n".encode())
+        digest.update(f"{path.relative_to(page.parent).as_posix()} {len(content)}\n".encode())
         digest.update(content)
     return digest.hexdigest()
 
 
 @contextlib.contextmanager
 def _locked(folder: Path) -> Iterator[None]:
-    """Hold the lock of a folder; the system frees it when a process ends, however it ends."""
-    folder.mkdir(parents=True, exist_ok=True)
-    with (folder / ".lock").open("a+b") as file:
-        if sys.platform == "win32":
-            import msvcrt
-
-            while True:
-                try:
-                    file.seek(0)
-                    msvcrt.locking(file.fileno(), msvcrt.LK_LOCK, 1)  # gives up after ten seconds
-                    break
-                except OSError as error:
-                    if error.errno != errno.EDEADLK:
-                        raise
-        else:
-            import fcntl
-
-            fcntl.flock(file, fcntl.LOCK_EX)
-        for left in list(folder.glob(f"{_PART}*")):  # of a build that was interrupted
+    """Hold the lock of a folder, in which nothing of a build that was interrupted is left."""
+    with locked(folder):
+        for left in list(folder.glob(f"{_PART}*")):
             shutil.rmtree(left, ignore_errors=True)
         yield

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.errors import FileError
 from ali3.extras import missing_module
-from ali3.files import reason
+from ali3.reading import check_file
 from viewer.errors import ViewerError
 
 if TYPE_CHECKING:
@@ -24,6 +23,7 @@ Positions = NDArray[np.float32]
 Triangles = NDArray[np.uint32]
 
 SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
+_LARGEST = 4_000_000_000  # bytes of a file
 MOST_TRIANGLES = 100_000
 """Of a mesh that is drawn: 1.8 MB of a page."""
 LARGER, SMALLER = 20.0, 1.0 / 2000.0
@@ -77,12 +77,7 @@ def read_mesh(
     factor = _checked_scale(path, scale)
     if file.suffix.lower() not in SUFFIXES:
         raise MeshError(f"{path} is of a kind that is not read as a mesh; {', '.join(SUFFIXES)} are.")
-    try:
-        with file.open("rb") as stream:
-            stream.read(1)
-    except (OSError, ValueError) as error:
-        words = reason(error) if isinstance(error, OSError) else str(error)
-        raise FileError(f"{path} cannot be read: {words}.") from None
+    check_file(file, _LARGEST)
     mesh = _load(file)
     points = np.asarray(mesh.vertices, dtype=float) * factor
     triangles = np.asarray(mesh.faces, dtype=np.int64)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import gzip
-import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -40,18 +39,6 @@ def page_data(recordings: Sequence[Recording], options: Mapping[str, Any]) -> di
             scenes.append(recording.scene)
         runs.append(_run(recording, None if recording.scene is None else scenes.index(recording.scene)))
     return {"format": FORMAT, "version": 1, "scenes": scenes, "runs": runs, "options": dict(options)}
-
-
-def json_in_html(data: object) -> str:
-    """JSON that may stand in a script element: no text in it can end the element or begin a comment.
-
-    Parameters
-    ----------
-    data : object
-        As `json.dumps` takes it; numbers must be finite.
-    """
-    text = json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
-    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
 def block(columns: Mapping[str, NDArray[np.float64]], kind: str) -> dict[str, Any]:

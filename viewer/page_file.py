@@ -8,17 +8,12 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ali3 import html
 from ali3.files import check_writable, whole_file
-from viewer.bundle import bundle
 from viewer.errors import ViewerError
-from viewer.page_data import json_in_html, page_data
+from viewer.html_document import html_document
+from viewer.page_data import page_data
 from viewer.player_options import check_options
 from viewer.recording import MOST_TIMES, Recording
-
-# FMUs are WebAssembly and run in a worker that is made from the script of the page.
-_SOURCES = {"script-src": "'wasm-unsafe-eval'", "worker-src": "blob:"}
-_STYLE = "html,body{margin:0;height:100%;overflow:hidden;font:14px/1.4 system-ui,sans-serif}#view{height:100%}"
 
 
 class WrittenPage(NamedTuple):
@@ -98,55 +93,6 @@ def page_html(
     data = page_data(shown, checked)
     heading = title if title is not None else ", ".join(dict.fromkeys(recording.name for recording in shown))
     return html_document(heading, data, "ALi3Viewer.playPage")
-
-
-def html_document(title: str, data: object, function: str, connect: str = "") -> str:
-    """One HTML file with the script of the viewer and data, on which it calls a function.
-
-    Parameters
-    ----------
-    title : str
-        Of the page; any text.
-    data : object
-        JSON; any texts may stand in it.
-    function : str
-        Of the script, called with the element that is to be filled and the data; what it returns is
-        ``window.player``.
-    connect : str
-        Sources of a content security policy that the page may talk to; by default none.
-
-    Raises
-    ------
-    ViewerError
-        The script is not there and cannot be built.
-    """
-    # The page says what is wrong in place of a picture, for whoever opens it where it cannot run.
-    start = (
-        "(function(){var view=document.getElementById('view');"
-        "try{window.player=" + function + "(view,JSON.parse(document.getElementById('data').textContent));}"
-        "catch(error){view.textContent='This page cannot be shown: '+(error&&error.message||error);}})();"
-    )
-    body = (
-        '<div id="view"></div>\n'
-        "<noscript>This page draws with JavaScript, which is switched off in this browser.</noscript>\n"
-        f'<script type="application/json" id="data">{json_in_html(data)}</script>'
-    )
-    sources = _SOURCES | ({"connect-src": connect} if connect else {})
-    return html.page(title, body, _STYLE, scripts=(script(), start), sources=sources)
-
-
-def script() -> str:
-    """The script of the viewer, which defines ``window.ALi3Viewer``.
-
-    Raises
-    ------
-    ViewerError
-        It is not there and cannot be built.
-    """
-    try:
-        return bundle().read_text(encoding="utf-8")
-    except RuntimeError as error:
-        raise ViewerError(str(error)) from None
 
 
 def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES) -> list[Recording]:

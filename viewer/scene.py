@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from ali3.files import reason
+from ali3.reading import LARGEST_JSON, json_of, read_bytes
 from viewer.errors import SceneError
 from viewer.scene_relations import relation_errors
 from viewer.scene_sentences import sentences, value_words
@@ -86,14 +86,8 @@ def read_scene(source: str | bytes | PathLike[str], name: str = "") -> dict[str,
         data, name = source, name or "The scene"
     else:
         name = name or str(source)
-        try:
-            data = Path(source).read_bytes()
-        except OSError as error:
-            raise SceneError(f"{name} cannot be read: {reason(error)}.") from None
-    try:
-        scene = json.loads(data)
-    except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
-        raise SceneError(f"{name} is no JSON file: {error}.") from None
+        data = read_bytes(source, LARGEST_JSON, SceneError, name)
+    scene = json_of(data, SceneError, name)
     check_scene(scene, name)
     return dict(scene)
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from ali3.words import place_words
 from viewer import road_types, scenery_types
 from viewer import scene_types as types
 from viewer.scene_values import NAME, UNIT, Part
@@ -85,15 +86,7 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
 
 def place(path: Sequence[str | int]) -> str:
     """A place in a scene, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
-    text = ""
-    for part in path:
-        if isinstance(part, int):
-            text += f"[{part}]"
-        elif part.isidentifier():
-            text += f".{part}" if text else part
-        else:
-            text += f"[{_cut(part)!r}]"
-    return text or "the scene"
+    return place_words(path) or "the scene"
 
 
 def value_words(value: object) -> str:

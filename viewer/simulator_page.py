@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from viewer.page_file import html_document
+from viewer.html_document import html_document
 
 _CONNECT = "'self'"
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import io
-import itertools
 import math
 import os
 import tempfile
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing
+from fractions import Fraction
 from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
 
 from ali3.errors import UserError
 from ali3.extras import missing_package
@@ -27,12 +29,12 @@ if TYPE_CHECKING:
 SUFFIXES = (".mp4", ".webp", ".gif")
 MOST_FRAMES = 20_000
 Progress = Callable[[float], None]
-_QUALITY = 7.5  # of MP4, 0 to 10
+_QUALITY = "12"  # of MP4, as x264 counts it: 0 is without loss
 _WEBP = {"quality": 65, "method": 4, "allow_mixed": True}
 
 
 class FilmError(UserError, RuntimeError):
-    """There is no program that makes a film, or it fails; the message says what would help."""
+    """A package that makes films is not installed, or fails; the message says what would help."""
 
 
 class WrittenFilm(NamedTuple):
@@ -75,7 +77,7 @@ def write_mp4(
     """Write a film of a recording, or of several that are shown over each other.
 
     A Chromium without a window draws the pictures, by the processor: those of 1280 x 720 take a second or less each.
-    ffmpeg (of the package imageio-ffmpeg) encodes them as H.264. Files ``.webp`` and ``.gif`` are animated pictures for
+    ffmpeg (in the package av) encodes them as H.264. Files ``.webp`` and ``.gif`` are animated pictures for
     documents, which play without end.
 
     Parameters
@@ -112,7 +114,7 @@ def write_mp4(
     BrowserError
         There is no browser, or it cannot draw.
     FilmError
-        There is no ffmpeg, or it fails.
+        The package av is not installed, or it fails.
     FileError
         The file cannot be written; an older one is then unchanged.
     """
@@ -179,7 +181,9 @@ def _check_size(target: Path, size: Any) -> None:
         raise ViewerError(f"The size of the film is {size!r}; both numbers must be even for an MP4 file.")
 
 
-def _told(pictures: Iterator[bytes], count: int, progress: bool | Progress | None) -> Generator[Image, None, None]:
+def _told(
+    pictures: Generator[bytes, None, None], count: int, progress: bool | Progress | None
+) -> Generator[Image, None, None]:
     """Pictures as they come, with a bar."""
     try:
         from PIL import Image
@@ -187,9 +191,10 @@ def _told(pictures: Iterator[bytes], count: int, progress: bool | Progress | Non
         raise FilmError(f"A film cannot be written. {missing_package('PIL', 'pictures')}") from None
     tell, close = _teller(count, progress)
     try:
-        for number, data in enumerate(pictures):
-            yield Image.open(io.BytesIO(data)).convert("RGB")
-            tell(number + 1)
+        with closing(pictures):  # else an error would hold the browser as long as somebody holds the error
+            for number, data in enumerate(pictures):
+                yield Image.open(io.BytesIO(data)).convert("RGB")
+                tell(number + 1)
     finally:
         close()
 
@@ -209,33 +214,21 @@ def _teller(count: int, progress: bool | Progress | None) -> tuple[Callable[[int
 
 def _mp4_encoder(fps: float, size: tuple[int, int]) -> Callable[[Path, Iterator[Image]], None]:
     try:
-        import imageio_ffmpeg
+        import av
     except ModuleNotFoundError:
-        raise FilmError(f"An MP4 file cannot be written. {missing_package('imageio_ffmpeg')}") from None
-    try:
-        imageio_ffmpeg.get_ffmpeg_exe()
-    except RuntimeError:
-        raise FilmError(
-            "There is no ffmpeg on this machine, which MP4 files need; install it, or name its program in the "
-            "environment variable IMAGEIO_FFMPEG_EXE; animated pictures (.webp, .gif) need none."
-        ) from None
+        raise FilmError(f"An MP4 file cannot be written. {missing_package('av')}") from None
 
     def encode(path: Path, pictures: Iterator[Image]) -> None:
-        first = next(pictures)  # where there is no browser, ffmpeg does not begin
-        writer = imageio_ffmpeg.write_frames(
-            str(path), size, fps=fps, codec="libx264", quality=_QUALITY, macro_block_size=2, ffmpeg_log_level="error"
-        )
-        writer.send(None)
         try:
-            for picture in itertools.chain((first,), pictures):
-                writer.send(picture.tobytes())
-        except OSError as error:
-            words = " ".join(str(error).split())[:300]
-            raise FilmError(f"ffmpeg does not encode the film: {words}.") from None
-        finally:
-            writer.close()
-        if not path.is_file():
-            raise FilmError("ffmpeg did not write the film.")
+            with av.open(path, "w", format="mp4") as film:
+                stream = film.add_stream("libx264", Fraction(fps).limit_denominator(1000), options={"crf": _QUALITY})
+                stream.width, stream.height = size
+                stream.pix_fmt = "yuv420p"
+                for picture in pictures:
+                    film.mux(stream.encode(av.VideoFrame.from_ndarray(np.asarray(picture))))
+                film.mux(stream.encode())
+        except av.FFmpegError as error:
+            raise FilmError(f"ffmpeg does not encode the film: {error.strerror}.") from None
 
     return encode
 

@@ -20,7 +20,6 @@ class Lagrange:
 
     Parameters
     ----------
-    mechanism : Mechanism
     penalty : float
         b, 1/s: both Baumgarte factors; the counterpart of the penalty.
     minimum_norm : bool

@@ -27,10 +27,6 @@ class Mechanism:
     """Dense mass matrix (nq, nq), rows and forces of a System without inputs that change or element states.
 
     The rows and forces are computed by the kernel, which is compiled; everything else is NumPy.
-
-    Parameters
-    ----------
-    system : mbs.System
     """
 
     def __init__(self, system: mbs.System) -> None:

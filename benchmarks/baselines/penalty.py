@@ -17,7 +17,6 @@ class Penalty:
 
     Parameters
     ----------
-    mechanism : Mechanism
     penalty : float
         a, of the mass-normalised rows.
     augmented : bool

@@ -64,7 +64,6 @@ def run(
 
     Parameters
     ----------
-    system : mbs.System
     t_end, h : float
         End and step, s; under a scipy solver h is the distance of results.
     method : str

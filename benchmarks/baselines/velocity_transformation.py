@@ -20,7 +20,6 @@ class VelocityTransformation:
 
     Parameters
     ----------
-    mechanism : Mechanism
     penalty : float
         Not used: there is none.
     """

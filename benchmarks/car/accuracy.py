@@ -16,7 +16,7 @@ from benchmarks.car.trajectories import Column
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.timing import median_wall
 from hosts.common.numbers import Value
-from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.manoeuvre import with_names_of
 from mbs import Trajectory
 
 PATH_BOUND, LOAD_BOUND = 0.01, 0.03  # of path length and of the largest wheel load
@@ -30,7 +30,7 @@ def wall_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeu
     """Median wall time of the communication loop of a manoeuvre through FMPy, s."""
     from hosts.fmu.fmu import Fmu
 
-    manoeuvre, start = _of_fmu(name, car)
+    manoeuvre, start = manoeuvres.load(name, car), start_of_fmu(name, car)
     steps = round(manoeuvre.stop_time / h)
     rows = [list(manoeuvre.at(k * h).values()) for k in range(steps)]
 
@@ -48,22 +48,22 @@ def wall_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeu
     return median_wall(once, repeats)
 
 
-def _of_fmu(name: str, car: str) -> tuple[Manoeuvre, dict[str, Value]]:
-    """A manoeuvre and its start values under the names of the car's FMU."""
+def start_of_fmu(name: str, car: str = manoeuvres.PROTOTYPE) -> dict[str, Value]:
+    """Start values of a manoeuvre under the names of the car's FMU."""
     manoeuvre, system = manoeuvres.load(name, car), manoeuvres.system_of(name, car)
     names = [v["name"] for kind in ("parameters", "inputs") for v in system.meta[kind]]
-    return manoeuvre, with_names_of(manoeuvre, names).start
+    return with_names_of(manoeuvre, names).start
 
 
 def run_of_fmu(file: Path, name: str, h: float, follow: bool, car: str = manoeuvres.PROTOTYPE) -> dict[str, Column]:
-    """Place and wheel loads of a manoeuvre through the FMU with communication steps of `h`, at the reference's times.
+    """Signals of a reference through the FMU with communication steps of `h`, at the reference's times.
 
     The inputs are held over a communication step, or follow their first derivatives (`follow`).
     """
     from hosts.fmu.fmu import Fmu
 
-    manoeuvre, start = _of_fmu(name, car)
-    names, every = (*trajectories.POSITION, *trajectories.LOADS), round(manoeuvres.sampling(name, car) / h)
+    manoeuvre, start = manoeuvres.load(name, car), start_of_fmu(name, car)
+    names, every = trajectories.SENSORS, round(manoeuvres.sampling(name, car) / h)
     inputs = list(manoeuvre.inputs)
     with Fmu(file) as fmu:
         set_inputs, set_slopes, get = fmu.setter(inputs), fmu.slope_setter(inputs), fmu.getter(names)

@@ -34,7 +34,6 @@ class Choice:
 
     Attributes
     ----------
-    fidelity : Fidelity
     h : float
         Step, s.
     error : float

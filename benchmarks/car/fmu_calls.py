@@ -38,7 +38,6 @@ def measure(
 
     Parameters
     ----------
-    fmu : Path
     kind : str
         ``native`` or ``python``.
     folder : Path

@@ -33,7 +33,6 @@ class Fall:
 
     Parameters
     ----------
-    limit : int
     time, residual : array
         s and mm: what the step that ends there left, 0 if it converged.
     place : array, (n, 3)
@@ -57,17 +56,12 @@ def fall(fmu: Path, fidelity: int | None, step: float, limit: int) -> Fall:
 
     Parameters
     ----------
-    fmu : Path
     fidelity : int or None
         None where the FMU has no choice.
     step : float
         s.
     limit : int
         Of the iterations of a step; 0: none.
-
-    Returns
-    -------
-    Fall
     """
     rows = []
     with Fmu(fmu) as car:

@@ -35,10 +35,10 @@ CARS = (PROTOTYPE, "hatchback")
 
 def load(name: str, car: str = PROTOTYPE) -> Manoeuvre:
     """A manoeuvre of a car by name: one of `NAMES` or any other of the host."""
-    own = FOLDER / car / f"{name}.csv"
+    own = FOLDER / car / f"{name}.toml"
     if own.is_file():
         return load_manoeuvre(str(own))
-    return load_manoeuvre(str(FOLDER / f"{name}.csv") if name in OWN else name)
+    return load_manoeuvre(str(FOLDER / f"{name}.toml") if name in OWN else name)
 
 
 @cache

@@ -35,7 +35,6 @@ class Measure:
 
     Attributes
     ----------
-    name, unit : str
     usual : tuple of float or None
         What cars of the small class have.
     meaning : str
@@ -147,10 +146,6 @@ def steady_turn(car: Car, system: System, ratio: float | None = None) -> dict[st
 
     Parameters
     ----------
-    car : Car
-        The file.
-    system : System
-        Of its model.
     ratio : float, optional
         Steering ratio at straight ahead; by default from the rig.
     """

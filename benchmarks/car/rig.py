@@ -126,5 +126,5 @@ def _contacts(m: Model) -> None:
     for spin in m.spins:
         wheel = spin.name.removeprefix("wheel ")
         for c in "yz":
-            m.sense_component(f"rig_{wheel}.{c}", spin.centre, axes[c])
-            m.sense_component(f"rig_{wheel}.a{c}", spin.axis, axes[c])
+            m.sense_vector(f"rig_{wheel}.{c}", spin.centre, [axes[c]])
+            m.sense_vector(f"rig_{wheel}.a{c}", spin.axis, [axes[c]])

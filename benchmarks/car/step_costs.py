@@ -37,7 +37,6 @@ class Stretch:
     ----------
     time : float
         Of the state, s.
-    state : bytes
     inputs : list of list of float
         Of each step since, in the order of the FMU.
     """
@@ -73,7 +72,6 @@ class Costs:
         Whether the system took the processor away during the step.
     refused : list of str
         Messages of refused steps.
-    starts : int
     worst : list of Worst
         By time without interruption, then by iterations.
     kinds : str
@@ -112,22 +110,16 @@ def drive(
 
     Parameters
     ----------
-    fmu : Path
     start : mapping
         Start values beside the place.
     step : float
         Communication and inner step, s.
     seconds : float
         Simulated.
-    seed : int
     targets : sequence of Target
         What is driven at.
     progress : callable
         Gets the share done.
-
-    Returns
-    -------
-    Costs
     """
     with Fmu(fmu) as car:
         return _Drive(car, dict(start) | {"step_size": step}, step, seed, targets).go(round(seconds / step), progress)

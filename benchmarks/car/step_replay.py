@@ -26,7 +26,6 @@ class Replay:
 
     Parameters
     ----------
-    fmu : Path
     folder : Path
         To unpack and compile in.
     """

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from ali3.files import write_text
 from benchmarks.car import manoeuvres
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre_file import write_manoeuvre
 from mbs import Settings, Trajectory
 
 Column: TypeAlias = NDArray[np.float64]
@@ -108,13 +110,10 @@ def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
 def write_replay(car: str = manoeuvres.PROTOTYPE) -> None:
     """The driver's acts in the double lane change as a manoeuvre file, and its start values."""
     closed = manoeuvres.load(manoeuvres.CLOSED_LOOP, car)
-    rows = manoeuvres.record_driver(car)
-    head = ",".join(f'"{n}"' for n in ("time", "steering", "throttle", "brake"))
-    lines = [head, *(",".join(f"{v:.6g}" for v in row) for row in rows)]
+    rows = np.array([[float(f"{v:.6g}") for v in row] for row in manoeuvres.record_driver(car)])
+    inputs = dict(zip(("steering", "throttle", "brake"), rows.T[1:], strict=True))
     folder = manoeuvres.FOLDER if car == manoeuvres.PROTOTYPE else manoeuvres.FOLDER / car
-    folder.mkdir(parents=True, exist_ok=True)
     name = manoeuvres.OWN[0]
-    write_text(folder / f"{name}.csv", "\n".join(lines) + "\n")
-    text = "# What the host's driver did in the double lane change; made by python -m benchmarks.car_references\n"
-    text += "[start]\n" + "".join(f"{k} = {v:g}\n" for k, v in closed.start.items())
-    write_text(folder / f"{name}.ini", text)
+    made = Manoeuvre(name, rows[:, 0], inputs, float(rows[-1, 0]), dict(closed.start))
+    words = "What the host's driver did in the double lane change; made by python -m benchmarks.car_references"
+    write_manoeuvre(made, folder / f"{name}.toml", words)

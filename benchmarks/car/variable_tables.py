@@ -83,13 +83,15 @@ def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
     found : mapping of str to sequence of Variable
         By car.
     """
-    merged: dict[tuple[str, str], Shown] = {}
+    merged: dict[tuple[str, str, str], Shown] = {}
     for car, table in found.items():
         present = {v.name for v in table}
         alike = Counter(_alike(v) for v in table)
         for v in table:
             family = _alike(v) if v.causality == "parameter" and alike[_alike(v)] > 1 else _family(v, present)
-            key = (v.causality, family)
+            one_of_its_own = v.causality == "output" and not _WHEEL.search(v.name)
+            told = v.description if one_of_its_own else ""  # cars differ: driven wheels, gear
+            key = (v.causality, family, told)
             one = merged.setdefault(key, Shown(v.name, [], v, {}))
             starts = {**one.starts, car: [*one.starts.get(car, []), *([] if v.start is None else [v.start])]}
             merged[key] = replace(one, names=list(dict.fromkeys([*one.names, v.name])), starts=starts)

@@ -39,7 +39,6 @@ def open_hosts(fmu: Path, folder: Path, stack: ExitStack) -> tuple[dict[str, Mea
     -------
     hosts : dict
         Functions that take a plan as `clock.js` does and return what it returns.
-    versions : dict
     """
     fmpy.extract(str(fmu), unzipdir=str(folder))
     versions = {"native": "zig cc -O3, baseline of the processor family (x86-64: SSE2)"}

@@ -22,10 +22,6 @@ RAMP_LENGTH, RAMP_WIDTH, FRICTION = 8.0, 6.0, 0.9
 def write_ground(file: Path) -> list[Target]:
     """Write the road file; the same bytes each time.
 
-    Parameters
-    ----------
-    file : Path
-
     Returns
     -------
     list of Target

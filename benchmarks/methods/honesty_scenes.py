@@ -149,7 +149,7 @@ def tumbling_body() -> mbs.System:
     body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=TUMBLING[0])
     m.initial_velocity(body, linear=(0.0, 0.0, 0.0), angular=TUMBLING[1])
     for c in "xyz":
-        m.sense_angular_rate(f"rate.{c}", body, c)
+        m.sense_rotation(f"rate.{c}", body, c, order=1)
         m.sense_position(f"tip.{c}", body, (0.0, 1.0, 0.0), c)
     return mbs.compile(m)
 

@@ -38,7 +38,6 @@ def draw(rows: Sequence[dict[str, Any]], case: Case, lost: float, file: Path) ->
     ----------
     rows : sequence of dict
         Of one scene.
-    case : Case
     lost : float
         Error, in the unit of the case, from which a run has no point.
     file : Path

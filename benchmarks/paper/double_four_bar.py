@@ -40,8 +40,6 @@ def measure(system: mbs.System, windows: int, method: str, h: float, compile_s: 
 
     Parameters
     ----------
-    system : mbs.System
-    windows : int
     method : str
         One of `METHODS`.
     h : float

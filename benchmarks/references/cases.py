@@ -40,8 +40,6 @@ class Case:
     ----------
     title : str
         What it is and why it is here.
-    build : callable
-        Of the model.
     sensors : tuple of str
         Components of the output point.
     end : float

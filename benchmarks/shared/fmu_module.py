@@ -28,7 +28,6 @@ class FmuModule:
         The file ``binaries/wasm32/NAME.wasm``.
     resources : mapping of str to bytes
         Files by their paths in the folder of the resources.
-    guid : str
     memory_limit : int, optional
         Bytes beyond which the memory cannot grow.
     """

@@ -39,8 +39,6 @@ def describe(
 
     Parameters
     ----------
-    benchmark : str
-        Its name.
     settings : Settings, optional
         Of the solver.
     repeats, warm_up : int

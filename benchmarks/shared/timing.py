@@ -46,7 +46,6 @@ def step_time(
 
     Parameters
     ----------
-    system : System
     duration, h : float
         Of the run and of a step, s.
     repeats : int

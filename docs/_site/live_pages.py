@@ -85,7 +85,7 @@ def listed(app: Sphinx, page: str, source: list[str]) -> None:
         f"({(Path(app.outdir) / PLACE / f'{name}.html').stat().st_size / 1e6:.1f} MB)."
         for name in app.config.live_pages
     ]
-    absent = "This copy of the site was built without the pages; `ali3 page FMU` makes one."
+    absent = "This copy of the site was built without the pages; `ali3 view FMU --live` makes one."
     source[0] = source[0].replace(MARK, "\n".join(there) or absent)
 
 

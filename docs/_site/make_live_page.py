@@ -12,7 +12,7 @@ from pathlib import Path
 import mbs
 from ali3.running import run_command
 from fmu_src.build.command import main as build
-from hosts.view import page
+from hosts.view.command import main as view
 from hosts.view.page_parts import FmuParts, fmu_parts
 from hosts.view.page_text import Page
 from mbs.scenes import double_four_bar
@@ -29,10 +29,10 @@ def built(folder: Path, *what: str) -> FmuParts:
 
 
 def written(fmu: FmuParts, folder: Path, *more: str) -> str:
-    """The page that ``ali3 page`` writes."""
-    if page.main([str(fmu.path), "--out", str(folder), *more], "ali3 page"):
-        raise SystemExit(f"ali3 page {fmu.path.name} failed")
-    return (folder / f"{fmu.path.stem}.html").read_text(encoding="utf-8")
+    """The page that ``ali3 view --live`` writes."""
+    if view([str(fmu.path), "--live", "--no-open", "--out", str(folder), *more], "ali3 view"):
+        raise SystemExit(f"ali3 view --live {fmu.path.name} failed")
+    return (folder / f"{fmu.path.stem}_live.html").read_text(encoding="utf-8")
 
 
 def prototype(folder: Path) -> str:

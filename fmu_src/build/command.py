@@ -1,4 +1,4 @@
-"""Builds the FMUs of a car or a scene: ``ali3 build [--car CAR | --scene SCENE] [--kind LIST]``."""
+"""Builds the FMUs of a car or a scene: ``ali3 build [--car CAR | --scene SCENE] [--kind LIST]``; or the kernel."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from ali3.errors import UserError
 from ali3.extras import missing_package
+from ali3.options import add_old_names, add_option
 from ali3.running import run_command, told_warnings
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ _KINDS = "native,fmi3,python"
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.py") -> int:
     """Run the command; `prog` is how the user typed it."""
-    parser = argparse.ArgumentParser(prog=prog, description="Build the FMUs of a car or a scene.")
+    parser = argparse.ArgumentParser(prog=prog, description="Build the FMUs of a car or a scene, or the C kernel.")
     what = parser.add_mutually_exclusive_group()
     what.add_argument(
         "--car",
@@ -43,10 +44,10 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         metavar="FMU",
         help="an FMU of the kind native: it is compiled for the --platforms from the sources in it, what it has stays",
     )
-    parser.add_argument("--out", type=Path, default=Path("dist"), metavar="DIR", help="default: dist")
+    what.add_argument("--kernel", action="store_true", help="the C kernel in place of an FMU, in a clone")
+    add_option(parser, "--out", "dist; of the kernel: its place in the package")
     parser.add_argument(
         "--kind",
-        "--only",
         default=_KINDS,
         metavar="LIST",
         help="native (FMI 2.0 in C), fmi3 (FMI 3.0 in C), python (FMI 2.0, runs in the host's Python); default: these; "
@@ -68,10 +69,31 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
     parser.add_argument("--license", default="", help="of the model; default: the solver's")
+    add_old_names(parser, {"--only": "--kind", "--target": "--platforms"})
     options = parser.parse_args(arguments)
+    if options.kernel:
+        return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
+    options.out = options.out or Path("dist")
     if options.fmu is not None:
         return run_command(lambda: _add_platforms(options), (RuntimeError,))
     return run_command(lambda: _build(options), (ValueError, RuntimeError))
+
+
+def _build_kernel(platforms: str, out: Path | None) -> int:
+    """The kernel for this machine, in its place; or libraries in a folder, of several platforms in one for each."""
+    from mbs.kernel.build import compile_library, library_name
+
+    if out is None and platforms == "this":
+        print(compile_library())
+        return 0
+    from fmu_src.native.platforms import TARGETS, this_platform
+
+    if out is None:
+        raise UserError("The package has the kernel of this machine only; --out names a folder for others.")
+    for platform in _platforms(platforms, this_platform()):
+        for target in TARGETS[platform]:
+            print(compile_library(target, out / target / library_name(target)), flush=True)
+    return 0
 
 
 def _add_platforms(options: argparse.Namespace) -> int:

@@ -6,15 +6,8 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from ali3.parameter_set import (
-    Entry,
-    ParameterSet,
-    UnitDefinition,
-    is_as_built,
-    range_words,
-    told,
-    write_parameter_set,
-)
+from ali3.parameter_set import Entry, ParameterSet, UnitDefinition, range_words, told
+from ali3.write_parameter_set import is_as_built, write_parameter_set
 from fmu_src.variables.text_variables import TextVariable
 from fmu_src.variables.units import parse_unit
 from fmu_src.variables.variables import Variable

@@ -9,19 +9,17 @@ from typing import Any
 from ali3 import html
 from fmu_src.variables.variables import Variable
 
-_STYLE = (
-    "body{font-family:sans-serif;margin:2em;max-width:70em}td,th{padding:.2em .8em;text-align:left;"
-    "border-bottom:1px solid #ddd;vertical-align:top}svg{max-width:22em}"
-)
+_STYLE = "svg { max-width: 22em; color: var(--ink); }\n"
 # Vehicle axes of ISO 8855, seen from behind, above and the right.
-_AXES = """<svg viewBox="0 0 220 150" role="img" aria-label="axes: x forward, y left, z up">
+_AXES = """<svg viewBox="0 0 235 150" role="img" aria-label="axes: x forward, y left, z up">
 <defs>
 <marker id="a" markerWidth="8" markerHeight="8" refX="6" refY="3" orient="auto">
-<path d="M0,0L7,3L0,6z"/></marker></defs>
-<g stroke="#222" stroke-width="2" fill="none" marker-end="url(#a)">
+<path d="M0,0L7,3L0,6z" fill="currentColor"/></marker></defs>
+<g stroke="currentColor" stroke-width="2" fill="none" marker-end="url(#a)">
 <path d="M110,100L180,62" marker-end="url(#a)"/><path d="M110,100L36,76" marker-end="url(#a)"/>
 <path d="M110,100L110,22" marker-end="url(#a)"/></g>
-<g font-size="13" font-family="sans-serif"><text x="172" y="54">x forward</text><text x="6" y="70">y left</text>
+<g font-size="13" font-family="sans-serif" fill="currentColor"><text x="172" y="54">x forward</text>
+<text x="6" y="70">y left</text>
 <text x="117" y="26">z up</text></g></svg>"""
 
 
@@ -46,8 +44,7 @@ def documentation(
         HTML that needs no other file but the picture.
     """
     columns = ("name", "causality", "variability", "unit", "start", "min", "max", "description")
-    head = "".join(f"<th>{c}</th>" for c in columns)
-    rows = "\n".join("<tr>" + "".join(f"<td>{_cell(getattr(v, c))}</td>" for c in columns) + "</tr>" for v in table)
+    rows = html.table(columns, ([_cell(getattr(v, c)) for c in columns] for v in table))
     words = "\n".join(f"<p>{escape(p)}</p>" for p in paragraphs)
     body = (
         f"<h1>{escape(name)}</h1><p>{escape(description)}</p>\n"
@@ -56,10 +53,10 @@ def documentation(
         f"last good state is kept.</p>\n{words}\n<h2>Axes</h2>\n{_AXES}\n"
         "<p>Earth axes with z up; a vehicle's axes are those of ISO 8855: x forward, y left, z up, angles "
         "Z-Y'-X'' (yaw, pitch, roll), quaternions scalar first (qw). SI units throughout.</p>\n"
-        f"<h2>Variables</h2>\n<table><tr>{head}</tr>\n{rows}\n</table>"
+        f"<h2>Variables</h2>\n{rows}"
     )
-    return html.page(name, body, _STYLE)
+    return html.report(name, body, _STYLE)
 
 
 def _cell(value: Any) -> str:
-    return "" if value is None else escape(f"{value:g}" if isinstance(value, float) else str(value))
+    return "" if value is None else f"{value:g}" if isinstance(value, float) else str(value)

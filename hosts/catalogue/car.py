@@ -106,7 +106,7 @@ class TestedCar:
             every = 1 if record_step is None else max(1, round(record_step / step))
             result = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
             if self.aliases.derived:
-                self.aliases.with_central_rates(result.names, result.time, result.values, every > 1)
+                result.derive(self.aliases, every > 1)
             return result
 
     @cached_property

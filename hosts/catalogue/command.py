@@ -1,4 +1,4 @@
-"""Standard tests with cars side by side: ``ali3 catalogue FMU... [--tests NAME,...] [--out DIR]``.
+"""Standard tests with cars side by side: ``ali3 catalogue FMU|CAR... [--tests NAME,...] [--out DIR]``.
 
 Cars are FMUs, each with each parameter set that is given. The folder gets measures.csv, measures.json, a table of each
 run and report.html. Exit code 1: a test could not be done, or a limit is not kept.
@@ -14,9 +14,11 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.options import add_old_names, add_option, assignment
 from ali3.running import run_command
 from hosts.common.errors import HostError
-from hosts.common.numbers import assignment, name_and_text, number
+from hosts.common.options import add_fmu
+from hosts.fmu.fmu_file import fmu_file
 
 if TYPE_CHECKING:
     from hosts.catalogue.car import TestedCar
@@ -31,36 +33,27 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
     parser = argparse.ArgumentParser(
         prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("fmus", nargs="*", type=Path, metavar="FMU", help="cars; several stand side by side")
+    add_fmu(parser, "*", name="fmus")
     parser.add_argument(
         "--tests", action="append", default=[], metavar="NAME,...", help="only these tests; repeatable; default: all"
     )
-    parser.add_argument("--list", action="store_true", help="print the tests with what they need and what can be set")
-    parser.add_argument(
+    add_option(parser, "--list")
+    add_option(
+        parser,
         "--aliases",
+        "none; one file is for all FMUs, else one for each in their order or 'none'",
         action="append",
-        default=[],
-        type=Path,
-        metavar="FILE",
-        help="our names for the variables of FMUs that have others: one file for all FMUs, or one for each in their "
-        "order, 'none' where it has ours; chrono, carmaker, carsim, osi and vehicle_interfaces come with the package",
     )
     parser.add_argument(
-        "--parameters",
+        "--variant",
         action="append",
         default=[],
         type=Path,
         metavar="SSV",
-        help="parameter set; each makes a car of its own of every FMU, 'as-is' stands for the FMU without one",
+        help="parameter set; each makes a car of its own of every FMU, 'as-is' stands for the FMU without one; "
+        "repeatable",
     )
-    parser.add_argument(
-        "--set",
-        type=name_and_text,
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="start value in all cars, in the name and unit of the FMU; repeatable",
-    )
+    add_option(parser, "--set", action="append")
     parser.add_argument(
         "--test-setting",
         type=assignment,
@@ -69,12 +62,11 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
         metavar="TEST.NAME=VALUE",
         help="setting of a test; repeatable",
     )
-    parser.add_argument("--step", type=number, metavar="H", help="communication step in s; default: that of the FMU")
-    parser.add_argument("--jobs", type=int, metavar="N", help="tests at a time; default: as the computer has cores")
+    add_option(parser, "--step", "that of the FMU")
+    add_option(parser, "--jobs", "as the computer has cores")
     parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")
-    parser.add_argument(
-        "--out", type=Path, default=Path("out", "catalogue"), metavar="DIR", help="default: out/catalogue"
-    )
+    add_option(parser, "--out", "out/catalogue", default=Path("out", "catalogue"))
+    add_old_names(parser, {"--parameters": "--variant"})
     options = parser.parse_args(arguments)
     given = list(sys.argv[1:] if arguments is None else arguments)
     return run_command(lambda: _list() if options.list else _catalogue(options, [*prog.split(), *given]))
@@ -97,15 +89,14 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
 
     if not options.fmus:
         raise HostError("There is no FMU to be tested; give one or several. --list shows the tests.")
-    if options.jobs is not None and options.jobs < 1:
-        raise HostError(f"{options.jobs} tests at a time are asked for (--jobs); it must be at least 1.")
     names = [name.strip() for part in options.tests for name in part.split(",") if name.strip()] or list(TESTS)
     tests = [standard_test(name) for name in dict.fromkeys(names)]
     given = _test_settings(options.test_setting, [test.name for test in tests])
     settings = {test.name: settings_of_test(test, given.get(test.name, {})) for test in tests}
     for file in ("measures.csv", "measures.json", "report.html"):
         check_writable(options.out / file)
-    cars = cars_of(options.fmus, options.aliases, options.parameters, options.set, options.step)
+    fmus = [fmu_file(path) for path in options.fmus]
+    cars = cars_of(fmus, options.aliases, options.variant, options.set, options.step)
 
     outcomes: dict[str, dict[str, Outcome]] = {test.name: {} for test in tests}
     tasks = []
@@ -120,13 +111,15 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
                 tasks.append(Task(test.name, car, settings[test.name], folder))
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, outcomes, settings)
-    with closing(_done(tasks, options.jobs or os.cpu_count() or 1, outcomes)) as done:
-        for _ in done:
-            write_measures(options.out, tests, cars, outcomes, settings)
-    print_measures(tests, cars, outcomes)
-    files += _report(options.out / "report.html", tests, cars, outcomes, settings, command)
-    runs = "" if options.no_runs or not tasks else f", tables of the runs in {options.out / 'runs'}"
-    print(f"\nwritten: {', '.join(map(str, files))}{runs}")
+    try:
+        with closing(_done(tasks, options.jobs or os.cpu_count() or 1, outcomes)) as done:
+            for _ in done:
+                write_measures(options.out, tests, cars, outcomes, settings)
+    finally:  # after Ctrl-C too, of what is there
+        print_measures(tests, cars, outcomes)
+        files += _report(options.out / "report.html", tests, cars, outcomes, settings, command)
+        runs = "" if options.no_runs or not tasks else f", tables of the runs in {options.out / 'runs'}"
+        print(f"\nwritten: {', '.join(map(str, files))}{runs}", flush=True)
     return _verdict(outcomes)
 
 
@@ -149,7 +142,8 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
     """Do all tasks under a progress bar; after each its outcome is among the others."""
     from tqdm import tqdm
 
-    from hosts.catalogue.pool import done_by
+    from ali3.isolated import Lost, done_by
+    from hosts.catalogue.task import do
 
     form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
     parts = [0.0] * len(tasks)
@@ -160,10 +154,11 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
             bar.set_description_str(f"{tasks[place].test}, {tasks[place].car.label}", refresh=False)
             bar.update(sum(parts) - bar.n)
 
-        with closing(done_by(tasks, jobs, progress)) as done:
+        with closing(done_by(do, tasks, jobs, progress)) as done:
             for place, outcome in done:
                 progress(place, 1.0)
-                outcomes[tasks[place].test][tasks[place].car.label] = outcome
+                words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
+                outcomes[tasks[place].test][tasks[place].car.label] = words
                 yield
 
 

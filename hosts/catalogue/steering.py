@@ -94,9 +94,9 @@ class SteeringInput:
         held = result[self.name] / self.per_radian
         if len(held) < 2:
             return held
-        # a row has the input of the step that ends there, which stands for the middle of the step
-        ahead = 0.5 * step / float(result.time[1] - result.time[0])
-        return np.asarray(np.append(held[:-1] + ahead * np.diff(held), held[-1:]))
+        # a row has the input of the step that begins there, which stands for the middle of the step
+        back = 0.5 * step / float(result.time[1] - result.time[0])
+        return np.asarray(np.append(held[:1], held[1:] - back * np.diff(held)))
 
     def why_no_angles(self, test: str) -> str | None:
         """Why a test that demands angles of the steering wheel cannot be done; None if it can."""

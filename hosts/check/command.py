@@ -1,54 +1,112 @@
-"""Checks a co-simulation FMU (FMI 2.0 or 3.0) and prints a verdict: ``ali3 check FMU``."""
+"""Checks a co-simulation FMU (FMI 2.0 or 3.0) and prints a verdict: ``ali3 check FMU|CAR``.
+
+In place of that: its parameters (--show-parameters), or hours of driving by chance (--soak).
+"""
 
 from __future__ import annotations
 
 import argparse
-import signal
-import subprocess
 import sys
-import tempfile
 import zipfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.running import INTERRUPTED, module_command, run_command
+from ali3.extras import command_needs
+from ali3.isolated import Isolated, Lost
+from ali3.options import add_old_names, add_option, count
+from ali3.running import run_command
+from hosts.check.all_checks import check
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.options import Wishes, add_setting_options, wishes
+from hosts.common.options import Wishes, add_fmu, add_setting_options, wishes
+from hosts.fmu.fmu_file import fmu_file
 
 if TYPE_CHECKING:
-    from hosts.check.instance import Finding, Subject
+    from hosts.check.instance import Finding
     from hosts.fmu.settings import Settings
 
 _MARKS = {"good": "ok", "note": "note", "bad": "BAD"}
 _WIDTH = 22
 _MOST_STEPS = 100_000
+_STEPS = 50
+_OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
+_OF_SOAK = ("drives", "seed", "stop_time", "fidelity", "step", "world", "jobs", "out", "json")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.check.command") -> int:
     """Run the command, which the user typed as `prog`; 0 if nothing bad was found."""
-    parser = argparse.ArgumentParser(prog=prog, description="Check an FMU and print a verdict.")
-    parser.add_argument("fmu", type=Path, metavar="FMU")
-    parser.add_argument("--steps", type=int, default=50, metavar="N", help="communication steps per run; default: 50")
-    parser.add_argument("--inside", type=Path, help=argparse.SUPPRESS)
+    options = _parser(prog).parse_args(arguments)
+    return run_command(lambda: _work(options, prog))
+
+
+def _parser(prog: str) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog=prog,
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add_fmu(parser, "?", "dist/PrototypeCar.fmu, else prototype")
+    parser.add_argument(
+        "--steps", type=_steps, metavar="N", help=f"communication steps per run of a check; default: {_STEPS}"
+    )
     add_setting_options(parser)
-    options = parser.parse_args(arguments)
-    if not 1 <= options.steps <= _MOST_STEPS:
-        parser.error(f"the number of steps is {options.steps}; it must be from 1 to {_MOST_STEPS}")
-    if options.inside is None:
-        return run_command(lambda: _outside(options.fmu, options.steps, wishes(options)))
-    # Ctrl-C reaches both processes: the outer one says so and ends this one.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    return run_command(lambda: _inside(options.fmu, options.steps, options.inside, wishes(options)))
+    table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, in place of the check")
+    add_option(table, "--show-parameters")
+    table.add_argument("--save-parameters", type=Path, metavar="SSV", help="write all, with what is set, to this file")
+    table.add_argument(
+        "--diff",
+        type=Path,
+        metavar="SSV",
+        help="print only where this set has other values than the FMU or what is set",
+    )
+    soak = parser.add_argument_group(
+        "drives by chance, in place of the check",
+        "A drive is a seed: runs of 15 to 60 s from starts by chance, up to 40 m/s and 100 km away, with jumps, sudden "
+        "turns, roll-overs, resets and rewinds, all in one process. Every step is checked.",
+    )
+    soak.add_argument("--soak", action="store_true", help="drive a car so, for hours")
+    soak.add_argument("--drives", type=count, metavar="N", help="how many; default: 10 seeds of every fidelity")
+    add_option(soak, "--seed", "1; further drives have the following ones")
+    add_option(soak, "--stop-time", "1000")
+    add_option(soak, "--fidelity", "0 and 2", action="append")
+    add_option(soak, "--step", "0.002")
+    add_option(soak, "--world", "roads with ramps, and those in the FMU", action="append")
+    add_option(soak, "--jobs", "as the computer has cores")
+    add_option(soak, "--out", "out/soak")
+    add_option(soak, "--json")
+    add_old_names(parser, {"--hours": "--drives N of --stop-time T each", "--seconds": "--stop-time"})
+    return parser
 
 
-def _inside(fmu: Path, steps: int, folder: Path, given: Wishes) -> int:
-    start = _settings(fmu, given).start if given else {}
-    findings = check(fmu, folder, steps, print_finding, start)
-    bad = sum(f.verdict == "bad" for f in findings)
-    print(f"\n{fmu}: {'nothing bad found' if not bad else f'{bad} bad'}")
-    return 1 if bad else 0
+def _steps(text: str) -> int:
+    steps = count(text)
+    if steps > _MOST_STEPS:
+        raise argparse.ArgumentTypeError(f"the number of steps is {text}; it must be from 1 to {_MOST_STEPS}")
+    return steps
+
+
+def _work(options: argparse.Namespace, prog: str) -> int:
+    given = [f"--{name.replace('_', '-')}" for name in _OF_SOAK if getattr(options, name) not in (None, [])]
+    if given and not options.soak:
+        raise HostError(f"{given[0]} goes with --soak.")
+    table = [f"--{name.replace('_', '-')}" for name in _OF_PARAMETERS if getattr(options, name) not in (None, False)]
+    if options.soak and table:
+        raise HostError(f"{table[0]} does not go with --soak.")
+    if options.steps is not None and (options.soak or table):
+        raise HostError("--steps is of the check alone.")
+    if options.soak:
+        command_needs("simulator")
+        from hosts.soak.soak import soak
+
+        return soak(options, prog)
+    fmu = fmu_file(options.fmu)
+    if table:
+        from hosts.check.parameters import parameters
+
+        return parameters(fmu, wishes(options), options.save_parameters, options.diff, options.show_parameters)
+    return _outside(fmu, _STEPS if options.steps is None else options.steps, wishes(options))
 
 
 def _settings(fmu: Path, given: Wishes) -> Settings:
@@ -67,76 +125,25 @@ def _outside(fmu: Path, steps: int, given: Wishes) -> int:
         raise HostError(f"There is no file {fmu}.")
     if not zipfile.is_zipfile(fmu):
         raise HostError(f"{fmu} is not an FMU (not a zip archive).")
+    start: Mapping[str, Value] = {}
     if given:
-        for name, words in _settings(fmu, given).rows():
+        settings = _settings(fmu, given)
+        start = settings.start
+        for name, words in settings.rows():
             print(f" set  {name:<{_WIDTH}}  {words}", flush=True)
-    with tempfile.TemporaryDirectory(prefix="fmu_", ignore_cleanup_errors=True) as folder:
-        command = module_command(
-            "hosts.check.command", str(fmu), "--steps", str(steps), "--inside", folder, *given.arguments
-        )
-        status = subprocess.run(command, check=False).returncode
-    if status in (0, 1, 2):
-        return status
-    if status == INTERRUPTED:
-        raise KeyboardInterrupt
-    print(f"{_MARKS['bad']:>4}  {'stays alive':<{_WIDTH}}  the process that ran the next check ended with {status}")
-    print(f"\n{fmu}: bad")
-    return 1
-
-
-def check(
-    fmu: Path,
-    folder: Path,
-    steps: int = 50,
-    say: Callable[[Finding], None] = lambda finding: None,
-    start: Mapping[str, Value] | None = None,
-) -> list[Finding]:
-    """All checks.
-
-    Parameters
-    ----------
-    fmu : Path
-    folder : Path
-        Where it is unpacked.
-    steps : int
-        Communication steps per run.
-    say : callable
-        Called with each finding at once.
-    start : mapping of str to float, int, bool or str, optional
-        What is set in each instance before it starts.
-
-    Returns
-    -------
-    list of Finding
-        In the order of the checks.
-    """
-    from hosts.check.behaviour import BEHAVIOUR_CHECKS
-    from hosts.check.documents import DOCUMENT_CHECKS
-    from hosts.check.instance import open_subject
-    from hosts.check.portability import PORTABILITY_CHECKS
-
-    findings: list[Finding] = []
-    subject = open_subject(fmu, folder, steps, start or {})
-    for name, function in (*DOCUMENT_CHECKS, *BEHAVIOUR_CHECKS, *PORTABILITY_CHECKS):
-        findings.append(_one(name, function, subject))
-        say(findings[-1])
-    return findings
+    with closing(Isolated(check)) as process:
+        bad = process.do((fmu, steps, start), print_finding)
+    if isinstance(bad, Lost):
+        print(f"{_MARKS['bad']:>4}  {'stays alive':<{_WIDTH}}  the process that ran the next check {bad.how}")
+        print(f"\n{fmu}: bad")
+        return 1
+    print(f"\n{fmu}: {'nothing bad found' if not bad else f'{bad} bad'}")
+    return 1 if bad else 0
 
 
 def print_finding(finding: Finding) -> None:
     """One line of the verdict."""
     print(f"{_MARKS[finding.verdict]:>4}  {finding.check:<{_WIDTH}}  {finding.words}", flush=True)
-
-
-def _one(name: str, function: Callable[[Subject], Finding], subject: Subject) -> Finding:
-    from hosts.check.instance import Finding
-
-    try:
-        return function(subject)
-    except ModuleNotFoundError:
-        raise
-    except Exception as error:
-        return Finding(name, "bad", f"ended with {type(error).__name__}: {error}")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Options of the command line that every host has: what is set in the FMU before it starts."""
+"""Options of the command line that every host has: the FMU, and what is set in it before it starts."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-from hosts.common.numbers import name_and_text
+from ali3.options import add_option
 from hosts.common.road import PARAMETER, road_value
 
 
@@ -28,46 +28,27 @@ class Wishes:
     def __bool__(self) -> bool:
         return bool(self.sets or self.values)
 
-    @property
-    def arguments(self) -> list[str]:
-        """The same as arguments of the command line."""
-        sets = [part for file in self.sets for part in ("--parameters", str(file))]
-        return sets + [part for name, text in self.values for part in ("--set", f"{name}={text}")]
 
-
-def add_setting_options(parser: argparse.ArgumentParser) -> None:
-    """Add ``--parameters`` and ``--set``."""
+def add_fmu(parser: argparse.ArgumentParser, nargs: str | None = None, usual: str = "", name: str = "fmu") -> None:
+    """Add the FMU that a command takes, for `hosts.fmu.fmu_file.fmu_file`."""
     parser.add_argument(
-        "--parameters",
+        name,
+        nargs=nargs,
         type=Path,
-        action="append",
-        default=[],
-        metavar="SSV",
-        help="parameter set (SSV file of the SSP standard) that is set before the start; may be given several times",
-    )
-    parser.add_argument(
-        "--set",
-        type=name_and_text,
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="start value of a parameter or input in the unit of the FMU; wins over --parameters; may be given "
-        "several times",
+        metavar="FMU|CAR",
+        help="an FMU; or a car, of which one is built once: prototype, hatchback, a folder with a file car.toml"
+        + (f"; default: {usual}" if usual else ""),
     )
 
 
-def add_road_option(parser: argparse.ArgumentParser) -> None:
-    """Add ``--road`` to a host that drives."""
-    parser.add_argument(
-        "--road",
-        metavar="FILE",
-        help="road under a car (parameter road.file): a road file, the name of one in the FMU (plane.road, kerb.road, "
-        "rough.road, split.road, washboard.road), or what 'ali3 road' makes one of",
-    )
+def add_setting_options(parser: argparse._ActionsContainer) -> None:
+    """Add ``--parameters`` and ``--set``."""
+    add_option(parser, "--parameters", action="append")
+    add_option(parser, "--set", action="append")
 
 
 def wishes(options: argparse.Namespace) -> Wishes:
-    """What was given by the options of `add_setting_options`."""
+    """What was given by the options of `add_setting_options` and by ``--road``."""
     given = getattr(options, "road", None)
     road = [] if given is None else [(PARAMETER, road_value(given, options.out))]
     return Wishes(options.parameters, road + options.set)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from pathlib import Path
 
 from ali3.files import make_folder
-from ali3.running import module_command
-from hosts.common.errors import HostError
+from hosts.common.commands import run_module
 
 PARAMETER = "road.file"
 MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml")
@@ -39,10 +37,6 @@ def road_value(given: str, out: Path) -> str:
     if path.suffix.lower() not in MADE_OF:
         return str(path.absolute()) if path.exists() else given
     made = make_folder(out) / f"{path.stem}.road"
-    command = module_command("mbs.worlds.road_command", str(path), str(made))
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        words = done.stderr.strip().splitlines()
-        raise HostError(words[-1].removeprefix("error: ") if words else f"{given} is no road.")
-    print(done.stderr, end="", file=sys.stderr)  # what is odd about the road
+    said = run_module("ali3", "road", str(path), str(made))
+    print(said, end="", file=sys.stderr)  # what is odd about the road
     return str(made.absolute())

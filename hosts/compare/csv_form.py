@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from ali3.files import reason
+from ali3.tables import cells_of
 from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Form
 
@@ -106,7 +106,10 @@ def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
 
 
 def _cells(line: str, delimiter: str) -> list[str]:
-    return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
+    try:
+        return cells_of(line, delimiter)
+    except ValueError as fault:
+        raise HostError(f"The log has a line that cannot be read: {fault}.") from None
 
 
 def _is_value(cell: str) -> bool:
@@ -116,8 +119,11 @@ def _is_value(cell: str) -> bool:
 def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int]:
     """Where rows of values begin, and how many columns they have; 0 columns: nowhere."""
     for k, line in enumerate(lines):
-        cells = _cells(line, delimiter)
-        following = [_cells(other, delimiter) for other in lines[k : k + 3] if other.strip()]
+        try:
+            cells = cells_of(line, delimiter)
+            following = [cells_of(other, delimiter) for other in lines[k : k + 3] if other.strip()]
+        except ValueError:  # a mark inside a name in quotation marks divides nothing
+            continue
         # A column may hold words; the most are values, and the first, mostly the time, is one.
         numbers = sum(map(_is_value, cells))
         is_row = len(cells) > 1 and any(_NUMBER.fullmatch(c) for c in cells) and 2 * numbers > len(cells)

@@ -11,8 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
-from hosts.common.unit_names import known_unit, unit_definition
-from hosts.common.unit_of import unit_of
+from hosts.common.units import known_unit, unit_definition, unit_of
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
 from hosts.fmu.aliased_fmu import AliasedFmu
@@ -147,7 +146,7 @@ def _columns(
         clock = [n for n in there if n.lower() not in _TIMES]
         raise HostError(
             f"The log {raw.path} has no column with the name of an input or output of {fmu.path.name}; its columns "
-            f"are {_listed(clock)}. An alias file (--aliases) gives them names: under [signals] "
+            f"are {_listed(clock)}. An alias file (--log-aliases) gives them names: under [signals] "
             f'"{next(iter(outputs), "speed")}" = {{ name = "{next(iter(clock), "column")}", unit = "..." }}.'
         )
     return found

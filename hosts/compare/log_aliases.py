@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ali3.reading import read_toml
 from hosts.common.errors import HostError
-from hosts.fmu.aliases.toml_file import read_toml
 
 TIME_UNITS: Mapping[str, float | None] = {
     "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "epoch": 1.0, "epoch_ms": 1e-3,
@@ -98,7 +98,7 @@ def read_log_aliases(file: Path) -> LogAliases:
     HostError
         With the file, the key and what would be right.
     """
-    content = read_toml(file)
+    content = read_toml(file, HostError, f"The alias file {file}")
     unknown = next((key for key in content if key not in _TABLES), None)
     if unknown is not None:
         raise HostError(f"{file} has '{unknown}'; known are the tables [file], [time] and [signals].")
@@ -108,6 +108,18 @@ def read_log_aliases(file: Path) -> LogAliases:
     form, clock = _form(content.get("file", {}), file), _clock(content.get("time", {}), file)
     columns = {ours: _column(value, f"{file}: '{ours}'") for ours, value in content.get("signals", {}).items()}
     return LogAliases(form, clock, columns, str(file))
+
+
+def check_of_fmu(file: Path) -> None:
+    """Refuse the alias file of a log where that of an FMU is asked for.
+
+    Raises
+    ------
+    HostError
+        It has only tables of a log's file.
+    """
+    if file.is_file() and (content := read_toml(file)) and set(content) <= set(_TABLES):
+        raise HostError(f"{file} is the alias file of a log; --log-aliases takes it, --aliases that of the FMU.")
 
 
 def _form(table: dict[str, Any], file: Path) -> Form:

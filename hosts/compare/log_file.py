@@ -9,11 +9,13 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from ali3.reading import check_file
+from ali3.tables import LARGEST
+from ali3.words import brief, one_line
 from hosts.common.errors import HostError
 from hosts.compare.csv_form import find_form
 from hosts.compare.log_aliases import Form
 
-_MOST_BYTES = 4_000_000_000
 _MDF = (".mf4", ".mdf", ".dat")
 
 
@@ -52,7 +54,7 @@ class RawLog:
             row = int(np.argmax(wrong.to_numpy()))
             raise HostError(
                 f"The log {self.path}, line {row + self.first_row + 1}, column '{name}': "
-                f"{str(column.iloc[row])[:40]!r} is no number."
+                f"{brief(str(column.iloc[row]))} is no number."
             )
         values = np.array(numbers, dtype=np.float64)
         values[~np.isfinite(values)] = np.nan
@@ -74,11 +76,7 @@ def read_log(path: Path, form: Form) -> RawLog:
     HostError
         It cannot be read; one sentence.
     """
-    if not path.is_file():
-        what = "is a folder; a log is a file" if path.is_dir() else "does not exist"
-        raise HostError(f"The log {path} {what}.")
-    if path.stat().st_size > _MOST_BYTES:
-        raise HostError(f"The log {path} has more than {_MOST_BYTES / 1e9:g} GB; cut it into parts.")
+    check_file(path, LARGEST, HostError, f"The log {path}")
     if path.suffix.lower() in _MDF:
         raise HostError(
             f"The log {path} is a file of the kind MDF, which is not read; asammdf converts it: "
@@ -105,7 +103,7 @@ def read_log(path: Path, form: Form) -> RawLog:
     except UnicodeDecodeError as error:
         raise HostError(f"The log {path} is not written in {found.encoding}: {error}.") from None
     except (pd.errors.ParserError, pd.errors.EmptyDataError, ValueError) as error:
-        raise HostError(f"The log {path} is no table: {' '.join(str(error).split())[:200]}.") from None
+        raise HostError(f"The log {path} is no table: {one_line(str(error)).rstrip('.')}.") from None
     return RawLog(path, table, found.units, found.first_row)
 
 
@@ -113,11 +111,16 @@ def _read_parquet(path: Path) -> RawLog:
     from pyarrow import ArrowException, parquet
 
     try:
-        schema = parquet.read_schema(path)
-        table = pd.read_parquet(path)
-    except (ArrowException, OSError, ValueError) as error:
-        raise HostError(f"The log {path} is no Parquet file: {' '.join(str(error).split())[:200]}.") from None
-    units = {f.name: f.metadata[b"unit"].decode() for f in schema if f.metadata and b"unit" in f.metadata}
-    if table.index.name is not None:
-        table = table.reset_index()
+        with parquet.ParquetFile(path) as file:
+            content = file.read()
+        # What pandas has written besides adds nothing: an index is a column too. It may be damaged.
+        table = content.replace_schema_metadata(None).to_pandas()
+        table = table[[name for name in table if not name.startswith("__index_level_")]]
+    except (ArrowException, OSError, ValueError, KeyError) as error:
+        raise HostError(f"The log {path} is no Parquet file: {one_line(str(error)).rstrip('.')}.") from None
+    units = {
+        f.name: f.metadata[b"unit"].decode(errors="replace")
+        for f in content.schema
+        if f.metadata and b"unit" in f.metadata
+    }
     return RawLog(path, table, units, 0)

@@ -6,6 +6,7 @@ import argparse
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from hosts.common.errors import HostError
 from hosts.compare.comparison import Comparison, compare
@@ -38,7 +39,7 @@ def perform(options: argparse.Namespace) -> int:
     wanted = _wanted(options, task)
     for note in task.notes:
         print(f"note: {note}", flush=True)
-    with Replay(options.fmu, task.aliases, task.manoeuvre, task.step, task.slopes, task.speed) as replay:
+    with Replay(options.fmu, task.aliases, task.manoeuvre, task.step, task.speed) as replay:
         before, problems = _first(options, task, replay)
         print(table(before))
         for line in [*common_words(before), *problems]:
@@ -48,7 +49,12 @@ def perform(options: argparse.Namespace) -> int:
             print(f"FMU: {message}")
         if wanted.parameters:
             _refuse_odd(problems, options)
-            found, after = _fit(options, task, replay, before, wanted)
+            try:
+                found, after = _fit(options, task, replay, before, wanted)
+            except KeyboardInterrupt:
+                problems = [*problems, f"The fit was stopped after {replay.runs} runs; nothing is fitted."]
+                _write(options, task, Outcome(before, None, None, task.notes, problems), paths)
+                raise
     notes = task.notes + [f"In {n} of {replay.runs} runs the FMU said: {what}" for what, n in replay.said.items()]
     if found is not None and after is not None:
         print("with the fitted parameters" + (" and sensors:" if wanted.nuisances else ":"))
@@ -58,9 +64,12 @@ def perform(options: argparse.Namespace) -> int:
         notes += more
         for line in [*fit_problems(found), *(f"note: {note}" for note in more)]:
             print(line)
-    written = write_outcome(options, task, Outcome(before, after, found, notes, problems), paths)
-    print(f"written: {', '.join(map(str, written))}")
+    _write(options, task, Outcome(before, after, found, notes, problems), paths)
     return 1 if problems else 0
+
+
+def _write(options: argparse.Namespace, task: Task, outcome: Outcome, paths: dict[str, Path]) -> None:
+    print(f"written: {', '.join(map(str, write_outcome(options, task, outcome, paths)))}", flush=True)
 
 
 def _wanted(options: argparse.Namespace, task: Task) -> _Fitting:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 
@@ -61,34 +62,6 @@ def _kept(signal: Signal, time: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.round(signal.values[np.maximum(rows, 0)]))
 
 
-class _Sloping(AliasedFmu):
-    """An FMU whose inputs go straight to their values at the end of each step.
-
-    Parameters
-    ----------
-    fmu : Fmu
-    aliases : Aliases
-    manoeuvre : Manoeuvre
-        With a row a step.
-    """
-
-    def __init__(self, fmu: Fmu, aliases: Aliases, manoeuvre: Manoeuvre) -> None:
-        super().__init__(fmu, aliases)
-        ours = [n for n in manoeuvre.inputs if self.variables[n].type == "Real" and n in self.names("input")]
-        factors = {a.ours: a.factor for a in aliases.aliases}
-        theirs = {a.ours: a.theirs for a in aliases.aliases}
-        rates = [factors.get(n, 1.0) * np.diff(manoeuvre.inputs[n]) / np.diff(manoeuvre.time) for n in ours]
-        self._slopes = np.array(rates).T.tolist()
-        self._set_slopes = fmu.slope_setter([theirs.get(n, n) for n in ours])
-        self._step = float(manoeuvre.time[1] - manoeuvre.time[0])
-
-    def step(self, time: float, step: float) -> None:
-        """See `Fmu.step`."""
-        if self._slopes:
-            self._set_slopes(self._slopes[round(time / self._step)])
-        super().step(time, step)
-
-
 def _holder(speed: Signal) -> SpeedHolder:
     return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)))
 
@@ -105,8 +78,6 @@ class Replay:
     manoeuvre : Manoeuvre
     step : float
         Communication step, s.
-    slopes : bool
-        Whether the inputs go straight from row to row, which the FMU must be able to follow; else they are held.
     speed : Signal, optional
         That a driver holds by the pedals.
 
@@ -124,12 +95,11 @@ class Replay:
         aliases: Aliases,
         manoeuvre: Manoeuvre,
         step: float,
-        slopes: bool = False,
         speed: Signal | None = None,
     ) -> None:
         self._path, self._aliases = path, aliases
         self.manoeuvre, self.step = manoeuvre, step
-        self._slopes, self._speed = slopes, speed
+        self._speed = speed
         self.said: dict[str, int] = {}
         self._fmu: Fmu | None = None
         self._can_reset: bool | None = None
@@ -169,17 +139,15 @@ class Replay:
             self._fmu.reset()
         manoeuvre = self.manoeuvre
         if values:
-            manoeuvre = Manoeuvre(
-                manoeuvre.name, manoeuvre.time, manoeuvre.inputs, manoeuvre.stop_time, {**manoeuvre.start, **values}
-            )
+            manoeuvre = replace(manoeuvre, start={**manoeuvre.start, **values})
         self.runs += 1
-        fmu = _Sloping(self._fmu, self._aliases, manoeuvre) if self._slopes else AliasedFmu(self._fmu, self._aliases)
+        fmu = AliasedFmu(self._fmu, self._aliases)
         # A pilot has a memory: each run has its own.
         driver = None if self._speed is None else _holder(self._speed)
         self._fmu.messages.clear()
         result = run(fmu, manoeuvre, self.step, driver)
         if self._aliases.derived:
-            self._aliases.with_central_rates(result.names, result.time, result.values)
+            result.derive(self._aliases)
         for message in dict.fromkeys(result.messages):
             self.said[message] = self.said.get(message, 0) + 1
         return result

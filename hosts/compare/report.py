@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import math
 from collections.abc import Mapping, Sequence
 from html import escape
@@ -14,16 +13,6 @@ from hosts.compare.comparison import Comparison
 from hosts.compare.fit import Fit
 from hosts.compare.fit_words import fit_rows
 
-_STYLE = """
-body { font: 15px/1.5 system-ui, sans-serif; max-width: 1200px; margin: 2rem auto; padding: 0 1rem; color: #222; }
-table { border-collapse: collapse; margin: 1rem 0; font-variant-numeric: tabular-nums; }
-th, td { padding: .25rem .7rem; border-bottom: 1px solid #ddd; text-align: right; }
-th:first-child, td:first-child { text-align: left; }
-.problem { border-left: 4px solid #d55e00; padding-left: .6rem; } .note { color: #555; }
-img { max-width: 100%; } footer { color: #777; font-size: .85rem; margin-top: 2rem; }
-@media (prefers-color-scheme: dark) { body { background: #16181c; color: #ddd; } th, td { border-color: #444; }
-  .note, footer { color: #aaa; } img { background: #fff; } }
-"""
 _COLUMNS = ("signal", "unit", "rms", "normalised", "mean", "largest", "at, s", "correlation", "rating",
             "corridor", "phase", "magnitude", "slope", "delay, ms")  # fmt: skip
 _FOOT = (
@@ -57,28 +46,30 @@ def write_report(
     parts = [f"<h1>{escape(title)}</h1>"]
     parts += [f'<p class="problem">{escape(line)}</p>' for line in problems]
     parts.append("<h2>Deviations</h2>" if after is None else "<h2>Deviations before the fit</h2>")
-    parts.append(_table(_COLUMNS, _rows(before)))
+    parts.append(html.table(_COLUMNS, _rows(before), "numbers"))
     if after is not None and fit is not None:
-        parts += ["<h2>Deviations with the fitted parameters and sensors</h2>", _table(_COLUMNS, _rows(after))]
-        parts += ["<h2>Fit</h2>", _table(("sought", "start", "value", "95 %", "unit"), fit_rows(fit))]
+        parts += [
+            "<h2>Deviations with the fitted parameters and sensors</h2>",
+            html.table(_COLUMNS, _rows(after), "numbers"),
+        ]
+        parts += ["<h2>Fit</h2>", html.table(("sought", "start", "value", "95 %", "unit"), fit_rows(fit), "numbers")]
         parts.append(
             f"<p>Residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; {fit.samples} "
             f"samples count as {fit.effective:.0f} uncorrelated ones.</p><h3>Correlation of the errors</h3>"
         )
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
-        parts.append(_table(("", *names), rows))
+        parts.append(html.table(("", *names), rows, "numbers"))
     c = before.common
     if math.isfinite(c.delay):
         parts.append(
             f"<p>All signals together: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late, its clock "
             f"{1e6 * c.drift:.3g} ± {1e6 * c.drift_error:.2g} ppm fast.</p>"
         )
-    picture = base64.b64encode(paths[".png"].read_bytes()).decode()
-    parts.append(f'<img alt="{escape(title)}" src="data:image/png;base64,{picture}">')
+    parts.append(html.picture(paths[".png"].read_bytes(), title))
     parts += [f'<p class="note">{escape(line)}</p>' for line in notes]
     parts.append(f"<footer>{_FOOT}</footer>")
-    write_text(paths[".html"], html.page(title, "\n".join(parts), _STYLE))
+    write_text(paths[".html"], html.report(title, "\n".join(parts)))
 
 
 def _rows(comparison: Comparison) -> list[Sequence[str]]:
@@ -92,12 +83,6 @@ def _rows(comparison: Comparison) -> list[Sequence[str]]:
              f"{d.time_of_largest:.4g}", _number(d.correlation, ".4f"), *scores, delay]
         )  # fmt: skip
     return rows
-
-
-def _table(heading: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    head = "".join(f"<th>{escape(c)}</th>" for c in heading)
-    body = "".join(f"<tr>{''.join(f'<td>{escape(c)}</td>' for c in row)}</tr>" for row in rows)
-    return f"<table><tr>{head}</tr>{body}</table>"
 
 
 def _number(value: float, form: str) -> str:

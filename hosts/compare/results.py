@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ali3.files import check_writable
-from ali3.parameter_set import write_parameter_set
+from ali3.write_parameter_set import write_parameter_set
 from hosts.compare.comparison import Comparison, measures
 from hosts.compare.fit import Fit
 from hosts.compare.page import comparison_figure, write_picture
@@ -54,7 +54,9 @@ def paths_of(options: argparse.Namespace) -> dict[str, Path]:
     return paths
 
 
-def write_outcome(options: argparse.Namespace, task: Task, outcome: Outcome, paths: dict[str, Path]) -> Sequence[Path]:
+def write_outcome(
+    options: argparse.Namespace, task: Task, outcome: Outcome, paths: Mapping[str, Path]
+) -> Sequence[Path]:
     """Write all files of a comparison."""
     title = f"{options.fmu.stem} and {options.log.name}"
     write_signals(outcome.before, outcome.after, paths[".csv"])

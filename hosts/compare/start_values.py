@@ -97,9 +97,10 @@ def placed(
         fmu = AliasedFmu(opened, aliases)
         names = [f"chassis.{a}" for a in axes]
         fmu.initialise(start)
-        found = fmu.getter(names)()
+        found = np.empty(len(names))
+        fmu.reader(names)(found)
     made = dict(start)
-    for axis, value in zip(axes, found, strict=True):
+    for axis, value in zip(axes, found.tolist(), strict=True):
         wanted = float(measured[f"initial.{axis}"])
         if math.isfinite(value):
             made[f"initial.{axis}"] = wanted - (value - wanted)

@@ -14,7 +14,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import wishes
 from hosts.compare.log import FEWEST_SAMPLES, Log, Signal, log_for
-from hosts.compare.log_aliases import LogAliases, read_log_aliases
+from hosts.compare.log_aliases import LogAliases, check_of_fmu, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
@@ -75,10 +75,12 @@ def prepare(options: argparse.Namespace) -> Task:
     HostError
         One sentence.
     """
-    log_aliases = LogAliases() if options.aliases is None else read_log_aliases(options.aliases)
+    log_aliases = LogAliases() if options.log_aliases is None else read_log_aliases(options.log_aliases)
+    if options.aliases is not None:
+        check_of_fmu(options.aliases)
     raw = read_log(options.log, log_aliases.form)
     with Fmu(options.fmu) as opened:
-        aliases = Aliases() if options.fmu_aliases is None else find_aliases(options.fmu_aliases, opened.table)
+        aliases = Aliases() if options.aliases is None else find_aliases(options.aliases, opened.table)
         fmu = AliasedFmu(opened, aliases)
         log = log_for(fmu, raw, log_aliases, aliases.why_missing)
         notes = log.notes
@@ -88,7 +90,7 @@ def prepare(options: argparse.Namespace) -> Task:
         if not inputs and pedals is None:
             raise HostError(
                 f"The log {options.log} has no input of {options.fmu.name}, so that there is nothing to replay; its "
-                f"inputs are {', '.join(fmu.names('input')) or 'none'}: the alias file of the log (--aliases) "
+                f"inputs are {', '.join(fmu.names('input')) or 'none'}: the alias file of the log (--log-aliases) "
                 "names their columns."
             )
         held = [n for n in fmu.names("input") if n not in inputs and not (pedals and n in PEDALS)]
@@ -159,7 +161,7 @@ def _chosen(log: Log, fmu: AliasedFmu, options: argparse.Namespace) -> tuple[dic
         del inputs[name]
     if not outputs:
         raise HostError(
-            f"The log {options.log} has no output of {options.fmu.name} to compare; its alias file (--aliases) can "
+            f"The log {options.log} has no output of {options.fmu.name} to compare; its alias file (--log-aliases) can "
             f"name some of: {', '.join(fmu.names('output')[:12])} ..."
         )
     return inputs, outputs

@@ -6,8 +6,9 @@ import difflib
 import math
 from collections.abc import Mapping, Sequence
 
+from ali3.decimal_number import parse_number
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value, parse_number
+from hosts.common.numbers import Value
 from hosts.compare.residuals import Unknown
 from hosts.fmu.variables import Variable
 
@@ -40,7 +41,9 @@ def wanted_parameters(
         if variable is None:
             near = difflib.get_close_matches(name, variables, 3)
             near = near or [n for n in variables if name.lower() in n.lower()][:3]
-            hint = f"; did you mean {' or '.join(near)}?"[:-1] if near else "; ali3 parameters lists them"
+            hint = (
+                f"; did you mean {' or '.join(near)}?"[:-1] if near else "; ali3 check FMU --show-parameters lists them"
+            )
             raise HostError(f"--fit: the FMU has no parameter '{name}'{hint}.")
         if variable.kind != "Real" or variable.start is None:
             raise HostError(f"--fit: '{name}' is of the kind {variable.kind}; only real numbers can be fitted.")

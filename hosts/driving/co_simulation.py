@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +15,13 @@ from hosts.driving.driver import ACTS, SENSES, Driver, make_driver
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.fmu.aliases import Aliases
 from hosts.fmu.fmu import StepRefusedError
 
 # Bytes a run may record: more would fill the memory before the disk.
 _LARGEST_RECORD = 4e9
+# Of a value that is reached at the end of a step and set again for the next.
+_ROUND_OFF = 1e-9
 
 
 @dataclass(frozen=True)
@@ -34,7 +37,8 @@ class Result:
     time : ndarray of shape (n,)
         s.
     values : ndarray of shape (n, len(names))
-        In the units of the model description; inputs are those of the step that ends there.
+        In the units of the model description. Inputs are those with which the next step begins; in the last row those
+        with which the last step ended, or with which one that was refused would have begun.
     wall : float
         Time spent in the loop, s.
     simulated : float
@@ -43,6 +47,12 @@ class Result:
         Communication steps the FMU refused; the run ends with the first.
     messages : list of str
         What the FMU logged at warning or above.
+    held : list of str
+        Inputs that kept their value over each step; the others went straight.
+    late : list of str
+        Those of them that were to move between the steps: the FMU takes no input derivatives, or a driver acts on them.
+    jumps : dict of int to list of float
+        By the number of a row: inputs before a jump at its time, where the row alone does not tell them.
     """
 
     names: list[str]
@@ -53,12 +63,33 @@ class Result:
     simulated: float
     failed_steps: int
     messages: list[str]
+    held: list[str] = field(default_factory=list)
+    late: list[str] = field(default_factory=list)
+    jumps: dict[int, list[float]] = field(default_factory=dict)
 
     def __contains__(self, name: str) -> bool:
         return name in self.names
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         return np.asarray(self.values[:, self.names.index(name)])
+
+    def derive(self, aliases: Aliases, thinned: bool = False) -> None:
+        """Write columns that are derived from others anew, with the inputs that ended each step.
+
+        Parameters
+        ----------
+        aliases : Aliases
+        thinned : bool
+            Whether steps are left out, see `Aliases.with_central_rates`.
+        """
+        ended, held = self.values.copy(), [self.names.index(name) for name in self.held]
+        if not thinned:
+            ended[1:, held] = self.values[:-1, held]
+        for k, before in self.jumps.items():
+            ended[k, : len(before)] = before
+        aliases.with_central_rates(self.names, self.time, ended, thinned)
+        derived = [self.names.index(d.ours) for d in aliases.derived if d.ours in self.names]
+        self.values[:, derived] = ended[:, derived]
 
 
 def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
@@ -78,6 +109,8 @@ def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | No
         not fit into the memory.
     """
     experiment = fmu.description.defaultExperiment
+    if step is None:
+        step = manoeuvre.step
     if step is None:
         step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
     stop = manoeuvre.stop_time
@@ -174,11 +207,41 @@ def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float
     return set_values
 
 
-class _Senses(dict[str, float]):
-    """Outputs by name; one that there is not is named to the user."""
+def _line_follower(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+    """Sets slopes of inputs for the next step; nothing where all are zero, which they are after each step."""
+    set_slopes = fmu.slope_setter(names)
 
-    def __missing__(self, name: str) -> float:
-        raise HostError(f"Who drives needs the output '{name}', which the FMU does not have.")
+    def follow(slopes: Sequence[float]) -> None:
+        if any(slopes):
+            set_slopes(slopes)
+
+    return follow
+
+
+class _NoOutputError(HostError, KeyError):
+    """Who drives looks for an output that there is not."""
+
+    __str__ = Exception.__str__
+
+
+class _Senses(Mapping[str, float]):
+    """The outputs of a row by name; those that nobody looks at cost nothing."""
+
+    def __init__(self, names: Sequence[str], row: NDArray[np.float64]) -> None:
+        self._places = {n: k for k, n in enumerate(names)}
+        self._row = row
+
+    def __getitem__(self, name: str) -> float:
+        try:
+            return self._row.item(self._places[name])
+        except KeyError:
+            raise _NoOutputError(f"Who drives needs the output '{name}', which the FMU does not have.") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._places)
+
+    def __len__(self) -> int:
+        return len(self._places)
 
 
 def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, float]) -> str:
@@ -197,6 +260,9 @@ def run(
     every: int = 1,
 ) -> Result:
     """Drive an FMU through a manoeuvre.
+
+    Real inputs of its table go straight between its rows where the FMU follows input derivatives. Parameters, whole
+    numbers, inputs that a driver acts on and all inputs of other FMUs are held over each step.
 
     Parameters
     ----------
@@ -223,15 +289,16 @@ def run(
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
     check_columns(fmu, manoeuvre)
     inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
-    whole = {n for n in manoeuvre.inputs if fmu.variables[n].type == "Integer"}
-    get_outputs = fmu.getter(outputs)
+    discrete = {n for n in manoeuvre.inputs if fmu.variables[n].variability == "discrete"}
+    whole = discrete | {n for n in manoeuvre.inputs if fmu.variables[n].type == "Integer"}
+    row = np.empty(len(outputs))
+    read_outputs, senses = fmu.reader(outputs), _Senses(outputs, row)
 
     first = manoeuvre.initial(whole)
     fmu.initialise({**manoeuvre.start, **first})
     if manoeuvre.state is not None:
         fmu.restore_bytes(manoeuvre.state)
-    row = get_outputs()
-    senses = _Senses(zip(outputs, row, strict=True))
+    read_outputs(row)
     acts = driver.act(0.0, senses) if driver is not None else {}
     missing = [n for n in acts if n not in inputs]
     if missing:
@@ -245,7 +312,13 @@ def run(
     for name, value in {**manoeuvre.start, **first}.items():
         if name in inputs and not isinstance(value, str):
             held[inputs.index(name)] = value
-    values[0] = [*held, *row]
+    values[0, len(inputs) :] = row
+    straight = [
+        n for n in manoeuvre.inputs if n in fmu.names("input") and n not in {*whole, *acts, *manoeuvre.held}
+    ]  # fmt: skip
+    straight = straight if fmu.follows_slopes else []
+    places, follow = [inputs.index(n) for n in straight], _line_follower(fmu, straight)
+    jumps: dict[int, list[float]] = {}
     done, failed = 0, 0
     begin = clock.perf_counter()
     for k in range(steps):
@@ -257,23 +330,30 @@ def run(
                 raise HostError(_not_finite(t, acts, senses))
             wanted |= acts
         now = [wanted[n] for n in used]
+        before = held.copy()
         if used:
             set_inputs(now)
             held[columns] = now
+        if k % every == 0:
+            values[k // every, : len(inputs)] = held
+            jumped = np.abs(held - before) > _ROUND_OFF * (np.abs(held) + np.abs(before))
+            if every > 1 or jumped[places if k else columns].any():
+                jumps[k // every] = before.tolist()
+        if straight:
+            then = manoeuvre.at(t + step, whole, before=True)
+            follow([(then[n] - wanted[n]) / step for n in straight])
+            held[places] = [then[n] for n in straight]
         try:
             fmu.step(manoeuvre.state_time + t, step)
         except StepRefusedError:
             failed = 1
             break
         done = k + 1
-        row = get_outputs()
+        read_outputs(row)
         if done % every == 0:
-            values[done // every, : len(inputs)] = held
-            values[done // every, len(inputs) :] = row
+            values[done // every] = [*held, *row]
         if done % 50 == 0:
             progress(done)
-        if driver is not None or until is not None:
-            senses = _Senses(zip(outputs, row, strict=True))
         if until is not None and until(done * step, senses):
             break
     wall = clock.perf_counter() - begin
@@ -288,4 +368,7 @@ def run(
         done * step,
         failed,
         list(fmu.messages),
+        [n for n in inputs if n not in straight],
+        [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
+        jumps,
     )

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import fields
 
+from ali3.decimal_number import parse_number
 from hosts.common.errors import HostError
-from hosts.common.numbers import parse_number
 from hosts.driving.course import course_of
 from hosts.driving.pilots.course_follower import ACTS, SENSES, CourseFollower, DriverSettings
 

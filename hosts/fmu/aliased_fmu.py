@@ -12,7 +12,7 @@ from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
-from hosts.common.unit_of import unit_of
+from hosts.common.units import unit_of
 from hosts.fmu.aliases import Alias, Aliases
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
@@ -52,6 +52,7 @@ class AliasedFmu:
         self._derivation = aliases.derivation((*self._inputs, *self._outputs))
         self.variables |= {name: _derived(name) for name in self._derivation.names}
         self._held = dict(zip(self._inputs, self.start_values(self._inputs).tolist(), strict=True))
+        self._slopes: dict[str, float] = {}
         self._time = 0.0
 
     def names(self, causality: str) -> list[str]:
@@ -83,32 +84,53 @@ class AliasedFmu:
 
         return set_values
 
-    def getter(self, names: Sequence[str]) -> Callable[[], list[float]]:
-        """See `Fmu.getter`; rates among derived variables are those of the last steps."""
-        if any(name in self._derivation.names for name in names):
-            return self._getter_of_derived(names)
+    @property
+    def follows_slopes(self) -> bool:
+        """See `Fmu.follows_slopes`."""
+        return self._fmu.follows_slopes
+
+    def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+        """See `Fmu.slope_setter`; in our units."""
         chosen = self._chosen(names)
-        get_theirs = self._fmu.getter([a.theirs for a in chosen])
+        set_theirs = self._fmu.slope_setter([a.theirs for a in chosen])
+        factors = [a.factor for a in chosen]
+
+        def set_slopes(slopes: Sequence[float]) -> None:
+            set_theirs([f * x for f, x in zip(factors, slopes, strict=True)])
+            self._slopes = dict(zip(names, slopes, strict=True))
+
+        return set_slopes
+
+    def reader(self, names: Sequence[str]) -> Callable[[NDArray[np.float64]], None]:
+        """See `Fmu.reader`; rates among derived variables are those of the last steps."""
+        if any(name in self._derivation.names for name in names):
+            return self._reader_of_derived(names)
+        chosen = self._chosen(names)
+        read_theirs = self._fmu.reader([a.theirs for a in chosen])
         if all(map(_is_plain, chosen)):
-            return get_theirs
-        scales = [(a.factor, a.offset) for a in chosen]
+            return read_theirs
+        factors, offsets = np.array([(a.factor, a.offset) for a in chosen]).T
 
-        def get_values() -> list[float]:
-            return [(x - o) / f for (f, o), x in zip(scales, get_theirs(), strict=True)]
+        def read_values(into: NDArray[np.float64]) -> None:
+            read_theirs(into)
+            into -= offsets
+            into /= factors
 
-        return get_values
+        return read_values
 
-    def _getter_of_derived(self, names: Sequence[str]) -> Callable[[], list[float]]:
-        get_outputs = self.getter(self._outputs)
+    def _reader_of_derived(self, names: Sequence[str]) -> Callable[[NDArray[np.float64]], None]:
+        read_outputs = self.reader(self._outputs)
         there = (*self._inputs, *self._outputs, *self._derivation.names)
         order = [there.index(n) for n in names]
+        inputs = len(self._inputs)
+        row = np.empty(inputs + len(self._outputs))
 
-        def get_values() -> list[float]:
-            row = [*self._held.values(), *get_outputs()]
-            row += self._derivation.live(self._time, row).tolist()
-            return [row[k] for k in order]
+        def read_values(into: NDArray[np.float64]) -> None:
+            row[:inputs] = list(self._held.values())
+            read_outputs(row[inputs:])
+            into[:] = np.concatenate([row, self._derivation.live(self._time, row)])[order]
 
-        return get_values
+        return read_values
 
     def _hold(self, values: Mapping[str, float]) -> None:
         self._held |= {name: x for name, x in values.items() if name in self._held}
@@ -116,6 +138,8 @@ class AliasedFmu:
     def step(self, time: float, step: float) -> None:
         """See `Fmu.step`."""
         self._fmu.step(time, step)
+        self._hold({name: self._held[name] + slope * step for name, slope in self._slopes.items()})
+        self._slopes = {}
         self._time = time + step
 
     def restore_bytes(self, content: bytes) -> None:

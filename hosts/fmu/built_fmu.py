@@ -4,28 +4,26 @@ from __future__ import annotations
 
 import hashlib
 import os
-import shutil
-import subprocess
-import tempfile
-import tomllib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import ali3
-from ali3.cache import cache_folder
+from ali3.cache import cache_folder, forget_oldest
 from ali3.commands import COMMANDS
-from ali3.files import reason
-from ali3.running import module_command
+from ali3.errors import FileError
+from ali3.files import reason, whole_folder
+from ali3.reading import read_toml
+from hosts.common.commands import run_module
 from hosts.common.errors import HostError
+from hosts.fmu.car import CAR_FILE
 
 _SUFFIXES = (".py", ".c", ".h", ".toml", ".csv", ".npz", ".json", ".road", ".xml", ".txt")
 _KEPT = 10
-_CAR_FILE = "car.toml"
 _LARGEST = 500_000_000  # bytes of a car's folder
 
 
-def fmu_of_car(car: str, tell: Callable[[str], None]) -> Path:
+def fmu_of_car(car: str, tell: Callable[[str], None], poses: str | None = None) -> Path:
     """The FMU of a car for this machine; built once for each content of its files and each version of the program.
 
     Parameters
@@ -34,29 +32,36 @@ def fmu_of_car(car: str, tell: Callable[[str], None]) -> Path:
         A car of the package by its name, a folder with a file ``car.toml``, or such a file.
     tell : callable
         Takes sentences.
+    poses : str, optional
+        As ``ali3 build --poses`` takes them.
 
     Raises
     ------
     HostError
         It cannot be built; with the words of the build.
     """
+    options = () if poses is None else ("--poses", poses)
+    name = "-".join([car_digest(car), *options[1:]])
+    return _kept_fmu(f"the car {car}", name, ("--car", car, *options), tell)
+
+
+def fmu_of_scene(scene: str, tell: Callable[[str], None]) -> Path:
+    """The FMU of a scene of the package, as `fmu_of_car` gives that of a car."""
+    return _kept_fmu(f"the scene {scene}", f"{scene}-{program_version()}", ("--scene", scene), tell)
+
+
+def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[str], None]) -> Path:
     room = cache_folder("cars")
-    place = room / car_digest(car)
+    place = room / name
     found = sorted(place.glob("*.fmu"))
     if found:
         os.utime(place)
         return found[0]
-    tell(f"The car {car} is built for this machine, which takes half a minute ...")
-    with tempfile.TemporaryDirectory(prefix=".building-", dir=room) as folder:
-        made = Path(folder, "car")
-        build_fmu(f"the car {car}", ("--car", car), made)
+    tell(f"{what[0].upper()}{what[1:]} is built for this machine, which takes half a minute ...")
+    with whole_folder(place) as made:
+        build_fmu(what, options, made)
         if not list(made.glob("*.fmu")):
-            raise HostError(f"The FMU of the car {car} cannot be built: the build left no FMU.")
-        try:
-            made.rename(place)
-        except OSError:  # another program has built it meanwhile
-            if not list(place.glob("*.fmu")):
-                raise
+            raise HostError(f"The FMU of {what} cannot be built: the build left no FMU.")
     forget_oldest(room, _KEPT)
     return sorted(place.glob("*.fmu"))[0]
 
@@ -78,17 +83,10 @@ def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
         With the words of the build.
     """
     always = ("--kind", "native", "--platforms", "this", "--out", str(folder))
-    done = subprocess.run(
-        module_command("ali3", "build", *options, *always),
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-    )
-    if done.returncode != 0:
-        words = done.stderr.strip().splitlines()
-        why = words[-1].removeprefix("error: ") if words else "the build said nothing."
-        raise HostError(f"The FMU of {what} cannot be built: {why}")
+    try:
+        run_module("ali3", "build", *options, *always)
+    except HostError as error:
+        raise HostError(f"The FMU of {what} cannot be built: {error}") from None
 
 
 def car_digest(car: str) -> str:
@@ -102,7 +100,7 @@ def car_digest(car: str) -> str:
     """
     digest = hashlib.sha256(program_version().encode())
     path = Path(car)
-    file = path / _CAR_FILE if path.is_dir() else path
+    file = path / CAR_FILE if path.is_dir() else path
     if not file.is_file():
         digest.update(f"name {car}".encode())
         return digest.hexdigest()[:32]
@@ -124,8 +122,8 @@ def car_digest(car: str) -> str:
 def _named_files(file: Path) -> Iterator[Path]:
     """Files whose names stand in a car file."""
     try:
-        content = tomllib.loads(file.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
+        content = read_toml(file)
+    except FileError:
         return  # the build says what is wrong
     for text in _texts(content):
         try:
@@ -160,16 +158,3 @@ def program_version() -> str:
 
 def _files(folder: Path) -> Iterator[Path]:
     return (f for f in folder.rglob("*") if f.suffix in _SUFFIXES and f.is_file())
-
-
-def forget_oldest(room: Path, kept: int) -> None:
-    """Remove folders of older versions but the last few.
-
-    Parameters
-    ----------
-    room : Path
-    kept : int
-    """
-    folders = (f for f in room.iterdir() if f.is_dir() and not f.name.startswith("."))
-    for folder in sorted(folders, key=lambda f: f.stat().st_mtime, reverse=True)[kept:]:
-        shutil.rmtree(folder, ignore_errors=True)

@@ -230,44 +230,33 @@ class Fmu:
         return set_slopes
 
     def getter(self, names: Sequence[str]) -> Callable[[], list[float]]:
-        """A function that gives the values of variables; their references are prepared once."""
-        slave = self._slave
-        whole = [n for n in names if self.variables[n].type == "Integer"]
-        real = [n for n in names if n not in set(whole)]
-        reals, buffer = (fmi2ValueReference * len(real))(*self.references(real)), (fmi2Real * len(real))()
-        wholes, counts = (fmi2ValueReference * len(whole))(*self.references(whole)), (fmi2Integer * len(whole))()
-        place = {n: k for k, n in enumerate((*real, *whole))}
-        order = [place[n] for n in names]
+        """A function that gives the values of real and whole variables; see `reader`."""
+        read_values, row = self.reader(names), np.empty(len(names))
 
         def get_values() -> list[float]:
-            if real:
-                slave.fmi2GetReal(slave.component, reals, len(real), buffer)
-            values: list[float] = buffer[:]
-            if not whole:
-                return values
-            slave.fmi2GetInteger(slave.component, wholes, len(whole), counts)
-            values += map(float, counts)
-            return [values[k] for k in order]
+            read_values(row)
+            values: list[float] = row.tolist()
+            return values
 
         return get_values
 
     def reader(self, names: Sequence[str]) -> Callable[[NDArray[np.float64]], None]:
-        """A function that writes the values of variables into an array; real ones go there without a list between."""
-        slave = self._slave
-        real = [k for k, n in enumerate(names) if self.variables[n].type != "Integer"]
-        others = [k for k in range(len(names)) if k not in set(real)]
-        references = (fmi2ValueReference * len(real))(*self.references(names[k] for k in real))
-        reals = (fmi2Real * len(real))()
-        values = np.frombuffer(reals, np.float64) if real else np.empty(0)
-        places = np.array(real) if others else slice(None)
-        get_others = self.getter([names[k] for k in others])
+        """A function that writes the values of real and whole variables into an array; references are prepared once."""
+        slave, kinds = self._slave, [self.variables[n].type for n in names]
+        real, whole = ([k for k, kind in enumerate(kinds) if (kind == "Integer") == w] for w in (False, True))
+        reals = (fmi2ValueReference * len(real))(*self.references(names[k] for k in real))
+        wholes = (fmi2ValueReference * len(whole))(*self.references(names[k] for k in whole))
+        buffer, counts = (fmi2Real * len(real))(), (fmi2Integer * len(whole))()
+        values = np.ctypeslib.as_array(buffer)
+        places = np.array(real) if whole else slice(None)
 
         def read_values(into: NDArray[np.float64]) -> None:
             if real:
-                slave.fmi2GetReal(slave.component, references, len(reals), reals)
+                slave.fmi2GetReal(slave.component, reals, len(reals), buffer)
                 into[places] = values
-            if others:
-                into[others] = get_others()
+            if whole:
+                slave.fmi2GetInteger(slave.component, wholes, len(wholes), counts)
+                into[whole] = counts
 
         return read_values
 

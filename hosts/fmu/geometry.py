@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import subprocess
 import tempfile
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ali3.running import module_command
+from ali3.reading import LARGEST_JSON, read_json
+from hosts.common.commands import run_module
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from viewer.errors import SceneError
@@ -44,6 +43,8 @@ def scene_of(path: Path, settings: Mapping[str, Value] | None = None) -> dict[st
         with zipfile.ZipFile(path) as fmu:
             if RESOURCE not in fmu.namelist():
                 return None
+            if fmu.getinfo(RESOURCE).file_size > LARGEST_JSON:
+                raise HostError(f"{RESOURCE} of {path} has more than {LARGEST_JSON} bytes.")
             content = fmu.read(RESOURCE)
             scene = read_scene(content, f"{RESOURCE} of {path}")
             roads, missing = _roads(scene, fmu, settings or {})
@@ -112,14 +113,6 @@ def _part(name: str, fmu: zipfile.ZipFile) -> dict[str, Any]:
         elif not file.is_file():
             raise HostError("its file is not there")
         out = Path(folder, "part.json")
-        done = subprocess.run(
-            module_command("mbs.worlds.road_command", str(file), "--part", str(out)),
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        if done.returncode != 0:
-            words = done.stderr.strip().splitlines()
-            raise HostError(words[-1].removeprefix("error: ") if words else "it cannot be read")
-        part: dict[str, Any] = json.loads(out.read_text(encoding="utf-8"))
+        run_module("ali3", "road", str(file), "--part", str(out))
+        part: dict[str, Any] = read_json(out, HostError)
         return part

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ali3.parameter_set import Entry, ParameterSet, UnitDefinition, read_parameter_set
+from ali3.parameter_set import Entry, ParameterSet, UnitDefinition
+from ali3.read_parameter_set import read_parameter_set
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes

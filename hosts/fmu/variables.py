@@ -10,10 +10,11 @@ from typing import Any
 
 from fmpy.model_description import ModelDescription, ScalarVariable
 
+from ali3.decimal_number import parse_number
 from ali3.parameter_set import Entry, ParameterSet, UnitDefinition, range_words, told
 from ali3.running import command_name
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value, parse_number
+from hosts.common.numbers import Value
 
 _KINDS = {"Float64": "Real", "Float32": "Real"} | {
     f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)
@@ -287,7 +288,7 @@ class Variables:
             return f"; did you mean {' or '.join(near)}?"[:-1]
         if len(can) <= 2 * _NEAREST:
             return f"; it has: {', '.join(can) or 'none'}"
-        return f"; {command_name('parameters')} lists them"
+        return f"; {command_name('check')} FMU --show-parameters lists them"
 
 
 def _variable(v: ScalarVariable, units: dict[str | None, Any]) -> Variable:

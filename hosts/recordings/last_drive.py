@@ -122,7 +122,9 @@ def manoeuvre_of(drive: RecordedDrive, last: LastDrive, first: int, stop: int, s
     start = {name: value for name, value in last.start.items() if name not in columns}
     begin = 0.0 if state is None else float(last.time[first])
     name = drive.folder.resolve().name
-    return Manoeuvre(name, time[kept], columns, float(time[-1]), start, state=state, state_time=begin)
+    return Manoeuvre(
+        name, time[kept], columns, float(time[-1]), start, state=state, state_time=begin, held=frozenset(columns)
+    )
 
 
 def _refused(drive: RecordedDrive) -> list[float]:

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
-from hosts.driving.manoeuvre import Manoeuvre, read_manoeuvre
+import numpy as np
+
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre_file import read_manoeuvre
+from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.recordings.last_drive import recorded_manoeuvre
 from hosts.recordings.recorded_drive import is_recording, read_recording
 
@@ -15,7 +20,7 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     Parameters
     ----------
     manoeuvre : str
-        See `hosts.driving.manoeuvre.read_manoeuvre`.
+        See `hosts.driving.manoeuvre_file.read_manoeuvre`.
 
     Raises
     ------
@@ -24,3 +29,23 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     """
     folder = Path(manoeuvre)
     return recorded_manoeuvre(read_recording(folder)) if is_recording(folder) else read_manoeuvre(manoeuvre)
+
+
+def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) -> Manoeuvre:
+    """What an FMU is run through.
+
+    Parameters
+    ----------
+    fmu : SimulatedFmu
+    given : str, optional
+        As `load_manoeuvre` takes it; without it inputs keep their start values.
+    stop_time : float, optional
+        s; by default that of the manoeuvre, else that of the FMU's default experiment, else 10 s.
+    """
+    if given is not None:
+        manoeuvre = load_manoeuvre(given)
+        return manoeuvre if stop_time is None else replace(manoeuvre, stop_time=stop_time)
+    if stop_time is None:
+        experiment = fmu.description.defaultExperiment
+        stop_time = float(experiment.stopTime) if experiment is not None and experiment.stopTime else 10.0
+    return Manoeuvre("run", np.zeros(0), {}, stop_time)

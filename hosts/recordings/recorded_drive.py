@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ali3.files import reason
+from ali3.reading import LARGEST_JSON, LARGEST_STATE, json_of, read_bytes, read_json
+from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, VERSION
@@ -83,7 +83,7 @@ class RecordedDrive:
     def start_state(self) -> bytes | None:
         """The state of the FMU at the first row; None: that is a start."""
         file = self.folder / STATE
-        return file.read_bytes() if file.is_file() else None
+        return read_bytes(file, LARGEST_STATE, HostError) if file.is_file() else None
 
     def blocks(self) -> Iterator[Rows]:
         """All rows, some thousands at a time."""
@@ -168,11 +168,11 @@ def read_recording(folder: Path) -> RecordedDrive:
     if not file.is_file():
         what = "has no" if folder.is_dir() else "is no folder with a"
         raise HostError(f"{folder} {what} {DESCRIPTION}; name the folder of a recording.")
-    meta = _json(file, file.read_bytes())
+    meta = read_json(file, HostError, finite=False)  # recordings of before may have NaN
     if not isinstance(meta, dict) or meta.get("format") != FORMAT:
         raise HostError(f"{file} is no recording of the simulator: its format is not {FORMAT!r}.")
     if meta.get("version") != VERSION:
-        raise HostError(f"{file} is a recording of version {meta.get('version')}; this program reads {VERSION}.")
+        raise HostError(f"{file} is a recording of version {brief(meta.get('version'))}; this program reads {VERSION}.")
     for key, kind in _KEYS.items():
         if not isinstance(meta.get(key), kind):  # type: ignore[arg-type]
             raise HostError(f"{file} does not say the {key} of the recording.")
@@ -182,20 +182,11 @@ def read_recording(folder: Path) -> RecordedDrive:
 
 def _events(file: Path) -> list[dict[str, Any]]:
     """Lines of events; a last one that is cut off is left out."""
-    if not file.is_file():
+    if not file.exists():
         return []
-    lines = file.read_bytes().split(b"\n")[:-1]
-    events = [_json(file, line) for line in lines]
+    lines = read_bytes(file, LARGEST_JSON, HostError).split(b"\n")[:-1]
+    events = [json_of(line, HostError, f"{file}, line {k},", finite=False) for k, line in enumerate(lines, start=1)]
     return [event for event in events if isinstance(event, dict)]
-
-
-def _json(file: Path, content: bytes) -> Any:
-    try:
-        return json.loads(content)
-    except OSError as error:
-        raise HostError(f"{file} cannot be read: {reason(error)}.") from None
-    except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
-        raise HostError(f"{file} is no JSON file: {error}.") from None
 
 
 def session_time(rows: Rows, step: float) -> Any:

@@ -23,7 +23,8 @@ from ali3.files import make_folder, whole_file, write_text
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, VERSION
-from hosts.recordings.tables import CsvTable, ParquetTable, Rows, Table
+from hosts.recordings.tables import Rows
+from hosts.recordings.written_tables import CsvTable, ParquetTable, Table
 
 _MOST_ROWS = 2000  # in memory before they are written
 _MOST_WAIT = 2.0  # s of the clock before they are written

@@ -1,20 +1,18 @@
-"""Tables of a recording that grow while a program runs and stay readable if it is killed.
-
-Parquet has its directory at the end of a file, so an unfinished file cannot be read: rows are written as small whole
-files, which are joined at the end. A CSV file grows by lines; a last one that is cut off is left out.
-"""
+"""Rows of a recording, read from its table; `hosts.recordings.written_tables` says how one grows."""
 
 from __future__ import annotations
 
-import shutil
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from itertools import islice
 from pathlib import Path
-from typing import IO, Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.files import make_folder, reason, whole_file
+from ali3.files import reason
+from ali3.tables import TextTable
+from ali3.words import one_line
 from hosts.common.errors import HostError
 
 TABLE = "inputs_outputs"
@@ -22,7 +20,6 @@ PARTS = "parts"
 KEYS = ("time", "count", "epoch")
 """Columns before those of the FMU."""
 
-_ROW_GROUP = 8192
 _BLOCK = 4096
 
 
@@ -62,98 +59,6 @@ def joined(blocks: Sequence[Rows], columns: int) -> Rows:
     return Rows(*(np.concatenate(parts) for parts in zip(*blocks, strict=True)))
 
 
-class Table(Protocol):
-    """A table that grows."""
-
-    def write(self, rows: Rows) -> None:
-        """Add rows, which are then safe from the end of the program."""
-
-    def close(self, progress: Callable[[float], None]) -> None:
-        """Finish the table; `progress` hears the share that is done."""
-
-
-class ParquetTable:
-    """A table in Parquet, of doubles but for `KEYS`.
-
-    Parameters
-    ----------
-    folder : Path
-    names : sequence of str
-    units : mapping of str to str
-        They stand in the file as metadata of the columns.
-    """
-
-    suffix = ".parquet"
-
-    def __init__(self, folder: Path, names: Sequence[str], units: Mapping[str, str]) -> None:
-        import pyarrow as pa
-
-        kinds = (pa.float64(), pa.int64(), pa.int64())
-        keys = [pa.field(name, kind) for name, kind in zip(KEYS, kinds, strict=True)]
-        values = [pa.field(name, pa.float64(), metadata={"unit": units.get(name, "1")}) for name in names]
-        self._schema = pa.schema(keys + values)
-        self._folder, self._parts = folder, make_folder(folder / PARTS)
-        self._count = 0
-
-    def write(self, rows: Rows) -> None:
-        self._count += 1
-        with whole_file(self._parts / f"{self._count:06d}{self.suffix}") as made:
-            self._write([rows], made)
-
-    def close(self, progress: Callable[[float], None]) -> None:
-        def blocks() -> Iterator[Rows]:
-            """The rows of several parts at a time: groups of rows that are read at once should not be small."""
-            held: list[Rows] = []
-            for k, part in enumerate(sorted(self._parts.glob(f"*{self.suffix}")), start=1):
-                held += parquet_blocks(part)
-                if sum(map(len, held)) >= _ROW_GROUP:
-                    yield joined(held, 0)
-                    held = []
-                progress(k / self._count)
-            if held:
-                yield joined(held, 0)
-
-        with whole_file(self._folder / f"{TABLE}{self.suffix}") as made:
-            self._write(blocks(), made)
-        shutil.rmtree(self._parts, ignore_errors=True)
-
-    def _write(self, blocks: Iterator[Rows] | Sequence[Rows], file: Path) -> None:
-        import pyarrow as pa
-        import pyarrow.parquet as pq
-
-        # Measured numbers do not repeat: a dictionary of them is larger than they are.
-        with pq.ParquetWriter(file, self._schema, compression="zstd", use_dictionary=False) as writer:
-            for rows in blocks:
-                columns = [rows.time, rows.steps, rows.epoch, *np.ascontiguousarray(rows.values.T)]
-                writer.write_table(pa.Table.from_arrays([pa.array(c) for c in columns], schema=self._schema))
-
-
-class CsvTable:
-    """A table as text, with every number to the last bit.
-
-    Parameters
-    ----------
-    folder : Path
-    names : sequence of str
-    units : mapping of str to str
-        Not written: the recording's description has them.
-    """
-
-    suffix = ".csv"
-
-    def __init__(self, folder: Path, names: Sequence[str], units: Mapping[str, str]) -> None:
-        self._file: IO[str] = (folder / f"{TABLE}{self.suffix}").open("x", encoding="utf-8", newline="\n")
-        self._file.write(",".join(f'"{name}"' for name in (*KEYS, *names)) + "\n")
-
-    def write(self, rows: Rows) -> None:
-        for time, count, epoch, values in zip(*(column.tolist() for column in rows), strict=True):
-            self._file.write(f"{time!r},{count},{epoch}," + ",".join(map(repr, values)) + "\n")
-        self._file.flush()
-
-    def close(self, progress: Callable[[float], None]) -> None:
-        self._file.close()
-
-
 def blocks_of(folder: Path) -> Iterator[Rows]:
     """The rows of a recording, whether it was closed or not.
 
@@ -185,32 +90,25 @@ def parquet_blocks(file: Path) -> Iterator[Rows]:
 
     try:
         with pq.ParquetFile(file) as table:
+            if not all(pa.types.is_floating(f.type) or pa.types.is_integer(f.type) for f in table.schema_arrow):
+                raise HostError(f"{file} is no table of a recording: a column does not hold numbers.")
+            if len(table.schema_arrow) < len(KEYS):
+                raise HostError(f"{file} is no table of a recording: it has no columns {', '.join(KEYS)}.")
             for batch in table.iter_batches(_BLOCK):
                 time, count, epoch, *values = (column.to_numpy(zero_copy_only=False) for column in batch.columns)
                 yield Rows(time, count, epoch, np.column_stack(values) if values else np.zeros((len(time), 0)))
     except (pa.ArrowException, OSError) as error:
         words = reason(error) if isinstance(error, OSError) else str(error)
-        raise HostError(f"{file} cannot be read as Parquet: {' '.join(words.split())[:200]}.") from None
+        raise HostError(f"{file} cannot be read as Parquet: {one_line(words).rstrip('.')}.") from None
 
 
 def _csv_blocks(file: Path) -> Iterator[Rows]:
-    with file.open(encoding="utf-8") as text:
-        columns = text.readline().count(",") + 1
-        held: list[list[float]] = []
-        for number, line in enumerate(text, start=2):
-            if not line.endswith("\n"):  # the program was killed while it wrote
-                break
-            try:
-                held.append([float(cell) for cell in line.split(",")])
-            except ValueError as error:
-                raise HostError(f"{file}, line {number}: {error}.") from None
-            if len(held[-1]) != columns:
-                raise HostError(f"{file}, line {number}: {len(held[-1])} values where there are {columns} columns.")
-            if len(held) == _BLOCK:
-                yield _of_lines(held)
-                held = []
-        if held:
-            yield _of_lines(held)
+    table = TextTable(file, HostError, whole=True)
+    if table.width < len(KEYS):
+        raise HostError(f"{file} has {table.width} columns; a recording has {', '.join(KEYS)} and signals.")
+    rows = table.rows()
+    while block := [table.numbers(row, finite=False) for row in islice(rows, _BLOCK)]:
+        yield _of_lines(block)
 
 
 def _of_lines(lines: list[list[float]]) -> Rows:

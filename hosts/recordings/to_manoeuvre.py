@@ -1,4 +1,4 @@
-"""Makes a manoeuvre, which `ali3 drive` repeats, of a recording: its last drive without what was rewound."""
+"""Makes a manoeuvre, which `ali3 run` repeats, of a recording: its last drive without what was rewound."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ali3.files import whole_file, write_text
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value
+from hosts.driving.manoeuvre_table import write_table
 from hosts.fmu.fmu import StepRefusedError
 from hosts.recordings.last_drive import last_drive, manoeuvre_of
 from hosts.recordings.recorded_drive import RecordedDrive
@@ -64,26 +63,7 @@ def to_manoeuvre(
     state = None if last.whole else drive.start_state
     if first > 0:
         state = _state_at(drive, int(last.count[first]), fmu, progress)
-    made = manoeuvre_of(drive, last, first, stop, state)
-    files = [out]
-    lines = [f"# start: {name}={_text(value)}" for name, value in made.start.items()]
-    if state is not None:
-        file = out.with_suffix(".state")
-        with whole_file(file) as new:
-            new.write_bytes(state)
-        files.append(file)
-        lines.append(f"# state: {file.name} at {made.state_time!r}")
-    lines.append(",".join(f'"{name}"' for name in ("time", *made.inputs)))
-    table = np.column_stack([made.time, *made.inputs.values()])
-    lines += [",".join(map(repr, row)) for row in table.tolist()]
-    write_text(out, "\n".join(lines) + "\n")
-    return files
-
-
-def _text(value: Value) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    return f'"{value}"' if isinstance(value, str) else repr(value)
+    return write_table(manoeuvre_of(drive, last, first, stop, state), out)
 
 
 def _state_at(drive: RecordedDrive, count: int, fmu: Path | None, progress: Callable[[int], None]) -> bytes:

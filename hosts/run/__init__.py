@@ -1,1 +1,1 @@
-"""`ali3 drive`, `run` and `kerb`: one run of an FMU, its tables and charts."""
+"""`ali3 run`: one run of an FMU, its tables and charts."""

@@ -1,4 +1,4 @@
-"""The paper's test in one picture: ``ali3 kerb [FMU] [--fidelity N] [--step H] [--out DIR]``.
+"""The paper's kerb test in one picture: ``ali3 run --kerb``.
 
 Runs the FMU of the scene kerb_test for 15 s and draws the bending moments at the gauges, unfiltered and after a
 low-pass of 10 Hz, with the three intervals of the paper's Figure 8 marked. All through FMI.
@@ -6,21 +6,19 @@ low-pass of 10 Hz, with the three intervals of the paper's Figure 8 marked. All 
 
 from __future__ import annotations
 
-import argparse
-import sys
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.running import command_name, run_command
+from ali3.running import command_name
 from hosts.common.errors import HostError
-from hosts.common.numbers import number
-from hosts.common.options import Wishes, add_setting_options, wishes
+from hosts.common.options import Wishes
 
 if TYPE_CHECKING:
     from hosts.driving.co_simulation import Result
 
-DEFAULT_FMU = Path("dist", "KerbTest.fmu")
+SCENE = "kerb_test"
+DIST = Path("dist", "KerbTest.fmu")
+STEP = 0.01  # s
 DURATION = 15.0  # s
 INTERVALS = ((0.0, 5.0, "at rest"), (5.0, 10.0, "moving"), (10.0, 15.0, "at rest"))  # s
 GAUGES = ("SG1", "SG2", "SG3", "SG4")
@@ -28,46 +26,58 @@ PLACES = {"SG1": "front left", "SG2": "front right", "SG3": "rear left", "SG4": 
 FREQUENCY = 10.0  # Hz
 
 
-def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.run.kerb") -> int:
-    """Run the command, which the user typed as `prog`; 0 if every step was accepted."""
-    parser = argparse.ArgumentParser(
-        prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("fmu", nargs="?", type=Path, default=DEFAULT_FMU, metavar="FMU", help=f"default: {DEFAULT_FMU}")
-    parser.add_argument("--fidelity", type=number, metavar="N", help="1 to 3; default: that of the FMU")
-    parser.add_argument("--step", type=number, default=0.01, metavar="H", help="communication step, s; default: 0.01")
-    parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
-    add_setting_options(parser)
-    options = parser.parse_args(arguments)
-    return run_command(lambda: _kerb(options.fmu, options.fidelity, options.step, options.out, wishes(options)))
+def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out: Path, given: Wishes) -> int:
+    """Do the test, print its moments and write its files.
 
+    Parameters
+    ----------
+    file : Path, optional
+        FMU of the scene; by default `DIST`, else one that is built and kept.
+    fidelity : float, optional
+        1 to 3; by default that of the FMU.
+    step : float, optional
+        Communication step, s; by default `STEP`.
+    out : Path
+        Folder.
+    given : Wishes
 
-def _kerb(path: Path, fidelity: float | None, step: float, out: Path, given: Wishes) -> int:
+    Returns
+    -------
+    int
+        Exit code.
+
+    Raises
+    ------
+    HostError
+        The step is too long for the filter, or the FMU is none of this scene.
+    """
     import numpy as np
 
     from hosts.driving.co_simulation import communication_step, run_with_bar
     from hosts.driving.manoeuvre import Manoeuvre
     from hosts.driving.manoeuvre_settings import set_in
+    from hosts.fmu.built_fmu import fmu_of_scene
     from hosts.fmu.fmu import Fmu
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
 
+    step = STEP if step is None else step
     if not 0.0 < step < 0.5 / FREQUENCY:
         raise HostError(f"The step is {step:g} s; it must be positive and below {0.5 / FREQUENCY:g} s for the filter.")
-    build = f"{command_name('build')} --scene kerb_test"
-    if not path.is_file() and path == DEFAULT_FMU:
-        raise HostError(f"There is no file {path}. Build it with: {build}")
-    manoeuvre = Manoeuvre("kerb_test", np.zeros(0), {}, DURATION)
+    path = file if file is not None else DIST if DIST.is_file() else fmu_of_scene(SCENE, print)
+    manoeuvre = Manoeuvre(SCENE, np.zeros(0), {}, DURATION)
     with Fmu(path) as fmu:
         missing = [f"bending_moment.{g}" for g in GAUGES if f"bending_moment.{g}" not in fmu.variables]
         if missing:
-            raise HostError(f"{path} has no {missing[0]}; build the scene of this test: {build}")
+            raise HostError(
+                f"{path} has no {missing[0]}; build the scene of this test: {command_name('build')} --scene {SCENE}"
+            )
         table, picture, record = result_paths(out, "kerb_test")
         manoeuvre, settings = set_in(fmu, manoeuvre, given, fidelity)
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, step))
     if result["stress.computed"][0] != 1.0:
         raise HostError("At this fidelity the moments are not computed (stress.computed is 0); take 1, 2 or 3.")
     write_csv(result, table)
-    write_record(fmu, manoeuvre.name, step, settings, result, record)
+    write_record(fmu, manoeuvre, step, settings, result, record)
     rows = moments(result, step)
     draw(result, step, picture)
     print(f"{'gauge':<6}{'rest':>9}{'range':>18}{'filtered range':>18}{'end - rest':>12}   N m")
@@ -132,7 +142,3 @@ def draw(result: Result, step: float, file: Path) -> None:
         axes.set_xlabel("time, s")
     figure.suptitle("Prototype car down a kerb of 8 cm: the setting of the paper's Figure 8", fontsize=14)
     save_picture(figure, file)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

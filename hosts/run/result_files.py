@@ -9,6 +9,8 @@ from pathlib import Path
 
 from ali3.files import check_writable, whole_file, write_text
 from hosts.driving.co_simulation import Result
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre_table import write_state
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import Settings
 
@@ -45,14 +47,14 @@ def write_csv(result: Result, file: Path) -> None:
             writer.writerow([t, *row])
 
 
-def write_record(fmu: Fmu, manoeuvre: str, step: float, settings: Settings, result: Result, file: Path) -> None:
+def write_record(fmu: Fmu, manoeuvre: Manoeuvre, step: float, settings: Settings, result: Result, file: Path) -> None:
     """What was run, and what was set in the FMU, as JSON.
 
     Parameters
     ----------
     fmu : Fmu
-    manoeuvre : str
-        Its name.
+    manoeuvre : Manoeuvre
+        A state that it begins with is written beside the record.
     step : float
         Communication step, s.
     settings : Settings
@@ -60,15 +62,23 @@ def write_record(fmu: Fmu, manoeuvre: str, step: float, settings: Settings, resu
     file : Path
         Its folder is made if it is not there.
     """
+    state = None
+    if manoeuvre.state is not None:
+        state = {"file": write_state(manoeuvre.state, file).name, "time": manoeuvre.state_time}
     record = {
         "fmu": str(fmu.path),
         "model": fmu.description.modelName,
         "token": fmu.description.guid,
-        "manoeuvre": manoeuvre,
+        "manoeuvre": manoeuvre.name,
         "step_s": step,
         "simulated_s": result.simulated,
         "failed_steps": result.failed_steps,
         "set": settings.records(),
+        "start": settings.start,
+        "held": result.held,
+        "jumps": {k: [float(result.time[k]), *before] for k, before in result.jumps.items()},
+        "state": state,
+        "outputs_from": next(iter(fmu.names("output")), ""),
     }
     write_text(file, json.dumps(record, indent=2, ensure_ascii=False) + "\n")
 

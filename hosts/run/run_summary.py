@@ -73,6 +73,9 @@ def summary(
     if course is not None and "chassis.x" in result and "chassis.y" in result and "chassis.yaw" in result:
         out = course.corners_outside(result["chassis.x"], result["chassis.y"], result["chassis.yaw"], *outline)
         rows.append((course.name, f"passed, {-out:.2f} m to spare" if out <= 0.0 else f"missed by {out:.2f} m"))
+    moved = [name for name in result.late if np.ptp(result[name]) > 0.0]
+    if moved:
+        rows.append(("inputs held over a step", f"{', '.join(moved)}: {500.0 * step:.3g} ms late on average"))
     if "solver.iterations" in result and len(result.time) > 1:
         n = result["solver.iterations"][1:]
         rows.append(("Newton iterations", f"{n.mean():.2f} a step, {n.max():.0f} at most"))

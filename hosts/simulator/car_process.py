@@ -6,7 +6,6 @@ import gc
 import json
 import os
 import shutil
-import signal
 import sys
 import tempfile
 import threading
@@ -19,6 +18,7 @@ from typing import Any
 
 from fmpy.fmi1 import FMICallException
 
+from ali3.signals import ignore_stopping
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import StepRefusedError
@@ -64,7 +64,7 @@ class Order:
 
 def run_car(order: Order, link: connection.Connection) -> None:
     """Drive the FMU until the main process says stop or is gone; the process's whole life."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the main process, which then ends this one
+    ignore_stopping()  # the main process ends this one
     tempfile.tempdir = str(order.folder)
     shared = SharedValues(order.sizes, order.memory)
     threading.Thread(target=_end_with_parent, args=(shared.flags, order.folder), daemon=True).start()

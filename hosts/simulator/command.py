@@ -1,11 +1,9 @@
-"""The driving simulator: ``ali3 simulator [FMU] [--world NAME-or-FILE] [--headless --seconds N]``."""
+"""The driving simulator: ``ali3 simulator [FMU] [--world NAME-or-FILE] [--headless --stop-time T]``."""
 
 from __future__ import annotations
 
 import argparse
 import importlib.util
-import signal
-import threading
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -13,11 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.extras import missing_package
+from ali3.options import add_old_names, add_option
 from ali3.running import GOOD, NOT_GOOD, run_command
 from hosts.common.errors import HostError
-from hosts.common.numbers import number
-from hosts.common.options import add_setting_options, wishes
-from hosts.driving.manoeuvres import manoeuvre_names
+from hosts.common.options import add_fmu, add_setting_options, wishes
 
 if TYPE_CHECKING:
     from hosts.driving.manoeuvre import Manoeuvre
@@ -34,36 +31,38 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.si
     """Run the command, which the user typed as `prog`; 0 unless a run without a page had a refused step."""
     begin = time.monotonic()
     options = _parser(prog).parse_args(arguments)
-    return run_command(lambda: _simulate(options, begin))
+    return run_command(lambda: _simulate(options, begin) if options.recording is None else _recorded(options))
+
+
+def _recorded(options: argparse.Namespace) -> int:
+    from hosts.recordings.show import replay_recording, save_manoeuvre, show_recording
+
+    if options.replay and options.save_manoeuvre is not None:
+        raise HostError("A recording is repeated by --replay or written by --save-manoeuvre; give one of them.")
+    if options.save_manoeuvre is None and (options.begin, options.end) != (None, None):
+        raise HostError("--from and --to are the part of a recording that --save-manoeuvre writes.")
+    if options.save_manoeuvre is not None:
+        part = (options.begin, options.end)
+        return save_manoeuvre(options.recording, options.save_manoeuvre, part, options.fmu)
+    return replay_recording(options.recording, options.fmu) if options.replay else show_recording(options.recording)
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog=prog,
-        description="Drive an FMU in real time: from a page in the browser, by keys, gamepad or a steering wheel. "
-        "Ctrl-C ends with a report of the step times.",
+        description="Drive a car in real time: from a page in the browser, by keys, gamepad or a steering wheel. "
+        "Ctrl-C ends with a report of the step times. With --recording: say what a recording holds, repeat it, or "
+        "make a manoeuvre of it.",
     )
-    parser.add_argument(
-        "fmu",
-        nargs="?",
-        type=Path,
-        metavar="FMU",
-        help="FMI 2.0 co-simulation; default: dist/PrototypeCar.fmu, or one that is built and kept",
-    )
-    parser.add_argument("--world", metavar="NAME|FILE", help="a world, see ali3 world; default: proving_ground")
+    add_fmu(parser, "?", "dist/PrototypeCar.fmu, else prototype; of a recording: the one that was recorded")
+    add_option(parser, "--world", "proving_ground")
     parser.add_argument("--place", metavar="NAME", help="of the world, where the car starts; default: its first")
-    parser.add_argument(
-        "--step", type=number, default=0.002, metavar="H", help="communication step in s; default: 0.002"
-    )
-    parser.add_argument("--fidelity", type=number, metavar="N", help="how much model, where the FMU offers a choice")
+    add_option(parser, "--step", "0.002", default=0.002)
+    add_option(parser, "--fidelity", "that of the FMU")
     add_setting_options(parser)
-    parser.add_argument(
-        "--aliases",
-        type=Path,
-        metavar="FILE",
-        help="our names for those of another program: a TOML file, or chrono, carmaker, ...",
-    )
+    add_option(parser, "--aliases")
     parser.add_argument("--record", type=Path, metavar="DIR", help="record inputs and outputs of every step there")
+    add_option(parser, "--json")
     page = parser.add_argument_group("with a page")
     page.add_argument("--port", type=int, metavar="N", help="of the server; default: the first free one from 8765 on")
     page.add_argument(
@@ -72,18 +71,22 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         metavar="ADDRESS",
         help="address that the server listens on; default: 127.0.0.1, which only this machine reaches",
     )
-    page.add_argument("--no-open", action="store_true", help="do not open a browser")
+    add_option(page, "--no-open")
     page.add_argument("--no-devices", action="store_true", help="do not read wheels and gamepads of this machine")
     alone = parser.add_argument_group("without a page")
     alone.add_argument("--headless", action="store_true", help="no page; the run ends by itself")
-    alone.add_argument("--seconds", type=number, metavar="N", help="simulated time; default: that of the manoeuvre")
-    alone.add_argument(
-        *("--manoeuvre", "-m"),
-        metavar="NAME|CSV",
-        help=f"table of inputs over time, or one of: {', '.join(manoeuvre_names())}",
+    add_option(alone, "--stop-time", "that of the manoeuvre")
+    add_option(alone, "--manoeuvre")
+    add_option(alone, "--seed")
+    recorded = parser.add_argument_group("recordings")
+    recorded.add_argument("--recording", type=Path, metavar="DIR", help="of --record: say what it holds")
+    recorded.add_argument("--replay", action="store_true", help="repeat it in the FMU and compare every bit")
+    recorded.add_argument(
+        "--save-manoeuvre", type=Path, metavar="FILE.csv", help="write its last drive as a manoeuvre for ali3 run"
     )
-    alone.add_argument("--wild", type=int, metavar="SEED", help="a driver without sense moves the inputs")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the report")
+    add_option(recorded, "--from", dest="begin")
+    add_option(recorded, "--to", dest="end")
+    add_old_names(parser, {"--seconds": "--stop-time", "--wild": "--seed"})
     return parser
 
 
@@ -106,16 +109,24 @@ def _check(options: argparse.Namespace) -> None:
             raise HostError(missing_package(package))
     if not 0.0 < options.step <= 1.0:
         raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
-    alone = {"--seconds": options.seconds, "--manoeuvre": options.manoeuvre, "--wild": options.wild}
+    recorded = {"--replay": options.replay, "--save-manoeuvre": options.save_manoeuvre}
+    given = [
+        name
+        for name, value in {**recorded, "--from": options.begin, "--to": options.end}.items()
+        if value not in (None, False)
+    ]
+    if given:
+        raise HostError(f"{given[0]} is for a recording; --recording names its folder.")
+    alone = {"--stop-time": options.stop_time, "--manoeuvre": options.manoeuvre, "--seed": options.seed}
     given = [name for name, value in alone.items() if value is not None]
     if given and not options.headless:
         raise HostError(f"{given[0]} is for a run without a page; add --headless, or leave it out and end with Ctrl-C.")
-    if options.headless and options.seconds is None and options.manoeuvre is None:
-        raise HostError("A run without a page needs its length: --headless --seconds N, or a --manoeuvre.")
-    if options.seconds is not None and not 0.0 < options.seconds <= _LONGEST:
-        raise HostError(f"--seconds is {options.seconds:g}; it must be positive and at most {_LONGEST:g}.")
-    if options.manoeuvre is not None and options.wild is not None:
-        raise HostError("Inputs are given by --manoeuvre and by --wild; give one of them.")
+    if options.headless and options.stop_time is None and options.manoeuvre is None:
+        raise HostError("A run without a page needs its length: --headless --stop-time T, or a --manoeuvre.")
+    if options.stop_time is not None and not 0.0 < options.stop_time <= _LONGEST:
+        raise HostError(f"--stop-time is {options.stop_time:g}; it must be positive and at most {_LONGEST:g}.")
+    if options.manoeuvre is not None and options.seed is not None:
+        raise HostError("Inputs are given by --manoeuvre and by --seed; give one of them.")
 
 
 def _manoeuvre(options: argparse.Namespace) -> Manoeuvre | None:
@@ -143,7 +154,7 @@ def _started(options: argparse.Namespace, prepared: Prepared) -> Car:
             options.step,
             record=options.record,
             world=prepared.world.name or None,
-            seed=options.wild,
+            seed=options.seed,
         )
     )
 
@@ -165,19 +176,6 @@ def _reported(car: Car, options: argparse.Namespace, report: RunReport) -> Itera
             report.finish(car.step_times(), options.json)
 
 
-@contextmanager
-def _interrupted_by_sigterm() -> Iterator[None]:
-    """What ends programs from outside, such as `timeout` or a container, ends the run as Ctrl-C does."""
-    if threading.current_thread() is not threading.main_thread():  # Python has signals in the main thread only
-        yield
-        return
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
 def _alone(options: argparse.Namespace, begin: float, manoeuvre: Manoeuvre | None) -> int:
     """Without a page; the run ends by itself."""
     from hosts.simulator.aliased_car import AliasedCar
@@ -188,15 +186,14 @@ def _alone(options: argparse.Namespace, begin: float, manoeuvre: Manoeuvre | Non
     report = RunReport(begin)
     prepared = prepare(_asked(options, manoeuvre), report.tell)
     report.prepared(prepared, options.step)
-    seconds = options.seconds if options.seconds is not None else manoeuvre.stop_time if manoeuvre else 0.0
+    seconds = options.stop_time if options.stop_time is not None else manoeuvre.stop_time if manoeuvre else 0.0
     with _started(options, prepared) as started:
         car = AliasedCar(started, prepared.aliases)
-        driver = headless_driver(car, manoeuvre, options.wild)
+        driver = headless_driver(car, manoeuvre, options.seed)
         report.ready()
         with _reported(started, options, report):
             try:
-                with _interrupted_by_sigterm():
-                    good = run_headless(car, driver, seconds, report.event)
+                good = run_headless(car, driver, seconds, report.event)
             except KeyboardInterrupt:
                 report.tell("Ended by Ctrl-C or a signal.")
                 good = True

@@ -20,13 +20,13 @@ from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.fmu.aliases import Aliases, find_aliases
 from hosts.fmu.description_record import description_record
 from hosts.fmu.fmu import described
+from hosts.fmu.fmu_file import FoundFmu, find_fmu
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import Settings
 from hosts.fmu.variables import Variables
 from hosts.recordings.format import DESCRIPTION
 from hosts.recordings.recording import check_new
 from hosts.simulator.drivable import not_drivable
-from hosts.simulator.fmu_file import FoundFmu, find_fmu
 from hosts.simulator.world_files import DEFAULT_WORLD, World, make_world, no_world
 
 ITERATIONS = "solver.step_iterations"
@@ -134,7 +134,7 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
         check_writable(make_folder(asked.record) / DESCRIPTION)
     with ThreadPoolExecutor() as pool:
         ahead = None if asked.fmu is not None else pool.submit(_wanted_world, asked, tell)  # both may take a while
-        fmu = find_fmu(asked.fmu, tell)
+        fmu = find_fmu(asked.fmu, tell, "all")
         description = described(fmu.path)
         _check_kind(fmu.path, description)
         variables = Variables(description)

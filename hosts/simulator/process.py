@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import multiprocessing
-import signal
 import threading
 from collections.abc import Mapping
 from multiprocessing import connection
 
+from ali3.signals import how_ended
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.simulator.car_process import Order, run_car
 
 _START_SECONDS = 300.0
-_PATIENCE = (1.0, 0.4, 0.4)
+_PATIENCE = (1.4, 0.4)
 
 
 class Process:
@@ -65,7 +65,7 @@ class Process:
         """End it, within 2 s whatever it does; it must have been asked to before."""
         self._asked = True
         if self._process.pid is not None:
-            for patience, harder in zip(_PATIENCE, (self._process.terminate, self._process.kill, None), strict=True):
+            for patience, harder in zip(_PATIENCE, (self._process.kill, None), strict=True):
                 self._process.join(patience)
                 if self._process.exitcode is not None:
                     break
@@ -95,8 +95,4 @@ class Process:
 
     def _end(self) -> str:
         self._process.join(1.0)
-        code = self._process.exitcode
-        if code is not None and code < 0:
-            name = signal.Signals(-code).name if -code in set(signal.Signals) else str(-code)
-            return f"the car's process was ended by the signal {name}; start the simulator again."
-        return f"the car's process ended with the exit code {code}; start the simulator again."
+        return f"the car's process {how_ended(self._process.exitcode)}; start the simulator again."

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import struct
 from collections.abc import Callable, Collection
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ali3.reading import json_of
 from hosts.common.errors import HostError
 
 if TYPE_CHECKING:
@@ -136,8 +136,8 @@ def read_message(data: str | bytes, inputs: Collection[str]) -> Message:
     if not isinstance(data, str):
         raise HostError("A message is text; this one is binary.")
     try:
-        found = json.loads(data, parse_constant=_no_constant)
-    except (ValueError, RecursionError):
+        found = json_of(data.encode("utf-8", "surrogatepass"), HostError, "A message")
+    except HostError:
         raise HostError("A message is a JSON object; this one cannot be read.") from None
     if not isinstance(found, dict):
         raise HostError("A message is a JSON object; this one is none.")
@@ -218,10 +218,6 @@ def _text(value: Any, what: str) -> str:
     if not isinstance(value, str):
         raise HostError(f"{what} is {_short(value)}; it must be a text.")
     return value
-
-
-def _no_constant(text: str) -> float:
-    raise ValueError(text)
 
 
 def _short(value: Any) -> str:

@@ -73,6 +73,9 @@ class RunReport:
         }
         for name, words in prepared.settings.rows():
             self._show(f"{name}: {words}")
+        self._show(
+            f"Inputs are held over each step of {1e3 * step:g} ms: they act {500.0 * step:g} ms late on average."
+        )
 
     def ready(self) -> None:
         """Say how long it took until a page could come, or a run without one began."""

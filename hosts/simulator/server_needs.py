@@ -50,7 +50,7 @@ class Content:
     page : str
         HTML.
     world : mapping
-        JSON of the drawing of the world, as the command ``ali3 world`` writes it.
+        JSON of the drawing of the world, as ``ali3 road --world`` writes it.
     hello : mapping
         The first message to a page.
     places : mapping of str to mapping

@@ -9,6 +9,7 @@ from multiprocessing.shared_memory import SharedMemory
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.signals import kept_from_children
 from hosts.simulator.step_times import TIMES_SIZE
 
 MOMENT = (
@@ -205,7 +206,8 @@ class SharedValues:
         counters = 10
         doubles = 2 * moment + 2 * wants + 3 * _COMMANDS + row * sizes.rows + TIMES_SIZE
         size = 8 * (_FLAGS + counters + doubles) + _MESSAGE_BYTES
-        self._memory = SharedMemory(name) if name else SharedMemory(create=True, size=size)
+        with kept_from_children():  # shared memory has a process of Python's beside it
+            self._memory = SharedMemory(name) if name else SharedMemory(create=True, size=size)
         self.name = self._memory.name
         assert self._memory.buf is not None
         self._free, self._owner = self._memory.buf, name is None

@@ -227,10 +227,11 @@ class StepTimes:
         if self.paced:
             if abs(self.scheduled - self.simulated) > 1e-6 * self.simulated:
                 rows.append(f"at the speeds that were asked for (slow motion) this takes {self.scheduled:.3f} s")
-            share = 100.0 * self.missed / self.steps
+            # a schedule that is moved on leaves out deadlines, which are missed too
+            deadlines = max(self.missed, round(self.steps * (1.0 + self.lost / self.scheduled)))
             rows += [
                 f"lateness of its begin: {self.lateness.words()}",
-                f"missed deadlines: {self.missed} ({share:.3g} % of the steps)",
+                f"missed deadlines: {self.missed} of {deadlines} ({100.0 * self.missed / deadlines:.3g} %)",
             ]
             if self.skipped:
                 rows.append(

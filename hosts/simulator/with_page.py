@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ali3.extras import missing_module
+from ali3.signals import heeded, lose_terminals
 from hosts.common.errors import HostError
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.guard import Guard
@@ -141,11 +142,14 @@ def _torque(car: AliasedCar) -> Callable[[], float | None]:
 @contextmanager
 def _interrupted_by_signals(loop: asyncio.AbstractEventLoop, stop: asyncio.Event) -> Iterator[None]:
     """The first Ctrl-C, or a signal to end, sets `stop`; a second one interrupts."""
-    known = (signal.SIGINT, signal.SIGTERM)
+    known = heeded()
     before = {number: signal.getsignal(number) for number in known}
 
     def end(number: int, _: object) -> None:
-        signal.signal(number, before[signal.Signals(number)])
+        if signal.Signals(number).name == "SIGHUP":
+            lose_terminals()
+        else:
+            signal.signal(number, before[signal.Signals(number)])
         loop.call_soon_threadsafe(stop.set)
 
     try:

@@ -1,20 +1,14 @@
-"""One drive of a soak test: runs of some seconds, one after the other in one instance of the FMU.
-
-As a program it takes a task as JSON and prints lines of JSON: the seconds that are done, and the outcome.
-"""
+"""One drive of a soak test: runs of some seconds, one after the other in one instance of the FMU."""
 
 from __future__ import annotations
 
-import json
 import random
-import sys
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ali3.running import run_command
 from hosts.common.numbers import Value
 from hosts.driving.wild_driver import SENSES, WildDriver, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
@@ -79,7 +73,7 @@ class Failure:
         In the run, s.
     road : str
     manoeuvre : str
-        File for ``ali3 drive``; empty where it was not written.
+        File for ``ali3 run``; empty where it was not written.
     """
 
     kind: str
@@ -277,22 +271,3 @@ def drive(task: Task, tell: Callable[[float], None] = lambda seconds: None) -> O
     outcome.wall = clock.perf_counter() - begin
     outcome.memory_first, outcome.memory_last, outcome.memory_growth = made.memory.growth()
     return outcome
-
-
-def main() -> int:
-    """Drive the task of the first argument."""
-
-    def work() -> int:
-        outcome = drive(Task(**json.loads(sys.argv[1])), lambda seconds: _say({"done": seconds}))
-        _say({"outcome": asdict(outcome)})
-        return 0
-
-    return run_command(work)
-
-
-def _say(record: Mapping[str, Any]) -> None:
-    print(json.dumps(record), flush=True)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

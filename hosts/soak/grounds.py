@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-import subprocess
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -14,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.files import make_folder, whole_file
-from ali3.running import module_command
+from ali3.reading import read_json
+from hosts.common.commands import run_module
 from hosts.common.errors import HostError
 from hosts.common.road import road_value
 from hosts.driving.wild_driver import Target
@@ -135,7 +134,7 @@ def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
 
 
 def world_ground(name: str, folder: Path) -> Ground:
-    """The road of a world, by ``ali3 world``; its places are driven at.
+    """The road of a world, by ``ali3 road --world``; its places are driven at.
 
     Parameters
     ----------
@@ -146,14 +145,12 @@ def world_ground(name: str, folder: Path) -> Ground:
     Raises
     ------
     HostError
-        It is no world; with the words of ``ali3 world``.
+        It is no world; with the words of ``ali3 road --world``.
     """
-    command = module_command("mbs.worlds.command", name, "--out", str(make_folder(folder)))
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    run_module("ali3", "road", "--world", name, "--out", str(make_folder(folder)))
     files = sorted(folder.glob("*.json"), key=lambda file: file.stat().st_mtime)
-    if done.returncode != 0 or not files:
-        words = done.stderr.strip().splitlines()
-        raise HostError(words[-1].removeprefix("error: ") if words else f"{name} is no world.")
-    world = json.loads(files[-1].read_text(encoding="utf-8"))
+    if not files:
+        raise HostError(f"{name} is no world.")
+    world = read_json(files[-1], HostError)
     places = tuple(Target(place["x"], place["y"], place["yaw"]) for place in world["places"])
     return Ground(str((folder / world["road"]).absolute()), places)

@@ -75,7 +75,7 @@ class Stretch:
         Returns
         -------
         Path
-            The manoeuvre, for ``ali3 drive``.
+            The manoeuvre, for ``ali3 run``.
         """
         rows = [*self._parts[0].rows, *(row for part in self._parts[1:] for row in part.rows[1:])]
         units = {name: self._fmu.variables[name].unit or "1" for name in self._names}

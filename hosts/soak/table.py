@@ -82,8 +82,8 @@ def _print_failures(task: Task, outcome: Outcome, prog: str) -> None:
         print(f"{where}, run {failure.run}, {failure.time:g} s on {road}: {failure.kind}: {failure.text}")
         if failure.manoeuvre:
             again = f"{task.fmu} -m {failure.manoeuvre} --step {task.step:g}"
-            print(f"  the last seconds again: {command_name('drive')} {again}")
+            print(f"  the last seconds again: {command_name('run')} {again}")
     if outcome.failures or outcome.memory_growth > LARGEST_GROWTH:
         fidelity = "" if outcome.fidelity is None else f" --fidelity {outcome.fidelity}"
-        again = f"{task.fmu} --seed {task.seed}{fidelity} --seconds {task.seconds:g} --hours {task.seconds / 3600.0!r}"
+        again = f"{task.fmu} --seed {task.seed}{fidelity} --stop-time {task.seconds!r} --drives 1"
         print(f"  the whole drive again: {prog} {again}")

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.errors import FileError
+from ali3.files import locked
 from hosts.common.errors import HostError
-from hosts.study.folder import begin_study, check_same, free_space, locked, read_record
+from hosts.study.folder import begin_study, check_same, free_space, read_record
 from hosts.study.parts import PartWriter, forget_failed, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
@@ -83,7 +84,8 @@ def run_study(
         # columns of tests are known from the first half
         plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
         check_same(folder, before, plan.record)
-    with nullcontext() if dry else locked(folder):
+    busy = f"Another program runs a study in {folder}; wait for it, or give another --out."
+    with nullcontext() if dry else locked(folder, busy):
         if before is not None and not dry and not again and runs_done(folder, plan.runs).all():
             print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
             return Ended(folder, True, 0)
@@ -221,6 +223,7 @@ def _make(
         except (SchedulerLostError, KeyboardInterrupt) as error:
             execution.keep()
             if isinstance(error, KeyboardInterrupt):
+                print(_kept(plan, folder), file=sys.stderr)
                 raise
             lost = True
         except FileError as error:

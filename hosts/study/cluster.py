@@ -14,9 +14,10 @@ from typing import Any
 
 import cryptography  # noqa: F401 - Security.temporary needs it
 import dask
-from distributed import Client, LocalCluster, Security
+from distributed import Client, KilledWorker, LocalCluster, Security
 
 from ali3.cache import cache_folder
+from ali3.signals import kept_from_children
 from hosts.common.errors import HostError
 from hosts.study.plan import Plan
 from hosts.study.worker import StudyPlugin, why_wrong
@@ -121,23 +122,23 @@ def _local_cluster(workers: int, folder: Path) -> Iterator[LocalCluster]:
         "temporary-directory": str(folder),
     }
     places = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
-    with (
-        dask.config.set(settings),
-        LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            processes=True,
-            host="127.0.0.1",
-            protocol="tls://",  # every user of this machine reaches 127.0.0.1
-            security=Security.temporary(),
-            dashboard_address="127.0.0.1:0",  # None would take the port 8787
-            scheduler_kwargs={"dashboard": False},
-            local_directory=str(folder),
-            silence_logs=logging.CRITICAL,
-            env=places | {"OMP_NUM_THREADS": "1"},
-        ) as cluster,
-    ):
-        yield cluster
+    with dask.config.set(settings):
+        with kept_from_children():
+            cluster = LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                processes=True,
+                host="127.0.0.1",
+                protocol="tls://",  # every user of this machine reaches 127.0.0.1
+                security=Security.temporary(),
+                dashboard_address="127.0.0.1:0",  # None would take the port 8787
+                scheduler_kwargs={"dashboard": False},
+                local_directory=str(folder),
+                silence_logs=logging.CRITICAL,
+                env=places | {"OMP_NUM_THREADS": "1"},
+            )
+        with cluster:
+            yield cluster
 
 
 def bring(client: Client, plan: Plan) -> None:
@@ -158,10 +159,12 @@ def bring(client: Client, plan: Plan) -> None:
         client.register_plugin(plugin)
         answers = client.run(why_wrong, plan.key)
     except Exception as error:
-        words = str(error).strip().splitlines() or [type(error).__name__]
+        words = f"{type(error).__name__}: {(str(error).strip().splitlines() or ['no words'])[-1]}"
+        if isinstance(error, (OSError, KilledWorker)):
+            raise HostError(f"A worker has ended or was cut off before it had the study ({words}).") from None
         raise HostError(
-            f"A worker cannot take the study ({type(error).__name__}: {words[-1]}); it needs ALi3 of this version with "
-            'its extra: python -m pip install "ali3[study]".'
+            f"A worker cannot take the study ({words}); it needs ALi3 of this version with its extra: "
+            'python -m pip install "ali3[study]".'
         ) from None
     for address, answer in answers.items():
         if answer:

@@ -10,6 +10,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.options import add_old_names, add_option
 from ali3.running import NOT_GOOD, run_command
 from hosts.common.errors import HostError
 
@@ -20,27 +21,26 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.st
         prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("study", type=Path, metavar="STUDY", help="a study file, or the folder of a study's results")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="folder of the results; default: out/ and the name")
+    add_option(parser, "--out", "out/ and the name of the study")
     parser.add_argument(
         "--scheduler",
         metavar="ADDRESS",
         help="a scheduler of Dask, tls://HOST:PORT with the certificates of its configuration; default: workers here",
     )
-    parser.add_argument("--workers", type=int, metavar="N", help="processes here; default: one for each core")
-    parser.add_argument("--dry-run", "--list", action="store_true", help="check all, print the plan and stop")
+    add_option(parser, "--jobs", "as the computer has cores")
+    parser.add_argument("--dry-run", action="store_true", help="check all, print the plan and stop")
     parser.add_argument("--again", action="store_true", help="make failed runs again")
     parser.add_argument("--run", type=int, metavar="INDEX", help="print the commands that repeat a run of the results")
     parser.add_argument("--report", action="store_true", help="only write the report of the results")
     parser.add_argument("--no-report", action="store_true", help="write no report at the end")
+    add_old_names(parser, {"--workers": "--jobs", "--list": "--dry-run"})
     options = parser.parse_args(arguments)
     return run_command(lambda: _study(options, prog))
 
 
 def _study(options: argparse.Namespace, prog: str) -> int:
-    if options.workers is not None and options.workers < 1:
-        raise HostError(f"--workers is {options.workers}; at least one is needed.")
-    if options.workers is not None and options.scheduler is not None:
-        raise HostError("--workers are those of this machine, --scheduler has its own; give one of them.")
+    if options.jobs is not None and options.scheduler is not None:
+        raise HostError("--jobs are processes of this machine, --scheduler has its own; give one of them.")
     if options.run is not None:
         return _repeat(options)
     if options.report:
@@ -49,7 +49,7 @@ def _study(options: argparse.Namespace, prog: str) -> int:
         raise HostError(_of_folder(options.study, prog))
     from hosts.study.campaign import run_study
 
-    ended = run_study(options.study, options.out, options.scheduler, options.workers, options.dry_run, options.again)
+    ended = run_study(options.study, options.out, options.scheduler, options.jobs, options.dry_run, options.again)
     if ended is None:
         return 0
     if not options.no_report:

@@ -1,22 +1,19 @@
-"""The folder of a study: one program at a time writes to it, and only one study lives in it."""
+"""The folder of a study: only one study lives in it."""
 
 from __future__ import annotations
 
 import json
 import os
 import shutil
-import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ali3.errors import FileError
-from ali3.files import make_folder, reason, whole_file, write_text
+from ali3.files import make_folder, whole_file, write_text
+from ali3.reading import read_json
 from hosts.common.errors import HostError
 
 RECORD, RUNS, SIGNALS = "study.json", "runs", "signals"
-_LOCK = ".lock"
 _FREE = ("versions", "file", "units", "measures", "created", "reuse")
 """Keys of the record that may differ between two halves of a study, or follow from others."""
 _WORDS = {
@@ -29,39 +26,6 @@ _WORDS = {
 _MOST = 3
 
 
-@contextmanager
-def locked(folder: Path) -> Iterator[None]:
-    """A folder that no other program writes to; the lock goes with the process that holds it, however it ends.
-
-    Raises
-    ------
-    HostError
-        Another program writes to it.
-    """
-    make_folder(folder)
-    try:
-        stream = (folder / _LOCK).open("a+b")
-    except OSError as error:
-        raise FileError(f"The folder {folder} cannot be written: {reason(error)}.") from None
-    with stream:
-        try:
-            _lock(stream.fileno())
-        except OSError:
-            raise HostError(f"Another program runs a study in {folder}; wait for it, or give another --out.") from None
-        yield
-
-
-def _lock(number: int) -> None:
-    if sys.platform == "win32":
-        import msvcrt
-
-        msvcrt.locking(number, msvcrt.LK_NBLCK, 1)
-    else:
-        import fcntl
-
-        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
-
-
 def read_record(folder: Path) -> dict[str, Any] | None:
     """What is known of the study in a folder; None where there is none.
 
@@ -71,14 +35,9 @@ def read_record(folder: Path) -> dict[str, Any] | None:
         The file is damaged.
     """
     file = folder / RECORD
-    if not file.is_file():
+    if not file.exists():
         return None
-    try:
-        record = json.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise HostError(f"{file} cannot be read: {reason(error)}.") from None
-    except ValueError as error:
-        raise HostError(f"{file} is damaged: {error}.") from None
+    record = read_json(file, HostError, finite=False)
     if not isinstance(record, dict):
         raise HostError(f"{file} is damaged: it is no JSON object.")
     return record

@@ -15,6 +15,7 @@ from hosts.common.numbers import Value
 from hosts.driving.co_simulation import check_columns, communication_step, driver_of
 from hosts.driving.driver import ACTS
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.manoeuvre_file import SUFFIXES
 from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
@@ -104,9 +105,10 @@ def _place(name: str, file: Path) -> str:
     """A manoeuvre of the package by its name, else a file beside the study."""
     if name in manoeuvre_names():
         return name
-    if Path(name).suffix not in (".csv", ".ini") and not (file.parent / name).is_dir():
+    if Path(name).suffix not in SUFFIXES and not (file.parent / name).is_dir():
         near = difflib.get_close_matches(name, manoeuvre_names(), 1)
-        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(manoeuvre_names())}, or a CSV file."
+        known = ", ".join(manoeuvre_names())
+        hint = f"did you mean {near[0]}?" if near else f"known are {known}, or a TOML or CSV file."
         raise HostError(f"{file}: there is no manoeuvre '{name}'; {hint}")
     return str(file.parent / name)
 

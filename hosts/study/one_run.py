@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import time as clock
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,9 @@ from hosts.study.work import DONE, FAILED, INCOMPLETE, Job, Outcome, Work
 _MOST_NOTES = 3
 _MOST_MESSAGES = 5
 _LONGEST = 300  # characters of a message
+
+Task: TypeAlias = tuple[Job, Mapping[str, Value], int]
+"""A job, values of the parameters, and the seed."""
 
 
 class Bench:
@@ -46,6 +50,10 @@ class Bench:
         if self._fmu is not None:
             fmu, self._fmu = self._fmu, None
             fmu.__exit__(None, None, None)
+
+    def __call__(self, task: Task, tell: Callable[[Any], None]) -> Outcome:
+        """See `run`; as work for a process."""
+        return self.run(*task)
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
         """Make a run; whatever goes wrong in it is its outcome.
@@ -78,7 +86,7 @@ class Bench:
         manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
         result = run(seen, manoeuvre, job.step, driver_of(seen, manoeuvre))
         if work.aliases.derived:
-            work.aliases.with_central_rates(result.names, result.time, result.values)
+            result.derive(work.aliases)
         outcome = _of_result(result, job)
         if job.every:
             outcome.signals = sampled(result, work.signals, job)

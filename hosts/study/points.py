@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Protocol
 
-from ali3.files import reason
+from ali3.tables import TextTable, number_of
+from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.variables import Variable
@@ -122,43 +122,32 @@ def table_points(
     Raises
     ------
     HostError
-        With the row (the first below the heading is 1), the name and the value.
+        With the line, the name and the value.
     """
-    try:
-        with file.open(newline="", encoding="utf-8-sig") as stream:
-            lines = [line for line in csv.reader(stream, skipinitialspace=True) if any(cell.strip() for cell in line)]
-    except OSError as error:
-        raise HostError(f"The table {file} cannot be read: {reason(error)}.") from None
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise HostError(f"The table {file} is no CSV file: {error}.") from None
-    if len(lines) < 2:
-        raise HostError(f"The table {file} has no points; it needs a heading and at least one row.")
-    names = [name.strip() for name in lines[0]]
-    twice = next((name for k, name in enumerate(names) if name in names[:k]), None)
-    if twice is not None:
-        raise HostError(f"The table {file} has two columns '{twice}'; each parameter has one.")
+    table = TextTable(file, HostError, f"The table {file}")
+    names = table.names
     variables = [variable_of(name, f"{file}, heading") for name in names]
     unknown = next((name for name in entries if name not in names), None)
     if unknown is not None:
         raise HostError(f"parameters.'{unknown}' is no column of {file}; its columns are {', '.join(names)}.")
     columns: dict[str, list[Value]] = {name: [] for name in names}
-    for row, cells in enumerate(lines[1:], start=1):
-        where = f"{file}, row {row}"
-        if len(cells) != len(names):
-            raise HostError(f"{where}: {len(cells)} values where the heading has {len(names)} columns.")
-        for variable, cell in zip(variables, cells, strict=True):
+    for row in table.rows():
+        for variable, cell in zip(variables, row.cells, strict=True):
             unit = entries[variable.name].unit if variable.name in entries else None
-            columns[variable.name].append(_cell(cell, variable, unit, where))
+            text = cell.replace(",", ".") if table.decimal and variable.kind == "Real" else cell
+            columns[variable.name].append(_cell(text, variable, unit, f"{file}, line {row.line}"))
+    if not columns[names[0]]:
+        raise HostError(f"The table {file} has no points; it needs a heading and at least one row.")
     return TablePoints(columns)
 
 
 def _cell(text: str, variable: Variable, unit: str | None, where: str) -> Value:
     if unit is None or unit == variable.unit or variable.kind != "Real":
-        return variable.read(text.strip(), where)
+        return variable.read(text, where)
     try:
-        number = float(text)
+        number = number_of(text)
     except ValueError:
-        raise HostError(f"{where}: '{variable.name}': {text.strip()!r} is not a number.") from None
+        raise HostError(f"{where}: '{variable.name}': {brief(text)} is not a number.") from None
     return in_unit(number, unit, variable, where)
 
 

@@ -10,14 +10,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.files import make_folder, write_text
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.driving.manoeuvre_file import write_manoeuvre
 from hosts.study.folder import read_record
 
 if TYPE_CHECKING:
-    from hosts.driving.manoeuvre import Manoeuvre
     from hosts.study.work import Job
 
 FOLDER = "repeat"
@@ -89,8 +88,8 @@ def repeater(folder: str | os.PathLike[str]) -> Callable[[int, bool], Repeat]:
         if job.manoeuvre is None:
             return _test(job, fmu, values, aliases, place / FOLDER / f"run-{index}")
         if aliases:
-            return Repeat("", "")  # the command drive knows the names of the FMU only
-        return _drive(job, fmu, values, place / FOLDER / f"run-{index}.csv", write)
+            return Repeat("", "")  # the command run knows the names of the FMU only
+        return _drive(job, fmu, values, place / FOLDER / f"run-{index}.toml", write)
 
     return repeat
 
@@ -110,11 +109,10 @@ def _test(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[st
 def _drive(job: Job, fmu: Path, values: Mapping[str, Value], file: Path, write: bool) -> Repeat:
     assert job.manoeuvre is not None
     if write:
-        _write_manoeuvre(job.manoeuvre, file)
-    name = file if job.manoeuvre.inputs else file.with_suffix(".ini")
-    words = [str(fmu), "-m", str(name), "--step", repr(job.step), *_sets(values)]
-    drive = _line("drive", [*words, "--out", str(file.parent)])
-    return Repeat(drive, _line("view", [*words, "--out", str(file.with_suffix(".html"))]))
+        write_manoeuvre(job.manoeuvre, file)
+    words = [str(fmu), "-m", str(file), "--step", repr(job.step), *_sets(values)]
+    drive = _line("run", [*words, "--out", str(file.parent)])
+    return Repeat(drive, _line("view", [*words, "--out", str(file.parent)]))
 
 
 def _sets(values: Mapping[str, Value]) -> list[str]:
@@ -127,29 +125,3 @@ def _text(value: Value) -> str:
 
 def _line(command: str, words: list[str]) -> str:
     return f"{command_name(command)} {shlex.join(words)}"
-
-
-def _write_manoeuvre(manoeuvre: Manoeuvre, file: Path) -> None:
-    """A manoeuvre with all its start values, as the command drive reads it."""
-    make_folder(file.parent)
-    sections = {
-        "run": {"stop_time": repr(manoeuvre.stop_time)},
-        "start": {name: f'"{x}"' if isinstance(x, str) else _text(x) for name, x in manoeuvre.start.items()},
-        "driver": manoeuvre.driver,
-    }
-    text = "\n".join(
-        f"[{name}]\n" + "".join(f"{key} = {value}\n" for key, value in section.items())
-        for name, section in sections.items()
-        if section
-    )
-    write_text(file.with_suffix(".ini"), text)
-    if not manoeuvre.inputs:
-        return
-    lines = [",".join(f'"{name}"' for name in ("time", *manoeuvre.inputs))]
-    columns = [manoeuvre.time.tolist(), *(values.tolist() for values in manoeuvre.inputs.values())]
-    lines += [",".join(map(repr, row)) for row in zip(*columns, strict=True)]
-    if manoeuvre.state is not None:
-        state = file.with_suffix(".state")
-        state.write_bytes(manoeuvre.state)
-        lines.insert(0, f"# state: {state.name} at {manoeuvre.state_time!r}")
-    write_text(file, "\n".join(lines) + "\n")

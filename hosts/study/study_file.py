@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import tomllib
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from ali3.files import reason
+from ali3.reading import LARGEST_TOML, read_bytes, toml_of
+from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
-from hosts.study.file_errors import sentence
 
 METHODS = ("grid", "latin_hypercube", "sobol", "saltelli", "table")
-_LARGEST = 10_000_000
 
 Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
 Setting: TypeAlias = bool | int | Number | str
@@ -27,13 +26,11 @@ class _Part(BaseModel):
 class ParameterEntry(_Part):
     """How a parameter of the FMU is varied."""
 
-    range: list[Number] | None = Field(
-        default=None, min_length=2, max_length=2, description="two numbers, low and high"
-    )
-    values: list[Setting] | None = Field(default=None, min_length=1, description="a list of at least one value")
-    count: int | None = Field(default=None, ge=1, description="a whole number, how many values of the range a grid has")
-    unit: str | None = Field(default=None, description="the unit of the FMU or a display unit of it, as text")
-    log: bool = Field(default=False, description="true or false: whether the range is divided by the logarithm")
+    range: list[Number] | None = Field(default=None, min_length=2, max_length=2, title="two numbers, low and high")
+    values: list[Setting] | None = Field(default=None, min_length=1, title="a list of at least one value")
+    count: int | None = Field(default=None, ge=1, title="a whole number, how many values of the range a grid has")
+    unit: str | None = Field(default=None, title="the unit of the FMU or a display unit of it, as text")
+    log: bool = Field(default=False, title="true or false: whether the range is divided by the logarithm")
 
     @model_validator(mode="after")
     def _fits(self) -> ParameterEntry:
@@ -51,12 +48,12 @@ class ParameterEntry(_Part):
 class ManoeuvreEntry(_Part):
     """What is done with the FMU at each point."""
 
-    name: Name | None = Field(default=None, description="letters, digits, dots, minus signs and underscores")
-    manoeuvre: str | None = Field(default=None, description="a manoeuvre of the command drive: its name or a file")
-    test: str | None = Field(default=None, description="the name of a test of the command catalogue")
-    settings: dict[str, Number] = Field(default_factory=dict, description="numbers by the name of a test's setting")
-    stop_time: Number | None = Field(default=None, gt=0.0, description="a positive number, s")
-    start: dict[str, Setting] = Field(default_factory=dict, description="values by names of parameters or inputs")
+    name: Name | None = Field(default=None, title="letters, digits, dots, minus signs and underscores")
+    manoeuvre: str | None = Field(default=None, title="a manoeuvre of the command run: its name or a file")
+    test: str | None = Field(default=None, title="the name of a test of the command catalogue")
+    settings: dict[str, Number] = Field(default_factory=dict, title="numbers by the name of a test's setting")
+    stop_time: Number | None = Field(default=None, gt=0.0, title="a positive number, s")
+    start: dict[str, Setting] = Field(default_factory=dict, title="values by names of parameters or inputs")
 
     @model_validator(mode="after")
     def _fits(self) -> ManoeuvreEntry:
@@ -75,12 +72,12 @@ class SamplingEntry(_Part):
     """Which points there are."""
 
     method: Literal["grid", "latin_hypercube", "sobol", "saltelli", "table"] = Field(
-        default="grid", description=f"one of {', '.join(METHODS)}"
+        default="grid", title=f"one of {', '.join(METHODS)}"
     )
-    runs: int | None = Field(default=None, ge=1, le=2**30, description="a positive whole number of points")
-    seed: int = Field(default=0, ge=0, lt=2**63, description="a whole number from 0")
-    second_order: bool = Field(default=False, description="true or false, for the method saltelli")
-    file: str | None = Field(default=None, description="a CSV file whose heading names parameters")
+    runs: int | None = Field(default=None, ge=1, le=2**30, title="a positive whole number of points")
+    seed: int = Field(default=0, ge=0, lt=2**63, title="a whole number from 0")
+    second_order: bool = Field(default=False, title="true or false, for the method saltelli")
+    file: str | None = Field(default=None, title="a CSV file whose heading names parameters")
 
     @model_validator(mode="after")
     def _fits(self) -> SamplingEntry:
@@ -99,25 +96,25 @@ class SamplingEntry(_Part):
 class SignalsEntry(_Part):
     """What is kept over time."""
 
-    names: list[str] = Field(min_length=1, description="a list of at least one name of an input or output")
-    interval: Number = Field(gt=0.0, description="a positive number, s")
+    names: list[str] = Field(min_length=1, title="a list of at least one name of an input or output")
+    interval: Number = Field(gt=0.0, title="a positive number, s")
 
 
 class StudyFile(_Part):
     """A study."""
 
-    name: Name | None = Field(default=None, description="letters, digits, dots, minus signs and underscores")
-    fmu: str | None = Field(default=None, description="the path of an FMU")
-    car: str | None = Field(default=None, description="a car of the package by its name, or a car file")
-    aliases: str | None = Field(default=None, description="an alias file, or the name of one of the package")
-    step: Number | None = Field(default=None, gt=0.0, description="a positive number, s")
-    time_limit: Number | None = Field(default=None, gt=0.0, description="a positive number, s, that a run may take")
-    start: dict[str, Setting] = Field(default_factory=dict, description="values by names of parameters or inputs")
-    manoeuvres: list[ManoeuvreEntry] = Field(min_length=1, description="at least one table [[manoeuvres]]")
-    sampling: SamplingEntry = Field(default=SamplingEntry(), description="a table")
-    parameters: dict[str, ParameterEntry] = Field(default_factory=dict, description="a table for each parameter")
-    signals: SignalsEntry | None = Field(default=None, description="a table with names and interval")
-    measures: dict[Name, str] = Field(default_factory=dict, description="what is computed, as text, by its name")
+    name: Name | None = Field(default=None, title="letters, digits, dots, minus signs and underscores")
+    fmu: str | None = Field(default=None, title="the path of an FMU")
+    car: str | None = Field(default=None, title="a car of the package by its name, or a car file")
+    aliases: str | None = Field(default=None, title="an alias file, or the name of one of the package")
+    step: Number | None = Field(default=None, gt=0.0, title="a positive number, s")
+    time_limit: Number | None = Field(default=None, gt=0.0, title="a positive number, s, that a run may take")
+    start: dict[str, Setting] = Field(default_factory=dict, title="values by names of parameters or inputs")
+    manoeuvres: list[ManoeuvreEntry] = Field(min_length=1, title="at least one table [[manoeuvres]]")
+    sampling: SamplingEntry = Field(default=SamplingEntry(), title="a table")
+    parameters: dict[str, ParameterEntry] = Field(default_factory=dict, title="a table for each parameter")
+    signals: SignalsEntry | None = Field(default=None, title="a table with names and interval")
+    measures: dict[Name, str] = Field(default_factory=dict, title="what is computed, as text, by its name")
 
     @model_validator(mode="after")
     def _fits(self) -> StudyFile:
@@ -157,23 +154,18 @@ def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
     HostError
         With the key, its value, and what would be right.
     """
-    if file.is_dir():
-        raise HostError(f"{file} is a folder; a study is a TOML file.")
-    if not file.is_file():
-        raise HostError(f"There is no file {file}.")
-    try:
-        if file.stat().st_size > _LARGEST:
-            raise HostError(f"{file} has {file.stat().st_size} bytes; a study file has at most {_LARGEST}.")
-        content = file.read_bytes()
-    except HostError:
-        raise
-    except OSError as error:
-        raise HostError(f"{file} cannot be read: {reason(error)}.") from None
-    try:
-        record: dict[str, Any] = tomllib.loads(content.decode("utf-8-sig"))
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise HostError(f"{file} is no TOML file: {error}.") from None
+    content = read_bytes(file, LARGEST_TOML, HostError)
+    record = toml_of(content, HostError, str(file))
     try:
         return StudyFile.model_validate(record), content
     except ValidationError as error:
-        raise HostError(f"{file}: {sentence(error, StudyFile)}") from None
+        raise HostError(f"{file}: {Sentences(StudyFile, record, place=_place).of(error)[0]}") from None
+
+
+def _place(path: Sequence[str]) -> str:
+    """A key path with places in lists from 1, as people count manoeuvres."""
+    text = ""
+    for part in path:
+        name = part if part.replace("_", "").isalnum() else f"'{part}'"
+        text += f"[{int(part) + 1}]" if part.isdigit() else f".{name}" if text else name
+    return text

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import Any
 
 from hosts.common.errors import HostError
-from hosts.study.isolated import Task, run_isolated
+from hosts.study.isolated import IsolatedBench
+from hosts.study.one_run import Task
 from hosts.study.plan import Plan
-from hosts.study.work import FAILED, INCOMPLETE, Job, Outcome, seed_of
+from hosts.study.work import FAILED, INCOMPLETE, Job, Outcome, Work, seed_of
 
 _LONGEST = 2.0  # s of a run that is repeated for the test of reuse
 _ROW = 60.0  # bytes of a row in a part beside its numbers
@@ -56,7 +58,7 @@ def try_out(plan: Plan) -> Trial:
         for point in points:
             # with no columns known, a test tells which it has
             tried = work if job.manoeuvre is not None else replace(work, columns=())
-            outcome = run_isolated(tried, plan.fmu, [_task(plan, job, point)])[0]
+            outcome = _outcomes(tried, plan, [_task(plan, job, point)])[0]
             if outcome.status != FAILED:
                 break
             notes.append(f"Run {point * len(work.jobs) + number}, {job.label}, fails: {outcome.reason}")
@@ -75,6 +77,11 @@ def try_out(plan: Plan) -> Trial:
     elif any(job.manoeuvre is not None for job in work.jobs):
         notes.append("The FMU does not give the same bits after a reset: each run loads a new instance.")
     return Trial(max(seconds, 1e-6), reuse, columns, tuple(notes))
+
+
+def _outcomes(work: Work, plan: Plan, tasks: Sequence[Task]) -> list[Outcome]:
+    with closing(IsolatedBench(work, plan.fmu)) as bench:
+        return [bench.run(*task) for task in tasks]
 
 
 def _task(plan: Plan, job: Job, point: int) -> Task:
@@ -97,7 +104,7 @@ def _reuse(plan: Plan, good: list[tuple[int, Job, int, Outcome]]) -> tuple[bool,
     work = replace(plan.work, reuse=True, measures=(), signals=plan.outputs)
     other = (point + plan.points.count // 2) % plan.points.count
     tasks = [_task(plan, short, p) for p in (point, other, point)]
-    first, _, again = run_isolated(work, plan.fmu, tasks)
+    first, _, again = _outcomes(work, plan, tasks)
     if first.status == FAILED or again.status == FAILED or first.signals is None or again.signals is None:
         return False, None
     same = first.signals.tobytes() == again.signals.tobytes()

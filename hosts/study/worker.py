@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
-import faulthandler
 import hashlib
 import tempfile
 import threading
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -17,7 +14,7 @@ from distributed import Worker, WorkerPlugin, get_worker
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
-from hosts.study.isolated import run_isolated
+from hosts.study.isolated import IsolatedBench
 from hosts.study.one_run import Bench
 from hosts.study.program import program_digest
 from hosts.study.work import Chunk, Outcome, Work, seed_of
@@ -34,18 +31,19 @@ class _Room:
     work: Work
     seed: int
     folder: tempfile.TemporaryDirectory[str]
-    benches: list[Bench] = field(default_factory=list)
+    benches: list[Bench | IsolatedBench] = field(default_factory=list)
     of_thread: threading.local = field(default_factory=threading.local)
 
     @property
     def fmu(self) -> Path:
         return Path(self.folder.name, self.work.fmu)
 
-    def bench(self) -> Bench:
+    def bench(self, kind: type[Bench] | type[IsolatedBench]) -> Bench | IsolatedBench:
         """That of this thread."""
-        bench = getattr(self.of_thread, "bench", None)
+        bench: Bench | IsolatedBench | None = getattr(self.of_thread, kind.__name__, None)
         if bench is None:
-            bench = self.of_thread.bench = Bench(self.work, self.fmu)
+            bench = kind(self.work, self.fmu)
+            setattr(self.of_thread, kind.__name__, bench)
             self.benches.append(bench)
         return bench
 
@@ -126,25 +124,6 @@ def run_chunk(key: str, chunk: Chunk) -> list[Outcome]:
         point, number = divmod(index, len(work.jobs))
         values = {name: column[k] for name, column in chunk.values.items()}
         tasks.append((work.jobs[number], values, seed_of(room.seed, point)))
-    alone = worker.state.nthreads == 1
-    if chunk.isolated or (work.time_limit is not None and not alone):
-        return run_isolated(work, room.fmu, tasks)
-    bench = room.bench()
-    outcomes = []
-    for task in tasks:
-        with _limited(work.time_limit):
-            outcomes.append(bench.run(*task))
-    return outcomes
-
-
-@contextlib.contextmanager
-def _limited(limit: float | None) -> Iterator[None]:
-    """End this process if the block takes longer, which nothing else can do to the code of an FMU."""
-    if limit is None:
-        yield
-        return
-    faulthandler.dump_traceback_later(limit, exit=True, file=2)
-    try:
-        yield
-    finally:
-        faulthandler.cancel_dump_traceback_later()
+    # nothing but the end of its process ends the code of an FMU
+    bench = room.bench(IsolatedBench if chunk.isolated or work.time_limit is not None else Bench)
+    return [bench.run(*task) for task in tasks]

@@ -1,1 +1,1 @@
-"""`ali3 view` and `page`: results and FMUs in a browser."""
+"""`ali3 view`: results and FMUs in a browser."""

@@ -10,8 +10,8 @@ from typing import Any
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.view.page_parts import FmuParts, packed
+from viewer.html_document import html_document
 from viewer.page_data import page_data
-from viewer.page_file import html_document
 from viewer.recording import Recording
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ali3.files import reason
+from ali3.reading import read_json
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
@@ -30,7 +29,7 @@ class RunWishes:
     Parameters
     ----------
     manoeuvre : str, optional
-        As for the command drive.
+        As for the command run.
     stop_time, step : float, optional
         s.
     wishes : Wishes
@@ -95,8 +94,8 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
 def _no_kind(path: Path) -> str:
     if path.is_dir():
         return f"{path} is a folder; name a result in it (a .csv file), an FMU, or the folder of a recording."
-    if path.suffix.lower() in (".toml", ".py"):
-        return f"{path} is shown when it is built: {command_name('build')} makes an FMU of a car or a scene."
+    if path.suffix.lower() == ".py":
+        return f"{path} is shown when it is built: {command_name('build')} makes an FMU of a scene."
     return f"{path} is neither a result (.csv, .json) nor an FMU (.fmu)."
 
 
@@ -152,12 +151,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
 
 def _record(file: Path) -> dict[str, Any] | None:
     """The record beside a result; None where it is another JSON file."""
-    try:
-        record = json.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise HostError(f"{file} cannot be read: {reason(error)}.") from None
-    except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
-        raise HostError(f"{file}, the record of the result, is no JSON file: {error}.") from None
+    record = read_json(file, HostError, f"{file}, the record of the result,", finite=False)
     if not isinstance(record, dict) or not isinstance(record.get("fmu"), str):
         return None
     entries = record.get("set", [])
@@ -203,8 +197,7 @@ def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[s
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
     from hosts.fmu.fmu import Fmu
-    from hosts.recordings.load_manoeuvre import load_manoeuvre
-    from hosts.run.run import run_manoeuvre
+    from hosts.recordings.load_manoeuvre import manoeuvre_of
 
     told = []
     with Fmu(path) as fmu:
@@ -213,10 +206,7 @@ def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[s
         if given is None and car and wanted.stop_time is None:
             given = _CAR_MANOEUVRE
             told.append(f"{path} is driven through {given}; --manoeuvre names another.")
-        if given is not None:
-            manoeuvre = with_names_of(load_manoeuvre(given), fmu.variables)
-        else:
-            manoeuvre = run_manoeuvre(fmu, None, wanted.stop_time)
+        manoeuvre = with_names_of(manoeuvre_of(fmu, given, wanted.stop_time), fmu.variables)
         check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
         manoeuvre, settings = set_in(fmu, manoeuvre, wanted.wishes)

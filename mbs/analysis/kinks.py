@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.simulation import State
 from mbs.simulation.evaluator import SHIFT, Evaluator
+from mbs.simulation.state import State
 
 Array = NDArray[np.float64]
 
@@ -28,7 +28,6 @@ def smooth_side(evaluator: Evaluator, side: int | None) -> State:
 
     Parameters
     ----------
-    evaluator : Evaluator
     side : {1, -1} or None
         Rising or falling velocities; None takes rising ones and warns.
 

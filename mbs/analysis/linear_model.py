@@ -30,14 +30,15 @@ from numpy.typing import NDArray
 from mbs.analysis.kinks import smooth_side
 from mbs.analysis.steady_motion import SteadyFrame, steady_frame
 from mbs.common.checks import instance_of, is_number, shown
-from mbs.simulation import Simulation, State
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
+from mbs.simulation.state import State
+from mbs.simulation.stepping import Simulation
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
 
 STEADY = 1e-2  # accelerations that a frame does not explain, share of those of the motion and of its forces
-STILL = 1e-3  # m/s2; smaller accelerations are none
+STILL = 1e-3  # m/s2; smaller accelerations count as zero
 STATE_TOLERANCE = (
     1e-3  # 1/s; slots with smaller slopes of their rates (gears, clocks) have no dynamics; above round-off
 )
@@ -145,8 +146,6 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
 
     Raises
     ------
-    ArgumentTypeError
-        `simulation` is no Simulation.
     ValueError
         If the state is neither an equilibrium nor part of a steady motion, or a coordinate moves no mass.
 

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from mbs.analysis.linear_model import admissible_motions
 from mbs.common.checks import instance_of, is_finite, shown
-from mbs.simulation import Simulation
 from mbs.simulation.arguments import check_resolution
 from mbs.simulation.evaluator import Evaluator
+from mbs.simulation.stepping import Simulation
 
 Array = NDArray[np.float64]
 
@@ -68,8 +68,6 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
 
     Raises
     ------
-    ArgumentTypeError
-        `simulation` is no Simulation.
     ValueError
         If the motion does not come back after the period, or force elements have states of their own.
     SimulationError

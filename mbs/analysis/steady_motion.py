@@ -66,7 +66,6 @@ def steady_frame(evaluator: Evaluator, V: Array) -> SteadyFrame:
 
     Parameters
     ----------
-    evaluator : Evaluator
     V : array of shape (nq, n)
         Admissible displacements.
 

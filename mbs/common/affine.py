@@ -109,11 +109,6 @@ class AffineVector:
         ----------
         constant : array_like, shape (2,) or (3,)
             As many numbers as there are components.
-
-        Returns
-        -------
-        Affine
-            The expression.
         """
         return sum_affine(a * float(c) for a, c in zip(self.components, np.asarray(constant, float), strict=True))
 

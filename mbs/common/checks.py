@@ -1,6 +1,6 @@
 """Checks of what a user hands in: each returns a clean value or raises one sentence with the name and the value.
 
-A number may be anything that is one: of Python, of NumPy, an array without dimensions. Text and truth values are none.
+A number is a real number of Python or NumPy, or an array without dimensions; text and truth values are refused.
 `what` names the thing as the subject of the sentence, such as "The mass of body 'rod'". Errors are `ModelError` where a
 model is described; what runs a System passes `ValueError`.
 """
@@ -175,7 +175,7 @@ def instance_of(kind: type[Thing] | tuple[type[Thing], ...], value: object, what
     Raises
     ------
     ArgumentTypeError
-        Where it is none; `wanted` says in a few words what would be.
+        The value is of another class; `wanted` says in a few words what would be right.
     """
     if not isinstance(value, kind):
         raise ArgumentTypeError(f"{capital(what)} must be {wanted}, not {shown(value)}.")

@@ -17,8 +17,6 @@ class FlexibleShapes:
 
     Parameters
     ----------
-    name : str
-        Of the body.
     first : int
         Its first amplitude among the full coordinates; the others follow.
     turns : array of shape (nodes, 3, modes)

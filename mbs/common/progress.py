@@ -2,65 +2,56 @@
 
 from __future__ import annotations
 
-import sys
+import math
 import time
 from collections.abc import Callable
-from types import TracebackType
-from typing import TextIO
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
 
 DELAY = 2.0  # s of wall time before a bar appears by itself
-WIDTH = 40
+_FORM = "{percentage:3.0f} % {bar:40} {remaining} left"
 
 
 class Progress:
-    """Bar on a text stream; silent until `delay` seconds have passed.
+    """A bar on the standard error stream; silent until `delay` seconds have passed.
 
     Parameters
     ----------
     delay : float
         Seconds before the bar appears.
-    stream : text stream, optional
-        Where it is drawn; the standard error stream by default.
     clock : callable
         Seconds, monotone.
     """
 
-    def __init__(
-        self, delay: float, stream: TextIO | None = None, clock: Callable[[], float] = time.perf_counter
-    ) -> None:
-        self._stream = sys.stderr if stream is None else stream
-        self._clock = clock
-        self._delay = delay
-        self._start = clock()
-        self._shown = False
+    def __init__(self, delay: float, clock: Callable[[], float] = time.perf_counter) -> None:
+        self._clock, self._from = clock, clock() + delay
+        self._bar: tqdm[None] | None = None
 
     def __enter__(self) -> Progress:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if self._shown:
-            self._stream.write("\n")
-            self._stream.flush()
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.close()
 
     def update(self, share: float) -> None:
         """Show that `share` (0 to 1) of the run is done."""
-        elapsed = self._clock() - self._start
-        if elapsed < self._delay:
-            return
-        self._shown = True
-        filled = int(WIDTH * share)
-        left = elapsed * (1.0 - share) / share if share > 0.0 else 0.0
-        self._stream.write(f"\r[{'#' * filled}{'.' * (WIDTH - filled)}] {100 * share:3.0f} %, {left:.0f} s left ")
-        self._stream.flush()
+        if self._bar is None:
+            if self._clock() < self._from:
+                return
+            from tqdm import tqdm
+
+            self._bar = tqdm(total=1.0, initial=share, bar_format=_FORM)
+        self._bar.update(share - self._bar.n)
 
 
 class Callback(Progress):
     """Hands every update to a function."""
 
     def __init__(self, function: Callable[[float], None]) -> None:
-        super().__init__(0.0)
+        super().__init__(math.inf)
         self._function = function
 
     def update(self, share: float) -> None:
@@ -73,4 +64,4 @@ def progress_for(choice: bool | Callable[[float], None] | None) -> Progress:
         return Callback(choice)
     if choice is None:
         return Progress(DELAY)
-    return Progress(0.0 if choice else float("inf"))
+    return Progress(0.0 if choice else math.inf)

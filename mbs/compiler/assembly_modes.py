@@ -13,14 +13,14 @@ J. Mech. Des. 115 (1993).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.compiler.block_rows import affine_of, moving_part, quadratics
+from mbs.compiler.block_rows import MovingPart, affine_of, moving_part, quadratics
 from mbs.compiler.loops import Block, blocks_of_loops
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.tables import Signals, ragged
@@ -46,8 +46,8 @@ assert TURN < DEFINITE  # no combination of signs is stepped over
 
 def mode_arrays(
     model: Model, rows: Sequence[RowTerms], full: Sequence[Affine], q: Array, guides: Array, signals: Signals
-) -> dict[str, Any]:
-    """The `mode_` arrays.
+) -> tuple[dict[str, Any], Callable[[], dict[str, Any]]]:
+    """The `mode_` arrays of the triads, and what traces their loops for those of the modes: only steps need these.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def mode_arrays(
     guides : ndarray
         Values of the guides there.
     """
-    numbers, cells, names = [], [], []
+    numbers, loops, names = [], [], []
     for block in blocks_of_loops(model):
         if len(block.vertices) > MOST_VERTICES:
             continue
@@ -68,15 +68,15 @@ def mode_arrays(
         if not 0 < len(found) <= MOST_TRIADS:
             continue
         rings = sorted({t.ring for t in found})
-        modes = _modes(model, block, found, rows, full, q, guides)
         numbers.append([n for t in found for n in _items(t, signals, rings.index(t.ring))])
-        cells.append([n for cell in modes for n in cell])
+        loops.append((block, found, moving_part(model, block, rows, full)))
         names += [list(t.name.encode()) for t in found]
-    return {
-        **ragged("mode_triad", numbers, np.int64),
-        **ragged("mode_cell", cells, np.int64),
-        **ragged("mode_name", names, np.int64),
-    }
+
+    def modes() -> dict[str, Any]:
+        cells = [[n for cell in _modes(*loop, full, q, guides) for n in cell] for loop in loops]
+        return ragged("mode_cell", cells, np.int64)
+
+    return {**ragged("mode_triad", numbers, np.int64), **ragged("mode_name", names, np.int64)}, modes
 
 
 def _items(triad: Triad, signals: Signals, ring: int) -> list[int]:
@@ -86,16 +86,9 @@ def _items(triad: Triad, signals: Signals, ring: int) -> list[int]:
 
 
 def _modes(
-    model: Model,
-    block: Block,
-    found: Sequence[Triad],
-    rows: Sequence[RowTerms],
-    full: Sequence[Affine],
-    q: Array,
-    guides: Array,
+    block: Block, found: Sequence[Triad], part: MovingPart, full: Sequence[Affine], q: Array, guides: Array
 ) -> list[tuple[int, int]]:
     """Modes as (signs, mask); none where the block has not one freedom or does not come back to its start."""
-    part = moving_part(model, block, rows, full)
     if not part.rows or part.bends or len(part.coordinates) > MOST_COORDINATES:
         return []
     hinges = _frame_hinges(block, full, q)

@@ -45,8 +45,8 @@ class Quadratics:
 
     def at(self, x: Array) -> tuple[Array, Array]:
         """Values and gradients."""
-        slope = self.hessian @ x
-        return self.constant + self.linear @ x + 0.5 * slope @ x, self.linear + slope
+        slope = (self.hessian.reshape(-1, len(x)) @ x).reshape(self.linear.shape)  # one product is faster than m
+        return self.constant + (self.linear + 0.5 * slope) @ x, self.linear + slope
 
 
 def moving_part(model: Model, block: Block, rows: Sequence[RowTerms], full: Sequence[Affine]) -> MovingPart:

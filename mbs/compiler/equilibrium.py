@@ -38,7 +38,7 @@ def equilibrium(system: System, parameters: Mapping[str, float]) -> NDArray[np.f
 
     `parameters` hold only while it is sought: a drive that pushes has no equilibrium.
     """
-    instance = Instance(LoadedSystem(system.to_bytes(drawing=False)))
+    instance = Instance(LoadedSystem(system.to_bytes(drawing=False, modes=False)))
     names = [entry["name"] for entry in system.meta["parameters"]]
     unknown = [name for name in parameters if name not in names]
     if unknown:

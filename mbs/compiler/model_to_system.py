@@ -57,7 +57,6 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
 
     Parameters
     ----------
-    model : Model
     tolerance : float
         Largest correction of an overconstrained loop, parts of the size of its drawing (m/m) and rad; 0 takes every
         drawing as it is.
@@ -136,7 +135,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
     tree, no_tree = tree_arrays(model, signals, remaining, new)
-    modes = mode_arrays(model, holding, full, q[new], guides, signals)
+    triads, modes = mode_arrays(model, holding, full, q[new], guides, signals)
     tables: dict[str, Any] = {
         "q0": q,
         "qd0": qd,
@@ -160,7 +159,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         **flexible_arrays(model, full, new, locate),
         **pose_arrays(model, natural, remaining, of_z, q[new], order),
         **tree,
-        **modes,
+        **triads,
         **start_arrays(None, {}),
         "pose_partner": pose_partners(model, natural, remaining, of_z, signals, order),
         **signals.arrays(),
@@ -181,13 +180,13 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     report["length"], report["length_stated"] = length, model.length is not None
     meta = metadata(model, [c.name for c in info], rows, report, lengths)
     if not flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
-        return System(tables, meta, frames, drawing(model, frames.T, z0, q))
+        return System(tables, meta, frames, drawing(model, frames.T, z0, q), modes)
     parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
     resting = System(tables, meta, frames)
     q = equilibrium(resting, parameters)
     tables.update(start_arrays(resting, parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
-    return System(tables, meta, frames, drawing(model, frames.T, z0, q))
+    return System(tables, meta, frames, drawing(model, frames.T, z0, q), modes)
 
 
 def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:

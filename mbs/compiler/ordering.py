@@ -14,13 +14,13 @@ Index = NDArray[np.int64]
 
 def clique_pattern(n: int, cliques: Iterable[Sequence[int]]) -> sparse.csc_matrix:
     """Symmetric 0/1 pattern with a full diagonal in which every clique is a dense block."""
-    rows: list[NDArray[np.int64]] = [np.arange(n)]
-    columns: list[NDArray[np.int64]] = [np.arange(n)]
-    for clique in cliques:
-        c = np.asarray(clique, dtype=np.int64)
-        rows.append(np.repeat(c, len(c)))
-        columns.append(np.tile(c, len(c)))
-    i, j = np.concatenate(rows), np.concatenate(columns)
+    blocks = [[k] for k in range(n)] + [list(clique) for clique in cliques]
+    members = np.array([k for block in blocks for k in block], dtype=np.int64)
+    sizes = np.array([len(block) for block in blocks], dtype=np.int64)
+    # a row of the block for each member, which has them all
+    lengths, first = np.repeat(sizes, sizes), np.repeat(np.cumsum(sizes) - sizes, sizes)
+    i = np.repeat(members, lengths)
+    j = members[np.repeat(first - np.cumsum(lengths) + lengths, lengths) + np.arange(len(i))]
     pattern = sparse.coo_matrix((np.ones(len(i)), (i, j)), shape=(n, n)).tocsc()
     pattern.data[:] = 1.0
     return pattern

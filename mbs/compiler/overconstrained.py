@@ -38,7 +38,7 @@ MOST_TOLERANCE = 0.01
 NEAR = 0.03
 """A singular value below this part of the largest may be that of a redundant condition drawn badly."""
 TIGHT = 1e-9
-"""A singular value below this part of the largest is none."""
+"""A singular value below this part of the largest counts as zero."""
 MOST_BODIES = 40
 """Loops of more bodies are taken as drawn."""
 ITERATIONS = 25

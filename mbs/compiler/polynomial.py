@@ -77,8 +77,12 @@ def substitute(expression: Affine, full: Sequence[Affine]) -> Affine:
         constant += c * of_z.constant
         biggest = max(biggest, abs(c * of_z.constant))
         for j, v in of_z.terms.items():
-            terms[j] = terms.get(j, 0.0) + c * v
-            size[j] = max(size.get(j, 0.0), abs(c * v))
+            part = c * v
+            if j in terms:
+                terms[j] += part
+                size[j] = max(size[j], abs(part))
+            else:
+                terms[j], size[j] = part, abs(part)
     return Affine(
         {j: v for j, v in terms.items() if abs(v) > DROP * size[j]},
         constant if abs(constant) > DROP * biggest else 0.0,

@@ -51,7 +51,7 @@ def rigid_rows(body: Body, full: Sequence[Affine]) -> list[RowTerms]:
     chosen: list[tuple[Vector, AffineVector]] = []
     for _, _, w, expression in ranked:
         units = np.array([v / np.linalg.norm(v) for v in [*(c[0] for c in chosen), w]])
-        if np.linalg.svd(units, compute_uv=False)[-1] > INDEPENDENT:
+        if len(units) == 1 or np.linalg.svd(units, compute_uv=False)[-1] > INDEPENDENT:
             chosen.append((w, expression))
         if len(chosen) == needed:
             break

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 MOST_JOINTS, MOST_CUT_ROWS = 64, 64
 """Relative coordinates are solved for as a dense matrix: beyond so many the sparse methods are faster."""
 PARALLEL = 1e-9
-"""Sine of the angle between two axes that are one."""
+"""Largest sine of the angle between two axes that count as the same."""
 FORMED = ("revolute", "prismatic")
 """Joints that the tree is made of."""
 

@@ -4,10 +4,12 @@ the rows. At a singular position the predictor goes on along the smooth branch.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg.lapack import dgesv
 
 from mbs.compiler.block_rows import Quadratics
 
@@ -38,8 +40,8 @@ class Way:
 
 def sine_cosine(vectors: Array, turned: NDArray[np.bool_]) -> tuple[Array, Array]:
     """Of the angle from b to c seen along n; `vectors` has the shape (angles, 3, 3): n, b, c."""
-    n, b, c = vectors[:, 0], vectors[:, 1], vectors[:, 2]
-    bc, nb, nc, nn = ((u * v).sum(axis=1) for u, v in ((b, c), (n, b), (n, c), (n, n)))
+    products = vectors @ vectors.transpose(0, 2, 1)
+    nn, nb, nc, bc = products[:, 0, 0], products[:, 0, 1], products[:, 0, 2], products[:, 1, 2]
     sine = np.sqrt(nn) * np.linalg.det(vectors)
     cosine = nn * bc - nb * nc  # (n x b) . (n x c)
     size = np.maximum(np.hypot(sine, cosine), 1e-300)
@@ -75,14 +77,14 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
             y, J = corrected
             s, c = angles(y)
             turn = np.arctan2(s * cosine - c * sine, c * cosine + s * sine)
-            largest = float(np.max(np.abs(turn)))
+            largest = float(abs(turn).max())
         if corrected is None or largest > TURN:
             step *= 0.5
             if step < 1e-6 * size:
                 return None
             continue
         went = y - x
-        length = float(np.linalg.norm(went))
+        length = math.sqrt(went @ went)
         new = _next_direction(J, went / length)
         if new is None:
             return None
@@ -105,24 +107,31 @@ def _corrected(phi: Quadratics, x: Array, t: Array, tolerance: float) -> tuple[A
     """The position on the rows across the direction, and their gradients there."""
     for _ in range(8):
         value, J = phi.at(x)
-        move = _solved(np.vstack([J, t]), np.append(-value, 0.0))
+        move = _solved(J, t, -value, 0.0)
         x = x + move
-        if np.linalg.norm(move) < CLOSED * np.linalg.norm(x):
+        if move @ move < CLOSED**2 * (x @ x):
             break
     value, J = phi.at(x)
-    return (x, J) if np.max(np.abs(value)) <= tolerance else None
+    return (x, J) if abs(value).max() <= tolerance else None
 
 
-def _solved(A: Array, b: Array) -> Array:
-    """By elimination where that will do, else by least squares: of redundant rows and where branches cross."""
-    if A.shape[0] == A.shape[1]:
-        try:
-            x = np.linalg.solve(A, b)
-        except np.linalg.LinAlgError:
-            x = np.full(len(b), np.inf)
-        if np.linalg.norm(x) <= 10.0 * np.linalg.norm(b):
-            return np.asarray(x)
-    return np.asarray(np.linalg.lstsq(A, b, rcond=1e-8)[0])
+def _solved(J: Array, t: Array, values: Array, along: float) -> Array:
+    """x of ``J x = values`` and ``t x = along``, by elimination where that will do, else by least squares: of redundant
+    rows and where branches cross.
+    """
+    if len(J) == len(t) - 1:
+        x = _eliminated(J, t, values, along)
+        if x is not None and x @ x <= 100.0 * (values @ values + along**2):
+            return x
+    return np.asarray(np.linalg.lstsq(np.vstack([J, t]), np.append(values, along), rcond=1e-8)[0])
+
+
+def _eliminated(J: Array, t: Array, values: Array, along: float) -> Array | None:
+    """The same of as many rows as unknowns; None where they are singular."""
+    A, b = np.empty((len(t), len(t)), order="F"), np.empty(len(t))
+    A[:-1], A[-1], b[:-1], b[-1] = J, t, values, along
+    _, _, x, singular = dgesv(A, b, overwrite_a=True, overwrite_b=True)
+    return None if singular else np.asarray(x)
 
 
 def _first_direction(J: Array, slope: Array) -> Array | None:
@@ -146,16 +155,17 @@ def _next_direction(J: Array, went: Array) -> tuple[Array, float] | None:
     Of several directions at a singular position the one that goes straight on.
     """
     values = np.linalg.svd(J, compute_uv=False)
-    values = np.append(values, np.zeros(J.shape[1] - len(values)))
-    free = int(np.sum(values <= SMALL * values[0]))
+    tight = int((values > SMALL * values[0]).sum())
+    free = J.shape[1] - tight
     if free == 0:
         return None
-    second = float(values[-free - 1] / values[0]) if free < len(values) else 1.0
+    second = float(values[tight - 1] / values[0]) if tight > 0 else 1.0
     if free == 1 and len(J) == len(went) - 1:
         # one elimination in place of all singular vectors
-        t = np.linalg.solve(np.vstack([J, went]), np.append(np.zeros(len(J)), 1.0))
-        length = 1.0 / float(np.linalg.norm(t))
-        return (t * length, second) if length > 0.5 else None
+        t = _eliminated(J, went, np.zeros(len(J)), 1.0)
+        if t is None or t @ t >= 4.0:  # not the smooth branch
+            return None
+        return t / math.sqrt(t @ t), second
     null = np.linalg.svd(J)[2][-free:]
     t = null.T @ (null @ went)
     length = float(np.linalg.norm(t))

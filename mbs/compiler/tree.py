@@ -31,7 +31,7 @@ from mbs.model.model import Model
 Array = NDArray[np.float64]
 
 EQUAL_MOMENTS = 1e-12
-"""Relative difference of two principal moments of inertia that are one."""
+"""Largest relative difference of two principal moments of inertia that count as equal."""
 CARRIED = 5
 """Numbers per coordinate that the kernel's state has for what a method carries."""
 NAMES = (

@@ -28,23 +28,11 @@ class BodyForce:
 
         Parameters
         ----------
-        name : str
-            Unique among the elements of a model.
         point : AffineVector
             Where the force acts.
         axes : sequence of AffineVector
             Three unit vectors in space, one in the plane (the second is it turned left); constant ones are fixed in the
             earth.
-
-        Returns
-        -------
-        ElementRecord
-            For `Model.add`.
-
-        Raises
-        ------
-        ModelError
-            Point, axes and inputs are not of one dimension.
         """
         what = f"the force '{name}'"
         size(point, (2, 3), f"The point of {what}")
@@ -54,4 +42,4 @@ class BodyForce:
             raise ValueError(f"The axes of {what} must be {wanted} of {dimension} components.")
         numbers = channels(self.inputs, dimension, what)
         signals = [s for vector in (point, *axes) for s in vector.components]
-        return ElementRecord(name, ElementType.BODY_FORCE, signals, (), (*numbers, -1)[:3])
+        return ElementRecord(name, ElementType.BODY_FORCE, signals, integer=(*numbers, -1)[:3])

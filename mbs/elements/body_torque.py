@@ -34,20 +34,8 @@ class BodyTorque:
 
         Parameters
         ----------
-        name : str
-            Unique among the elements of a model.
         frame : sequence of AffineVector
             Orthonormal vectors of a body: a, b, c in space, a alone in the plane.
-
-        Returns
-        -------
-        ElementRecord
-            For `Model.add`.
-
-        Raises
-        ------
-        ModelError
-            Frame and inputs are not of one dimension, or the axes are none.
         """
         what = f"the torque '{name}'"
         lengths = [len(v) for v in frame]
@@ -58,4 +46,4 @@ class BodyTorque:
             raise ModelError(f"The axes of {what} are {shown(self.axes)}; they must be 'earth' or 'body'.")
         signals = [s for vector in frame for s in vector.components]
         integers = (*numbers, int(self.axes == "body")) if len(frame) == 3 else (-1, -1, *numbers, 0)
-        return ElementRecord(name, ElementType.BODY_TORQUE, signals, (), integers)
+        return ElementRecord(name, ElementType.BODY_TORQUE, signals, integer=integers)

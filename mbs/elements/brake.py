@@ -6,33 +6,27 @@ import math
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import not_negative, positive
-from mbs.elements.record import ElementRecord, Output
+from mbs.common.checks import positive
+from mbs.elements.reals import NotNegative, Positive, reals_of
+from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
 from mbs.kernel.header import ElementType
 
 
 @dataclass(frozen=True)
 class Brake:
-    """Elastoplastic friction torque between a wheel and its carrier.
+    """Elastoplastic friction torque between a wheel and its carrier."""
 
-    Parameters
-    ----------
-    max_torque : float
-        Torque at full pedal, N m.
-    stick_stiffness, stick_damping : float
-        Of the sticking brake, N m/rad and N m s/rad.
-    share : float
-        Factor on max_torque, so that a total torque and a balance may be parameters.
-    hand_torque : float
-        Torque at full hand brake, N m; that of the pedal is added to it.
-    """
-
-    max_torque: float
-    stick_stiffness: float
-    stick_damping: float
-    share: float = 1.0
-    hand_torque: float = 0.0
+    max_torque: NotNegative
+    """Torque at full pedal, N m."""
+    stick_stiffness: Positive
+    """Of the sticking brake, N m/rad."""
+    stick_damping: Positive
+    """Of the sticking brake, N m s/rad."""
+    share: NotNegative = 1.0
+    """Factor on max_torque, so that a total torque and a balance may be parameters."""
+    hand_torque: NotNegative = 0.0
+    """Torque at full hand brake, N m; that of the pedal is added to it."""
 
     @staticmethod
     def for_wheel(max_torque: float, radius: float, spin_inertia: float, travel: float = 0.9e-3) -> Brake:
@@ -48,16 +42,6 @@ class Brake:
             Of the wheel about its axis, kg m2.
         travel : float
             By which the tread gives, m.
-
-        Returns
-        -------
-        Brake
-            With its stick stiffness and damping.
-
-        Raises
-        ------
-        ModelError
-            A number is not positive.
         """
         torque, r = (
             positive(max_torque, "The largest torque of a brake"),
@@ -74,8 +58,6 @@ class Brake:
 
         Parameters
         ----------
-        name : str
-            Unique among the elements of a model.
         f, g : AffineVector
             Orthonormal vectors of the carrier, f x g along the axis.
         spin : Affine
@@ -84,16 +66,6 @@ class Brake:
             Number of the input of the pedal, 0 to 1.
         hand : int, optional
             Number of the input of the hand brake, 0 to 1.
-
-        Returns
-        -------
-        ElementRecord
-            For `Model.add`.
-
-        Raises
-        ------
-        ModelError
-            A number is not one or outside its range; the message names it.
         """
         what = f"the brake '{name}'"
         size(f, (3,), f"The vector f of {what}")
@@ -102,13 +74,7 @@ class Brake:
             name,
             ElementType.BRAKE,
             (*f.components, *g.components, spin),
-            (
-                not_negative(self.max_torque, f"The largest torque of {what}"),
-                positive(self.stick_stiffness, f"The stick stiffness of {what}"),
-                positive(self.stick_damping, f"The stick damping of {what}"),
-                not_negative(self.share, f"The share of {what}"),
-                not_negative(self.hand_torque, f"The hand torque of {what}"),
-            ),
+            *columns(reals_of(self, what)),
             (index(input, f"The input of {what}"), -1 if hand is None else index(hand, f"The hand brake of {what}")),
             (0.0, 0.0),
             (
@@ -116,6 +82,4 @@ class Brake:
                 Output("sticking", "1", "1 while the brake sticks, else 0"),
                 Output("rate", "rad/s", "spin of the wheel relative to its carrier"),
             ),
-            ("max_torque", "stick_stiffness", "stick_damping", "share", "hand_torque"),
-            (not_negative, positive, positive, not_negative, not_negative),
         )

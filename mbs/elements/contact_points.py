@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from numpy.typing import ArrayLike
 
 from mbs.common.affine import AffineVector
-from mbs.common.checks import array, not_negative, positive
+from mbs.common.checks import array, positive
 from mbs.common.errors import ModelError
-from mbs.elements.record import Check, ElementRecord, Output
+from mbs.elements.reals import NotNegative, Positive, reals_of
+from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
 from mbs.kernel.header import ElementType
 
@@ -27,30 +28,22 @@ class ContactPoints:
     ``1/(1 - chi d')`` coming out (Hunt and Crossley 1975, without their pull), so that a point that meets the road
     with v leaves it with v1, ``(chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3``. Friction is elastoplastic, a
     spring and damper in series with a slider that slips at mu times the normal force: it holds at rest.
-
-    Parameters
-    ----------
-    stiffness : float
-        K of one point, N/m.
-    onset : float
-        w, m.
-    loss : float
-        chi, s/m.
-    stick_stiffness, stick_damping : float
-        Of a point that sticks, N/m and N s/m.
-    friction_factor : float
-        Multiplies the friction of the road.
-    radius : float
-        Of the spheres around the points, m; 0: points.
     """
 
-    stiffness: float
-    stick_stiffness: float
-    stick_damping: float
-    onset: float = 0.005
-    loss: float = 0.0
-    friction_factor: float = 1.0
-    radius: float = 0.0
+    stiffness: Positive
+    """K of one point, N/m."""
+    stick_stiffness: Positive
+    """Of a point that sticks, N/m."""
+    stick_damping: Positive
+    """Of a point that sticks, N s/m."""
+    onset: Positive = 0.005
+    """w, m."""
+    loss: NotNegative = 0.0
+    """chi, s/m."""
+    friction_factor: NotNegative = 1.0
+    """Multiplies the friction of the road."""
+    radius: NotNegative = 0.0
+    """Of the spheres around the points, m; with 0 they are points."""
 
     @staticmethod
     def for_mass(
@@ -80,16 +73,6 @@ class ContactPoints:
             Of the spheres around the points, m.
         gravity : float
             m/s2.
-
-        Returns
-        -------
-        ContactPoints
-            With these numbers.
-
-        Raises
-        ------
-        ModelError
-            Mass, depth, onset or gravity is not positive.
         """
         m, d, w = (
             positive(v, f"The {name} of contact points")
@@ -106,26 +89,12 @@ class ContactPoints:
 
         Parameters
         ----------
-        name : str
-            Unique among the elements of a model.
         origin : AffineVector
             Origin of the body.
         axes : sequence of AffineVector
             Its three axes.
         points : array_like, shape (n, 3)
             From the origin along the axes, m.
-        road : int
-            Number of the road, from `Model.road`.
-
-        Returns
-        -------
-        ElementRecord
-            For `Model.add`.
-
-        Raises
-        ------
-        ModelError
-            A number is not one or outside its range, or the points are not of that shape.
         """
         what = f"the contact points '{name}'"
         for vector in (origin, *axes):
@@ -133,22 +102,13 @@ class ContactPoints:
         places = array(points, (None, 3), f"the points of {what}")
         if len(axes) != 3 or not len(places):
             raise ModelError(f"The {what[4:]} need 3 axes and points of shape (n, 3); got {places.shape}.")
-        data: tuple[tuple[str, float, Check], ...] = (
-            ("radius", self.radius, not_negative),
-            ("stiffness", self.stiffness, positive),
-            ("onset", self.onset, positive),
-            ("loss", self.loss, not_negative),
-            ("stick_stiffness", self.stick_stiffness, positive),
-            ("stick_damping", self.stick_damping, positive),
-            ("friction_factor", self.friction_factor, not_negative),
-        )
-        named = {key: check(value, f"The {key.replace('_', ' ')} of {what}") for key, value, check in data}
+        order = ("radius", "stiffness", "onset", "loss", "stick_stiffness", "stick_damping", "friction_factor")
         box = (*places.min(axis=0).tolist(), *places.max(axis=0).tolist())
         return ElementRecord(
             name,
             ElementType.CONTACT_POINTS,
             (*origin.components, *(s for axis in axes for s in axis.components)),
-            (*named.values(), *box, *places.ravel().tolist()),
+            *columns(reals_of(self, what, order), *box, *places.ravel().tolist()),
             (index(road, f"The road of {what}"), len(places)),
             (0.0,) * (STATES * len(places)),
             (
@@ -159,6 +119,4 @@ class ContactPoints:
                 Output("force_z", "N", "force of the road on the body, earth axes"),
                 Output("depth", "m", "deepest penetration of a point"),
             ),
-            tuple(named),
-            tuple(check for _, _, check in data),
         )

@@ -4,31 +4,29 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 from mbs.common.affine import Affine
 from mbs.common.checks import not_negative, positive, text
-from mbs.elements.record import ElementRecord, Output
+from mbs.elements.reals import Positive, Real, reals_of
+from mbs.elements.record import ElementRecord, Output, columns
 from mbs.kernel.header import ElementType
+
+LargestForce = Annotated[float, Real(not_negative, words="largest force")]
 
 
 @dataclass(frozen=True)
 class CoordinateFriction:
-    """Elastoplastic friction on a coordinate: it holds below its largest force and slides at it.
+    """Elastoplastic friction on a coordinate: it holds below its largest force and slides at it."""
 
-    Parameters
-    ----------
-    largest : float
-        Force at which it slides, N m of an angle, N of a length.
-    stick_stiffness, stick_damping : float
-        While it holds, N m/rad and N m s/rad, or N/m and N s/m.
-    unit : str
-        Unit of the force, "N m" or "N".
-    """
-
-    largest: float
-    stick_stiffness: float
-    stick_damping: float
+    largest: LargestForce
+    """Force at which it slides, N m of an angle, N of a length."""
+    stick_stiffness: Positive
+    """While it holds, N m/rad or N/m."""
+    stick_damping: Positive
+    """While it holds, N m s/rad or N s/m."""
     unit: str = "N m"
+    """Unit of the force, "N m" or "N"."""
 
     @staticmethod
     def for_inertia(largest: float, give: float, inertia: float, unit: str = "N m") -> CoordinateFriction:
@@ -44,16 +42,6 @@ class CoordinateFriction:
             Of what it holds, kg m2 or kg.
         unit : str
             Unit of the force, "N m" or "N".
-
-        Returns
-        -------
-        CoordinateFriction
-            With its stick stiffness and damping.
-
-        Raises
-        ------
-        ModelError
-            A number is not positive.
         """
         force, mass = (
             positive(largest, "The largest force of a friction"),
@@ -67,37 +55,19 @@ class CoordinateFriction:
 
         Parameters
         ----------
-        name : str
-            Unique among the elements of a model.
         coordinate : Affine
             An angle, rad, or a length, m.
-
-        Returns
-        -------
-        ElementRecord
-            For `Model.add`.
-
-        Raises
-        ------
-        ModelError
-            A number is not one or outside its range; the message names it.
         """
         what = f"the friction '{name}'"
         return ElementRecord(
             name,
             ElementType.COORDINATE_FRICTION,
             (coordinate,),
-            (
-                not_negative(self.largest, f"The largest force of {what}"),
-                positive(self.stick_stiffness, f"The stick stiffness of {what}"),
-                positive(self.stick_damping, f"The stick damping of {what}"),
-            ),
+            *columns(reals_of(self, what)),
             (),
             (0.0, 0.0),
             (
                 Output("force", text(self.unit, f"The unit of {what}"), "friction on the coordinate"),
                 Output("sticking", "1", "1 while it sticks, else 0"),
             ),
-            ("largest", "stick_stiffness", "stick_damping"),
-            (not_negative, positive, positive),
         )

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from mbs.common.affine import Affine
 from mbs.common.checks import number
 from mbs.common.errors import ModelError
-from mbs.elements.record import ElementRecord
+from mbs.elements.reals import Reals
+from mbs.elements.record import ElementRecord, columns
 from mbs.elements.record_checks import index, several
 from mbs.kernel.header import ElementType
 
@@ -19,8 +20,6 @@ class InputForce:
 
     Parameters
     ----------
-    input : int
-        Number of the input.
     weights : sequence of float
         Force on each expression per unit of the input.
     """
@@ -33,32 +32,20 @@ class InputForce:
 
         Parameters
         ----------
-        name : str
-            Unique among the elements of a model.
         signals : sequence of Affine
             As many expressions as there are weights.
-
-        Returns
-        -------
-        ElementRecord
-            For `Model.add`.
-
-        Raises
-        ------
-        ModelError
-            There is not one weight for each expression, or a number is not one.
         """
         what = f"the input force '{name}'"
-        weights = several(self.weights, f"the weights of {what}")
+        weights: Reals = {
+            f"weight_{i}": (x, number) for i, x in enumerate(several(self.weights, f"the weights of {what}"))
+        }
         if len(signals) != len(weights) or not signals:
             raise ModelError(f"T{what[1:]} has {len(weights)} weights for {len(signals)} signals, not one each.")
         return ElementRecord(
             name,
             ElementType.INPUT_FORCE,
             signals,
-            tuple(weights),
+            *columns(weights),
             (index(self.input, f"The input of {what}"),),
-            real_checks=(number,) * len(self.weights),
             tangent=False,
-            real_names=tuple(f"weight_{i}" for i in range(len(self.weights))),
         )

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import TypeAlias
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from mbs.common.affine import Affine
+from mbs.elements.reals import Check, Reals
 from mbs.kernel.header import ElementType
-
-Check: TypeAlias = Callable[[object, str], float]
-"""One of the checks of numbers of `mbs.common.checks`."""
 
 
 @dataclass(frozen=True)
@@ -30,14 +27,18 @@ class ElementRecord:
 
     Parameters
     ----------
-    name : str
-        Unique among the elements of a model.
     type : ElementType
         Kernel type; it fixes the meaning and order of all that follows.
     signals : sequence of Affine
         Local variables u, in the order of the type.
-    real, integer : sequence
-        Data of the element; `integer` holds input and road numbers.
+    real : sequence of float
+        Numbers of the element.
+    real_names : sequence of str
+        Names of the first entries of `real`, so that a parameter can be tied to one.
+    real_checks : sequence of callable
+        What each of these must satisfy, also as a parameter writes it; by default any finite number will do.
+    integer : sequence of int
+        Numbers of inputs and roads, and sizes.
     states : sequence of float
         Initial values of its slots.
     outputs : sequence of Output
@@ -52,12 +53,15 @@ class ElementRecord:
     type: ElementType
     signals: Sequence[Affine]
     real: Sequence[float] = ()
+    real_names: Sequence[str] = ()
+    real_checks: Sequence[Check] = ()
     integer: Sequence[int] = ()
     states: Sequence[float] = ()
-    outputs: Sequence[Output] = field(default_factory=tuple)
-    real_names: Sequence[str] = ()
-    """Names of the first entries of `real`, so that a parameter can be tied to one."""
-    real_checks: Sequence[Check] = ()
-    """What each of these must satisfy, also as a parameter writes it; by default any finite number will do."""
+    outputs: Sequence[Output] = ()
     tangent: bool = True
     elastic: bool = False
+
+
+def columns(reals: Reals, *more: float) -> tuple[tuple[float, ...], tuple[str, ...], tuple[Check, ...]]:
+    """`real`, `real_names` and `real_checks` of a record; `more` are numbers without a name."""
+    return (*(x for x, _ in reals.values()), *more), tuple(reals), tuple(check for _, check in reals.values())

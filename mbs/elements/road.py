@@ -11,92 +11,75 @@ from numpy.typing import ArrayLike
 
 from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, vector
 from mbs.common.errors import ModelError
-from mbs.elements.record import Check
+from mbs.elements.reals import Check, NotNegative, Number, Positive, Reals, declared, reals_of
 from mbs.kernel.header import RoadType
 
 
+class _NamedNumbers:
+    """Numbers of a road by name, for the System and for parameters, in the order of the kernel."""
+
+    real_names: ClassVar[tuple[str, ...]]
+    real_checks: ClassVar[tuple[Check, ...]]
+
+    def __init_subclass__(cls, order: Sequence[str] = (), **others: Check) -> None:
+        """`order` where it is not that of the fields; `others` are numbers that follow from what is no number."""
+        checks = {name: real.check for name, real in declared(cls).items()} | others
+        cls.real_names = tuple(order or checks)
+        cls.real_checks = tuple(checks[name] for name in cls.real_names)
+
+    def _reals(self) -> Reals:
+        raise NotImplementedError
+
+    @property
+    def real(self) -> tuple[float, ...]:
+        """Checked numbers for the System."""
+        reals = self._reals()
+        return tuple(reals[name][0] for name in self.real_names)
+
+
 @dataclass(frozen=True)
-class PlaneRoad:
-    """Plane z = height + grade_x x + grade_y y.
+class PlaneRoad(_NamedNumbers):
+    """Plane z = height + grade_x x + grade_y y."""
 
-    Parameters
-    ----------
-    height : float
-        At the origin, m.
-    grade_x, grade_y : float
-        Slopes dz/dx and dz/dy, 0.1 for a ten per cent rise.
-    friction : float
-        Coefficient of friction: the largest longitudinal force over load of a tyre on it, at the tyre's nominal load.
-    friction_factor : float
-        Multiplies the friction, also that of a road file in place of this road.
-    """
-
-    height: float = 0.0
-    grade_x: float = 0.0
-    grade_y: float = 0.0
-    friction: float = 0.9
-    friction_factor: float = 1.0
+    height: Number = 0.0
+    """At the origin, m."""
+    grade_x: Number = 0.0
+    """Slope dz/dx, a ratio, 0.1 for a ten per cent rise."""
+    grade_y: Number = 0.0
+    """Slope dz/dy, a ratio."""
+    friction: NotNegative = 0.9
+    """Coefficient of friction, the largest longitudinal force over load of a tyre on it, at the tyre's nominal load."""
+    friction_factor: NotNegative = 1.0
+    """Multiplies the friction, also that of a road file in place of this road."""
     type: ClassVar[RoadType] = RoadType.PLANE
-    real_names: ClassVar[tuple[str, ...]] = ("height", "grade_x", "grade_y", "friction", "friction_factor")
-    real_checks: ClassVar[tuple[Check, ...]] = (number, number, number, not_negative, not_negative)
 
-    @property
-    def real(self) -> tuple[float, ...]:
-        """Checked numbers for the System."""
-        return (
-            number(self.height, "The height of a plane road"),
-            number(self.grade_x, "The grade in x of a plane road"),
-            number(self.grade_y, "The grade in y of a plane road"),
-            not_negative(self.friction, "The friction of a plane road"),
-            not_negative(self.friction_factor, "The friction factor of a plane road"),
-        )
+    def _reals(self) -> Reals:
+        return reals_of(self, "a plane road")
 
 
 @dataclass(frozen=True)
-class KerbRoad:
-    """Step along y between two levels; its edge is met by the wheel as a disc.
+class KerbRoad(
+    _NamedNumbers, order=("position", "lower_height", "step", "side", "friction", "friction_factor"), side=not_zero
+):
+    """Step along y between two levels; its edge is met by the wheel as a disc."""
 
-    Parameters
-    ----------
-    position : float
-        x of the edge, m.
-    step : float
-        Height of the step, m.
-    lower_height : float
-        Height of the lower level, m.
-    upper : {"before", "after"}
-        The upper level lies at smaller x ("before": driving forward is a drop) or at larger x.
-    friction : float
-        Coefficient of friction everywhere, as in `PlaneRoad`.
-    friction_factor : float
-        Multiplies the friction, also that of a road file in place of this road.
-    """
-
-    position: float
-    step: float
-    lower_height: float = 0.0
+    position: Number
+    """x of the edge, m."""
+    step: Positive
+    """Height of the step, m."""
+    lower_height: Number = 0.0
+    """Height of the lower level, m."""
     upper: Literal["before", "after"] = "before"
-    friction: float = 0.9
-    friction_factor: float = 1.0
+    """Whether the upper level lies at smaller x, so that driving forward is a drop, or at larger x."""
+    friction: NotNegative = 0.9
+    """Coefficient of friction everywhere, as in `PlaneRoad`."""
+    friction_factor: NotNegative = 1.0
+    """Multiplies the friction, also that of a road file in place of this road."""
     type: ClassVar[RoadType] = RoadType.KERB
-    real_names: ClassVar[tuple[str, ...]] = (
-        *("position", "lower_height", "step", "side", "friction"),
-        "friction_factor",
-    )
-    real_checks: ClassVar[tuple[Check, ...]] = (number, number, positive, not_zero, not_negative, not_negative)
 
-    @property
-    def real(self) -> tuple[float, ...]:
-        """Checked numbers for the System."""
+    def _reals(self) -> Reals:
         one_of(self.upper, ("before", "after"), "The upper level of a kerb")
-        return (
-            number(self.position, "The position of a kerb"),
-            number(self.lower_height, "The lower height of a kerb"),
-            positive(self.step, "The step of a kerb"),
-            1.0 if self.upper == "before" else -1.0,
-            not_negative(self.friction, "The friction of a kerb"),
-            not_negative(self.friction_factor, "The friction factor of a kerb"),
-        )
+        return reals_of(self, "a kerb") | {"side": (1.0 if self.upper == "before" else -1.0, not_zero)}
 
 
 @dataclass(frozen=True)

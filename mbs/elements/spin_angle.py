@@ -23,8 +23,6 @@ class SpinAngle:
 
         Parameters
         ----------
-        name : str
-            Unique among the elements of a model.
         f, g : AffineVector
             Orthonormal vectors of the carrier, f x g along the axis.
         spin : Affine
@@ -35,11 +33,6 @@ class SpinAngle:
         ElementRecord
             For `Model.add`; its output `angle`, rad, is 0 at the start and positive for a wheel that turns as `spin`
             counts, without wrapping.
-
-        Raises
-        ------
-        ModelError
-            A vector has not three components.
         """
         what = f"the angle of the spinning wheel '{name}'"
         size(f, (3,), f"The vector f of {what}")

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.common.affine import AffineVector
-from mbs.common.checks import instance_of, not_negative, positive
+from mbs.common.checks import instance_of, positive
 from mbs.common.errors import ModelError
-from mbs.elements.record import ElementRecord, Output
+from mbs.elements.reals import NotNegative, Reals, reals_of
+from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import size
 from mbs.kernel.header import ElementType
 
@@ -26,102 +27,68 @@ class EndStops:
     metal on metal besides, which sets in as a parabola. Times ``1 + chi x'`` while it is compressed and
     ``1/(1 - chi x')`` while it is let go (K. H. Hunt, F. R. E. Crossley, Journal of Applied Mechanics 42, 1975,
     440-445, without their pull), it takes energy and never pulls. Without the last eight numbers it is linear.
-
-    Parameters
-    ----------
-    bump_length, rebound_length : float
-        Lengths, m, below and above which the stops act.
-    bump_stiffness, rebound_stiffness : float
-        k, N/m.
-    bump_progression, rebound_progression : float
-        L, m, the compression at which the stiffness is four times k; 0: linear.
-    bump_travel, rebound_travel : float
-        Compression at which metal meets metal, m.
-    metal_stiffness : float
-        N/m; 0: no metal end.
-    metal_onset : float
-        Depth over which it sets in, m.
-    bump_loss, rebound_loss : float
-        chi, s/m.
     """
 
-    bump_length: float = 0.0
-    bump_stiffness: float = 0.0
-    rebound_length: float = 0.0
-    rebound_stiffness: float = 0.0
-    bump_progression: float = 0.0
-    rebound_progression: float = 0.0
-    bump_travel: float = 0.0
-    rebound_travel: float = 0.0
-    metal_stiffness: float = 0.0
-    metal_onset: float = 0.001
-    bump_loss: float = 0.0
-    rebound_loss: float = 0.0
+    bump_length: NotNegative = 0.0
+    """Length below which the bump stop acts, m."""
+    bump_stiffness: NotNegative = 0.0
+    """k of the bump stop, N/m."""
+    rebound_length: NotNegative = 0.0
+    """Length above which the rebound stop acts, m."""
+    rebound_stiffness: NotNegative = 0.0
+    """k of the rebound stop, N/m."""
+    bump_progression: NotNegative = 0.0
+    """L of the bump stop, m, the compression at which the stiffness is four times k; 0 for a linear stop."""
+    rebound_progression: NotNegative = 0.0
+    """L of the rebound stop, m; 0 for a linear stop."""
+    bump_travel: NotNegative = 0.0
+    """Compression of the bump stop at which metal meets metal, m."""
+    rebound_travel: NotNegative = 0.0
+    """Compression of the rebound stop at which metal meets metal, m."""
+    metal_stiffness: NotNegative = 0.0
+    """N/m; 0 for no metal end."""
+    metal_onset: NotNegative = 0.001
+    """Depth over which the metal end sets in, m."""
+    bump_loss: NotNegative = 0.0
+    """chi of the bump stop, s/m."""
+    rebound_loss: NotNegative = 0.0
+    """chi of the rebound stop, s/m."""
 
-    def progressive(self, what: str) -> dict[str, float]:
-        """Checked numbers beside lengths and stiffnesses, in the order of the kernel.
+    @property
+    def linear(self) -> bool:
+        """Whether none of the last eight numbers has an effect."""
+        progression = max(self.bump_progression, self.rebound_progression)
+        return not max(progression, self.metal_stiffness, self.bump_loss, self.rebound_loss) > 0.0
 
-        Parameters
-        ----------
-        what : str
-            What has the stops, for the message.
-
-        Returns
-        -------
-        dict of str to float
-            Empty for linear stops.
+    def reals(self, what: str) -> tuple[Reals, Reals]:
+        """Checked lengths and stiffnesses, and the other eight, each in the order of the kernel.
 
         Raises
         ------
         ModelError
-            A number is not one or negative.
+            The bump length is not below the rebound length.
         """
-        names = ("bump_progression", "bump_travel", "rebound_progression", "rebound_travel", "metal_stiffness")
-        numbers = {
-            name: not_negative(getattr(self, name), f"The {name.replace('_', ' ')} of {what}")
-            for name in (*names, "metal_onset", "bump_loss", "rebound_loss")
-        }
-        if not any(
-            v > 0.0 for name, v in numbers.items() if name not in ("metal_onset", "bump_travel", "rebound_travel")
-        ):
-            return {}
+        lengths, more = reals_of(self, what, LENGTHS), reals_of(self, what, PROGRESSIVE)
+        if self.bump_stiffness > 0.0 and self.rebound_stiffness > 0.0 and not self.bump_length < self.rebound_length:
+            raise ModelError(
+                f"The bump length {self.bump_length:g} m of {what} must be less than the rebound length "
+                f"{self.rebound_length:g} m."
+            )
         if self.metal_stiffness > 0.0:
             positive(self.metal_onset, f"The metal onset of {what}")
-        return numbers
+        return lengths, more
 
-    @staticmethod
-    def checked(stops: EndStops | None, what: str) -> tuple[EndStops, dict[str, float]]:
-        """Stops, none of them if there are none, and their checked lengths and stiffnesses in the order of the kernel.
 
-        Parameters
-        ----------
-        stops : EndStops, optional
-            Of a spring.
-        what : str
-            What has the stops, for the message.
+LENGTHS = ("bump_length", "bump_stiffness", "rebound_length", "rebound_stiffness")
+PROGRESSIVE = (
+    *("bump_progression", "bump_travel", "rebound_progression", "rebound_travel"),
+    *("metal_stiffness", "metal_onset", "bump_loss", "rebound_loss"),
+)
 
-        Returns
-        -------
-        EndStops, dict of str to float
 
-        Raises
-        ------
-        ModelError
-            A number is not one or negative, or the bump length is not below the rebound length.
-        """
-        given = EndStops()
-        if stops is not None:
-            given = instance_of(EndStops, stops, f"The stops of {what}", "EndStops")
-        numbers = {
-            name: not_negative(getattr(given, name), f"The {name.replace('_', ' ')} of {what}")
-            for name in ("bump_length", "bump_stiffness", "rebound_length", "rebound_stiffness")
-        }
-        bump, bump_stiffness, rebound, rebound_stiffness = numbers.values()
-        if bump_stiffness > 0.0 and rebound_stiffness > 0.0 and not bump < rebound:
-            raise ModelError(
-                f"The bump length {bump:g} m of {what} must be less than the rebound length {rebound:g} m."
-            )
-        return given, numbers
+def given_stops(stops: EndStops | None, what: str) -> EndStops:
+    """The stops of a spring; without any, stops that do not act."""
+    return EndStops() if stops is None else instance_of(EndStops, stops, f"The stops of {what}", "EndStops")
 
 
 @dataclass(frozen=True)
@@ -129,75 +96,45 @@ class SpringDamper:
     """Linear spring and damper along the line between two points; force = k (L - L0) + c dL/dt, tension positive.
 
     For a spring or a damper by points see `SpringDamperTable`.
-
-    Parameters
-    ----------
-    stiffness : float
-        N/m.
-    damping : float
-        N s/m.
-    free_length : float
-        Length without spring force, m.
-    stops : EndStops, optional
-        Bump and rebound stops.
-    stiffness_factor, damping_factor : float
-        Factors on both, for parameters that scale what the numbers or tables say; not on the stops.
     """
 
-    stiffness: float
-    damping: float = 0.0
-    free_length: float = 0.0
+    stiffness: NotNegative
+    """N/m."""
+    damping: NotNegative = 0.0
+    """N s/m."""
+    free_length: NotNegative = 0.0
+    """Length without spring force, m."""
     stops: EndStops | None = None
-    stiffness_factor: float = 1.0
-    damping_factor: float = 1.0
+    """Bump and rebound stops."""
+    stiffness_factor: NotNegative = 1.0
+    """Factor on the stiffness, for a parameter; not on the stops."""
+    damping_factor: NotNegative = 1.0
+    """Factor on the damping, for a parameter; not on the stops."""
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
         """The force element.
 
         Parameters
         ----------
-        name : str
-            Unique among the elements of a model.
         difference : AffineVector
             Difference p2 - p1 of two points in earth axes, two or three components, m.
-
-        Returns
-        -------
-        ElementRecord
-            For `Model.add`.
 
         Raises
         ------
         ModelError
-            A number is not one or negative, or the bump length is not below the rebound length.
+            The bump length is not below the rebound length.
         """
         what = f"the spring-damper '{name}'"
         size(difference, (2, 3), f"The distance of {what}")
-        stops, lengths = EndStops.checked(self.stops, what)
-        progressive = stops.progressive(what)
+        stops = given_stops(self.stops, what)
+        lengths, more = stops.reals(what)
+        own = reals_of(self, what)
+        factors: Reals = {name: own.pop(name) for name in ("stiffness_factor", "damping_factor")}
         return ElementRecord(
             name,
             ElementType.SPRING_DAMPER,
             difference.components,
-            (
-                not_negative(self.stiffness, f"The stiffness of {what}"),
-                not_negative(self.damping, f"The damping of {what}"),
-                not_negative(self.free_length, f"The free length of {what}"),
-                *lengths.values(),
-                *progressive.values(),
-                not_negative(self.stiffness_factor, f"The stiffness factor of {what}"),
-                not_negative(self.damping_factor, f"The damping factor of {what}"),
-            ),
+            *columns({**own, **lengths, **({} if stops.linear else more), **factors}),
             outputs=LINE_OUTPUTS,
-            real_names=(
-                "stiffness",
-                "damping",
-                "free_length",
-                *lengths,
-                *progressive,
-                "stiffness_factor",
-                "damping_factor",
-            ),
-            real_checks=(not_negative,) * (9 + len(progressive)),
             elastic=True,
         )

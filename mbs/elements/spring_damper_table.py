@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from mbs.common.affine import AffineVector
 from mbs.common.checks import array, is_number, not_negative
 from mbs.common.errors import ModelError
-from mbs.elements.record import ElementRecord
+from mbs.elements.reals import NotNegative, Reals, reals_of
+from mbs.elements.record import ElementRecord, columns
 from mbs.elements.record_checks import size
-from mbs.elements.spring_damper import LINE_OUTPUTS, EndStops
+from mbs.elements.spring_damper import LINE_OUTPUTS, EndStops, given_stops
 from mbs.kernel.header import ElementType
 
-Rows: TypeAlias = "Sequence[Sequence[float]] | NDArray[np.float64]"
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
+
+Rows: TypeAlias = Sequence[Sequence[float]] | NDArray[np.float64]
 CLOSEST = 1e-9
 """Least distance of two points of a table, m or m/s."""
 
@@ -30,37 +33,28 @@ class SpringDamperTable:
     Between the points the curve is a monotone cubic (F. N. Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis
     17, 1980, 238-246; the slopes are those of scipy's PchipInterpolator), beyond the ends a straight line. The energy
     of the spring is the integral of the curve.
-
-    Parameters
-    ----------
-    spring : float or array_like, shape (n, 2)
-        Stiffness, N/m, or rows of stretch from the free length, m, and force, N, both positive in tension; the stretch
-        rises from row to row.
-    damper : float or array_like, shape (n, 2)
-        Damping, N s/m, or rows of rate of the length, m/s, and force, N, both positive in rebound; rates rise, forces
-        do not fall, and one row is (0, 0).
-    free_length : float
-        Length without stretch, m.
-    stops : EndStops, optional
-        Bump and rebound stops.
-    stiffness_factor, damping_factor : float
-        Factors on the forces of spring and damper.
     """
 
     spring: float | Rows
+    """Stiffness, N/m, or rows of stretch from the free length, m, and force, N, both positive in tension; the stretch
+    rises from row to row. Shape (n, 2)."""
     damper: float | Rows = 0.0
-    free_length: float = 0.0
+    """Damping, N s/m, or rows of rate of the length, m/s, and force, N, both positive in rebound; rates rise, forces do
+    not fall, and one row is (0, 0). Shape (n, 2)."""
+    free_length: NotNegative = 0.0
+    """Length without stretch, m."""
     stops: EndStops | None = None
-    stiffness_factor: float = 1.0
-    damping_factor: float = 1.0
+    """Bump and rebound stops."""
+    stiffness_factor: NotNegative = 1.0
+    """Factor on the forces of the spring."""
+    damping_factor: NotNegative = 1.0
+    """Factor on the forces of the damper."""
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
         """The force element.
 
         Parameters
         ----------
-        name : str
-            Unique among the elements of a model.
         difference : AffineVector
             Difference p2 - p1 of two points in earth axes, two or three components, m.
 
@@ -72,8 +66,7 @@ class SpringDamperTable:
         Raises
         ------
         ModelError
-            A number is not one or negative, a table does not rise or is no table, a damper would give energy, or the
-            bump length is not below the rebound length.
+            A table does not rise, a damper would give energy, or the bump length is not below the rebound length.
         """
         what = f"the spring-damper '{name}'"
         size(difference, (2, 3), f"The distance of {what}")
@@ -81,41 +74,20 @@ class SpringDamperTable:
         damping, damper = _number_or_table(self.damper, "damping", "damper", what)
         if len(damper):
             _check_damper(damper, what)
-        stops, lengths = EndStops.checked(self.stops, what)
-        every = {name: getattr(stops, name) for name in ALL_STOPS} | stops.progressive(what)
-        own = {
-            "stiffness": stiffness,
-            "damping": damping,
-            "free_length": not_negative(self.free_length, f"The free length of {what}"),
-            "stiffness_factor": not_negative(self.stiffness_factor, f"The stiffness factor of {what}"),
-            "damping_factor": not_negative(self.damping_factor, f"The damping factor of {what}"),
-            **lengths,
-            **every,
+        lengths, more = given_stops(self.stops, what).reals(what)
+        own: Reals = {  # with a table the kernel reads no number, and none can be a parameter
+            "unused stiffness" if len(spring) else "stiffness": (stiffness, not_negative),
+            "unused damping" if len(damper) else "damping": (damping, not_negative),
         }
-        hidden = {"stiffness": len(spring), "damping": len(damper)}
         return ElementRecord(
             name,
             ElementType.SPRING_DAMPER_TABLE,
             difference.components,
-            (*own.values(), *_spring_columns(spring), *_damper_columns(damper)),
+            *columns(own | reals_of(self, what) | lengths | more, *_spring_columns(spring), *_damper_columns(damper)),
             (len(spring), len(damper)),
             outputs=LINE_OUTPUTS,
-            real_names=[f"unused {n}" if hidden.get(n) else n for n in own],
-            real_checks=[not_negative] * len(own),
             elastic=True,
         )
-
-
-ALL_STOPS = (
-    "bump_progression",
-    "bump_travel",
-    "rebound_progression",
-    "rebound_travel",
-    "metal_stiffness",
-    "metal_onset",
-    "bump_loss",
-    "rebound_loss",
-)
 
 
 def _number_or_table(value: float | Rows, number_name: str, name: str, what: str) -> tuple[float, NDArray[np.float64]]:
@@ -158,7 +130,7 @@ def _spring_columns(rows: NDArray[np.float64]) -> list[float]:
     pieces = width * (0.5 * (y[1:] + y[:-1]) + width * (slopes[:-1] - slopes[1:]) / 12.0)
     energy = np.r_[0.0, np.cumsum(pieces)]
     if x[0] <= 0.0 <= x[-1]:
-        at_rest = float(PchipInterpolator(x, y).integrate(x[0], 0.0))
+        at_rest = float(_curve(rows).integrate(x[0], 0.0))
     else:
         k = 0 if x[0] > 0.0 else -1
         at_rest = energy[k] - x[k] * (y[k] - 0.5 * slopes[k] * x[k])
@@ -173,5 +145,10 @@ def _damper_columns(rows: NDArray[np.float64]) -> list[float]:
 
 
 def _slopes(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    x, y = rows.T
-    return np.asarray(PchipInterpolator(x, y).derivative()(x), float)
+    return np.asarray(_curve(rows).derivative()(rows[:, 0]), float)
+
+
+def _curve(rows: NDArray[np.float64]) -> PchipInterpolator:
+    from scipy.interpolate import PchipInterpolator  # most of the time in which programs that read roads start
+
+    return PchipInterpolator(*rows.T)

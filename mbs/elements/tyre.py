@@ -3,85 +3,84 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import instance_of, not_negative, number, positive, vector
-from mbs.elements.record import Check, ElementRecord, Output
+from mbs.common.checks import instance_of, number, positive
+from mbs.elements.reals import NotNegative, Pair, Positive, Real, Reals, reals_of
+from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
 from mbs.kernel.header import ElementType
 
-Pair = tuple[float, float]
+LOADS, AXES = ("1", "2"), ("x", "y")
+AtTwoLoads = Annotated[Pair, Real(positive, LOADS)]
 """Values at the nominal load and at twice of it."""
+SignedAtTwoLoads = Annotated[Pair, Real(number, LOADS)]
+AlongAxes = Annotated[Pair, Real(positive, AXES)]
 
 
 @dataclass(frozen=True)
 class TyreCurve:
     """Steady force over slip in one direction (TMeasy, Vehicle System Dynamics 45(S1), 2007, 101-119).
 
-    Parameters
-    ----------
-    slope : (float, float)
-        Initial slope dF/ds, N, at nominal load and twice of it; so all that follows.
-    max_force, slide_force : (float, float)
-        Largest force and force of full sliding, N, on a road of the friction at which the curves hold
-        (`Tyre.curve_friction`); on another road they are scaled to its friction.
-    max_slip, slide_slip : (float, float)
-        Slips where they are reached.
+    Each number is given at the nominal load and at twice of it.
     """
 
-    slope: Pair
-    max_force: Pair
-    max_slip: Pair
-    slide_force: Pair
-    slide_slip: Pair
+    slope: AtTwoLoads
+    """Initial slope dF/ds, N."""
+    max_force: AtTwoLoads
+    """Largest force, N, on a road of the friction at which the curves hold (`Tyre.curve_friction`); on another road it
+    is scaled to its friction."""
+    max_slip: AtTwoLoads
+    """Slip where it is reached, a ratio."""
+    slide_force: AtTwoLoads
+    """Force of full sliding, N, scaled alike."""
+    slide_slip: AtTwoLoads
+    """Slip where it is reached, a ratio."""
 
 
 @dataclass(frozen=True)
 class Tyre:
     """Tyre of a wheel that meets the road as a disc.
 
-    Parameters
-    ----------
-    radius, bottoming_radius : float
-        Free radius, and loaded radius below which the rim bears, m.
-    stiffness, damping, bottoming_stiffness : float
-        Vertical, N/m and N s/m; the damping sets in over the first 5 mm.
-    longitudinal, lateral : TyreCurve
-        Steady forces.
-    trail, trail_zero, trail_end : (float, float)
-        Dynamic trail over contact length at zero slip, lateral slips where it first vanishes and where it ends.
-    carcass_stiffness, carcass_damping : (float, float)
-        Longitudinal and lateral, N/m and N s/m.
-    nominal_load : float
-        N.
-    reference_friction : float, optional
-        Friction of the road at which the curves hold. By default the largest longitudinal force over the load at the
-        nominal load, so that the friction of a road is the coefficient this tyre reaches there.
-    max_load_factor : float
-        The curves are clamped at this multiple of the nominal load.
-    rolling_resistance : float
-        Coefficient of rolling resistance.
-    friction_factor : float
-        Multiplies the friction of the road.
+    Pairs hold at the nominal load and at twice of it, those of the carcass along and across the heading.
     """
 
-    radius: float
-    bottoming_radius: float
-    stiffness: float
-    damping: float
+    radius: Positive
+    """Free radius, m."""
+    bottoming_radius: Positive
+    """Loaded radius below which the rim bears, m."""
+    stiffness: Positive
+    """Vertical, N/m."""
+    damping: NotNegative
+    """Vertical, N s/m; it sets in over the first 5 mm."""
     longitudinal: TyreCurve
+    """Steady force along the heading."""
     lateral: TyreCurve
-    trail: Pair
-    trail_zero: Pair
-    trail_end: Pair
-    carcass_stiffness: Pair
-    carcass_damping: Pair
-    nominal_load: float
-    bottoming_stiffness: float = 0.0
+    """Steady force to the left."""
+    trail: SignedAtTwoLoads
+    """Ratio of dynamic trail to contact length at zero slip."""
+    trail_zero: AtTwoLoads
+    """Lateral slip where the trail first vanishes, a ratio."""
+    trail_end: AtTwoLoads
+    """Lateral slip where the trail ends, a ratio."""
+    carcass_stiffness: AlongAxes
+    """Longitudinal and lateral, N/m."""
+    carcass_damping: AlongAxes
+    """Longitudinal and lateral, N s/m."""
+    nominal_load: Positive
+    """N."""
+    bottoming_stiffness: NotNegative = 0.0
+    """Of the rim, N/m."""
     reference_friction: float | None = None
-    max_load_factor: float = 3.5
-    rolling_resistance: float = 0.0
-    friction_factor: float = 1.0
+    """Coefficient of friction of the road at which the curves hold. By default the largest longitudinal force over the
+    load at the nominal load, so that the friction of a road is the coefficient this tyre reaches there."""
+    max_load_factor: Positive = 3.5
+    """The curves are clamped at this multiple of the nominal load."""
+    rolling_resistance: NotNegative = 0.0
+    """Coefficient of rolling resistance."""
+    friction_factor: NotNegative = 1.0
+    """Multiplies the friction of the road."""
 
     @property
     def curve_friction(self) -> float:
@@ -95,44 +94,32 @@ class Tyre:
 
         Parameters
         ----------
-        name : str
-            Unique among the elements of a model.
         centre : AffineVector
             Centre of the wheel, m.
         axis : AffineVector
             Unit spin axis, pointing left.
         spin : Affine
             Absolute spin, rad.
-        road : int
-            Number of the road, from `Model.road`.
-
-        Returns
-        -------
-        ElementRecord
-            For `Model.add`.
 
         Raises
         ------
         ModelError
-            A number is not one or outside its range, or a curve is not in order at some load up to the largest.
+            A curve is not in order at some load up to the largest.
         """
         what = f"the tyre '{name}'"
         size(centre, (3,), f"The centre of {what}")
         size(axis, (3,), f"The axis of {what}")
-        positive(self.radius, f"The radius of {what}")
-        positive(self.bottoming_radius, f"The bottoming radius of {what}")
-        self._check_kinds(what)
+        reals = self._reals(what)
         if not self.bottoming_radius < self.radius:
             raise ValueError(
                 f"The bottoming radius {self.bottoming_radius:g} m of {what} must be less than {self.radius:g} m."
             )
         self._check_curves(what)
-        named = self._named()
         return ElementRecord(
             name,
             ElementType.TYRE,
             (*centre.components, *axis.components, spin),
-            tuple(number(value, f"The {key.replace('_', ' ')} of {what}") for key, value in named),
+            *columns(reals),
             (index(road, f"The road of {what}"),),
             (0.0, 0.0, 0.0, 0.0),
             (
@@ -158,53 +145,25 @@ class Tyre:
                     for c in "xyz"
                 ),
             ),
-            tuple(key for key, _ in named),
-            tuple(_check_of(key) for key, _ in named),
         )
 
-    def _named(self) -> list[tuple[str, float]]:
-        """Names and values of the reals, in the order of `mbs/kernel/src/elements/tyre.c`."""
-        scalars = (
-            "radius",
-            "bottoming_radius",
-            "stiffness",
-            "damping",
-            "bottoming_stiffness",
-            "nominal_load",
-        )
-        named: list[tuple[str, float]] = [(key, getattr(self, key)) for key in scalars]
-        named += [("reference_friction", self.curve_friction), ("max_load_factor", self.max_load_factor)]
-        for direction, curve in (("longitudinal", self.longitudinal), ("lateral", self.lateral)):
-            for key in ("slope", "max_force", "max_slip", "slide_force", "slide_slip"):
-                low, high = getattr(curve, key)
-                named += [(f"{direction}_{key}_1", low), (f"{direction}_{key}_2", high)]
-        for key in ("trail", "trail_zero", "trail_end"):
-            low, high = getattr(self, key)
-            named += [(f"{key}_1", low), (f"{key}_2", high)]
-        for key in ("carcass_stiffness", "carcass_damping"):
-            x, y = getattr(self, key)
-            named += [(f"{key}_x", x), (f"{key}_y", y)]
-        return [*named, ("rolling_resistance", self.rolling_resistance), ("friction_factor", self.friction_factor)]
-
-    def _check_kinds(self, what: str) -> None:
-        """Curves are curves, pairs are pairs of numbers."""
-        for key in ("longitudinal", "lateral"):
-            curve = instance_of(TyreCurve, getattr(self, key), f"The {key} of {what}", "a TyreCurve")
-            for part in ("slope", "max_force", "max_slip", "slide_force", "slide_slip"):
-                vector(getattr(curve, part), 2, f"the {key} {part.replace('_', ' ')} of {what}")
-        for key in ("trail", "trail_zero", "trail_end", "carcass_stiffness", "carcass_damping"):
-            vector(getattr(self, key), 2, f"the {key.replace('_', ' ')} of {what}")
+    def _reals(self, what: str) -> Reals:
+        """In the order of `mbs/kernel/src/elements/tyre.c`."""
+        first = ("radius", "bottoming_radius", "stiffness", "damping", "bottoming_stiffness", "nominal_load")
+        reals = reals_of(self, what, first)
+        for direction in ("longitudinal", "lateral"):
+            instance_of(TyreCurve, getattr(self, direction), f"The {direction} of {what}", "a TyreCurve")
+        curves = {
+            f"{direction}_{name}": real
+            for direction in ("longitudinal", "lateral")
+            for name, real in reals_of(getattr(self, direction), f"the {direction} curve of {what}").items()
+        }
+        reals["reference_friction"] = (positive(self.curve_friction, f"The reference friction of {what}"), positive)
+        reals |= reals_of(self, what, ("max_load_factor",)) | curves
+        return reals | {name: real for name, real in reals_of(self, what).items() if name not in reals}
 
     def _check_curves(self, what: str) -> None:
         """Every force and slip stays positive and in order over the whole range of loads."""
-        for key in ("stiffness", "nominal_load", "max_load_factor"):
-            positive(getattr(self, key), f"The {key.replace('_', ' ')} of {what}")
-        if self.reference_friction is not None:
-            positive(self.reference_friction, f"The reference friction of {what}")
-        for key in ("damping", "bottoming_stiffness", "rolling_resistance", "friction_factor"):
-            not_negative(getattr(self, key), f"The {key.replace('_', ' ')} of {what}")
-        for value in (*self.carcass_stiffness, *self.carcass_damping):
-            positive(value, f"A carcass stiffness or damping of {what}")
         for q in (0.0, self.max_load_factor):
             load = f"at {q * self.nominal_load:g} N"
             for direction, curve in (("longitudinal", self.longitudinal), ("lateral", self.lateral)):
@@ -222,13 +181,6 @@ class Tyre:
             end = _linear(self.trail_end, q)
             if end <= zero:
                 raise ValueError(f"The end slip of the trail of {what} is {end:g} {load}; it must exceed {zero:g}.")
-
-
-def _check_of(key: str) -> Check:
-    """What a real must satisfy by itself."""
-    if key in ("damping", "bottoming_stiffness", "rolling_resistance", "friction_factor"):
-        return not_negative
-    return number if key in ("trail_1", "trail_2") else positive
 
 
 def _linear(pair: Pair, q: float) -> float:

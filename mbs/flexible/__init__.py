@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+from mbs.common.lazy_modules import lazy_modules
 from mbs.flexible.craig_bampton import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.external_model import external_model, read_matrix, read_model
@@ -19,6 +22,11 @@ from mbs.flexible.recovery import StrainGauge, gauge_rows, section_forces, stres
 from mbs.flexible.reduced_body import InterfaceModes, ReducedBody
 from mbs.flexible.section import Section, rectangle, round_bar, tube
 from mbs.flexible.shape_integrals import ShapeIntegrals, shape_integrals
+
+if TYPE_CHECKING:
+    from mbs.flexible import scene_part as scene_part
+
+__getattr__ = lazy_modules(__name__, ("scene_part",))
 
 __all__ = [
     "Beam",

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbs.common.vectors import cross
+
 VERTICAL = 0.95  # beams steeper than this cosine take x instead of z as their upward direction
 
 
@@ -26,6 +28,6 @@ def beam_axes(start: np.ndarray, end: np.ndarray) -> tuple[float, np.ndarray]:
     length = float(np.linalg.norm(along))
     ex = along / length
     up = np.array([0.0, 0.0, 1.0]) if abs(ex[2]) < VERTICAL else np.array([1.0, 0.0, 0.0])
-    ey = np.cross(up, ex)
+    ey = cross(up, ex)
     ey /= np.linalg.norm(ey)
-    return length, np.array([ex, ey, np.cross(ex, ey)])
+    return length, np.array([ex, ey, cross(ex, ey)])

@@ -35,8 +35,6 @@ class BeamFrame:
     ----------
     positions : array_like, shape (n, 3)
         Nodes, m.
-    beams : sequence of Beam
-        Elements.
     masses : array_like, shape (n,), or mapping of node name or number to kg
         Lumped masses carried by the nodes besides the beams.
     names : sequence of str, optional
@@ -85,22 +83,12 @@ class BeamFrame:
     def element_axes(self, element: int) -> tuple[float, np.ndarray]:
         """Length and local axes of a beam.
 
-        Parameters
-        ----------
-        element : int
-            Number of the beam.
-
         Returns
         -------
         float
             Length, m.
         ndarray, shape (3, 3)
             Local axes, one per row.
-
-        Raises
-        ------
-        ModelError
-            There is no such beam.
         """
         if not is_finite(element) or int(element) != element or not 0 <= element < len(self.beams):
             raise ModelError(f"There is no beam {shown(element)}: the frame has the beams 0 to {len(self.beams) - 1}.")
@@ -109,11 +97,6 @@ class BeamFrame:
 
     def element_freedoms(self, element: int) -> np.ndarray:
         """Numbers of the twelve degrees of freedom of a beam.
-
-        Parameters
-        ----------
-        element : int
-            Number of the beam.
 
         Returns
         -------
@@ -126,20 +109,10 @@ class BeamFrame:
     def element_stiffness(self, element: int) -> np.ndarray:
         """Stiffness of a beam in its local axes.
 
-        Parameters
-        ----------
-        element : int
-            Number of the beam.
-
         Returns
         -------
         ndarray, shape (12, 12)
             N/m, N and N m per m and rad.
-
-        Raises
-        ------
-        ModelError
-            There is no such beam.
         """
         beam = self.beams[int(element)]
         return beam_stiffness(beam.section, beam.material, self.element_axes(element)[0], self.theory)

@@ -11,6 +11,7 @@ from mbs.flexible.material import Material
 from mbs.flexible.section import Section
 
 MASS_KINDS = ("lumped", "consistent")
+_STATIONS, _WEIGHTS = (np.polynomial.legendre.leggauss(4) + np.array([[1.0], [0.0]])) / 2  # from 0 to 1
 
 
 def beam_mass_points(
@@ -41,8 +42,7 @@ def beam_mass_points(
     if kind == "lumped":
         stations, weights = np.array([0.0, 1.0]), np.array([0.5, 0.5])
     else:
-        gauss, w = np.polynomial.legendre.leggauss(4)
-        stations, weights = (gauss + 1) / 2, w / 2
+        stations, weights = _STATIONS, _WEIGHTS
     offsets = [(0.0, 0.0)]
     if rotary:
         y, z = np.sqrt(2 * section.Iz / section.area), np.sqrt(2 * section.Iy / section.area)

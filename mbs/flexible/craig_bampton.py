@@ -34,8 +34,6 @@ def craig_bampton(
 
     Parameters
     ----------
-    model : FiniteElementModel
-        Free model.
     reference : str, int or three of them
         Node of the floating frame: it does not move in any mode.
     interfaces : sequence of Interface, str or int

@@ -24,7 +24,7 @@ class RayleighDamping:
         Parameters
         ----------
         ratio : float
-            Damping over the critical one.
+            Damping ratio, over the critical damping.
         low, high : float
             The frequencies, Hz.
 

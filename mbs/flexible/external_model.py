@@ -9,11 +9,13 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
+from ali3.tables import TextTable
 from mbs.common.checks import numbers
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import node_labels
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.fe_model_checks import check_free, check_symmetric, check_units
+from mbs.flexible.foreign_file import read_foreign
 from mbs.flexible.lumping import lumped_masses
 from mbs.flexible.mass_points import check_masses, nodal_mass_points
 from mbs.flexible.sparse import Sparse
@@ -83,11 +85,6 @@ def external_model(
 def read_matrix(path: str | Path) -> sp.csc_array:
     """Sparse matrix from Matrix Market (``.mtx``, ``.mtx.gz``) or SciPy's ``.npz``.
 
-    Parameters
-    ----------
-    path : str or Path
-        The file.
-
     Returns
     -------
     sparse array
@@ -99,16 +96,14 @@ def read_matrix(path: str | Path) -> sp.csc_array:
         There is no such file, or it is of neither kind.
     """
     path = Path(path)
-    if not path.is_file():
-        raise ModelError(f"There is no file {path}.")
     if path.suffix == ".npz":
         from scipy.sparse import load_npz
 
-        return sp.csc_array(load_npz(path))
+        return sp.csc_array(read_foreign(path, load_npz))
     if path.name.endswith((".mtx", ".mtx.gz")):
         from scipy.io import mmread
 
-        return sp.csc_array(mmread(path, spmatrix=False))
+        return sp.csc_array(read_foreign(path, lambda path: mmread(path, spmatrix=False)))
     raise ModelError(f"{path.name} is neither Matrix Market (.mtx, .mtx.gz) nor a SciPy matrix (.npz).")
 
 
@@ -133,14 +128,12 @@ def read_model(stiffness: str | Path, mass: str | Path, nodes: str | Path) -> Fi
         A file is missing or not of that form, or the matrices are no free model.
     """
     names, positions = [], []
-    for line in Path(nodes).read_text(encoding="utf-8").splitlines()[1:]:
-        if not line.strip() or line.startswith("#"):
-            continue
-        fields = line.split(",")
-        if len(fields) != 4:
-            raise ModelError(f"The line {line!r} of {Path(nodes).name} is not name,x,y,z.")
-        names.append(fields[0].strip())
-        positions.append([float(v) for v in fields[1:]])
+    table = TextTable(nodes, ModelError)
+    if table.width != 4:
+        raise ModelError(f"{Path(nodes).name} has the columns {', '.join(table.names)}; they must be name, x, y, z.")
+    for row in table.rows():
+        names.append(row.cells[0])
+        positions.append(table.numbers(row, first=1))
     return external_model(read_matrix(stiffness), read_matrix(mass), positions, names)
 
 

@@ -33,8 +33,6 @@ class FiniteElementModel:
         (nodes of solid elements have no rotations).
     K : sparse array, shape (n_dof, n_dof)
         Stiffness, symmetric, of the free model: six rigid motions and nothing else cost no energy.
-    mass : MassPoints
-        Mass.
     frame : BeamFrame, optional
         Beams it was made of, with its nodes; None for models of other programs.
     """
@@ -80,23 +78,7 @@ class FiniteElementModel:
         return R
 
     def node(self, which: str | int) -> int:
-        """Number of a node.
-
-        Parameters
-        ----------
-        which : str or int
-            Name or number of the node.
-
-        Returns
-        -------
-        int
-            Its number.
-
-        Raises
-        ------
-        ModelError
-            There is no such node.
-        """
+        """Number of a node."""
         if isinstance(which, str):
             if which not in self.names:
                 raise ModelError(f"There is no node {which!r} among the {len(self.names)} nodes of the model.")
@@ -112,8 +94,6 @@ class FiniteElementModel:
 
         Parameters
         ----------
-        which : str or int
-            Name or number of the node.
         rotations : bool
             Whether the rotations are wanted.
 
@@ -182,11 +162,6 @@ class FiniteElementModel:
         -------
         ndarray, shape (3,)
             m.
-
-        Raises
-        ------
-        ModelError
-            There is no such node.
         """
         first = reference if isinstance(reference, str) or not isinstance(reference, Sequence) else reference[0]
         return np.array(self.positions[self.node(first)])

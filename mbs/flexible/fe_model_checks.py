@@ -130,5 +130,5 @@ def check_turning_inertia(name: str, positions: np.ndarray, masses: np.ndarray) 
         line = ", ".join(f"{v:.3g}" for v in axes[:, 2] * np.sign(axes[np.abs(axes[:, 2]).argmax(), 2]))
         raise ModelError(
             f"All mass of the flexible body '{name}' lies on a line along ({line}): its inertia about that line is "
-            "nought, so it cannot be simulated. Give its beams their rotary inertia: finite_element_model(rotary=True)."
+            "zero, so it cannot be simulated. Give its beams their rotary inertia: finite_element_model(rotary=True)."
         )

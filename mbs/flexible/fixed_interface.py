@@ -29,7 +29,6 @@ class FixedInterface:
 
     Parameters
     ----------
-    model : FiniteElementModel
     reference : str, int or three of them
         Node that carries the floating frame, or three nodes where nodes have no rotations.
     interfaces : sequence of Interface, str or int

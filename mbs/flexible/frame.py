@@ -41,7 +41,7 @@ class Frame(BeamFrame):
         Raises
         ------
         ModelError
-            The kind of mass is none, or the units cannot be SI.
+            There is no such kind of mass, or the units cannot be SI.
         """
         rotary = flag(rotary, "The rotary inertia")
         n = len(self.positions)

@@ -20,11 +20,7 @@ def natural_modes(model: FiniteElementModel, count: int, held: ArrayLike = ()) -
 
     Parameters
     ----------
-    model : FiniteElementModel
-        Free or held.
-    count : int
-        How many.
-    held : array_like of int
+    held : array_like of int, shape (n,)
         Degrees of freedom held to zero.
 
     Returns

@@ -75,7 +75,6 @@ def inertia_relief(
 
     Parameters
     ----------
-    model : FiniteElementModel
     reference : str, int or three of them
         Origin of the body axes; held while the deformation is computed.
     interfaces : sequence of str or int

@@ -14,8 +14,6 @@ def interface_loads(body: ReducedBody, directions: dict[str, np.ndarray]) -> np.
 
     Parameters
     ----------
-    body : ReducedBody
-        With the interfaces.
     directions : dict of str to ndarray, shape (k, 3)
         Per interface the directions in which its joint can push, body axes: one along a rod or a spring, three at a
         spherical joint.
@@ -28,7 +26,7 @@ def interface_loads(body: ReducedBody, directions: dict[str, np.ndarray]) -> np.
     Raises
     ------
     ModelError
-        There is no direction at all, or a node is no interface.
+        There is no direction, or a node is not an interface.
     """
     order = list(body.interfaces)
     columns = []
@@ -55,8 +53,6 @@ def load_path_modes(
 
     Parameters
     ----------
-    body : ReducedBody
-        With the inertia modes.
     loads : ndarray, shape (3 n_interfaces, n_loads)
         Forces at the interfaces, of `interface_loads` or snapshots of a simulation.
     tolerance : float

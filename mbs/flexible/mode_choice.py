@@ -56,8 +56,6 @@ def modes_for_output(
 
     Parameters
     ----------
-    model : FiniteElementModel
-        Free model.
     reference : str, int or three of them
         Node of the floating frame.
     interfaces : sequence of Interface, str or int

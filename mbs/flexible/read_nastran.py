@@ -1,4 +1,4 @@
-"""Models written by Nastran: matrices in OUTPUT4, grid points in the bulk data (reader: pyYeti, extra `fem`)."""
+"""Models written by Nastran: matrices in OUTPUT4, grid points in the bulk data."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse as sp
 
-from ali3.extras import missing_module
 from mbs.common.errors import ModelError
+from mbs.flexible.bulk_data import grid_points
 from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.foreign_file import read_foreign
+from mbs.flexible.output4 import read_output4
 from mbs.flexible.sparse import Sparse
 
 
@@ -20,8 +21,8 @@ def read_nastran(
 ) -> FiniteElementModel:
     """Model from a bulk data file with the grid points and an OUTPUT4 file with the g-set matrices.
 
-    The g-set has six freedoms per grid point, grid points in ascending order. Grid points and displacements must be
-    in the basic coordinate system, in SI units.
+    The g-set has six freedoms per grid point, grid points in ascending order. Displacements must be in the basic
+    coordinate system, in SI units; places may be in any system of a card CORD2R, CORD2C or CORD2S.
 
     Parameters
     ----------
@@ -40,36 +41,28 @@ def read_nastran(
     Raises
     ------
     ModelError
-        pyYeti is not installed, a file or a matrix is missing, or a grid point has axes of its own.
+        A file or a matrix is missing or damaged, a matrix is complex, or a grid point has axes of its own.
     """
-    try:
-        from pyyeti.nastran import bulk, op4
-    except ModuleNotFoundError as error:
-        raise ModelError(f"Nastran files are read with pyYeti. {missing_module(error, 'fem')}") from error
     for path in (bulk_data, matrices):
         if not Path(path).is_file():
             raise ModelError(f"There is no file {path}.")
-    cards = read_foreign(Path(bulk_data), lambda path: bulk.rdgrids(str(path)))
-    if cards is None:
+    points = read_foreign(Path(bulk_data), grid_points)
+    if not points:
         raise ModelError(f"{bulk_data} holds no grid points.")
-    for number, own in cards[:, (0, 5)]:
+    for number, (_, own) in points.items():
         if own != 0:
-            raise ModelError(f"Grid point {number:.0f} has displacements in a system of its own; use the basic system.")
-    # one row per freedom, the first of six: grid point, freedom, set, place in the basic system
-    table = read_foreign(Path(bulk_data), lambda path: bulk.bulk2uset(str(path))[0])
-    points = table.reset_index().to_numpy(float)[::6]
-    points = points[np.argsort(points[:, 0])]
-    numbers, positions = points[:, 0].astype(int), points[:, 3:6]
-    read = read_foreign(Path(matrices), lambda path: op4.read(str(path), sparse=True))
-    found = {name.upper(): matrix for name, matrix in read.items()}
+            raise ModelError(f"Grid point {number} has displacements in a system of its own; use the basic system.")
+    found = read_foreign(Path(matrices), read_output4)
     for name in (stiffness, mass):
         if name.upper() not in found:
             raise ModelError(f"{Path(matrices).name} has no matrix {name}; it has {', '.join(sorted(found))}.")
+        if np.iscomplexobj(found[name.upper()]):
+            raise ModelError(f"The matrix {name} of {Path(matrices).name} is complex; give a real one.")
     K, M = (_symmetric(found[name.upper()]) for name in (stiffness, mass))
-    return external_model(K, M, positions, [str(number) for number in numbers])
+    return external_model(K, M, np.array([place for place, _ in points.values()]), [str(number) for number in points])
 
 
-def _symmetric(data: np.ndarray | Sparse) -> sp.csc_array:
+def _symmetric(data: Sparse) -> sp.csc_array:
     """Whole matrix from what may be one triangle of it."""
     full = sp.csc_array(data)
     lower, upper = sp.tril(full, -1), sp.triu(full, 1)

@@ -31,12 +31,8 @@ def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
 
     Parameters
     ----------
-    frame : BeamFrame
-        The beams.
-    element : int
-        Number of the beam.
     xi : float
-        0 at the start of the beam, 1 at its end.
+        Place along the beam, from 0 to 1 as a fraction of its length.
 
     Returns
     -------
@@ -85,10 +81,6 @@ class StrainGauge:
 
     Parameters
     ----------
-    name : str
-        Of the gauge.
-    element : int
-        Number of the beam.
     xi : float
         Place along it, 0 at its start and 1 at its end.
     fibre : tuple of float, optional
@@ -104,11 +96,6 @@ class StrainGauge:
     def bending_moment(self, frame: BeamFrame) -> sp.csr_array:
         """Moment about the axis across the fibre, positive when the fibre is stretched; My for the highest fibre.
 
-        Parameters
-        ----------
-        frame : BeamFrame
-            The beams.
-
         Returns
         -------
         sparse array, shape (1, n_dof)
@@ -122,11 +109,6 @@ class StrainGauge:
     def half_bridge(self, frame: BeamFrame) -> sp.csr_array:
         """Stress of the fibre minus that of the opposite one; blind to pull and twist.
 
-        Parameters
-        ----------
-        frame : BeamFrame
-            The beams.
-
         Returns
         -------
         sparse array, shape (1, n_dof)
@@ -139,11 +121,6 @@ class StrainGauge:
     def fibre_stress(self, frame: BeamFrame) -> sp.csr_array:
         """Bending stress of the fibre, half of the half-bridge.
 
-        Parameters
-        ----------
-        frame : BeamFrame
-            The beams.
-
         Returns
         -------
         sparse array, shape (1, n_dof)
@@ -153,11 +130,6 @@ class StrainGauge:
 
     def quarter_bridge(self, frame: BeamFrame) -> sp.csr_array:
         """Normal stress of the fibre, by pull and by bending: Young's modulus times the strain that one gauge reads.
-
-        Parameters
-        ----------
-        frame : BeamFrame
-            The beams.
 
         Returns
         -------
@@ -169,11 +141,6 @@ class StrainGauge:
     def axial_force(self, frame: BeamFrame) -> sp.csr_array:
         """N, positive when the beam is pulled.
 
-        Parameters
-        ----------
-        frame : BeamFrame
-            The beams.
-
         Returns
         -------
         sparse array, shape (1, n_dof)
@@ -183,11 +150,6 @@ class StrainGauge:
 
     def axial_stress(self, frame: BeamFrame) -> sp.csr_array:
         """Mean normal stress, N / A.
-
-        Parameters
-        ----------
-        frame : BeamFrame
-            The beams.
 
         Returns
         -------
@@ -199,11 +161,6 @@ class StrainGauge:
     def torque(self, frame: BeamFrame) -> sp.csr_array:
         """T, positive when it turns the far side of the section right-handed about the beam from start to end.
 
-        Parameters
-        ----------
-        frame : BeamFrame
-            The beams.
-
         Returns
         -------
         sparse array, shape (1, n_dof)
@@ -213,11 +170,6 @@ class StrainGauge:
 
     def shear_stress(self, frame: BeamFrame) -> sp.csr_array:
         """Shear stress of the torque at the fibre of a round section, T r / J.
-
-        Parameters
-        ----------
-        frame : BeamFrame
-            The beams.
 
         Returns
         -------
@@ -241,13 +193,6 @@ class StrainGauge:
 def gauge_rows(frame: BeamFrame, gauges: tuple[StrainGauge, ...]) -> tuple[np.ndarray, np.ndarray]:
     """Bending moments and half-bridge stresses of several gauges.
 
-    Parameters
-    ----------
-    frame : BeamFrame
-        The beams.
-    gauges : tuple of StrainGauge
-        The gauges.
-
     Returns
     -------
     moments, bridges : ndarray, shape (n_gauges, n_dof)
@@ -266,11 +211,6 @@ def section_force_field(frame: BeamFrame) -> sp.csr_array:
 
 def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
     """Fibre stresses at both ends of every element as one constant matrix.
-
-    Parameters
-    ----------
-    frame : BeamFrame
-        The beams.
 
     Returns
     -------

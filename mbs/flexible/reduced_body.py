@@ -19,8 +19,6 @@ class InterfaceModes:
 
     Parameters
     ----------
-    node : int
-        Number of the node.
     position : ndarray, shape (3,)
         Undeformed, from the reference node in body axes, m.
     translation : ndarray of int, shape (3,), optional
@@ -45,7 +43,6 @@ class ReducedBody:
     ----------
     origin : ndarray, shape (3,)
         Reference node in the axes of the finite-element model, m.
-    node_names : tuple of str
     node_positions : ndarray, shape (n, 3)
         Undeformed, from the reference node, m.
     node_translations, node_rotations : ndarray, shape (n, 3, m)
@@ -60,7 +57,6 @@ class ReducedBody:
         Displacement of every mass point per unit amplitude.
     K, M, C : ndarray, shape (m, m)
         Modal stiffness, mass and damping; ``K`` has no entries between static and dynamic modes.
-    mode_names : tuple of str
     interfaces : mapping of str to InterfaceModes
         By name of the node.
     n_static : int
@@ -97,11 +93,6 @@ class ReducedBody:
     def interface(self, name: str) -> InterfaceModes:
         """An interface by the name of its node.
 
-        Parameters
-        ----------
-        name : str
-            Name of the node.
-
         Returns
         -------
         InterfaceModes
@@ -119,11 +110,6 @@ class ReducedBody:
     def interface_translation(self, name: str) -> np.ndarray:
         """Displacement of an interface node per unit amplitude; unit columns in the default basis.
 
-        Parameters
-        ----------
-        name : str
-            Name of the node.
-
         Returns
         -------
         ndarray, shape (3, m)
@@ -138,11 +124,6 @@ class ReducedBody:
 
     def interface_rotation(self, name: str) -> np.ndarray:
         """Rotation of an interface node per unit amplitude.
-
-        Parameters
-        ----------
-        name : str
-            Name of the node.
 
         Returns
         -------
@@ -167,7 +148,7 @@ class ReducedBody:
         Returns
         -------
         ndarray, shape (k, m)
-            For `Model.sense_recovery`, row by row.
+            For `FlexibleBody.combination`, row by row.
         """
         return np.asarray(rows @ self.modes)
 

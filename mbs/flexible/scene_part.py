@@ -43,8 +43,6 @@ def flexible_parts(
     ----------
     body : ReducedBody
         Modes, and the beams of its frame.
-    frame : str
-        Name of the frame of the scene that carries it.
     amplitudes : sequence of str
         One column of the recording per mode.
     axes : array_like, shape (3, 3), optional
@@ -62,11 +60,6 @@ def flexible_parts(
     -------
     list of dict
         Ready for JSON; arrays as base64 of little-endian float32.
-
-    Raises
-    ------
-    ModelError
-        There is not one name, or one amplitude at the start, for each mode.
     """
     if len(amplitudes) != body.n_modes:
         raise ModelError(f"There are {len(amplitudes)} names for the amplitudes of {body.n_modes} modes.")

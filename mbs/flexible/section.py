@@ -94,11 +94,6 @@ def round_bar(diameter: float) -> Section:
     -------
     Section
         Its constants.
-
-    Raises
-    ------
-    ModelError
-        The diameter is not positive and finite.
     """
     _positive("round bar", diameter=diameter)
     return tube(diameter, diameter / 2)
@@ -116,11 +111,6 @@ def rectangle(width: float, height: float) -> Section:
     -------
     Section
         Its constants.
-
-    Raises
-    ------
-    ModelError
-        A length is not positive and finite.
     """
     _positive("rectangle", width=width, height=height)
     a, b = max(width, height), min(width, height)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
-import atexit
 import functools
 import importlib.util
 import os
@@ -14,6 +12,8 @@ import sys
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
+
+from ali3.cache import cache_folder
 
 HERE = Path(__file__).resolve().parent
 FLAGS = [
@@ -70,30 +70,8 @@ def library_name(target: str) -> str:
 
 @functools.cache
 def cache_directory() -> Path:
-    """Where the compiler keeps what it built, outside the source tree.
-
-    `ZIG_GLOBAL_CACHE_DIR`, else a folder in the home folder, else one that goes when this process ends.
-
-    Raises
-    ------
-    RuntimeError
-        If `ZIG_GLOBAL_CACHE_DIR` is not a folder that can be written to.
-    """
-    given = os.environ.get("ZIG_GLOBAL_CACHE_DIR")
-    try:
-        folder = Path(given) if given else Path.home() / ".cache" / "ali3-zig"
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return folder
-    except (OSError, RuntimeError) as error:  # no home folder, or none to write to
-        if given:
-            words = getattr(error, "strerror", None) or error
-            raise RuntimeError(
-                f"ZIG_GLOBAL_CACHE_DIR is '{given}', which the compiler cannot write to: {words}."
-            ) from None
-    temporary = tempfile.TemporaryDirectory(prefix="ali3-zig-", ignore_cleanup_errors=True)
-    atexit.register(temporary.cleanup)
-    return Path(temporary.name)
+    """Where the compiler keeps what it built: `ZIG_GLOBAL_CACHE_DIR`, else a cache of the user; see `cache_folder`."""
+    return cache_folder(name="ali3-zig", variable="ZIG_GLOBAL_CACHE_DIR")
 
 
 def compiler() -> str:
@@ -196,13 +174,7 @@ def compile_c(
 
 
 def compiler_environment() -> dict[str, str]:
-    """Environment of the compiler: that of this process with the place of the compiler's cache.
-
-    Raises
-    ------
-    RuntimeError
-        As for `cache_directory`.
-    """
+    """Environment of the compiler: that of this process with the place of the compiler's cache."""
     cache = str(cache_directory())
     return os.environ | {"ZIG_GLOBAL_CACHE_DIR": cache, "ZIG_LOCAL_CACHE_DIR": cache}
 
@@ -231,23 +203,3 @@ def compiler_command(
     if "linux" in target:
         command += ["-lm", "-ldl"]
     return command
-
-
-def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.kernel.build") -> int:
-    """Run the command, which the user typed as `prog`."""
-    from ali3.running import run_command
-
-    parser = argparse.ArgumentParser(prog=prog, description="Compile the ALi3 kernel.")
-    parser.add_argument("--target", help="zig target triple; default: this platform")
-    parser.add_argument("--out", help="library to write; default: lib/ beside this file")
-    options = parser.parse_args(arguments)
-
-    def work() -> int:
-        print(compile_library(options.target, options.out))
-        return 0
-
-    return run_command(work, (RuntimeError,))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -47,25 +47,18 @@ class BodyVocabulary(ModelCore):
 
         Parameters
         ----------
-        name : str
-            Unique among the bodies.
         mass : float
             kg.
         com : array_like, shape (dimension,)
             Centre of mass in earth axes in the reference configuration, m.
-        inertia : float or array_like
+        inertia : float or array_like, shape (3,) or (3, 3)
             About the centre of mass in earth axes in the reference configuration, kg m2: planar a number, spatial
             3 principal values or a 3x3 matrix.
-
-        Returns
-        -------
-        Body
-            For joints, forces and sensors.
 
         Raises
         ------
         ModelError
-            The name is taken, a number is not one or not positive, or no mass distribution has this inertia.
+            No mass distribution has this inertia.
         """
         m = positive(mass, f"The mass of body {shown(name)}")
         centre = vector(com, self.dimension, f"the centre of mass of body {shown(name)}")
@@ -83,22 +76,10 @@ class BodyVocabulary(ModelCore):
 
         Parameters
         ----------
-        name : str
-            Unique among the bodies.
         mass : float
             kg.
         position : array_like, shape (dimension,)
             In earth axes in the reference configuration, m.
-
-        Returns
-        -------
-        PointMass
-            For joints, forces and sensors.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, or a number is not one or not positive.
         """
         m = positive(mass, f"The mass of point mass {shown(name)}")
         centre = vector(position, self.dimension, f"the position of point mass {shown(name)}")
@@ -125,8 +106,6 @@ class BodyVocabulary(ModelCore):
 
         Parameters
         ----------
-        name : str
-            Unique among the payloads.
         body : Body
             Of this model, not the ground. On a flexible body it sits at a node; with ports it must sit at one of them
             where quasi-static outputs are to follow it.
@@ -138,16 +117,10 @@ class BodyVocabulary(ModelCore):
             What carries it in place of the body's own point there, such as a mean of several points of the body, which
             then share its force.
 
-        Returns
-        -------
-        Payload
-            For parameters.
-
         Raises
         ------
         ModelError
-            The name is taken, the body is the ground or none of this model, it has no such point, `point` is drawn
-            elsewhere, or a number is not one or negative.
+            The body is the ground or has no such point, or `point` is drawn elsewhere.
         """
         return new_payload(self, name, self.owned(body, f"The payload {shown(name)}"), position, mass, point)
 
@@ -158,8 +131,6 @@ class BodyVocabulary(ModelCore):
 
         Parameters
         ----------
-        name : str
-            Unique among the bodies.
         reduced : ReducedBody
             For instance of `mbs.flexible.craig_bampton.craig_bampton`.
         origin : array_like, shape (3,)
@@ -175,8 +146,7 @@ class BodyVocabulary(ModelCore):
         Raises
         ------
         ModelError
-            The model is planar, `reduced` is no ReducedBody, the name is taken, the axes are no rotation, or all mass
-            lies on a line.
+            The model is planar, the axes are no rotation, or all mass lies on a line.
         """
         what = f"flexible body {shown(name)}"
         if self.dimension != 3:
@@ -211,9 +181,7 @@ class BodyVocabulary(ModelCore):
         Raises
         ------
         ModelError
-            The body is none of this model or not rigid, the model is planar, or a place is not three numbers.
-        ArgumentTypeError
-            `ports` is no mapping.
+            The body is not rigid, or the model is planar.
         """
         self.owned(body, "The ports")
         if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
@@ -239,11 +207,6 @@ class BodyVocabulary(ModelCore):
             Velocity of its centre of mass, earth axes, m/s.
         angular : float or array_like, shape (3,), optional
             Angular velocity, earth axes, rad/s; planar a number.
-
-        Raises
-        ------
-        ModelError
-            The body cannot have one, or a velocity is not the numbers it must be.
         """
         what = f"initial velocity of body {shown(getattr(body, 'name', body))}"
         self.owned(body, f"The {what}")
@@ -265,18 +228,6 @@ class BodyVocabulary(ModelCore):
         ----------
         body : Body
             A body, a point mass, the ground, or a node of a flexible body.
-        what : str
-            What needs it, for the message.
-
-        Returns
-        -------
-        Body
-            The same.
-
-        Raises
-        ------
-        ModelError
-            It is none, or one of another model.
         """
         if not isinstance(body, Body):
             raise ModelError(f"{capital(what)} needs a body, got {shown(body)}.")
@@ -291,22 +242,8 @@ class BodyVocabulary(ModelCore):
 
         Parameters
         ----------
-        body : Body
-            Of this model.
         position : array_like, shape (dimension,)
             In earth axes in the reference configuration, m; of a point mass None.
-        what : str
-            What joins there, for the message.
-
-        Returns
-        -------
-        AffineVector
-            The point.
-
-        Raises
-        ------
-        ModelError
-            The body is none of this model, or the position is not the numbers it must be.
         """
         self.owned(body, what)
         if body.is_point:
@@ -322,12 +259,8 @@ class BodyVocabulary(ModelCore):
 
         Parameters
         ----------
-        body : Body
-            Of this model.
         axis : array_like, shape (dimension,)
             In earth axes in the reference configuration, of any length.
-        what : str
-            What joins there, for the message.
 
         Returns
         -------
@@ -337,7 +270,7 @@ class BodyVocabulary(ModelCore):
         Raises
         ------
         ModelError
-            The body is none of this model or has no axes, or the axis is zero or not the numbers it must be.
+            The body has no axes, or the axis is zero.
         """
         self.owned(body, what)
         unit = direction(axis, self.dimension, f"the axis of {what} on body '{body.name}'")

@@ -22,7 +22,6 @@ class Body:
 
     Attributes
     ----------
-    name : str
     com : ndarray, shape (dimension,)
         Centre of mass in earth axes in the reference configuration, m; origin of the body frame.
     start : int
@@ -72,11 +71,6 @@ class Body:
         -------
         AffineVector
             The point as expressions of coordinates, m.
-
-        Raises
-        ------
-        ModelError
-            It is not the numbers it must be.
         """
         local = vector(position, self.dimension, f"a point of body '{self.name}'") - self.com
         return self._expression(local, 1.0)
@@ -93,11 +87,6 @@ class Body:
         -------
         AffineVector
             The vector as expressions of coordinates.
-
-        Raises
-        ------
-        ModelError
-            It is not the numbers it must be.
         """
         return self._expression(vector(components, self.dimension, f"a vector of body '{self.name}'"), 0.0)
 

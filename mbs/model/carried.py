@@ -16,8 +16,6 @@ class Payload:
 
     Parameters
     ----------
-    name : str
-        Unique among the payloads.
     body : Body
         What it sits on.
     position : ndarray, shape (dimension,)
@@ -76,8 +74,6 @@ class SlidingPoint:
     ----------
     start, direction : AffineVector
         Point and unit vector of the body.
-    guide : int
-        Number of the guide.
     """
 
     name: str

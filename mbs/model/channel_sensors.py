@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from mbs.common.affine import Affine
@@ -11,9 +12,11 @@ from mbs.common.errors import ModelError
 from mbs.kernel.header import GuideType, SensorType, SolverValue
 from mbs.model.guides import owned_guide
 from mbs.model.inputs import owned_input
+from mbs.model.joints.joint import Joint
+from mbs.model.reactions import guide_terms
 from mbs.model.records import Guide, Input
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import SensorBase, order_number
+from mbs.model.sensors import RATE_UNITS, SensorBase, order_number
 
 SOLVER = tuple(value.name.lower() for value in SolverValue)
 SOLVER_UNITS = {SolverValue.VIOLATION: "m", SolverValue.RESIDUAL: "m", SolverValue.ENERGY_ERROR: "J"}
@@ -24,6 +27,11 @@ SOLVER_WHOLE = (
     SolverValue.STATUS,
     SolverValue.CAPPED,
 )
+GUIDE_READINGS = {
+    "motion": SensorType.GUIDE,
+    "excess": SensorType.GUIDE_EXCESS,
+    "force": SensorType.REACTION_PRODUCTS,
+}
 
 
 class ChannelSensorVocabulary(SensorBase):
@@ -33,6 +41,7 @@ class ChannelSensorVocabulary(SensorBase):
         self,
         name: str,
         value: float,
+        *,
         unit: str = "1",
         description: str = "",
         whole: bool = False,
@@ -42,172 +51,100 @@ class ChannelSensorVocabulary(SensorBase):
 
         Parameters
         ----------
-        name : str
-            Unique among the sensors.
         value : float
-            The number.
-        unit, description : str
-            For files, plots and hosts.
+            In `unit`.
         whole : bool
             Whether an FMU shows it as an integer.
         computed : bool
             False where this number only stands for one that the same scene computes at another fidelity: the FMU then
             logs once that it was read, and which fidelities compute it.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, or the value is no finite number.
         """
         x = number(value, f"The value of sensor '{name}'")
         one = [Affine({}, 1.0)]
         return self._sense(name, unit, description, SensorType.SIGNAL, one, reals=[x], whole=whole, computed=computed)
 
-    def sense_input(self, name: str, input: Input, unit: str = "", description: str = "") -> Sensor:
-        """An input as it is used, within its limits.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        input : Input
-            Of this model.
-        unit, description : str
-            For files, plots and hosts; by default the unit of the input.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, or the input is not of this model.
-        """
+    def sense_input(self, name: str, input: Input, *, unit: str = "", description: str = "") -> Sensor:
+        """An input as it is used, within its limits, by default in its own unit."""
         channel = owned_input(self, input, f"The sensor '{name}'")
-        return self._sense(
-            name,
-            self._unit(unit, channel.unit),
-            description,
-            SensorType.INPUT,
-            integers=[channel.index],
-            whole=channel.whole,
-        )
+        unit = self._unit(unit, channel.unit)
+        integers = [channel.index]
+        return self._sense(name, unit, description, SensorType.INPUT, integers=integers, whole=channel.whole)
 
     def sense_guide(
-        self, name: str, guide: Guide, order: int = 0, scale: float = 1.0, unit: str = "", description: str = ""
+        self,
+        name: str,
+        guide: Guide,
+        kind: str = "motion",
+        *,
+        order: int = 0,
+        joints: Sequence[Joint] | None = None,
+        scale: float = 1.0,
+        unit: str = "",
+        description: str = "",
     ) -> Sensor:
-        """A guide or one of its rates.
+        """A guide or one of its rates, what its limits take away, or its force.
 
         Parameters
         ----------
-        name : str
-            Unique among the sensors.
-        guide : Guide
-            Of this model.
+        kind : {"motion", "excess", "force"}
+            The motion; of a guide from `guide_inputs` what the limits take away from the sum of its inputs, zero where
+            it follows them; or the force with which it moves what it guides, in the direction of its motion: its power
+            over its rate.
         order : {0, 1, 2}
-            The value, its rate or its second rate.
+            Of the motion: the value, its rate or its second rate.
+        joints : sequence of Joint, optional
+            Of the force: drives, and distances whose end the guide slides; by default all that there are so far.
         scale : float
             Factor on it.
-        unit, description : str
-            For files, plots and hosts; by default the unit of the guide.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
+        unit : str
+            By default that of the guide, or of its rate where it is in m or rad; of a force N or N m.
 
         Raises
         ------
         ModelError
-            The name is taken, the guide is not of this model, or the order is none.
+            The guide has no limits, or none of the joints follows it.
         """
         what = f"sensor '{name}'"
-        motion, k = owned_guide(self, guide, f"The {what}"), order_number(order, 2, what)
-        factor = number(scale, f"The scale of {what}")
-        return self._sense(
-            name,
-            self._unit(unit, motion.unit),
-            description,
-            SensorType.GUIDE,
-            integers=[motion.index, k],
-            reals=[factor],
-        )
-
-    def sense_guide_excess(
-        self, name: str, guide: Guide, scale: float = 1.0, unit: str = "", description: str = ""
-    ) -> Sensor:
-        """What the limits of a guide of two inputs take away from the sum of its inputs.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        guide : Guide
-            From `guide_inputs`.
-        scale : float
-            Factor on it.
-        unit, description : str
-            For files, plots and hosts; by default the unit of the guide.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System; zero where the guide follows its inputs.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, or the guide is not of this model or has no limits.
-        """
-        what = f"sensor '{name}'"
+        one_of(kind, GUIDE_READINGS, f"The kind of {what}")
         motion, factor = owned_guide(self, guide, f"The {what}"), number(scale, f"The scale of {what}")
-        if motion.type != GuideType.OF_TWO_INPUTS:
+        k = order_number(order, 2 if kind == "motion" else 0, what)
+        if kind == "force":
+            return self._guide_force(name, motion, joints, factor, unit, description)
+        if joints is not None:
+            raise ModelError(f"The {what} reads the {kind} of a guide; joints are for its force.")
+        if kind == "excess" and motion.type != GuideType.OF_TWO_INPUTS:
             raise ModelError(f"The guide '{motion.name}' of {what} has no limits; those of guide_inputs have.")
-        unit = self._unit(unit, motion.unit)
-        return self._sense(name, unit, description, SensorType.GUIDE_EXCESS, integers=[motion.index], reals=[factor])
+        integers = [motion.index, k] if kind == "motion" else [motion.index]
+        unit = self._unit(unit, RATE_UNITS.get(motion.unit, (motion.unit,) * 3)[k])
+        return self._sense(name, unit, description, GUIDE_READINGS[kind], integers=integers, reals=[factor])
 
-    def sense_solver(self, name: str, kind: str, description: str = "") -> Sensor:
+    def _guide_force(
+        self, name: str, guide: Guide, joints: Sequence[Joint] | None, factor: float, unit: str, description: str
+    ) -> Sensor:
+        asked = self.joints if joints is None else self._joints(name, "joints", joints)
+        terms = [replace(t, weight=factor * t.weight) for joint in asked for t in guide_terms(joint, guide.index)]
+        if not terms:
+            raise ModelError(
+                f"The sensor '{name}' asks for the force of guide '{guide.name}', which none of its joints follows."
+            )
+        unit = self._unit(unit, {"m": "N", "rad": "N.m"}.get(guide.unit, "1"))
+        return self._sense(name, unit, description, GUIDE_READINGS["force"], terms=terms)
+
+    def sense_solver(self, name: str, kind: str, *, description: str = "") -> Sensor:
         """What the solver says about itself.
 
         Parameters
         ----------
-        name : str
-            Unique among the sensors.
         kind : str
             "iterations" and "status" of the last step, "violation" (m) and "residual" (m) after it; since the start
             "factorizations", "halvings", "energy_error" (J, what the steps gave where no force did) and
             "energy_balance" (the same over the largest kinetic energy and the work) and "capped" (steps that ended
             at `Settings.step_iterations`).
-        description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, or there is no such kind.
         """
         one_of(kind, SOLVER, f"The kind of solver sensor '{name}'")
         value = SolverValue[kind.upper()]
-        return self._sense(
-            name,
-            SOLVER_UNITS.get(value, "1"),
-            description,
-            SensorType.SOLVER,
-            integers=[value],
-            whole=value in SOLVER_WHOLE,
-        )
+        unit, whole = SOLVER_UNITS.get(value, "1"), value in SOLVER_WHOLE
+        return self._sense(name, unit, description, SensorType.SOLVER, integers=[value], whole=whole)
 
     def notice(self, sensor: Sensor, text: str) -> Sensor:
         """Let a run say a sentence when a sensor is not zero, so that users need not look at every output.
@@ -216,20 +153,13 @@ class ChannelSensorVocabulary(SensorBase):
 
         Parameters
         ----------
-        sensor : Sensor
-            Of this model.
         text : str
             The beginning of the sentence.
-
-        Returns
-        -------
-        Sensor
-            The sensor with its sentence.
 
         Raises
         ------
         ModelError
-            The sensor is not of this model, or the text is empty.
+            The text is empty.
         """
         known = isinstance(sensor, Sensor) and any(s is sensor for s in self.sensors)
         if not known or not isinstance(text, str) or not text.strip():

@@ -49,16 +49,6 @@ class ModelCore(Register):
         ----------
         element : ElementRecord
             From the ``record`` method of an element of `mbs.elements`.
-
-        Returns
-        -------
-        ElementRecord
-            The same, for sensors and parameters.
-
-        Raises
-        ------
-        ModelError
-            It is no record, its name is taken, or its signals are not of this model.
         """
         instance_of(ElementRecord, element, "The element of Model.add", "an ElementRecord")
         for signal in element.signals:
@@ -68,23 +58,7 @@ class ModelCore(Register):
         return element
 
     def joint_named(self, name: str) -> Joint:
-        """The joint of a name.
-
-        Parameters
-        ----------
-        name : str
-            Its name.
-
-        Returns
-        -------
-        Joint
-            The joint.
-
-        Raises
-        ------
-        ModelError
-            There is none.
-        """
+        """The joint of a name."""
         for joint in self.joints:
             if isinstance(name, str) and joint.name == name:
                 return joint

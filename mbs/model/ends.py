@@ -28,17 +28,11 @@ def body_and_point(
     ----------
     end : pair of Body and array_like, or Body
         A body alone stands for its centre of mass.
-    what : str
-        What the end belongs to, for the message.
-    wanted : str
-        What it may be, for the message.
 
     Returns
     -------
     Body
         Not looked at yet: it may be of another model.
-    array_like
-        The place as given.
 
     Raises
     ------
@@ -53,17 +47,12 @@ def body_and_point(
 
 
 def on_one_body(body_1: Body, body_2: Body) -> bool:
-    """Whether two bodies are one rigid body, or both the ground, so that nothing can move between them.
+    """Whether two bodies are the same rigid body, or both the ground, so that nothing can move between them.
 
     Parameters
     ----------
     body_1, body_2 : Body
         A body with ports is the body that has them; two nodes of a flexible body are two.
-
-    Returns
-    -------
-    bool
-        Whether they are one.
     """
     if body_1.model is not body_2.model:
         return False
@@ -80,13 +69,11 @@ def different(body_1: Body, body_2: Body, what: str) -> None:
     ----------
     body_1, body_2 : Body
         What is joined.
-    what : str
-        What joins them, for the message.
 
     Raises
     ------
     ModelError
-        They are one body, or one of them is none.
+        They are the same body.
     """
     for body in (body_1, body_2):
         if not isinstance(body, Body):

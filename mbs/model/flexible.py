@@ -90,20 +90,10 @@ class FlexibleBody(Body):
     def amplitude(self, mode: int | str) -> Affine:
         """An amplitude as an expression.
 
-        Parameters
-        ----------
-        mode : int or str
-            Number or name of the mode.
-
         Returns
         -------
         Affine
             m or rad for static modes.
-
-        Raises
-        ------
-        ModelError
-            There is no such mode; the message lists what there is.
         """
         names = self.reduced.mode_names
         if isinstance(mode, str):
@@ -127,11 +117,6 @@ class FlexibleBody(Body):
         -------
         Affine
             ``weights . eta``.
-
-        Raises
-        ------
-        ModelError
-            There is not one number for each mode.
         """
         w = vector(weights, self.n_modes, f"the weights of the modes of flexible body '{self.name}'")
         return Affine({self.start + 12 + j: float(v) for j, v in enumerate(w) if v != 0.0})
@@ -144,23 +129,7 @@ class FlexibleBody(Body):
         return body
 
     def interface(self, node: str | int) -> Interface:
-        """A node as something that joints, forces and sensors take like a body.
-
-        Parameters
-        ----------
-        node : str or int
-            Name or number.
-
-        Returns
-        -------
-        Interface
-            The same each time.
-
-        Raises
-        ------
-        ModelError
-            There is no such node.
-        """
+        """A node as something that joints, forces and sensors take like a body."""
         number = self._node_number(node)
         if number not in self._interfaces:
             self._interfaces[number] = Interface(self, number)
@@ -173,18 +142,11 @@ class FlexibleBody(Body):
         ----------
         position : array_like, shape (3,)
             Earth axes in the reference configuration, m.
-        what : str
-            What needs it, for the message.
-
-        Returns
-        -------
-        Interface
-            The node.
 
         Raises
         ------
         ModelError
-            No node is there; the message names the nearest.
+            No node is there.
         """
         place = vector(position, 3, f"the point of {what} on flexible body '{self.name}'")
         gaps = np.linalg.norm(self.node_positions - place, axis=1)
@@ -223,20 +185,10 @@ class FlexibleBody(Body):
     def node(self, node: str | int) -> AffineVector:
         """A node as a point; it brings three coordinates and rows unless it is there already.
 
-        Parameters
-        ----------
-        node : str or int
-            Name or number.
-
         Returns
         -------
         AffineVector
             The point as expressions of coordinates, m.
-
-        Raises
-        ------
-        ModelError
-            There is no such node.
         """
         return self.interface(node).point()
 
@@ -374,11 +326,6 @@ class Interface(Body):
         -------
         AffineVector
             The point as expressions of coordinates, m.
-
-        Raises
-        ------
-        ModelError
-            It is not the numbers it must be.
         """
         if self._point is None:
             # from the origin of the frame, so that the rows lose no digits far from that of the earth
@@ -402,11 +349,6 @@ class Interface(Body):
         -------
         AffineVector
             The vector as expressions of coordinates.
-
-        Raises
-        ------
-        ModelError
-            It is not the numbers it must be.
         """
         v = vector(components, 3, f"a vector of interface '{self.name}'")
         carried = self.owner.vector(v)

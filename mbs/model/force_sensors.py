@@ -12,7 +12,6 @@ from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.kernel.header import SensorType
-from mbs.model.flexible import FlexibleBody
 from mbs.model.ports import PortedBody
 from mbs.model.sensor import Sensor
 from mbs.model.sensors import SensorBase
@@ -29,34 +28,21 @@ class ForceSensorVocabulary(SensorBase):
         name: str,
         element: ElementRecord | str,
         output: str,
+        *,
         scale: float = 1.0,
         unit: str = "",
         description: str = "",
     ) -> Sensor:
-        """An output of a force element, such as the force of a spring.
+        """An output of a force element, such as the force of a spring, by default with its unit and description.
 
         Parameters
         ----------
-        name : str
-            Unique among the sensors.
         element : ElementRecord or str
             A force element of this model or its name.
         output : str
             Name of one of its outputs.
         scale : float
             Factor on it.
-        unit, description : str
-            For files, plots and hosts; by default those of the output.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, or there is no such element or output; the message lists what there is.
         """
         element_name = element.name if isinstance(element, ElementRecord) else element
         if not isinstance(element_name, str) or not isinstance(output, str):
@@ -87,44 +73,44 @@ class ForceSensorVocabulary(SensorBase):
             f"The sensor '{name}' asks for element {shown(element_name)}, but the model has no such element."
         )
 
-    def sense_work(
+    def sense_energy(
         self,
         name: str,
-        elements: ElementRecord | str | Sequence[ElementRecord | str],
-        kind: str = "work",
+        kind: str = "total",
+        elements: ElementRecord | str | Sequence[ElementRecord | str] | None = None,
+        *,
         unit: str = "J",
         description: str = "",
     ) -> Sensor:
-        """Work of force elements on the mechanism since the start, J; the works of several are added.
+        """Energy of the mechanism, or work of force elements on it since the start, J.
 
-        The sums of all elements, of kind "nonconservative", and the work of driven joints are the change of the total
-        energy (`sense_energy`), but for what the steps err by (`sense_solver`, "energy_error"). Each method adds up its
-        own steps: with mean forces times ways by the trapezoidal rule (second order), with the forces of discrete
-        gradients by energy-momentum (exact), with powers of the stages by the others.
+        The nonconservative work of all elements and the work of driven joints are the change of the total energy, but
+        for what the steps err by (`sense_solver`, "energy_error"). Each method adds up the work of its own steps: with
+        mean forces times ways by the trapezoidal rule (second order), with the forces of discrete gradients by
+        energy-momentum (exact), with powers of the stages by the others.
 
         Parameters
         ----------
-        name : str
-            Unique among the sensors.
+        kind : {"kinetic", "gravity", "elastic", "total", "work", "nonconservative"}
+            The elastic energy is that of springs and flexible bodies. Work is that of all forces of the elements;
+            nonconservative together with the change of their own potential energy, so that springs have none. Work
+            that is lost, in a damper or a brake, is negative.
         elements : ElementRecord, str or sequence of them
-            Force elements of this model or their names.
-        kind : {"work", "nonconservative"}
-            Of all forces of the elements; or together with the change of their own potential energy, so that springs
-            have none. Work that is lost, in a damper or a brake, is negative.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
+            Of a work: force elements of this model or their names, whose works are added.
 
         Raises
         ------
         ModelError
-            An element that the model does not have or that comes twice, none at all, or another kind.
+            An element comes twice.
         """
-        one_of(kind, WORKS, f"The work of sensor '{name}'")
+        one_of(kind, (*ENERGIES, *WORKS), f"The energy of sensor '{name}'")
+        if kind in ENERGIES:
+            if elements is not None:
+                raise ModelError(
+                    f"The sensor '{name}' reads the {kind} energy, which is that of the whole mechanism; elements are "
+                    "for 'work' and 'nonconservative'."
+                )
+            return self._sense(name, unit, description, SensorType.ENERGY, integers=[ENERGIES.index(kind)])
         if not isinstance(elements, (ElementRecord, str, list, tuple)):
             raise ModelError(f"The sensor '{name}' needs force elements or their names, got {shown(elements)}.")
         given = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
@@ -143,82 +129,9 @@ class ForceSensorVocabulary(SensorBase):
             name, unit, description, SensorType.WORK, integers=[WORKS.index(kind), len(numbers), *numbers]
         )
 
-    def sense_energy(self, name: str, kind: str = "total", unit: str = "J", description: str = "") -> Sensor:
-        """Energy of the mechanism, J.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        kind : {"kinetic", "gravity", "elastic", "total"}
-            Which energy; the elastic one is that of springs and flexible bodies.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, or there is no such energy.
-        """
-        one_of(kind, ENERGIES, f"The energy of sensor '{name}'")
-        return self._sense(name, unit, description, SensorType.ENERGY, integers=[ENERGIES.index(kind)])
-
-    def sense_mass(self, name: str, unit: str = "kg", description: str = "") -> Sensor:
-        """Mass of all bodies and payloads, kg.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is taken.
-        """
+    def sense_mass(self, name: str, *, unit: str = "kg", description: str = "") -> Sensor:
+        """Mass of all bodies and payloads, kg."""
         return self._sense(name, unit, description, SensorType.MASS)
-
-    def sense_recovery(
-        self, name: str, body: FlexibleBody, weights: ArrayLike, unit: str = "", description: str = ""
-    ) -> Sensor:
-        """A constant row times the amplitudes of a flexible body, such as a stress of `ReducedBody.recovery`.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        body : FlexibleBody
-            Of this model.
-        weights : array_like, shape (n_modes,)
-            Output per unit amplitude.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, the body is not a flexible one of this model, or the weights are not one per mode.
-        """
-        if not isinstance(self.owned(body, f"The sensor '{name}'"), FlexibleBody):
-            raise ModelError(f"The sensor '{name}' needs a flexible body, not '{body.name}'.")
-        return self._sense(name, unit, description, SensorType.SIGNAL, [body.combination(weights)], reals=[1.0])
 
     def sense_quasi_static(
         self,
@@ -227,6 +140,7 @@ class ForceSensorVocabulary(SensorBase):
         relief: InertiaRelief,
         output: int,
         origin: ArrayLike,
+        *,
         unit: str = "",
         description: str = "",
     ) -> Sensor:
@@ -234,30 +148,17 @@ class ForceSensorVocabulary(SensorBase):
 
         Parameters
         ----------
-        name : str
-            Unique among the sensors.
-        body : PortedBody
-            Of this model.
         relief : InertiaRelief
             Interfaces in the order of the ports, axes those of the earth in the reference configuration.
         output : int
             Row of its matrices.
         origin : array_like, shape (3,)
             Its origin in the reference configuration, m.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
 
         Raises
         ------
         ModelError
-            The name is taken, the body has no ports, or the matrices have other ports or no such row.
-        ArgumentTypeError
-            `relief` is no InertiaRelief.
+            The body has no ports, or the matrices have other ports or no such row.
         """
         what = f"sensor '{name}'"
         if not isinstance(self.owned(body, f"The {what}"), PortedBody):

@@ -52,8 +52,6 @@ class ForceVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the elements.
         end_1, end_2 : (Body, array_like) or PointMass
             A body and its point in earth axes in the reference configuration, m; or a particle.
         stiffness, damping : float
@@ -63,17 +61,10 @@ class ForceVocabulary(BodyVocabulary):
         stops : EndStops, optional
             Bump and rebound stops.
 
-        Returns
-        -------
-        ElementRecord
-            For sensors and parameters.
-
         Raises
         ------
         ModelError
-            Both ends are on one body or one is not of this model, or a number is not one or negative.
-        ArgumentTypeError
-            `stops` are no EndStops.
+            Both ends are on the same body.
         """
         what = f"spring-damper '{name}'"
         p1, p2 = self._end(end_1, what), self._end(end_2, what)
@@ -94,24 +85,12 @@ class ForceVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the elements.
         angle : Coordinate
             A relative angle, or an expression of coordinates.
         stiffness, damping : float
             N m/rad and N m s/rad.
         free_angle : float
             Angle without spring torque, rad.
-
-        Returns
-        -------
-        ElementRecord
-            For sensors and parameters.
-
-        Raises
-        ------
-        ModelError
-            The angle is not of this model, or a number is not one or negative.
         """
         expression = self.expression(angle, f"The torsional spring-damper '{name}'")
         return self.add(ScalarSpringDamper(stiffness, damping, free_angle).record(name, expression))
@@ -129,26 +108,12 @@ class ForceVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the elements.
-        body : Body
-            Of this model.
         point : array_like, shape (dimension,), optional
             Earth axes in the reference configuration, m; by default the centre of mass.
         inputs : sequence of Input or None
             One per component, N; None: no force along that axis.
         axes : {"earth", "body"}
             Axes of the components.
-
-        Returns
-        -------
-        ElementRecord
-            For sensors.
-
-        Raises
-        ------
-        ModelError
-            Body or input are not of this model, or the number of inputs is not the dimension.
         """
         what = f"force '{name}'"
         self.owned(body, f"The {what}")
@@ -165,8 +130,6 @@ class ForceVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the elements.
         body : Body
             A rigid body or a node of a flexible one.
         inputs : sequence of Input or None, or Input
@@ -174,16 +137,10 @@ class ForceVocabulary(BodyVocabulary):
         axes : {"earth", "body"}
             Axes of the components.
 
-        Returns
-        -------
-        ElementRecord
-            For sensors.
-
         Raises
         ------
         ModelError
-            The body is the ground or a point mass, body or input are not of this model, or the number of inputs is
-            wrong.
+            The body is the ground or a point mass.
         """
         what = f"torque '{name}'"
         self.owned(body, f"The {what}")
@@ -202,24 +159,10 @@ class ForceVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the elements.
         angle : Coordinate
             A relative angle, an expression of coordinates, or a spin.
-        input : Input
-            Of this model.
         gain : float
             The torque is ``gain * input``, N m.
-
-        Returns
-        -------
-        ElementRecord
-            For sensors and parameters.
-
-        Raises
-        ------
-        ModelError
-            Angle or input are not of this model, or the gain is no finite number.
         """
         what = f"torque '{name}'"
         expression = self.expression(angle, f"The {what}")
@@ -236,26 +179,12 @@ class ForceVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the elements.
-        body : Body
-            Of this model.
         point : array_like, shape (dimension,)
             Earth axes in the reference configuration, m.
         drag_area : float
             Drag coefficient times frontal area, m2.
         air_density : float
             kg/m3.
-
-        Returns
-        -------
-        ElementRecord
-            For sensors and parameters.
-
-        Raises
-        ------
-        ModelError
-            The body is not of this model, or a number is not one or negative.
         """
         self.owned(body, f"The drag '{name}'")
         return self.add(Drag(drag_area, air_density).record(name, self._end((body, point), f"drag '{name}'")))
@@ -275,10 +204,6 @@ class ForceVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the elements.
-        body : Body
-            Of this model.
         point : array_like, shape (dimension,)
             Earth axes in the reference configuration, m.
         forward, up : array_like, shape (dimension,)
@@ -289,15 +214,10 @@ class ForceVocabulary(BodyVocabulary):
         air_density : float
             kg/m3.
 
-        Returns
-        -------
-        ElementRecord
-            For sensors and parameters.
-
         Raises
         ------
         ModelError
-            The body is not of this model, a number is not one, an axis has no direction, or the density is negative.
+            An axis is zero.
         """
         what = f"lift '{name}'"
         owned = self.owned(body, f"The {what}")
@@ -328,9 +248,7 @@ class ForceVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            A number of the road is not one, the file is none, or the name of the parameter is taken.
-        ArgumentTypeError
-            It is no road.
+            The file is no road.
         """
         kinds = (PlaneRoad, KerbRoad, GridRoad, RoadFile)
         instance_of(kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad, GridRoad or RoadFile")
@@ -353,28 +271,12 @@ class ForceVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the elements.
         body : Body
             A rigid body of a spatial model.
         points : array_like, shape (n, 3)
             Earth axes in the reference configuration, m.
-        road : int
-            Number of the road, from `road`.
         contact : ContactPoints
             How they touch; `ContactPoints.for_mass` chooses numbers.
-
-        Returns
-        -------
-        ElementRecord
-            For sensors and parameters.
-
-        Raises
-        ------
-        ModelError
-            The body is not rigid, the road does not exist, or the points are not of that shape.
-        ArgumentTypeError
-            `contact` is no ContactPoints.
         """
         what = f"contact points '{name}'"
         self.owned(body, f"The {what}")
@@ -395,28 +297,12 @@ class ForceVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the elements.
         body : Body
             A rigid body of a spatial model.
         point : array_like, shape (3,)
             Earth axes in the reference configuration, m.
-        road : int
-            Number of the road, from `road`.
         contact : ContactPoints
             How it touches.
-
-        Returns
-        -------
-        ElementRecord
-            For sensors and parameters.
-
-        Raises
-        ------
-        ModelError
-            The body is not rigid, the road does not exist, or the point is not three numbers.
-        ArgumentTypeError
-            `contact` is no ContactPoints.
         """
         place = array(point, (3,), f"the place of contact point {shown(name)}")
         return self.contact_points(name, body, place[None], road=road, contact=contact)

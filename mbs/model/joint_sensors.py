@@ -9,14 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.common.affine import AffineVector
-from mbs.common.checks import number, shown
+from mbs.common.checks import number, one_of, shown
 from mbs.common.errors import ModelError
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
-from mbs.model.guides import owned_guide
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
-from mbs.model.reactions import Term, folded, force_on_first, guide_terms, moment_terms, rod_terms
-from mbs.model.records import Guide
+from mbs.model.reactions import Term, folded, force_on_first, moment_terms, rod_terms
 from mbs.model.sensor import Sensor
 from mbs.model.sensors import SensorBase, component_number
 
@@ -24,54 +22,67 @@ from mbs.model.sensors import SensorBase, component_number
 class JointSensorVocabulary(SensorBase):
     """What can be read of a joint."""
 
-    def _joint(self, name: str, joint: Joint | str) -> Joint:
-        found = self.joint_named(joint) if isinstance(joint, str) else joint
-        if not isinstance(found, Joint) or found not in self.joints:
-            raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {shown(joint)}.")
-        self.remember(found)
-        return found
-
-    def _joints(self, name: str, argument: str, given: Sequence[Joint | str]) -> list[Joint]:
-        if not isinstance(given, (list, tuple)) or not given:
-            raise ModelError(f"The {argument} of sensor '{name}' must be a list of joints, not {shown(given)}.")
-        return [self._joint(name, joint) for joint in given]
-
     def _sense_terms(self, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]) -> Sensor:
         joint.as_rows = joint.as_rows or any(term.equation in joint.force_equations for term in terms)
         return self._sense(name, unit, description, SensorType.REACTION_PRODUCTS, joint=joint, terms=terms)
 
-    def sense_joint_force(
-        self, name: str, joint: Joint | str, component: str = "x", unit: str = "", description: str = ""
+    def sense_joint(
+        self,
+        name: str,
+        joint: Joint | str,
+        component: str = "x",
+        kind: str = "force",
+        *,
+        on: str = "first",
+        axes: Body | str = "earth",
+        point: ArrayLike | None = None,
+        unit: str = "",
+        description: str = "",
     ) -> Sensor:
-        """Force of a joint on its first body, N; of a gear its torque on its first wheel, N m.
+        """Force of a joint on its first body, N, or its moment on one of its bodies, N m.
 
-        The equations of the joint stay rows of the System, so that the multipliers exist.
+        The equations that are read stay rows of the System, so that their multipliers exist. Revolute, cylindrical,
+        universal and prismatic joints and welds transmit a moment; about its own axis a joint has none. The moment of
+        the drive of an angle is its torque on the angle.
 
         Parameters
         ----------
-        name : str
-            Unique among the sensors.
-        joint : Joint or str
-            A joint of this model or its name.
         component : str
-            "x", "y" or "z" in earth axes of a joint with a shared point or a line; "tension" of a distance; "drive" of
-            a drive; either of a driven distance ("drive" pushes its ends apart); "torque" of a gear; "force" of a rack
-            on its body and of a screw on its first body, both along the axis.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
+            Of a force: "x", "y" or "z" in earth axes of a joint with a shared point or a line; "tension" of a distance;
+            "drive" of a drive; either of a driven distance ("drive" pushes its ends apart); "torque" of a gear on its
+            first wheel, N m; "force" of a rack on its body and of a screw on its first body, both along the axis. Of a
+            moment: "x", "y" or "z", in the plane "z".
+        kind : {"force", "moment"}
+            The next three are for moments.
+        on : {"first", "second"}
+            The body that the moment acts on, in the order in which the joint was given its bodies.
+        axes : {"earth"} or Body
+            Axes of the component: those of the earth, or moving ones of a body.
+        point : array_like, shape (dimension,), optional
+            Place (earth axes, reference configuration, m) of the body that it acts on, about which the moment is taken;
+            by default the point of the joint on that body.
 
         Raises
         ------
         ModelError
-            The name is taken, the joint is not of this model or has no force that can be read, or the component is not
-            one of it.
+            The joint has no such force or moment.
         """
+        one_of(kind, ("force", "moment"), f"The kind of sensor '{name}'")
         found = self._joint(name, joint)
+        if not isinstance(on, str) or on not in ("first", "second"):
+            raise ModelError(f"The sensor '{name}' asks for the {kind} on {shown(on)}; it must be 'first' or 'second'.")
+        if kind == "moment" and not (found.type == "drive" and found.equations[0].kind == "drive"):
+            return self._joint_moment(name, found, component, on, axes, point, unit, description)
+        if on != "first" or not isinstance(axes, str) or axes != "earth" or point is not None:
+            raise ModelError(
+                f"The sensor '{name}' reads the force of joint '{found.name}' on its first body in earth axes; on, "
+                "axes and point are for moments."
+            )
+        if kind == "moment":
+            return self._joint_force(name, found, "drive", self._unit(unit, "N.m"), description)
+        return self._joint_force(name, found, component, unit, description)
+
+    def _joint_force(self, name: str, found: Joint, component: str, unit: str, description: str) -> Sensor:
         rows = found.force_equations
         if not rows:
             raise ModelError(
@@ -114,57 +125,17 @@ class JointSensorVocabulary(SensorBase):
         term = Term(signs[component], row, (), joint.equations[row].guides[0].guide)
         return self._sense_terms(name, unit, description, joint, [term])
 
-    def sense_joint_moment(
+    def _joint_moment(
         self,
         name: str,
-        joint: Joint | str,
-        component: str = "z",
-        *,
-        on: str = "first",
-        axes: Body | str = "earth",
-        point: ArrayLike | None = None,
-        unit: str = "N.m",
-        description: str = "",
+        found: Joint,
+        component: str,
+        on: str,
+        axes: Body | str,
+        point: ArrayLike | None,
+        unit: str,
+        description: str,
     ) -> Sensor:
-        """Moment of a joint on one of its bodies, N m.
-
-        Revolute, cylindrical, universal and prismatic joints and welds transmit one; about its own axis a joint has
-        none, and the torque of a drive on an angle is the force of the drive. The conditions on turning stay rows of
-        the System.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        joint : Joint or str
-            A joint of this model or its name. With the drive of an angle, its torque on the angle.
-        component : {"x", "y", "z"}
-            In the plane "z".
-        on : {"first", "second"}
-            The body that the moment acts on, in the order in which the joint was given its bodies.
-        axes : {"earth"} or Body
-            Axes of the component: those of the earth, or moving ones of a body.
-        point : array_like, optional
-            Place (earth axes, reference configuration, m) of the body that it acts on, about which the moment is taken;
-            by default the point of the joint on that body.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The joint transmits no moment, or the component or body is not one.
-        """
-        found = self._joint(name, joint)
-        if not isinstance(on, str) or on not in ("first", "second"):
-            raise ModelError(f"The sensor '{name}' asks for the moment on {shown(on)}; it must be 'first' or 'second'.")
-        if found.type == "drive" and found.equations[0].kind == "drive":
-            return self.sense_joint_force(name, found, "drive", unit, description)
         axis = self._axis(name, component, axes)
         about = None
         if not found.turns:
@@ -177,50 +148,7 @@ class JointSensorVocabulary(SensorBase):
                 raise ModelError(f"The moment of joint '{found.name}' ({found.type}) is taken at its own point only.")
             about = found.places.bodies[on == "second"].point(point)
         terms = moment_terms(found, found.hold_turning(), axis, about, on == "first")
-        return self._sense_terms(name, unit, description, found, terms)
-
-    def sense_guide_force(
-        self,
-        name: str,
-        guide: Guide,
-        joints: Sequence[Joint] | None = None,
-        scale: float = 1.0,
-        unit: str = "",
-        description: str = "",
-    ) -> Sensor:
-        """Force with which a guide moves what it guides, in the direction of its motion: its power over its rate.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        guide : Guide
-            Of this model.
-        joints : sequence of Joint, optional
-            Drives, and distances whose end it slides; by default all that there are so far.
-        scale : float
-            Factor on it.
-        unit, description : str
-            For files, plots and hosts; by default N of a guide in m, N m of one in rad.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, guide or joints are not of this model, or none of them follows the guide.
-        """
-        what = f"The sensor '{name}'"
-        found, factor = owned_guide(self, guide, what), number(scale, f"The scale of sensor '{name}'")
-        asked = self.joints if joints is None else self._joints(name, "joints", joints)
-        terms = [replace(t, weight=factor * t.weight) for joint in asked for t in guide_terms(joint, found.index)]
-        if not terms:
-            raise ModelError(f"{what} asks for the force of guide '{found.name}', which none of its joints follows.")
-        default = {"m": "N", "rad": "N.m"}.get(found.unit, "1")
-        return self._sense(name, self._unit(unit, default), description, SensorType.REACTION_PRODUCTS, terms=terms)
+        return self._sense_terms(name, self._unit(unit, "N.m"), description, found, terms)
 
     def sense_rod_force(
         self,
@@ -228,36 +156,26 @@ class JointSensorVocabulary(SensorBase):
         rods: Sequence[Joint],
         body: Body,
         axis: ArrayLike,
+        *,
         scale: float = 1.0,
         unit: str = "N",
         description: str = "",
     ) -> Sensor:
-        """Sum of the forces of massless rods on a body, along an axis of the body, N.
+        """Sum of the forces of massless rods on a rigid body, along an axis of the body, N.
 
         Parameters
         ----------
-        name : str
-            Unique among the sensors.
         rods : sequence of Joint
             Distances with one end on the body.
-        body : Body
-            A rigid body.
         axis : array_like, shape (dimension,)
             Fixed in the body, earth axes in the reference configuration, of any length.
         scale : float
             Factor on it.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
 
         Raises
         ------
         ModelError
-            The name is taken, there are no rods, one of them is no rod or ends elsewhere, or the axis is zero.
+            One of them is no rod or ends elsewhere, or the axis is zero.
         """
         what = f"The sensor '{name}'"
         along = self.anchor_axis(self.owned(body, what), axis, f"sensor '{name}'")

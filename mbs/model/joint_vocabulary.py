@@ -39,8 +39,6 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         body_1, body_2 : Body
             Bodies, the ground, or nodes of flexible bodies.
         point : array_like, shape (dimension,), or pair of them
@@ -48,15 +46,10 @@ class JointVocabulary(BodyVocabulary):
         axis : array_like, shape (3,), or pair of them, optional
             Of any length; in space only.
 
-        Returns
-        -------
-        Joint
-            For sensors.
-
         Raises
         ------
         ModelError
-            The bodies are one or not of this model, the axis is missing or superfluous, or a number is not one.
+            The bodies are the same, or the axis is missing in space or given in the plane.
         """
         return self._join(revolute(self, name, body_1, body_2, point, axis))
 
@@ -65,22 +58,10 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         body_1, body_2 : Body
             Bodies, point masses, the ground, or nodes of flexible bodies.
         point : array_like, shape (dimension,), or pair of them
             Earth axes in the reference configuration, m; a pair is one point per body.
-
-        Returns
-        -------
-        Joint
-            For sensors.
-
-        Raises
-        ------
-        ModelError
-            The bodies are one or not of this model, or the point is not the numbers it must be.
         """
         return self._join(spherical(self, name, body_1, body_2, point))
 
@@ -91,8 +72,6 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         body_1, body_2 : Body
             Bodies, the ground, or nodes of flexible bodies of a spatial model.
         point : array_like, shape (3,), or pair of them
@@ -100,15 +79,10 @@ class JointVocabulary(BodyVocabulary):
         axis_1, axis_2 : array_like, shape (3,)
             Axis fixed in body 1 and axis fixed in body 2, of any length and not parallel.
 
-        Returns
-        -------
-        Joint
-            For sensors.
-
         Raises
         ------
         ModelError
-            The model is planar, the bodies are one or not of this model, the axes are parallel, or a number is not one.
+            The model is planar, the bodies are the same, or the axes are parallel.
         """
         return self._join(universal(self, name, body_1, body_2, point, axis_1, axis_2))
 
@@ -119,8 +93,6 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         body_1, body_2 : Body
             Bodies, the ground, or nodes of flexible bodies.
         axis : array_like, shape (dimension,)
@@ -129,15 +101,10 @@ class JointVocabulary(BodyVocabulary):
             Point of body 1 on the axis, m; by default the centre of mass of body 1, of body 2 where body 1 is the
             ground.
 
-        Returns
-        -------
-        Joint
-            For sensors.
-
         Raises
         ------
         ModelError
-            The bodies are one, have no axes or are not of this model, or a number is not one.
+            The bodies are the same or have no axes.
         """
         return self._join(prismatic(self, name, body_1, body_2, point, axis))
 
@@ -146,8 +113,6 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         body_1, body_2 : Body
             Bodies, the ground, or nodes of flexible bodies of a spatial model.
         point : array_like, shape (3,), or pair of them
@@ -155,15 +120,10 @@ class JointVocabulary(BodyVocabulary):
         axis : array_like, shape (3,), or pair of them
             Of any length; a pair is one axis per body.
 
-        Returns
-        -------
-        Joint
-            For sensors.
-
         Raises
         ------
         ModelError
-            The model is planar, the bodies are one or not of this model, or a number is not one.
+            The model is planar, or the bodies are the same.
         """
         return self._join(cylindrical(self, name, body_1, body_2, point, axis))
 
@@ -172,20 +132,8 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         body_1, body_2 : Body
             Bodies, point masses, the ground, or nodes of flexible bodies.
-
-        Returns
-        -------
-        Joint
-            For sensors.
-
-        Raises
-        ------
-        ModelError
-            The bodies are one or not of this model.
         """
         return self._join(weld(self, name, body_1, body_2))
 
@@ -196,24 +144,17 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
-        end_1 : (Body, array_like)
+        end_1 : (Body, array_like of shape (dimension,))
             Body 1 and its point, m.
-        end_2 : (Body, array_like)
+        end_2 : (Body, array_like of shape (dimension,))
             Body 2 and a point of the line, m.
         axis : array_like, shape (dimension,)
             Direction of the line, fixed in body 2, of any length.
 
-        Returns
-        -------
-        Joint
-            For sensors.
-
         Raises
         ------
         ModelError
-            The bodies are one or not of this model, body 2 is a point mass, or a number is not one.
+            The bodies are the same, or body 2 is a point mass.
         """
         return self._join(point_on_line(self, name, end_1, end_2, axis))
 
@@ -222,8 +163,6 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         end_1, end_2 : (Body, array_like), Body or SlidingPoint
             A body and its point, m; a body alone for its centre of mass; or a point that a guide slides (one of the
             two at most).
@@ -238,7 +177,7 @@ class JointVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            Both ends are on one body, an end is not of this model, or the length is not positive.
+            Both ends are on the same body, or the length is not positive.
         """
         return self._join(distance(self, name, end_1, end_2, length))
 
@@ -249,8 +188,6 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         driven : Coordinate, Affine or (end, end)
             A relative angle; an expression such as ``body.point(p)[0]``; or two ends as of `distance`.
         guide : Guide
@@ -262,12 +199,12 @@ class JointVocabulary(BodyVocabulary):
         Returns
         -------
         Joint
-            For sensors: its force is that of the drive, nought while it is off.
+            For sensors: its force is that of the drive, zero while it is off.
 
         Raises
         ------
         ModelError
-            What is driven cannot move or is not of this model, an end slides, or a driven distance starts at zero.
+            What is driven cannot move, an end slides, or a driven distance starts at zero.
         """
         return self._join(drive(self, name, driven, guide, switch))
 
@@ -278,8 +215,6 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints and the switches.
         body : Body
             A body or a point mass that can move.
         point : array_like, shape (dimension,), optional
@@ -287,15 +222,10 @@ class JointVocabulary(BodyVocabulary):
         on : bool
             Whether it holds from the start, where it is drawn.
 
-        Returns
-        -------
-        Joint
-            For sensors.
-
         Raises
         ------
         ModelError
-            The body is the ground or not of this model, or a value is not what it must be.
+            The body is the ground.
         """
         return self._join(pin(self, name, body, point, on))
 
@@ -313,8 +243,6 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         wheel : Body or Spin
             A rigid body, or a spin on its carrier.
         radius : float
@@ -332,8 +260,8 @@ class JointVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            The wheel lies flat, misses the plane by more than a thousandth of its radius, or is no rigid body of this
-            spatial model.
+            The model is planar, the wheel is not rigid or lies flat, or it misses the plane by more than a thousandth
+            of its radius.
         """
         return self._join(rolling(self, name, wheel, radius, centre, axis, level))
 
@@ -344,8 +272,6 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         body : Body
             A rigid body.
         point, direction : array_like, shape (2,) or (3,)
@@ -361,6 +287,6 @@ class JointVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            The direction is upright, or the body is not a rigid one of this model.
+            The direction is vertical, or the body is not rigid.
         """
         return self._join(skate(self, name, body, point, direction, switch))

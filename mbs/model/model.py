@@ -46,7 +46,11 @@ class Model(
 
     Points, axes and inertias are given in earth axes in the reference configuration, as read off a drawing. Where the
     drawing does not close, `point` (or `axis`) of a joint may be a pair, one per body; `compile` then closes the
-    assembly. A call that raises changes nothing.
+    assembly.
+
+    Names are unique among things of one kind, and what is handed to a model must be one of its own. Otherwise, and
+    where an argument is not what it must be, a call raises `ModelError` (`ArgumentTypeError` for a thing of another
+    class), one sentence with the name and the value, and changes nothing.
 
     Parameters
     ----------
@@ -75,7 +79,7 @@ class Model(
     Raises
     ------
     ModelError
-        The name is empty, the dimension is neither 2 nor 3, or a number is not one.
+        The name is empty, or the dimension is neither 2 nor 3.
 
     Examples
     --------
@@ -98,8 +102,6 @@ class Model(
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         body_1, body_2 : Body
             Bodies with axes, or the ground.
         axis : array_like, shape (3,), optional
@@ -107,15 +109,10 @@ class Model(
         zero : float
             The angle in the reference configuration, rad.
 
-        Returns
-        -------
-        Coordinate
-            For torques, drives, gears and sensors.
-
         Raises
         ------
         ModelError
-            The bodies are one, have no axes or are not of this model, or the axis is missing or superfluous.
+            The bodies are the same or have no axes, or the axis is missing in space or given in the plane.
         """
         coordinate, joint = relative_angle(self, name, body_1, body_2, axis, zero)
         self._join(joint)
@@ -126,15 +123,8 @@ class Model(
 
         Parameters
         ----------
-        coordinate : Coordinate
-            Of this model.
         rate : float
             rad/s.
-
-        Raises
-        ------
-        ModelError
-            The coordinate is not one of this model, or the rate is no finite number.
         """
         index = self.owned_coordinate(coordinate, "An initial rate").index
         self.coordinate_rates[index] = number(rate, f"The initial rate of '{coordinate.name}'")
@@ -144,17 +134,10 @@ class Model(
 
         Parameters
         ----------
-        name : str
-            Unique among the armatures.
         coordinate : Coordinate
             A relative angle or a spin of this model.
         inertia : float
             kg m2; it is added to what the coordinate has already.
-
-        Raises
-        ------
-        ModelError
-            The coordinate is not one of this model, or the inertia is negative.
         """
         self.owned_coordinate(coordinate, f"The armature '{name}'")
         value = not_negative(inertia, f"The inertia of armature '{name}'")
@@ -169,20 +152,8 @@ class Model(
 
         Parameters
         ----------
-        name : str
-            Unique among the shafts.
         inertia : float
             kg m2; without one something must hold or weigh it, such as a rack or a drive.
-
-        Returns
-        -------
-        Coordinate
-            For torques, gears, racks, drives and sensors.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, or the inertia is negative.
         """
         value = not_negative(inertia, f"The inertia of shaft {shown(name)}")
         index = self.new_coordinate(self.unique("shaft", name), "angle", 0.0)
@@ -220,11 +191,6 @@ class Model(
         rolling_radius : float
             Radius that gives the spin when an initial pose has a speed, m; 0: none.
 
-        Returns
-        -------
-        Spin
-            For torques, gears, tyres and sensors.
-
         Raises
         ------
         ModelError
@@ -253,8 +219,6 @@ class Model(
 
         Parameters
         ----------
-        name : str
-            Unique among the elements.
         left, right : Coordinate or Body
             Relative angles of the arms, or the arms themselves, which turn on `carrier` about `axis`.
         stiffness, damping : float
@@ -270,16 +234,10 @@ class Model(
         mirrored : bool
             The angles count opposite ways (mirrored axes): the twist is their sum instead of left minus right.
 
-        Returns
-        -------
-        ElementRecord
-            For sensors and parameters.
-
         Raises
         ------
         ModelError
-            The arms are one, are of two kinds or a spin, the carrier is missing or superfluous, the stiffness is not
-            positive or the damping negative.
+            The arms are the same, a body and an angle, or a spin; or bodies are given without a carrier.
         """
         angles, joints = arm_angles(self, name, (left, right), carrier, axis)
         bar = anti_roll_bar(self, name, angles, stiffness, damping, stiffness_factor, free_twist, mirrored)
@@ -303,29 +261,15 @@ class Model(
 
         Parameters
         ----------
-        name : str
-            Unique among the inputs.
         start : float
-            Value at the start.
+            Value at the start, in `unit`.
         min, max : float
-            Limits; values beyond them are refused. They may be infinite.
+            Limits, in `unit`; values beyond them are refused. They may be infinite.
         unit : str
             "1" for a pure number.
-        description : str
-            One sentence for hosts.
         whole : bool
             Whether it takes whole numbers only, such as the position of a lever: an integer of an FMU. Over time it
             keeps a value until the next one.
-
-        Returns
-        -------
-        Input
-            For forces, torques, guides and sensors.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, or the start is not between the limits.
         """
         return new_input(self, name, start, min, max, unit, description, whole)
 
@@ -334,26 +278,12 @@ class Model(
 
         Parameters
         ----------
-        name : str
-            Unique among the guides.
-        input : Input
-            Of this model.
         gain : float
             Of the filter, in units of the guide per unit of the input.
         frequency : float
             Of the filter, Hz.
         unit : str
             Of the guide, rad or m.
-
-        Returns
-        -------
-        Guide
-            For drives, slides and sensors.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, the input is not of this model, or the frequency is not positive.
         """
         return guide_input(self, name, input, gain, frequency, unit)
 
@@ -372,29 +302,21 @@ class Model(
 
         Parameters
         ----------
-        name : str
-            Unique among the guides.
         inputs : tuple of Input
             Two inputs of this model.
         gains : tuple of float
             Of each input, in units of the guide per unit of the input.
         limits : tuple of float
-            Between which the sum is held, in units of the guide; `sense_guide_excess` reads what they take away.
+            Between which the sum is held, in units of the guide; the "excess" of `sense_guide` is what they take away.
         frequency : float
             Of the filter, Hz.
         unit : str
             Of the guide, rad or m.
 
-        Returns
-        -------
-        Guide
-            For drives, slides and sensors.
-
         Raises
         ------
         ModelError
-            The name is taken, an input is not of this model, the limits are the wrong way round, or the frequency is
-            not positive.
+            The limits are the wrong way round, or the frequency is not positive.
         """
         return guide_inputs(self, name, inputs, gains, limits, frequency, unit)
 
@@ -403,23 +325,16 @@ class Model(
 
         Parameters
         ----------
-        name : str
-            Unique among the guides.
         motion : scipy.interpolate.PPoly or (times, values)
             Pieces of degree 5 or less over s; or points, of shape (n,) each, through which a cubic spline goes that
             begins and ends at rest.
         unit : str
             Of the guide, rad or m.
 
-        Returns
-        -------
-        Guide
-            For drives, slides and sensors.
-
         Raises
         ------
         ModelError
-            The name is taken, the degree is above 5, or the times do not rise.
+            The degree is above 5, or the times do not rise.
         """
         return guide_time(self, name, motion, unit)
 
@@ -428,8 +343,6 @@ class Model(
 
         Parameters
         ----------
-        name : str
-            Unique among the slides.
         body : Body
             Of a flexible one its floating frame is meant.
         point, direction : array_like, shape (dimension,)
@@ -442,11 +355,6 @@ class Model(
         -------
         SlidingPoint
             An end of `distance`.
-
-        Raises
-        ------
-        ModelError
-            Body or guide are not of this model, or a number is not one.
         """
         what = f"slide '{name}'"
         index = owned_guide(self, guide, f"The {what}").index
@@ -471,16 +379,12 @@ class Model(
 
         Parameters
         ----------
-        name : str
-            Unique among the parameters.
         value : float
-            As the model is compiled.
+            As the model is compiled, in `unit`.
         min, max : float
-            Limits.
+            Limits, in `unit`.
         unit : str
             "1" for a pure number.
-        description : str
-            One sentence for hosts.
         targets : sequence of (owner, real, scale) or (owner, real, scale, offset)
             ``value * scale + offset`` is written to the real of the owner: an element, a guide of an input, or their
             name, and one of its `real_names`; ("road", number) and the name or number of a real of the road; or a
@@ -489,16 +393,11 @@ class Model(
             Whether it may be set while the model moves; False: before the start only, as masses of payloads and
             switches must be.
 
-        Returns
-        -------
-        Parameter
-            As it stands in the System.
-
         Raises
         ------
         ModelError
-            The name is taken, the value is not between the limits, a target does not exist or is another parameter's,
-            or what it writes at one of the limits is no value that the target can have.
+            The value is not between the limits, a target does not exist or is another parameter's, or what it writes at
+            one of the limits is no value that the target can have.
         """
         return new_parameter(self, name, value, min, max, unit, description, targets, tunable)
 
@@ -515,17 +414,5 @@ class Model(
             Finite, in `unit`.
         unit : str
             SI unit.
-        description : str
-            One sentence for hosts.
-
-        Returns
-        -------
-        Constant
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is empty or taken, or the value is no finite number.
         """
         return new_constant(self, name, value, unit, description)

@@ -1,194 +1,119 @@
-"""Sensors of orientation: angles of bodies and between vectors, and angular rates."""
+"""Sensors of orientation: rotation of bodies, and angles."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import one_of
+from mbs.common.checks import one_of, shown
 from mbs.common.errors import ModelError
+from mbs.elements.spin_angle import SpinAngle
 from mbs.kernel.header import SensorType
 from mbs.model.body import Body
+from mbs.model.carried import Spin
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import SensorBase, component_number, spatial
+from mbs.model.sensors import SensorBase, component_number, order_number, spatial
 
 
 class OrientationSensorVocabulary(SensorBase):
-    """What can be read of the orientation. Values are in SI units; a unit that is given is only written to files."""
+    """What can be read of the orientation. A body is a rigid one, a node of a flexible one or the frame of it."""
 
-    def sense_angular_rate(
-        self, name: str, body: Body, component: str = "z", unit: str = "rad/s", description: str = ""
+    def sense_rotation(
+        self, name: str, body: Body, component: str = "z", *, order: int = 0, unit: str = "", description: str = ""
     ) -> Sensor:
-        """Component of the angular velocity of a body in its own axes, rad/s.
+        """Component of the orientation quaternion of a body, or of its angular velocity in its own axes, rad/s.
 
         Parameters
         ----------
-        name : str
-            Unique among the sensors.
-        body : Body
-            A rigid body, a node of a flexible one or the frame of it.
-        component : {"x", "y", "z"}
-            Along which axis of the body: the earth axes in the reference configuration. In the plane it is z.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, the body has no axes or is not of this model, or the component is none.
-        """
-        self.owned(body, f"The sensor '{name}'")
-        k = component_number("z" if self.dimension == 2 else component, 3, f"sensor '{name}'")
-        e = np.eye(self.dimension)
-        a, b = body.vector(e[(k + 1) % 3]), body.vector(e[(k + 2) % 3])
-        return self._sense(name, unit, description, SensorType.ANGULAR_RATE, [*spatial(a), *spatial(b)], reals=[1.0])
-
-    def sense_yaw(self, name: str, body: Body, unit: str = "rad", description: str = "") -> Sensor:
-        """Angle of a body's x axis in the earth's x-y plane, rad; in the plane its rotation.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        body : Body
-            With axes.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, or the body has no axes or is not of this model.
-        """
-        a = self.owned(body, f"The sensor '{name}'").vector(np.eye(self.dimension)[0])
-        return self._sense(name, unit, description, SensorType.ANGLE, [a[1], a[0]])
-
-    def sense_pitch(self, name: str, body: Body, unit: str = "rad", description: str = "") -> Sensor:
-        """Minus the arcsine of the z component of a body's x axis, rad: positive nose down.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        body : Body
-            With axes, in a spatial model.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The model is planar, the name is taken, or the body has no axes or is not of this model.
-        """
-        self._spatial_only(name)
-        x = self.owned(body, f"The sensor '{name}'").vector((1.0, 0.0, 0.0))
-        return self._sense(name, unit, description, SensorType.PITCH, [x[2]])
-
-    def sense_roll(self, name: str, body: Body, unit: str = "rad", description: str = "") -> Sensor:
-        """Arctangent of the z components of a body's y and z axes, rad: positive left side up.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        body : Body
-            With axes, in a spatial model.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
-
-        Raises
-        ------
-        ModelError
-            The model is planar, the name is taken, or the body has no axes or is not of this model.
-        """
-        self._spatial_only(name)
-        self.owned(body, f"The sensor '{name}'")
-        signals = [body.vector((0.0, 1.0, 0.0))[2], body.vector((0.0, 0.0, 1.0))[2]]
-        return self._sense(name, unit, description, SensorType.ANGLE, signals)
-
-    def sense_quaternion(
-        self, name: str, body: Body, component: str = "w", unit: str = "1", description: str = ""
-    ) -> Sensor:
-        """Component of the orientation quaternion of a body.
-
-        Parameters
-        ----------
-        name : str
-            Unique among the sensors.
-        body : Body
-            With axes; in the plane it turns about z.
         component : {"w", "x", "y", "z"}
-            The scalar part is w.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
+            Of the quaternion, whose scalar part is w; or of the angular velocity, along axes of the body that are those
+            of the earth in the reference configuration. In the plane a body turns about z.
+        order : {0, 1}
+            Quaternion or angular velocity.
 
         Raises
         ------
         ModelError
-            The name is taken, the component is none, or the body has no axes or is not of this model.
+            The body has no axes.
         """
-        one_of(component, ("w", "x", "y", "z"), f"The component of sensor '{name}'")
-        self.owned(body, f"The sensor '{name}'")
+        what = f"sensor '{name}'"
+        rate = order_number(order, 1, what)
+        self.owned(body, f"The {what}")
+        e = np.eye(self.dimension)
+        if rate:
+            if self.dimension == 2 and component != "z":
+                raise ModelError(f"The component of {what} is {shown(component)}; in the plane it must be 'z'.")
+            k = component_number(component, 3, what)
+            signals = [s for i in (k + 1, k + 2) for s in spatial(body.vector(e[i % 3]))]
+            unit = self._unit(unit, "rad/s")
+            return self._sense(name, unit, description, SensorType.ANGULAR_RATE, signals, reals=[1.0])
+        one_of(component, ("w", "x", "y", "z"), f"The component of {what}")
+        axes = [s for axis in e for s in spatial(body.vector(axis))]
         if self.dimension == 2:
-            nought, one = Affine({}, 0.0), Affine({}, 1.0)
-            in_plane = [[*body.vector(e).components, nought] for e in np.eye(2)]
-            axes = [*in_plane[0], *in_plane[1], nought, nought, one]
-        else:
-            axes = [s for e in np.eye(3) for s in body.vector(e).components]
+            axes += [Affine(), Affine(), Affine({}, 1.0)]
+        unit = self._unit(unit, "1")
         return self._sense(name, unit, description, SensorType.QUATERNION, axes, integers=["wxyz".index(component)])
 
-    def sense_angle_between(
-        self, name: str, a: AffineVector, b: AffineVector, c: AffineVector, unit: str = "rad", description: str = ""
+    def sense_angle(
+        self,
+        name: str,
+        of: Body | Spin | tuple[AffineVector, AffineVector, AffineVector],
+        kind: str = "",
+        *,
+        unit: str = "rad",
+        description: str = "",
     ) -> Sensor:
-        """Angle from one vector to another about a third, atan2((b x a) . c, a . b), rad.
+        """Angle of a body against the earth, of a wheel against its carrier, or between vectors, rad.
+
+        The angle of a wheel is 0 at the start, positive as the rate of the spin counts, and not wrapped: the wheel is
+        oriented like its carrier after a turn by it. (The coordinate of a spin is another, its rate is the absolute
+        one.) The first call for a spin adds an element without force, whose states sum the angle over the steps;
+        methods for Systems without states then do not apply.
 
         Parameters
         ----------
-        name : str
-            Unique among the sensors.
-        a, b, c : AffineVector
-            Vectors of bodies in space: the angle is from b to a about c.
-        unit, description : str
-            For files, plots and hosts.
-
-        Returns
-        -------
-        Sensor
-            As it stands in the System.
+        of : Body, Spin or (AffineVector, AffineVector, AffineVector)
+            A body; a wheel of `Model.spin`; or vectors a, b, c in space for the angle from b to a about c,
+            ``atan2((b x a) . c, a . b)``.
+        kind : {"yaw", "pitch", "roll"}
+            Of a body only. Yaw: of its x axis in the earth's x-y plane, in the plane its rotation. Pitch: minus the
+            arcsine of the z component of its x axis, positive nose down. Roll: the arctangent of the z components of
+            its y and z axes, positive left side up.
 
         Raises
         ------
         ModelError
-            The name is taken, or a vector is not of this model.
+            The body has no axes, or there is no such angle of it.
         """
-        signals = [s for v in (a, b, c) for s in spatial(self.expressions(v, f"The sensor '{name}'"))]
+        what = f"The sensor '{name}'"
+        if isinstance(of, Body):
+            return self._cardan(name, of, kind, unit, description)
+        if not isinstance(kind, str) or kind:
+            raise ModelError(f"{what} asks for {shown(kind)} of {shown(of)}; only bodies have yaw, pitch and roll.")
+        if isinstance(of, Spin):
+            self.owned_coordinate(of, what)
+            element = f"{of.name}.angle"
+            known = [record.name for record in self.elements]
+            if element not in known:
+                self.add(SpinAngle().record(element, of.f, of.g, of.affine))
+                known.append(element)
+            integers = [known.index(element), 0]
+            return self._sense(name, unit, description, SensorType.ELEMENT_OUTPUT, integers=integers, reals=[1.0])
+        if not isinstance(of, (list, tuple)) or len(of) != 3:
+            raise ModelError(f"{what} needs a body, a spin or three vectors, got {shown(of)}.")
+        signals = [s for v in of for s in spatial(self.expressions(v, what))]
         return self._sense(name, unit, description, SensorType.ANGLE_ABOUT, signals)
 
-    def _spatial_only(self, name: str) -> None:
-        if self.dimension == 2:
-            raise ModelError(f"The sensor '{name}' needs a spatial model; in the plane use sense_yaw.")
+    def _cardan(self, name: str, body: Body, kind: str, unit: str, description: str) -> Sensor:
+        """Yaw, pitch or roll of a body."""
+        one_of(kind, ("yaw", "pitch", "roll"), f"The kind of sensor '{name}'")
+        self.owned(body, f"The sensor '{name}'")
+        if self.dimension == 2 and kind != "yaw":
+            raise ModelError(f"The sensor '{name}' needs a spatial model; in the plane a body has yaw only.")
+        e = np.eye(self.dimension)
+        x = body.vector(e[0])
+        if kind == "yaw":
+            return self._sense(name, unit, description, SensorType.ANGLE, [x[1], x[0]])
+        if kind == "pitch":
+            return self._sense(name, unit, description, SensorType.PITCH, [x[2]])
+        return self._sense(name, unit, description, SensorType.ANGLE, [body.vector(e[1])[2], body.vector(e[2])[2]])

@@ -60,11 +60,6 @@ class PortedBody(Body):
         -------
         AffineVector
             The point as expressions of coordinates, m.
-
-        Raises
-        ------
-        ModelError
-            It is not the numbers it must be.
         """
         p = vector(position, self.dimension, f"a point of body '{self.name}'")
         for place, free in self._points:

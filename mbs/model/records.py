@@ -17,8 +17,6 @@ class Constant:
         Unique, such as ``vehicle.wheelbase``.
     value : float
         In `unit`.
-    unit : str
-    description : str
     """
 
     name: str
@@ -70,12 +68,8 @@ class Parameter:
 
     Parameters
     ----------
-    name : str
-        Unique among the parameters.
     value, min, max : float
         As compiled, and its limits.
-    unit, description : str
-        For hosts.
     targets : tuple of (int, int, int, float, float)
         Family, index in the family, index of the real, scale, offset.
     tunable : bool
@@ -103,10 +97,6 @@ class RoadFileParameter:
 
     Parameters
     ----------
-    name : str
-        Unique among the parameters.
-    road : int
-        Number of the road.
     start : str
         Path of the file; empty: none, the road of the model.
     """

@@ -57,7 +57,7 @@ class Register:
     Raises
     ------
     ModelError
-        The name is empty, the dimension is neither 2 nor 3, or a number is not one.
+        The name is empty, or the dimension is neither 2 nor 3.
     """
 
     def __init__(
@@ -114,13 +114,6 @@ class Register:
         ----------
         family : str
             What the name is for: body, joint, element, sensor ...
-        name : str
-            The name.
-
-        Returns
-        -------
-        str
-            The name.
 
         Raises
         ------
@@ -142,11 +135,6 @@ class Register:
         ----------
         name, kind, reference, component
             See `CoordinateInfo`.
-
-        Returns
-        -------
-        int
-            Its number.
         """
         self.coordinates.append(CoordinateInfo(name, kind, component, reference))
         return len(self.coordinates) - 1
@@ -168,18 +156,6 @@ class Register:
         ----------
         coordinate : Coordinate
             A relative angle or a spin.
-        what : str
-            What needs it, for the message.
-
-        Returns
-        -------
-        Coordinate
-            The same.
-
-        Raises
-        ------
-        ModelError
-            It is none, or one of another model.
         """
         if not isinstance(coordinate, Coordinate):
             raise ModelError(f"{what} needs a relative angle or a spin, got {shown(coordinate)}.")
@@ -189,25 +165,7 @@ class Register:
         return coordinate
 
     def expression(self, given: Coordinate | Affine, what: str) -> Affine:
-        """A coordinate or an expression of coordinates, as an expression.
-
-        Parameters
-        ----------
-        given : Coordinate or Affine
-            Of this model.
-        what : str
-            What needs it, for the message.
-
-        Returns
-        -------
-        Affine
-            The expression.
-
-        Raises
-        ------
-        ModelError
-            It is neither, or of another model.
-        """
+        """A coordinate or an expression of coordinates, as an expression."""
         if isinstance(given, Coordinate):
             return self.owned_coordinate(given, what).affine
         if not isinstance(given, Affine):
@@ -223,20 +181,8 @@ class Register:
         ----------
         given : AffineVector
             Such as ``body.point((0, 0, 1))``.
-        what : str
-            What needs it, for the message.
         sizes : tuple of int
             How many components it may have; by default the dimension of the model.
-
-        Returns
-        -------
-        AffineVector
-            The same.
-
-        Raises
-        ------
-        ModelError
-            It is none, has another number of components, or is of another model.
         """
         sizes = sizes or (self.dimension,)
         if not isinstance(given, AffineVector):

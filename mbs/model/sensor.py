@@ -17,8 +17,6 @@ class Sensor:
 
     Parameters
     ----------
-    name, unit, description : str
-        For files, plots and hosts.
     type : SensorType
         Sensor type of the System file.
     signals : sequence of Affine

@@ -70,7 +70,6 @@ class Turning:
 
     Attributes
     ----------
-    name : str
     carrier : Body
         On which it turns.
     centre : ndarray, shape (3,)
@@ -99,7 +98,6 @@ class Shape:
 
     Attributes
     ----------
-    kind : str
     owner : Body, Spin or Turning
         What it is of.
     fields : mapping
@@ -216,16 +214,10 @@ class ShapeVocabulary(BodyVocabulary):
         opacity : float
             From 0 to 1.
 
-        Returns
-        -------
-        Shape
-            As it stands in the model.
-
         Raises
         ------
         ModelError
-            The body is none of this model, the kind does not exist, lacks a number or does not take one, or a number is
-            not what it must be.
+            There is no such kind, or it lacks a number or does not take one.
         ali3.errors.UserError
             The mesh file cannot be read, or holds no mesh.
         """
@@ -254,8 +246,6 @@ class ShapeVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the bodies and the spins.
         body : Body
             What it turns on.
         at : array_like, shape (dimension,)
@@ -264,16 +254,6 @@ class ShapeVocabulary(BodyVocabulary):
             Of any length; the turn is right-handed about it. In the plane (0, 0, 1).
         angle : Coordinate, Affine or str
             Its angle, rad: a coordinate or an expression, or the name of a sensor.
-
-        Returns
-        -------
-        Turning
-            For `shape`.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, body or angle are not of this model, or a number is not one.
         """
         self.unique("spin", self.unique("body", name))
         what = f"turning '{name}'"

@@ -49,8 +49,6 @@ class SlidingVocabulary(ShapeVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the bodies and the spins.
         body : Body
             What it slides on.
         at : array_like, shape (dimension,)
@@ -59,16 +57,6 @@ class SlidingVocabulary(ShapeVocabulary):
             Of any length.
         way : str
             Name of the sensor of its way along the direction, m.
-
-        Returns
-        -------
-        Sliding
-            For `shape`.
-
-        Raises
-        ------
-        ModelError
-            The name is taken, the body or the sensor is not of this model, or a number is not one.
         """
         if not isinstance(way, str):
             raise ModelError(f"The way of the sliding '{name}' must be the name of a sensor, not {shown(way)}.")
@@ -102,16 +90,6 @@ class SlidingVocabulary(ShapeVocabulary):
             Of the mesh.
         color, material, opacity
             As of `shape`.
-
-        Returns
-        -------
-        Shape
-            As it stands in the model.
-
-        Raises
-        ------
-        ModelError
-            The body is not one of this model, or the arrays are not what they must be.
         """
         what = f"mesh '{named(name, 'a mesh')}'"
         places = array(positions, (None, 3), f"the positions of {what}")

@@ -22,8 +22,6 @@ class TransmissionVocabulary(JointVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         wheel_1, wheel_2 : Coordinate
             Relative angles of the wheels against what carries them, or spins.
         ratio : float
@@ -38,7 +36,7 @@ class TransmissionVocabulary(JointVocabulary):
         Raises
         ------
         ModelError
-            The ratio is zero or not finite, or both wheels are one.
+            The ratio is zero, or the wheels are the same.
         """
         return self._join(gear(self, name, wheel_1, wheel_2, ratio))
 
@@ -57,8 +55,6 @@ class TransmissionVocabulary(JointVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         pinion : Coordinate
             Relative angle of the pinion against the carrier, or a spin on it.
         body, carrier : Body
@@ -78,7 +74,7 @@ class TransmissionVocabulary(JointVocabulary):
         Raises
         ------
         ModelError
-            The radius is zero or not finite, the carrier is a point mass, the rack is the ground or the carrier.
+            The radius is zero, the carrier is a point mass, or the rack is the ground or the carrier.
         """
         return self._join(rack(self, name, pinion, body, carrier, axis, radius, point))
 
@@ -87,8 +83,6 @@ class TransmissionVocabulary(JointVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         body_1, body_2 : Body
             Bodies or the ground of a spatial model.
         point : array_like, shape (3,)
@@ -106,7 +100,7 @@ class TransmissionVocabulary(JointVocabulary):
         Raises
         ------
         ModelError
-            The model is planar, the pitch is zero, or the bodies are one or not of this model.
+            The model is planar, the pitch is zero, or the bodies are the same.
         """
         joint, angle = screw(self, name, body_1, body_2, point, axis, pitch)
         self._join(joint)
@@ -131,8 +125,6 @@ class TransmissionVocabulary(JointVocabulary):
 
         Parameters
         ----------
-        name : str
-            Unique among the joints.
         carrier, body : Body
             What the lever turns on, and where the rod ends; in space, not point masses.
         pivot, axis : array_like, shape (3,)
@@ -148,8 +140,8 @@ class TransmissionVocabulary(JointVocabulary):
         Raises
         ------
         ModelError
-            The bodies are one or not of this model, the lever lies along its axis, or the rod pulls along the lever or
-            across its plane and could not turn it.
+            The bodies are the same, the lever lies along its axis, or the rod pulls along the lever or across its plane
+            and could not turn it.
         """
         coordinate, joint = drop_link(self, name, carrier, body, pivot, axis, lever_end, link_end)
         self._join(joint)

@@ -182,8 +182,6 @@ def animate(
 
     Raises
     ------
-    ArgumentTypeError
-        A run is no Trajectory.
     ValueError
         There is not one name for each run, or a run has no poses or no scene.
     viewer.errors.ViewerError

@@ -38,7 +38,6 @@ class Poses(Mapping[str, Array]):
         Times, s. A run keeps at most 100 000 samples and 4 million coordinates: beyond that one of `every` samples.
     every : int
         One of that many samples of the trajectory has its poses here.
-    bodies : tuple of str
     """
 
     def __init__(self, t: Array, every: int, q: Array, places: Places) -> None:
@@ -97,41 +96,21 @@ class Poses(Mapping[str, Array]):
         return f"Poses({len(self.bodies)} bodies, {len(self.t)} samples{thinned})"
 
     def position(self, body: str) -> Array:
-        """Positions of a body.
-
-        Parameters
-        ----------
-        body : str
-            Its name.
+        """Positions of a body, by its name.
 
         Returns
         -------
         ndarray, shape (n, 3)
             Earth axes, m.
-
-        Raises
-        ------
-        KeyError
-            There is no such body.
         """
         return self._pose(self._number(body))[:, :3]
 
     def quaternion(self, body: str) -> Array:
         """Quaternions of a body, scalar first and not negative: earth vector = rotation of the vector as drawn.
 
-        Parameters
-        ----------
-        body : str
-            Its name.
-
         Returns
         -------
         ndarray, shape (n, 4)
-
-        Raises
-        ------
-        KeyError
-            There is no such body.
         """
         return self._pose(self._number(body))[:, 3:]
 

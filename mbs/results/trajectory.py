@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import csv
 import html
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.decimal_number import DECIMAL
-from ali3.errors import UserError
+from ali3.errors import TableError, UserError
 from ali3.files import whole_file
+from ali3.tables import TextTable
+from ali3.words import brief
 from mbs.common.checks import flag, shown, whole
 from mbs.elements.road import Road
 from mbs.results.accuracy import Accuracy
@@ -30,9 +29,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from viewer.recording import Recording
-
-_NUMBER = re.compile(rf"\s*[+-]?({DECIMAL}|inf|nan)\s*", re.ASCII)
-_HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 
 
 class Trajectory(Mapping[str, NDArray[np.float64]]):
@@ -284,11 +280,6 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     def from_csv(cls, path: str | PathLike[str]) -> Trajectory:
         """Read what `to_csv` wrote; counters and settings are not in the file.
 
-        Parameters
-        ----------
-        path : str or path-like
-            File to read.
-
         Returns
         -------
         Trajectory
@@ -297,33 +288,19 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
         Raises
         ------
-        OSError
-            The file cannot be read.
-        ValueError
-            A heading or a value is not what `to_csv` writes; the message names the line.
+        TableError
+            The file cannot be read, or a heading or a value is not what `to_csv` writes; the message names the line.
         """
-        try:
-            with Path(path).open(newline="", encoding="utf-8") as file:
-                rows = list(csv.reader(file))
-        except (UnicodeDecodeError, csv.Error) as error:
-            raise ValueError(f"{path} cannot be read as a table of text: {error}.") from None
-        headings = [_HEADING.fullmatch(text) for text in rows[0]] if rows else []
-        if not headings or headings[0] is None or headings[0]["name"] != "time":
-            raise ValueError(f"{path}: the first line must be 'time [s]' and one 'name [unit]' per sensor.")
-        for text, match in zip(rows[0], headings, strict=True):
-            if match is None:
-                raise ValueError(f"{path}: the heading {text!r} must read 'name [unit]'.")
-        for number, row in enumerate(rows[1:], start=2):
-            if len(row) != len(headings):
-                raise ValueError(f"{path}, line {number}: {len(row)} values where {len(headings)} belong.")
-            wrong = [cell for cell in row if not _NUMBER.fullmatch(cell)]
-            if wrong:
-                raise ValueError(f"{path}, line {number}: {shown(wrong[0])} is no number.")
-        data = np.array(rows[1:], float).reshape(-1, len(headings))
-        found = [match for match in headings[1:] if match is not None]
-        names = [m["name"] for m in found]
+        table = TextTable(path, TableError, units=True)
+        names = table.names[1:]
+        if table.names[0] != "time" or "time" not in table.units:
+            raise TableError(f"{path}: the first line must be 'time [s]' and one 'name [unit]' per sensor.")
+        for name in names:
+            if name not in table.units:
+                raise TableError(f"{path}: the heading {brief(name)} must read 'name [unit]'.")
+        data = table.values(finite=False, least=0)
         poses = Poses.of_columns(data[:, 0], dict(zip(names, data[:, 1:].T, strict=True)))
-        return cls(data[:, 0], data[:, 1:], names, [m["unit"] for m in found], poses=poses)
+        return cls(data[:, 0], data[:, 1:], names, [table.units[name] for name in names], poses=poses)
 
     def plot(self, *names: str) -> Figure:
         """Draw sensors over time with matplotlib, one diagram per unit.
@@ -340,8 +317,6 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
         Raises
         ------
-        KeyError
-            There is no such sensor.
         ValueError
             The trajectory has no sensors.
         """

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
+from ali3.reading import read_toml
+from ali3.typed_sentences import Sentences
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header import ROAD_FRICTION
 from mbs.roads.grid_files import read_grid
@@ -140,11 +141,8 @@ class Split(_Road):
         return GridRoad((self.start, y[0]), (self.length, 0.1), np.zeros((2, 4)), np.tile(frictions, (2, 1)))
 
 
-_ADAPTER: TypeAdapter[Any] = TypeAdapter(
-    Annotated[Plane | Kerb | GridOfFiles | Washboard | Rough | Split, Field(discriminator="kind")]
-)
-
-KINDS = ", ".join(repr(kind) for kind in _ADAPTER.json_schema()["discriminator"]["mapping"])
+_AnyRoad = Annotated[Plane | Kerb | GridOfFiles | Washboard | Rough | Split, Field(discriminator="kind")]
+_ADAPTER: TypeAdapter[Any] = TypeAdapter(_AnyRoad)
 
 
 def _rounded(heights: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, np.dtype[np.float64]]:
@@ -159,29 +157,13 @@ def described_road(path: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridR
     RoadFileError
         With file, key, value and what would be right.
     """
-    try:
-        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except tomllib.TOMLDecodeError as error:
-        raise RoadFileError(f"{path} is no TOML file: {error}.") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise RoadFileError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from None
+    table = read_toml(path, RoadFileError)
     try:
         description = _ADAPTER.validate_python(table, strict=False)
     except ValidationError as error:
-        raise RoadFileError(_sentence(path, error)) from None
+        raise RoadFileError(f"{path}: {Sentences(_AnyRoad, table).of(error)[0]}") from None
     road: PlaneRoad | KerbRoad | GridRoad = description.road(Path(path).parent)
     return road
-
-
-def _sentence(path: object, error: ValidationError) -> str:
-    first = error.errors()[0]
-    if first["type"] in ("union_tag_invalid", "union_tag_not_found"):
-        given = f"is {first['ctx']['tag']!r}" if first["type"] == "union_tag_invalid" else "is missing"
-        return f"{path}: 'kind' {given}; it must be one of {KINDS}."
-    place = ".".join(str(part) for part in first["loc"][1:])
-    given = "" if first["type"] == "missing" else f" is {first['input']!r}"
-    words = first["msg"][:1].lower() + first["msg"][1:]
-    return f"{path}: '{place}'{given}: {words}."
 
 
 def grid_road(

@@ -11,6 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.extras import missing_package
+from ali3.files import reason
+from ali3.reading import check_file
+from ali3.tables import Row, TextTable, is_number
+from ali3.words import one_line
 from mbs.roads.road_header import RoadFileError
 
 REGULAR = 1e-6
@@ -60,19 +64,15 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
     if kind not in SUFFIXES:
         raise RoadFileError(f"{path} has the {what} of a road in a form that is not read; {', '.join(SUFFIXES)} are.")
     try:
-        if not file.is_file():
-            words = "it is no regular file" if file.exists() else "there is no such file"
-            raise RoadFileError(f"{path} cannot be read: {words}.")
-        if file.stat().st_size > MOST_BYTES:
-            raise RoadFileError(f"{path} is larger than 2 GB.")
+        check_file(file, MOST_BYTES, RoadFileError)
         if kind in (".csv", ".txt"):
-            grid = _table(file.read_text(encoding="utf-8-sig"), path)
+            grid = _table(file)
         elif kind == ".png":
             grid = _picture(file, picture_range, what)
         else:
             grid = _arrays(file, what)
-    except (OSError, UnicodeDecodeError) as error:
-        raise RoadFileError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from None
+    except OSError as error:
+        raise RoadFileError(f"{path} cannot be read: {reason(error)}.") from None
     if grid.values.ndim != 2 or min(grid.values.shape) < 2:
         raise RoadFileError(f"The {what} in {path} have shape {grid.values.shape}; at least 2 x 2 points are needed.")
     for values in (grid.values, grid.frictions):
@@ -83,68 +83,42 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
     return grid
 
 
-def _table(text: str, path: object) -> Grid:
+def _table(file: Path) -> Grid:
     """Rows are along x, columns along y; with coordinates where the first cell is no number.
 
     Such a table may be followed by another one for the frictions. `mbs/kernel/src/roads/road_table.c` reads the same.
     """
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    if len(lines) < 2:
-        raise RoadFileError(f"{path} has {len(lines)} rows; a grid needs at least two.")
-    mark = next((m for m in (";", ",", "\t") if m in lines[0]), None)
-    rows = [[cell.strip() for cell in line.split(mark)] for line in lines]
-    if mark == ";":  # then the comma may be the decimal mark
-        rows = [[cell.replace(",", ".") for cell in row] for row in rows]
-    for k, row in enumerate(rows):
-        if len(row) != len(rows[0]):
-            raise RoadFileError(f"{path}: row {k + 1} has {len(row)} cells, the first one {len(rows[0])}.")
-    if _is_number(rows[0][0]):
-        return Grid(_numbers(rows, 0, path))
-    begins = [k for k, row in enumerate(rows) if not _is_number(row[0])]
+    table = TextTable(file, RoadFileError, headed=False, largest=MOST_BYTES)
+    rows = list(table.rows())
+    if len(rows) < 2:
+        raise RoadFileError(f"{file} has {len(rows)} rows; a grid needs at least two.")
+    begins = [row.line for row in rows if not is_number(row.cells[0], table.decimal)]
+    if not begins or begins[0] != rows[0].line:
+        return Grid(np.array([table.numbers(row) for row in rows]))
     if len(begins) > 2:
-        raise RoadFileError(f"{path}: row {begins[2] + 1} begins a third table; there are heights and frictions.")
-    heights = _labelled(rows[: (*begins[1:], len(rows))[0]], 0, path)
+        raise RoadFileError(f"{file}, line {begins[2]} begins a third table; there are heights and frictions.")
+    second = begins[1] if len(begins) > 1 else math.inf
+    heights = _labelled(table, [row for row in rows if row.line < second])
     if len(begins) == 1:
         return heights
-    frictions = _labelled(rows[begins[1] :], begins[1], path)
+    frictions = _labelled(table, [row for row in rows if row.line >= second])
     if (frictions.origin, frictions.spacing) != (heights.origin, heights.spacing):
-        raise RoadFileError(f"{path}: the frictions have other coordinates than the heights.")
+        raise RoadFileError(f"{file}: the frictions have other coordinates than the heights.")
     if frictions.values.shape != heights.values.shape:
         raise RoadFileError(
-            f"{path} has {len(heights.values)} rows of heights and {len(frictions.values)} of frictions."
+            f"{file} has {len(heights.values)} rows of heights and {len(frictions.values)} of frictions."
         )
     return replace(heights, frictions=frictions.values)
 
 
-def _labelled(rows: list[list[str]], first: int, path: object) -> Grid:
+def _labelled(table: TextTable, rows: list[Row]) -> Grid:
     """A table with its coordinates."""
-    y = _numbers([rows[0][1:]], first, path)[0]
+    y = np.array(table.numbers(rows[0], first=1)) if table.width > 1 else np.zeros(0)
     if len(rows) < 3 or len(y) < 2:
-        raise RoadFileError(f"{path} has {len(rows) - 1} x {len(y)} points; at least 2 x 2 are needed.")
-    body = _numbers(rows[1:], first + 1, path)
-    (x0, dx), (y0, dy) = _regular(body[:, 0], "x", path), _regular(y, "y", path)
+        raise RoadFileError(f"{table.name} has {len(rows) - 1} x {len(y)} points; at least 2 x 2 are needed.")
+    body = np.array([table.numbers(row) for row in rows[1:]])
+    (x0, dx), (y0, dy) = _regular(body[:, 0], "x", table.name), _regular(y, "y", table.name)
     return Grid(body[:, 1:], (x0, y0), (dx, dy))
-
-
-def _float(cell: str) -> float:
-    if "_" in cell:  # which Python takes as part of a number
-        raise ValueError
-    return float(cell)
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        return math.isfinite(_float(cell))
-    except ValueError:
-        return False
-
-
-def _numbers(rows: list[list[str]], first: int, path: object) -> NDArray[np.float64]:
-    try:
-        return np.array([[_float(cell) for cell in row] for row in rows])
-    except ValueError:
-        k, cell = next((k, c) for k, row in enumerate(rows) for c in row if not _is_number(c))
-        raise RoadFileError(f"{path}: {cell!r} in row {k + first + 1} is no number.") from None
 
 
 def _regular(values: NDArray[np.float64], name: str, path: object) -> tuple[float, float]:
@@ -171,7 +145,7 @@ def _arrays(file: Path, what: str) -> Grid:
     except RoadFileError:
         raise
     except Exception as error:  # numpy raises many kinds, also for pickles, which are not read
-        raise RoadFileError(f"{file} cannot be read as a NumPy file: {error}") from None
+        raise RoadFileError(f"{file} cannot be read as a NumPy file: {one_line(str(error)).rstrip('.')}.") from None
 
 
 def _archive(arrays: dict[str, NDArray[np.float64]], file: Path, what: str) -> Grid:

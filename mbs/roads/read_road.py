@@ -31,13 +31,13 @@ def read_road(
         number j), ``.npz`` (arrays `heights`, and as one likes `frictions`, `origin`, `spacing`), ``.png`` (8 or 16
         bits of grey, seen from above with x to the right and y up).
     frictions : path or float, optional
-        Of a grid: a second file of the same shape, or one number; by default what the file says, else 0.9.
+        Of a grid: a second file of the same shape, or one coefficient; by default what the file says, else 0.9.
     origin : (float, float), optional
         Of a grid: x and y of its first point, m; by default what the file says, else 0.
     spacing : (float, float), optional
         Of a grid: distances of its points in x and y, m; by default what the file says.
     height_range, friction_range : (float, float), optional
-        What black and white of a picture mean.
+        What black and white of a picture mean, m and coefficients of friction.
 
     Returns
     -------
@@ -48,7 +48,7 @@ def read_road(
     RoadFileError
         With the file and what is wrong with it.
     ModelError
-        A number is none that a road can have.
+        A number is outside the range of roads.
     """
     kind = Path(path).suffix.lower()
     if kind == ".road":

@@ -38,7 +38,7 @@ def write_road(
     Raises
     ------
     ModelError
-        A number of the road is none, a height lies beyond 1e5 m or a friction outside 0 to 10.
+        A number of the road is outside its range, a height lies beyond 1e5 m or a friction outside 0 to 10.
     ali3.errors.FileError
         The file cannot be written.
 

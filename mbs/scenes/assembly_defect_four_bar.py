@@ -62,16 +62,6 @@ def build(
         Of the axis of joint C, degrees.
     radius : float
         Of the round bars, m.
-
-    Returns
-    -------
-    Model
-        For `compile`.
-
-    Raises
-    ------
-    ModelError
-        An argument is not what it must be; the message names it.
     """
     m = Model("four-bar with assembly defect", gravity=(0.0, 0.0, 0.0))
     m.stop_time, m.step = DURATION, 0.01
@@ -147,7 +137,12 @@ def _sense_middle(m: Model, coupler: list[FlexibleBody], radius: float, elements
     rows = section_forces(_frame(start, start + length, radius, elements), local, place - element)
     weights = body.reduced.recovery(rows.toarray())
     for name, row, what in (("T", 3, "torsion"), ("My", 4, "bending moment"), ("Mz", 5, "bending moment")):
-        m.sense_recovery(f"coupler.{name}", body, weights[row], "N m", f"{what} in the middle of the coupler")
+        m.sense_coordinate(
+            f"coupler.{name}",
+            body.combination(weights[row]),
+            unit="N m",
+            description=f"{what} in the middle of the coupler",
+        )
 
 
 def _rigid(m: Model, name: str, start: np.ndarray, end: np.ndarray, radius: float) -> Any:

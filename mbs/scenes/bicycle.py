@@ -26,16 +26,6 @@ def build(speed: float = SPEED, lean_rate: float = LEAN_RATE, rolling: bool = Tr
         rad/s about the line through both contact points, positive to the right.
     rolling : bool
         Whether the wheels roll on the road; without, nothing touches.
-
-    Returns
-    -------
-    Model
-        For `compile`.
-
-    Raises
-    ------
-    ModelError
-        An argument is not what it must be; the message names it.
     """
     speed = number(speed, "The speed of the bicycle")
     lean_rate = number(lean_rate, "The lean rate of the bicycle")
@@ -86,7 +76,7 @@ def build(speed: float = SPEED, lean_rate: float = LEAN_RATE, rolling: bool = Tr
                 )
     for body in (rear, fork):
         m.initial_velocity(body, linear=(speed, -lean_rate * body.com[2], 0.0), angular=(lean_rate, 0.0, 0.0))
-    m.sense_roll("lean", rear, description="roll of the rear frame, positive to the right")
+    m.sense_angle("lean", rear, "roll", description="roll of the rear frame, positive to the right")
     m.sense_coordinate("lean.sine", rear.vector((0.0, 1.0, 0.0))[2], unit="1", description="z of the rear axle, unit")
     m.sense_energy("energy.total", "total", description="kinetic and potential energy")
     m.stop_time, m.step = 5.0, 0.01

@@ -18,16 +18,6 @@ def build(cart_mass: float = CART) -> Model:
     ----------
     cart_mass : float
         kg.
-
-    Returns
-    -------
-    Model
-        For `compile`.
-
-    Raises
-    ------
-    ModelError
-        An argument is not what it must be; the message names it.
     """
     m = Model("cart-pole", dimension=2, gravity=(0.0, -GRAVITY))
     cart = m.point_mass("cart", mass=cart_mass, position=(0.0, 0.0))

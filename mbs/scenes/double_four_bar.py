@@ -18,16 +18,6 @@ def build(windows: int = 2) -> Model:
     ----------
     windows : int
         N.
-
-    Returns
-    -------
-    Model
-        For `compile`.
-
-    Raises
-    ------
-    ModelError
-        An argument is not what it must be; the message names it.
     """
     windows = whole(windows, "The number of windows", 1)
     name = "double four-bar" if windows == 2 else f"{windows}-four-bar"
@@ -50,8 +40,13 @@ def build(windows: int = 2) -> Model:
         m.sense_position(
             f"B0.position.{component}", cranks[0], tip, component, description=f"position of B0 along {component}"
         )
-        m.sense_velocity(
-            f"B0.velocity.{component}", cranks[0], tip, component, description=f"velocity of B0 along {component}"
+        m.sense_position(
+            f"B0.velocity.{component}",
+            cranks[0],
+            tip,
+            component,
+            order=1,
+            description=f"velocity of B0 along {component}",
         )
     for kind in ("kinetic", "gravity", "total"):
         m.sense_energy(f"energy.{kind}", kind, description=f"{kind} energy")

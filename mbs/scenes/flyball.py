@@ -55,6 +55,6 @@ def build() -> Model:
         )
         m.initial_velocity(rod, linear=np.cross((0, 0, SPIN), centre), angular=(0, 0, SPIN))
     m.sense_position("slider.position.z", slider, None, "z", description="height of the slider")
-    m.sense_angular_rate("shaft.rate", shaft, "z", description="spin of the shaft")
+    m.sense_rotation("shaft.rate", shaft, "z", order=1, description="spin of the shaft")
     m.sense_energy("energy.total", "total", description="kinetic, potential and elastic energy")
     return m

@@ -37,16 +37,6 @@ def build(fidelity: Fidelity | int | str = Fidelity.DYNAMIC, car: Car | None = N
         How much of the chassis is modelled, as in `prototype_car.build`.
     car : Car, optional
         By default the prototype.
-
-    Returns
-    -------
-    Model
-        For `compile`.
-
-    Raises
-    ------
-    ModelError
-        There is no such fidelity.
     """
     driven = prototype_car.car() if car is None else car
     road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", driven.road.friction)

@@ -15,16 +15,6 @@ def build(length: float = 1.0, mass: float = 1.0) -> Model:
         m.
     mass : float
         kg.
-
-    Returns
-    -------
-    Model
-        For `compile`.
-
-    Raises
-    ------
-    ModelError
-        An argument is not what it must be; the message names it.
     """
     length, mass = positive(length, "The length of the pendulum"), positive(mass, "The mass of the pendulum")
     m = Model("pendulum", dimension=2, gravity=(0.0, -9.81))
@@ -34,9 +24,14 @@ def build(length: float = 1.0, mass: float = 1.0) -> Model:
         m.sense_position(
             f"bob.position.{component}", bob, None, component, description=f"position of the mass along {component}"
         )
-        m.sense_velocity(
-            f"bob.velocity.{component}", bob, None, component, description=f"velocity of the mass along {component}"
+        m.sense_position(
+            f"bob.velocity.{component}",
+            bob,
+            None,
+            component,
+            order=1,
+            description=f"velocity of the mass along {component}",
         )
-    m.sense_joint_force("rod.tension", rod, "tension", description="force in the rod, positive in tension")
+    m.sense_joint("rod.tension", rod, "tension", description="force in the rod, positive in tension")
     m.sense_energy("energy.total", "total", description="kinetic and potential energy")
     return m

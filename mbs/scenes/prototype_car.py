@@ -31,16 +31,6 @@ def build(
         "quasi_static", 2 "load_paths", 3 "dynamic", and for comparison 4 "many_modes" and "paper".
     guide : callable, optional
         Makes the guide of the x coordinate of the floor's centre, m; the selector is then in neutral.
-
-    Returns
-    -------
-    Model
-        For `compile`.
-
-    Raises
-    ------
-    ModelError
-        An argument is not what it must be; the message names it.
     """
     return car().model(road, fidelity, guide)
 

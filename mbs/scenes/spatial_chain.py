@@ -16,23 +16,7 @@ SPIN = 1.5  # rad/s, about each of the first two pins at the start
 
 
 def build(links: int = LINKS) -> Model:
-    """Straight, tilted in the x-z plane, swinging about its first pin and, from the second on, sideways too.
-
-    Parameters
-    ----------
-    links : int
-        How many.
-
-    Returns
-    -------
-    Model
-        For `compile`.
-
-    Raises
-    ------
-    ModelError
-        An argument is not what it must be; the message names it.
-    """
+    """Straight, tilted in the x-z plane, swinging about its first pin and, from the second on, sideways too."""
     links = whole(links, "The number of links", 1)
     m = Model(f"chain of {links} links", dimension=3)
     along, square, across = directions()

@@ -42,6 +42,6 @@ def build() -> Model:
             f"B.position.{component}", crank, pin, component, description=f"position of the crank pin along {component}"
         )
     m.sense_position("slider.position.x", slider, None, "x", description="position of the slider")
-    m.sense_velocity("slider.velocity.x", slider, None, "x", description="velocity of the slider")
+    m.sense_position("slider.velocity.x", slider, None, "x", order=1, description="velocity of the slider")
     m.sense_energy("energy.total", "total", description="kinetic and potential energy")
     return m

@@ -40,16 +40,6 @@ def build(parts: int = 8) -> Model:
     parts : int
         Flexible bodies welded end to end, each with its frame in its middle. One alone cannot be stiffened by the
         tension and leaves its axis by metres.
-
-    Returns
-    -------
-    Model
-        For `compile`.
-
-    Raises
-    ------
-    ModelError
-        An argument is not what it must be; the message names it.
     """
     parts = whole(parts, "The number of parts of the spinning beam", 1)
     m = Model("spinning beam", gravity=(0.0, 0.0, 0.0))

@@ -68,7 +68,7 @@ def build() -> Model:
             component,
             description=f"position of F along {component}",
         )
-    m.sense_yaw("OF.angle", body["OF"], description="turn of OF since the start, wrapped")
+    m.sense_angle("OF.angle", body["OF"], "yaw", description="turn of OF since the start, wrapped")
     m.sense_energy("energy.total", "total", description="kinetic and elastic energy")
     return m
 

@@ -28,8 +28,6 @@ class Method:
     balance_decides : bool
         Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
         runge_kutta_8 errs where it is stiff.
-    looks_at_ends : bool
-        Whether it looks at inputs at the ends of its steps only, as the trapezoidal rule does.
     conservative_only, tree_only, positions_only : bool
         Whether it takes only Systems without damping, with a spanning tree, without rows of velocities.
     cost : float
@@ -42,7 +40,6 @@ class Method:
     project: bool | None = None
     suspect_miss: float = math.inf
     balance_decides: bool = False
-    looks_at_ends: bool = False
     conservative_only: bool = False
     tree_only: bool = False
     positions_only: bool = False
@@ -66,21 +63,18 @@ METHOD_TABLE = {
         title="ALi3-P",
         suspect_miss=1.3,
         balance_decides=True,
-        looks_at_ends=True,
     ),
     "ali3p_no_projection": Method(
         number=MethodNumber.ALI3P,
         title="ALi3 without projections",
         project=False,
         suspect_miss=2.0,
-        looks_at_ends=True,
     ),
     "ali3p_generalised_alpha": Method(
         number=MethodNumber.GENERALISED_ALPHA,
         title="ALi3-P, generalised-α",
         suspect_miss=1.3,
         balance_decides=True,
-        looks_at_ends=True,
     ),
     "energy_momentum": Method(
         number=MethodNumber.ENERGY_MOMENTUM,

@@ -121,11 +121,6 @@ class Settings:
         if not 0.0 <= self.rho_infinity <= 1.0:
             raise ValueError(f"Setting 'rho_infinity' is {self.rho_infinity}; it must lie between 0 and 1.")
 
-    @property
-    def looks_at_ends(self) -> bool:
-        """Whether the method evaluates inputs at the ends of its steps only, as the trapezoidal rule does."""
-        return METHOD_TABLE[self.method].looks_at_ends
-
     def kernel_fields(self) -> dict[str, float | int]:
         """Values by the field names of `ali3_settings`.
 

@@ -38,9 +38,6 @@ class Defaults:
 
     Parameters
     ----------
-    model : Model
-    names : FrameNames
-    touched : Touched
     extent : float
         Size of the drawing, m.
     """

@@ -90,8 +90,7 @@ def modes_of(body: FlexibleBody) -> tuple[str, ...]:
 def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]) -> dict[str, Any]:
     """The frames of the scene; poses at the start are those of the coordinates `q` (nq,)."""
     frames: dict[str, Any] = {}
-    for body, place in zip(model.bodies, places.bodies, strict=True):
-        pose = places.pose(q[None], place)[0]
+    for body, place, (pose,) in zip(model.bodies, places.bodies, places.poses(q[None]), strict=True):
         frames[names.bodies[body.number]] = {
             "position": list(place.columns[:3]),
             "quaternion": list(place.columns[3:]),

@@ -19,7 +19,7 @@ from mbs.model.model import Model
 from mbs.model.shapes import in_space, origin_of
 from mbs.shapes.frames import Anchor, FrameNames, anchors_of_difference, numbers, place_drawn
 
-SAME = 1e-6  # parts of the extent: nearer points are one
+SAME = 1e-6  # parts of the extent: nearer points count as the same
 LINES = (ElementType.SPRING_DAMPER, ElementType.SPRING_DAMPER_TABLE)
 
 
@@ -61,7 +61,6 @@ class Touched:
     ----------
     points : dict of str to list of ndarray
         Places by frame, earth axes as drawn, m.
-    pivots, slides, lines : list
     sliding : list of str
         Rods with an end that a guide slides, which no sensor reads.
     frames : dict of str to dict

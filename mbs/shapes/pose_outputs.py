@@ -32,7 +32,7 @@ def pose_outputs(model: Model) -> None:
     for spin in model.spins:
         stem = _stem(spin.name, sensed, ("angle",))
         text = f"angle by which {spin.name} has turned on its carrier since the start, not wrapped"
-        model.sense_spin_angle(f"{stem}.angle", spin, description=text)
+        model.sense_angle(f"{stem}.angle", spin, description=text)
         sensed.add(f"{stem}.angle")
     for more in model.more_poses:
         model.flexible_scene += more()
@@ -46,7 +46,12 @@ def _amplitudes(model: Model, body: FlexibleBody, sensed: set[str]) -> None:
     stem = _stem(body.name, sensed, ("mode_1",))
     for k, mode in enumerate(body.reduced.mode_names):
         row = [float(j == k) for j in range(body.n_modes)]
-        model.sense_recovery(f"{stem}.mode_{k + 1}", body, row, "1", f"amplitude of mode '{mode}' of {body.name}")
+        model.sense_coordinate(
+            f"{stem}.mode_{k + 1}",
+            body.combination(row),
+            unit="1",
+            description=f"amplitude of mode '{mode}' of {body.name}",
+        )
 
 
 def _stem(name: str, taken: set[str], parts: tuple[str, ...]) -> str:
@@ -65,7 +70,7 @@ def _position(model: Model, called: str, body: Body, stem: str) -> None:
         if k < model.dimension:
             model.sense_coordinate(name, place[k], unit="m", description=text)
         else:
-            model.sense_constant(name, 0.0, "m", text)
+            model.sense_constant(name, 0.0, unit="m", description=text)
 
 
 def _orientation(model: Model, called: str, body: Body, stem: str) -> None:
@@ -73,6 +78,6 @@ def _orientation(model: Model, called: str, body: Body, stem: str) -> None:
         name = f"{stem}.q{c}"
         text = f"q{c} of the orientation of {called} since the drawing, scalar first (qw), to earth axes"
         if body.is_point:
-            model.sense_constant(name, float(k == 0), "1", text)
+            model.sense_constant(name, float(k == 0), unit="1", description=text)
         else:
-            model.sense_quaternion(name, body, c, description=text)
+            model.sense_rotation(name, body, c, description=text)

@@ -33,10 +33,8 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
 
     Parameters
     ----------
-    model : Model
     places : Places
         Of its bodies among the coordinates.
-    names : FrameNames
     q : ndarray, shape (nq,)
         Coordinates at the start.
     """
@@ -169,7 +167,7 @@ def _nodes(model: Model) -> list[Vector]:
 
 
 def _extent(places: list[Vector]) -> float:
-    """Diagonal of the box around all places, m; 1 m where they are one."""
+    """Diagonal of the box around all places, m; 1 m where they coincide."""
     size = float(np.linalg.norm(np.ptp(places, axis=0))) if places else 0.0
     return size if size > 0.0 else 1.0
 
@@ -177,6 +175,7 @@ def _extent(places: list[Vector]) -> float:
 def _places_of_shapes(shapes: list[Scene], frames: Mapping[str, Any]) -> list[Vector]:
     """Places of all shapes at the start, earth axes, m."""
     found: list[Vector] = []
+    starts = _starts(frames)
     for shape in shapes:
         anchors = [*shape.get("points", ()), *(shape.get("ends", ()) if "frame" not in shape else ())]
         if "frame" in shape:
@@ -184,17 +183,26 @@ def _places_of_shapes(shapes: list[Scene], frames: Mapping[str, Any]) -> list[Ve
             anchors = [[shape["frame"], p] for p in local]
         reach = shape["radius"] if shape["kind"] in ("sphere", "wheel") else 0.5 * max(shape.get("size", [0.0]))
         for frame, p in anchors:
-            place = _at_start(frames, frame, np.array(p))
+            place = _at_start(frames, starts, frame, np.array(p))
             found += [place - reach, place + reach]
     return found
 
 
-def _at_start(frames: Mapping[str, Any], name: str, local: Vector) -> Vector:
+def _starts(frames: Mapping[str, Any]) -> dict[str, tuple[Vector, Vector]]:
+    """Origin and axes of the frames of bodies at the start."""
+    placed = {name: frame["start"] for name, frame in frames.items() if "parent" not in frame}
+    if not placed:
+        return {}
+    axes = matrices(np.array([quaternion for _, quaternion in placed.values()]))
+    return {name: (np.array(origin), R) for (name, (origin, _)), R in zip(placed.items(), axes, strict=True)}
+
+
+def _at_start(frames: Mapping[str, Any], starts: Mapping[str, tuple[Vector, Vector]], name: str, at: Vector) -> Vector:
     """A place of a frame at the start, earth axes, m."""
     if name == "ground":
-        return local
-    frame = frames[name]
-    if "parent" in frame:  # the turn at the start changes no size
-        return _at_start(frames, frame["parent"], np.array(frame["at"]) + local)
-    origin, quaternion = frame["start"]
-    return np.asarray(np.array(origin) + matrices(np.array([quaternion]))[0] @ local)
+        return at
+    if name not in starts:  # the turn at the start changes no size
+        frame = frames[name]
+        return _at_start(frames, starts, frame["parent"], np.array(frame["at"]) + at)
+    origin, axes = starts[name]
+    return np.asarray(origin + axes @ at)

@@ -72,7 +72,7 @@ def count_steps(t0: float, t_end: float, h: float) -> int:
     Raises
     ------
     ValueError
-        The end is none, the step is longer than the run, or lost in the round-off of the time.
+        The end is before the start, the step is longer than the run, or lost in the round-off of the time.
     """
     end = check_end(t0, t_end)
     steps = math.floor((end - t0) / h + 1e-6)

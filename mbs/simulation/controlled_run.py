@@ -35,7 +35,6 @@ class Task:
         s.
     times : array of shape (n,)
         To record at, ascending, behind t0.
-    inputs : mapping of str to signal
     """
 
     t0: float
@@ -66,7 +65,6 @@ class ControlledRun:
     ----------
     simulation : Simulation
         At the start; it is left where the run ends.
-    task : Task
     settings : Settings
         Of the method; the tolerances of its Newton loop are tightened as the run needs.
     tolerance : float

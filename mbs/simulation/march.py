@@ -48,7 +48,6 @@ def march(
 
     Returns
     -------
-    trajectory : Trajectory
     seen : list of ndarray, shape (nq,)
         With `look` the coordinates at the instants where two runs are compared.
     """
@@ -66,17 +65,16 @@ def march(
     seen = [simulation.state.q] if look else []
     record = PositionRecord(simulation.system, simulation.state.q, len(values), wanted)
     done, wall, chunk, before = 0, 0.0, every, simulation.report
-    with progress_for(progress) as bar, _inputs(simulation, signals, t0, t0 + steps * h, 1e-6 * h) as table_of:
+    with progress_for(progress) as bar, _attached(simulation, signals, t0, t0 + steps * h, 1e-6 * h):
         while done < steps:
             ahead = [k - done for k in looks if k > done]
             n = min(chunk, steps - done, *ahead[:1])
-            table = table_of(t0 + h * np.arange(done + 1, done + n + 1, dtype=float))
             row = done // every + 1
             part = values[row : (done + n) // every + 1]
             places = record.rows(row, len(part))
             begin = time.perf_counter()
             try:
-                instance.run(h, n, table, every, part, places)
+                instance.run(h, n, None, every, part, places)
             except KernelError as error:
                 good = round((simulation.time - t0) / h) // every + 1
                 wall += time.perf_counter() - begin
@@ -118,29 +116,15 @@ def notices_of(system: System, t: Array, values: Array) -> list[str]:
 
 
 @contextmanager
-def _inputs(
+def _attached(
     simulation: SteppedSystem, signals: InputSignals, t0: float, t_end: float, tolerance: float
-) -> Iterator[Callable[[Array], Array | None]]:
-    """Inputs of a run: a table at the ends of its steps, or the kernel asks at the times of its stages."""
-    if simulation.settings.looks_at_ends:
-        yield lambda t: _input_table(simulation, signals, t, tolerance)
-        return
+) -> Iterator[None]:
+    """Inputs of a run: the kernel asks for them at the times at which its method evaluates them."""
     signals.attach(simulation.instance, t0, t_end, tolerance)
     try:
-        yield lambda t: None
+        yield
     finally:
         simulation.instance.set_input_function(None)
-
-
-def _input_table(simulation: SteppedSystem, signals: InputSignals, t: Array, tolerance: float) -> Array | None:
-    """Values (n, nu) of all inputs at the ends of the steps; None keeps them as they are."""
-    columns = signals.columns()
-    if not columns:
-        return None
-    count = len(prepared(simulation.system)[1]["inputs"])
-    table = np.tile([simulation.instance.get_input(i) for i in range(count)], (len(t), 1))
-    table[:, columns] = signals.at(t, tolerance)
-    return table
 
 
 def _trajectory(

@@ -57,8 +57,6 @@ def simulate(
 
     Parameters
     ----------
-    system : System
-        What `compile` made.
     t_end : float
         Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
     h : float, optional
@@ -93,7 +91,7 @@ def simulate(
         Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
         the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then
         chosen by the kernel, the error is estimated by a second run, and `Trajectory.control` says what was done.
-    times : array_like, optional
+    times : array_like, shape (n,), optional
         Instants to record at in place of h, s, ascending, with a tolerance; t0 is recorded too.
 
     Returns

@@ -17,7 +17,6 @@ def run_roads(system: System, instance: Instance, files: Mapping[int, str]) -> d
 
     Parameters
     ----------
-    system : System
     instance : Instance
         With the values of the parameters.
     files : mapping of int to str

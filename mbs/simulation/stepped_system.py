@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.kernel.binding import Instance
+from mbs.kernel.binding import Instance, LoadedSystem
 from mbs.results.run_report import Report
 from mbs.settings.settings import Settings
 from mbs.simulation.large_bending import BendingWatch
@@ -18,9 +18,8 @@ class SteppedSystem:
 
     Parameters
     ----------
-    system : System
-    settings : Settings
-        How steps are solved.
+    loaded : LoadedSystem, optional
+        The System in the kernel's memory; by default the one that its Simulations share.
 
     Attributes
     ----------
@@ -30,10 +29,10 @@ class SteppedSystem:
         Files in place of roads, by the number of the road.
     """
 
-    def __init__(self, system: System, settings: Settings) -> None:
+    def __init__(self, system: System, settings: Settings, loaded: LoadedSystem | None = None) -> None:
         self.system, self.settings = system, settings
-        loaded, self._meta = prepared(system)
-        self.instance = Instance(loaded)
+        shared, self._meta = prepared(system) if loaded is None else (loaded, system.meta)
+        self.instance = Instance(shared)
         self.instance.set_settings(**settings.kernel_fields())
         self.bending = BendingWatch(system.frames)
         self.step_tried = 0.0

@@ -43,10 +43,6 @@ class Simulation(SteppedSystem):
 
     Parameters
     ----------
-    system : System
-        What `compile` made.
-    settings : Settings, optional
-        How steps are solved.
     inputs : mapping of str to float, optional
         Values of inputs at the start; the others have the start value of their declaration.
     parameters : mapping of str to float, optional
@@ -100,8 +96,6 @@ class Simulation(SteppedSystem):
 
         Parameters
         ----------
-        name : str
-            Of an input of the System.
         value : float
             In its unit, within its limits.
 
@@ -120,8 +114,6 @@ class Simulation(SteppedSystem):
 
         Parameters
         ----------
-        name : str
-            Of a parameter of the System.
         value : float or path
             In its unit, within its limits. Of the file of a road its path, or the name of a road that comes with the
             package; empty for the road of the model. Such a parameter is given to the constructor: it is fixed.
@@ -187,8 +179,6 @@ class Simulation(SteppedSystem):
 
         Parameters
         ----------
-        name : str
-            Of a switch of the System.
         on : bool
             Whether its rows hold.
 
@@ -215,11 +205,6 @@ class Simulation(SteppedSystem):
 
     def switch(self, name: str) -> bool:
         """Whether the rows of a switch are on.
-
-        Parameters
-        ----------
-        name : str
-            Of a switch of the System.
 
         Returns
         -------
@@ -321,8 +306,6 @@ class Simulation(SteppedSystem):
 
         Raises
         ------
-        ArgumentTypeError, ValueError
-            An argument is not what it must be; nothing has moved.
         SimulationError
             A step failed; its `trajectory` holds what was recorded.
 
@@ -355,8 +338,6 @@ class Simulation(SteppedSystem):
 
         Raises
         ------
-        ArgumentTypeError, ValueError
-            An argument is not what it must be; nothing has moved.
         SimulationError
             A step failed; its `trajectory` holds what was recorded.
         """
@@ -373,18 +354,7 @@ class Simulation(SteppedSystem):
             warnings.warn(f"{text} Take shorter steps.", AccuracyWarning, stacklevel=3)
 
     def change_settings(self, settings: Settings) -> None:
-        """Solve the steps from now on in another way.
-
-        Parameters
-        ----------
-        settings : Settings
-            How.
-
-        Raises
-        ------
-        ArgumentTypeError
-            They are no Settings.
-        """
+        """Solve the steps from now on in another way."""
         instance_of(Settings, settings, "The settings", "Settings(...)")
         self.instance.set_settings(**settings.kernel_fields())
         self.settings = settings
@@ -402,15 +372,8 @@ class Simulation(SteppedSystem):
     def restore(self, state: bytes) -> None:
         """Continue from a saved state of the same System.
 
-        Parameters
-        ----------
-        state : bytes
-            What `save` gave.
-
         Raises
         ------
-        ArgumentTypeError
-            It is no bytes.
         SimulationError
             It is damaged or of another System; the state is the one before.
         """

@@ -26,8 +26,6 @@ class BodyPlace:
 
     Parameters
     ----------
-    name : str
-        Of the body.
     kind : {"rigid", "planar", "point", "planar point", "pose"}
         What its full coordinates are: position, then axes; or the seven parts of the pose themselves.
     row : int
@@ -77,7 +75,6 @@ class AmplitudePlace:
 
     Parameters
     ----------
-    body : str
     modes : sequence of str
         Names of the modes.
     row : int
@@ -117,17 +114,25 @@ class Places:
 
     def pose(self, q: Array, body: BodyPlace) -> Array:
         """Positions and quaternions of a body, shape (n, 7), at coordinates (n, nq)."""
-        full = self.rows(q, body.row, _SIZES[body.kind])
-        if body.kind == "pose":
+        return self._pose(self.rows(q, body.row, _SIZES[body.kind]), body.kind)
+
+    def poses(self, q: Array) -> list[Array]:
+        """Those of all bodies."""
+        full = self.rows(q, 0, len(self.constant))
+        return [self._pose(full[:, b.row : b.row + _SIZES[b.kind]], b.kind) for b in self.bodies]
+
+    @staticmethod
+    def _pose(full: Array, kind: str) -> Array:
+        if kind == "pose":
             return full
-        found = np.zeros((len(q), 7))
+        found = np.zeros((len(full), 7))
         found[:, 3] = 1.0
-        d = 2 if body.kind.startswith("planar") else 3
+        d = 2 if kind.startswith("planar") else 3
         found[:, :d] = full[:, :d]
-        if body.kind == "planar":
+        if kind == "planar":
             half = 0.5 * np.arctan2(full[:, 3], full[:, 2])  # from -pi/2 to pi/2: the scalar part is not negative
             found[:, 3], found[:, 6] = np.cos(half), np.sin(half)
-        elif body.kind == "rigid" and len(q):
+        elif kind == "rigid" and len(full):
             found[:, 3:] = quaternions(full[:, 3:].reshape(-1, 3, 3).transpose(0, 2, 1))
         return found
 
@@ -174,7 +179,6 @@ class Drawing:
     ----------
     base : mapping
         The scene in the format of `docs/animation.md`, without what is made late.
-    places : Places
     shared : sequence of (frame, place, frame, place)
         Points that two frames share by their joint, each with its place in both, m.
     late : tuple of callable

@@ -6,15 +6,15 @@ import copy
 import json
 import struct
 import zlib
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ali3.files import whole_file
+from ali3.reading import read_bytes
 from mbs.common.checks import instance_of
 from mbs.common.frames import Frames
 from mbs.kernel.header import FLOAT_ARRAYS, INTEGER_ARRAYS, OPTIONAL_ARRAYS, SYSTEM_VERSION
@@ -27,11 +27,13 @@ VERSION = SYSTEM_VERSION
 HEADER = struct.Struct("<8sIIQII")
 ENTRY = struct.Struct("<40sIIQQ")
 INT32, FLOAT64, BYTES = 1, 2, 3
+_LARGEST = 4_000_000_000  # bytes of a file
 TEXTS = ("meta", "drawing")
 
 FLOATS, INTEGERS, OPTIONAL = frozenset(FLOAT_ARRAYS), frozenset(INTEGER_ARRAYS), frozenset(OPTIONAL_ARRAYS)
 """Names of the arrays; the optional ones may be missing: then nothing is known of assembly modes or of a start in
 equilibrium."""
+MODES = ("mode_cell", "mode_cell_ptr")
 
 
 class SystemFileError(ValueError):
@@ -44,7 +46,8 @@ class System:
     Attributes
     ----------
     arrays : mapping of str to ndarray
-        The arrays of the System file (`docs/system_file.md`), read-only.
+        The arrays of the System file (`docs/system_file.md`), read-only; those of the assembly modes are found when
+        they are first asked for.
     meta : mapping
         Names, units and the report.
     frames : Frames or None
@@ -59,17 +62,13 @@ class System:
         meta: Mapping[str, Any],
         frames: Frames | None = None,
         drawing: Drawing | None = None,
+        modes: Callable[[], Mapping[str, ArrayLike]] | None = None,
     ) -> None:
         names = set(arrays)
         if names | OPTIONAL != FLOATS | INTEGERS:
             wrong = sorted((names | OPTIONAL) ^ (FLOATS | INTEGERS))
             raise SystemFileError(f"The arrays of a System are incomplete or unknown: {', '.join(wrong)}.")
-        frozen: dict[str, NDArray[Any]] = {}
-        for name in sorted(FLOATS | INTEGERS):
-            values = np.array(arrays.get(name, ()), dtype=np.float64 if name in FLOATS else np.int32)
-            values.setflags(write=False)
-            frozen[name] = values
-        self.arrays: Mapping[str, NDArray[Any]] = MappingProxyType(frozen)
+        self.arrays: Mapping[str, NDArray[Any]] = _Arrays(arrays, modes)
         self.frames = frames
         self.drawing = drawing
         self._meta_text = json.dumps(meta, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
@@ -119,13 +118,15 @@ class System:
         found: dict[str, Any] = copy.deepcopy(dict(self.drawing.scene))
         return found
 
-    def to_bytes(self, drawing: bool = True) -> bytes:
+    def to_bytes(self, drawing: bool = True, modes: bool = True) -> bytes:
         """The System file; equal Systems give equal bytes.
 
         Parameters
         ----------
         drawing : bool
             Whether with what is drawn, which the kernel does not read.
+        modes : bool
+            Whether with the assembly modes, by which steps are watched.
 
         Returns
         -------
@@ -133,7 +134,8 @@ class System:
             As `docs/system_file.md` describes.
         """
         items: list[tuple[str, int, bytes, int]] = []
-        for name, values in self.arrays.items():
+        for name in self.arrays:
+            values = self.arrays[name] if modes or not name.startswith("mode_") else np.zeros(0, np.int32)
             kind = FLOAT64 if name in FLOATS else INT32
             items.append((name, kind, values.astype(values.dtype.newbyteorder("<")).tobytes(), len(values)))
         text = self._meta_text.encode()
@@ -155,11 +157,6 @@ class System:
     def from_bytes(cls, data: bytes) -> System:
         """A System from its file content; everything is checked, also by the kernel.
 
-        Parameters
-        ----------
-        data : bytes
-            What `to_bytes` gave.
-
         Returns
         -------
         System
@@ -167,8 +164,6 @@ class System:
 
         Raises
         ------
-        ArgumentTypeError
-            The data are no bytes.
         SystemFileError
             With one sentence that says what is wrong.
         """
@@ -214,11 +209,6 @@ class System:
     def load(cls, path: str | Path) -> System:
         """Read a System file.
 
-        Parameters
-        ----------
-        path : str or Path
-            File to read.
-
         Returns
         -------
         System
@@ -231,9 +221,35 @@ class System:
         SystemFileError
             It is no valid System file.
         """
-        if Path(path).exists() and not Path(path).is_file():
-            raise SystemFileError(f"{path} is not a file that can be read to its end.")
-        return cls.from_bytes(Path(path).read_bytes())
+        return cls.from_bytes(read_bytes(path, _LARGEST))
+
+
+class _Arrays(Mapping[str, NDArray[Any]]):
+    """Arrays by name, read-only; those that `modes` makes are made when they are first asked for."""
+
+    def __init__(
+        self, arrays: Mapping[str, ArrayLike], modes: Callable[[], Mapping[str, ArrayLike]] | None = None
+    ) -> None:
+        self._arrays = {name: _frozen(name, arrays.get(name, ())) for name in sorted(FLOATS | INTEGERS)}
+        self._modes = modes
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if self._modes is not None and name in MODES:
+            self._arrays |= {made: _frozen(made, values) for made, values in self._modes().items()}
+            self._modes = None
+        return self._arrays[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+
+def _frozen(name: str, values: ArrayLike) -> NDArray[Any]:
+    found = np.array(values, dtype=np.float64 if name in FLOATS else np.int32)
+    found.setflags(write=False)
+    return found
 
 
 def _parse(data: bytes) -> dict[str, Any]:

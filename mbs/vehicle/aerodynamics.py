@@ -28,8 +28,6 @@ class Aerodynamics(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         centre : tuple of float
             Where the drag acts, m.
         axles : mapping of str to Axle

@@ -73,8 +73,6 @@ class Axle(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         axle : str
             "front" or "rear".
         tie_rod : TieRodEnd

@@ -38,12 +38,6 @@ class Brakes(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
-        corner : Corner
-            Where it is.
-        spin : Spin
-            Of the wheel.
         spin_inertia : float
             Of the wheel, kg.m2.
         """

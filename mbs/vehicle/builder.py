@@ -35,8 +35,6 @@ class CarBuilder:
     ----------
     m : Model
         Gets bodies, joints and elements.
-    road : int
-        Number of the road in the model.
     inputs : mapping of str to Input
         By name.
     chassis : Mount
@@ -77,8 +75,6 @@ class CarBuilder:
 
         Parameters
         ----------
-        section : Section
-            Table of the file.
         name : str
             Its field, whose type says that it may change.
         owner, real : Owner, str or int

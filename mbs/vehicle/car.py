@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
+from ali3.typed_sentences import Sentences
+from ali3.words import one_line
 from mbs.common.errors import ModelError
 from mbs.elements.road import Road
 from mbs.model import Model
 from mbs.model.carried import Spin
 from mbs.model.ends import End
 from mbs.model.records import Guide
-from mbs.results.simulation_error import SimulationError
 from mbs.roads import RoadFile
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -37,6 +38,7 @@ from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
+from mbs.vehicle.names import FORMS, NAME_WORDS
 from mbs.vehicle.outputs import (
     chassis_outputs,
     health_outputs,
@@ -48,7 +50,6 @@ from mbs.vehicle.outputs import (
 )
 from mbs.vehicle.road import level_within, tell_steep_face
 from mbs.vehicle.schema_version import check_version
-from mbs.vehicle.sentences import Sentences, one_line
 from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
@@ -125,11 +126,6 @@ class Car(CarContent):
             How much of the chassis is modelled, a member of `Fidelity`, its number or its name.
         guide : callable, optional
             Makes the guide of the x coordinate of the chassis' reference point, m; the selector is then in neutral.
-
-        Returns
-        -------
-        Model
-            For `compile`.
 
         Raises
         ------
@@ -210,11 +206,6 @@ class Car(CarContent):
     def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add steering and front axle, then the rear axle.
 
-        Parameters
-        ----------
-        b : CarBuilder
-            With the chassis.
-
         Returns
         -------
         iterator of (Steered, dict of str to Spin)
@@ -293,8 +284,6 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
         Tables of the file.
     folder : Path
         Where its tables lie.
-    what : str
-        How messages call it.
     at_rest : bool
         Whether the car must be seen to come to rest.
     warn : bool
@@ -309,7 +298,7 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
     try:
         car = Car.model_validate(data)
     except ValidationError as error:
-        raise CarFileError(_told(what, Sentences(Car, data).of(error))) from None
+        raise CarFileError(_told(what, Sentences(Car, data, FORMS, NAME_WORDS).of(error))) from None
     car.locate("")
     car._folder = folder
     car._data = dict(data)
@@ -327,7 +316,7 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
             raise CarFileError(_told(what, [str(error)])) from error
     try:
         rest = settled(car.model(), car)
-    except (ValueError, SimulationError) as error:
+    except ValueError as error:
         raise CarFileError(_told(what, [f"as drawn it makes no car. {error}"])) from error
     faults = list(rest.faults(car))
     if faults:

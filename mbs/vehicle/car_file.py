@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
 from functools import cache
 from pathlib import Path
-from typing import Any
 
+from ali3.reading import read_toml
 from mbs.common.checks import shown
 from mbs.vehicle.car import Car, car_from
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.files import text_of
 
 FILE = "car.toml"
 CARS = Path(__file__).parent / "cars"
@@ -49,7 +47,7 @@ def load(car: str | Path) -> Car:
     if not isinstance(car, (str, Path)):
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
     path = file_of(car)
-    return car_from(_content(path), path.parent, str(path), warn=True)
+    return car_from(read_toml(path, CarFileError), path.parent, str(path), warn=True)
 
 
 def file_of(car: str | Path) -> Path:
@@ -82,14 +80,5 @@ def file_of(car: str | Path) -> Path:
 @cache
 def _of_package(name: str) -> Car:
     path = CARS / name / FILE
-    return car_from(_content(path), path.parent, str(path), at_rest=False)  # a test holds that they stand as drawn
-
-
-def _content(path: Path) -> dict[str, Any]:
-    text = text_of(path)
-    try:
-        return tomllib.loads(text)
-    except RecursionError:
-        raise CarFileError(f"{path} is no car file: its lists or tables are nested too deep.") from None
-    except ValueError as error:
-        raise CarFileError(f"{path} is no TOML file: {str(error).rstrip('.')}.") from error
+    content = read_toml(path, CarFileError)
+    return car_from(content, path.parent, str(path), at_rest=False)  # a test holds that they stand as drawn

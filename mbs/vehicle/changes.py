@@ -21,13 +21,11 @@ def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: st
         Tables of the file.
     values : mapping of str to object
         By key path; keys that are not there yet are added.
-    what : str
-        How messages call the car.
 
     Raises
     ------
     CarFileError
-        A key path is none, or leads through a value.
+        A key path is malformed, or leads through a value.
     """
     if not isinstance(values, Mapping):
         raise CarFileError(f"{what}: the changes are {shown(values)}; they must be a mapping from key paths to values.")

@@ -1,4 +1,8 @@
-"""Copies a car of the package to a folder, or checks a car file and prints what the car is: ``ali3 car``."""
+"""Copies a car of the package to a folder, or checks a car file and prints what the car is: ``ali3 car``.
+
+With --kinematics: draws its wheel travel and steer curves in the terms of ISO 8855, and prints what its axles are as
+drawn.
+"""
 
 from __future__ import annotations
 
@@ -6,28 +10,66 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.errors import UserError
+from ali3.extras import command_needs
+from ali3.options import add_old_names, add_option
 from ali3.running import run_command
+
+_OF_KINEMATICS = ("travel", "fidelity", "points", "out", "json")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehicle.command") -> int:
     """Run the command; `prog` is how the user typed it."""
     parser = argparse.ArgumentParser(
-        prog=prog,
-        description="Check a car file and print what the car is; with a folder, copy a car of the package there.",
+        prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("car", nargs="?", metavar="CAR", help="name of a car of the package, or a car's folder or file")
     parser.add_argument("folder", nargs="?", type=Path, metavar="FOLDER", help="copy the car there; it must not exist")
-    parser.add_argument("--list", action="store_true", help="list the cars of the package")
-    parser.add_argument("--parameters", action="store_true", help="print what the FMU has as parameters too")
+    add_option(parser, "--list")
+    add_option(parser, "--show-parameters")
+    curves = parser.add_argument_group("kinematics")
+    curves.add_argument("--kinematics", action="store_true", help="draw the curves of the axles")
+    curves.add_argument(
+        "--travel",
+        type=float,
+        nargs=2,
+        metavar=("LOW", "HIGH"),
+        help="range of wheel travel, mm, positive in bump; default: -80 80",
+    )
+    curves.add_argument("--points", type=int, metavar="N", help="of each curve; default: 81")
+    add_option(curves, "--fidelity", "with a flexible frame, where there is one")
+    add_option(curves, "--out", "out/kinematics/CAR")
+    add_option(curves, "--json")
+    add_old_names(parser, {"--parameters": "--show-parameters"})
     options = parser.parse_args(arguments)
     if not options.list and options.car is None:
         parser.error("a CAR is needed, or --list")
+    if options.kinematics and not options.list:
+        return _kinematics(options)
     return run_command(lambda: _run(options), (ValueError,))
+
+
+def _kinematics(options: argparse.Namespace) -> int:
+    from mbs.common.errors import ModelError
+
+    command_needs("hosts")
+
+    def work() -> int:
+        from mbs.vehicle.kinematics.report import report
+
+        if options.folder is not None:
+            raise UserError("A car is copied to a FOLDER, or its curves are drawn by --kinematics; give one of them.")
+        return report(options)
+
+    return run_command(work, (ModelError,))
 
 
 def _run(options: argparse.Namespace) -> int:
     from mbs.vehicle.car_file import car_names, load
 
+    given = next((name for name in _OF_KINEMATICS if getattr(options, name) is not None), None)
+    if given is not None:
+        raise UserError(f"--{given} goes with --kinematics.")
     if options.list:
         width = max(map(len, car_names()))
         for name in car_names():
@@ -39,7 +81,7 @@ def _run(options: argparse.Namespace) -> int:
         for file in copy_car(options.car, options.folder):
             print(file)
         return 0
-    return _check(options.car, options.parameters)
+    return _check(options.car, options.show_parameters)
 
 
 def _check(car: str, parameters: bool) -> int:

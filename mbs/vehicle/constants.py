@@ -7,14 +7,7 @@ from mbs.vehicle.car_content import CarContent
 
 
 def vehicle_constants(m: Model, car: CarContent) -> None:
-    """Dimensions of the car and its steering.
-
-    Parameters
-    ----------
-    m : Model
-    car : CarContent
-        The file.
-    """
+    """Dimensions of the car and its steering."""
     turned, angle = car.steering.wheel_angle_max, car.steering.front_wheel_angle_max
     for name, value, unit, text in (
         ("wheelbase", car.wheelbase, "m", "distance between the axles"),

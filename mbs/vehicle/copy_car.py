@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import shutil
-import tempfile
 from pathlib import Path
 
-from ali3.errors import FileError
-from ali3.files import reason
+from ali3.files import whole_folder
 from mbs.common.checks import shown
 from mbs.vehicle.car_file import CARS, FILE, car_names
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.json_schema import SCHEMA_FILE
+from mbs.vehicle.schema import SCHEMA_FILE
 
 
 def copy_car(name: str, folder: Path) -> list[Path]:
@@ -41,18 +39,9 @@ def copy_car(name: str, folder: Path) -> list[Path]:
         raise CarFileError(f"There is no car {shown(name)} to copy; the cars of the package are {known}.")
     if folder.exists() or folder.is_symlink():
         raise CarFileError(f"{folder} exists; the copy of a car needs a folder that does not.")
-    made = ""
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        made = tempfile.mkdtemp(prefix=".writing-", dir=folder.parent)
-        part = shutil.copytree(CARS / name, Path(made, folder.name), ignore=shutil.ignore_patterns("__pycache__"))
-        shutil.copy(SCHEMA_FILE, part)
-        file = part / FILE
+    with whole_folder(folder) as made:
+        shutil.copytree(CARS / name, made, ignore=shutil.ignore_patterns("__pycache__"), dirs_exist_ok=True)
+        shutil.copy(SCHEMA_FILE, made)
+        file = made / FILE
         file.write_text(f"#:schema {SCHEMA_FILE.name}\n" + file.read_text(encoding="utf-8"), encoding="utf-8")
-        part.replace(folder)
-    except OSError as error:
-        raise FileError(f"{folder} cannot be written: {reason(error)}.") from error
-    finally:
-        if made:
-            shutil.rmtree(made, ignore_errors=True)
     return sorted(path for path in folder.rglob("*") if path.is_file())

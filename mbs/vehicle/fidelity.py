@@ -43,11 +43,6 @@ class Fidelity(IntEnum):
         ----------
         value : int or str
             A member, its number, or its name in any case.
-
-        Raises
-        ------
-        ModelError
-            There is no such fidelity.
         """
         if isinstance(value, str):
             found = cls.__members__.get(value.upper())

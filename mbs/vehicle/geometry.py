@@ -9,7 +9,7 @@ import numpy as np
 
 from mbs.vehicle.section import Section
 
-LEAST = 0.02  # m: shorter links, arms and levers are none
+LEAST = 0.02  # m: shorter links, arms and levers are refused
 
 
 def apart(points: Section, first: str, second: str, what: str, least: float = LEAST) -> Iterator[str]:
@@ -17,8 +17,6 @@ def apart(points: Section, first: str, second: str, what: str, least: float = LE
 
     Parameters
     ----------
-    points : Section
-        Table of the points.
     first, second : str
         Their names.
     what : str
@@ -38,8 +36,6 @@ def off_line(
 
     Parameters
     ----------
-    points : Section
-        Table of the points.
     name : str
         The point.
     ends : (str, str)
@@ -67,8 +63,6 @@ def farther(
 
     Parameters
     ----------
-    points : Section
-        Table of the points.
     axis : {"x", "y", "z"}
         Of the drawing.
     first, second : str
@@ -95,8 +89,6 @@ def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
 
     Parameters
     ----------
-    points : Section
-        Table of the points.
     lower, upper : str
         Two points of the axis.
     """

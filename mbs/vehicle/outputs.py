@@ -16,15 +16,7 @@ from mbs.vehicle.suspensions.anti_roll_bar import LINK
 
 
 def chassis_outputs(b: CarBuilder, car: CarContent) -> None:
-    """Pose, velocity and acceleration of the reference point; accelerometers.
-
-    Parameters
-    ----------
-    b : CarBuilder
-        The car so far.
-    car : CarContent
-        The file.
-    """
+    """Pose, velocity and acceleration of the reference point; accelerometers."""
     m, chassis, origin = b.m, b.chassis.frame, car.vehicle.reference_point
     for c in "xyz":
         m.sense_position(
@@ -34,92 +26,79 @@ def chassis_outputs(b: CarBuilder, car: CarContent) -> None:
             c,
             description=f"{c} of the reference point (centre of mass at rest), earth",
         )
-    m.sense_yaw("chassis.yaw", chassis, description="heading, positive to the left")
-    m.sense_pitch("chassis.pitch", chassis, description="positive nose down")
-    m.sense_roll("chassis.roll", chassis, description="positive left side up")
+    m.sense_angle("chassis.yaw", chassis, "yaw", description="heading, positive to the left")
+    m.sense_angle("chassis.pitch", chassis, "pitch", description="positive nose down")
+    m.sense_angle("chassis.roll", chassis, "roll", description="positive left side up")
     for c in "wxyz":
-        m.sense_quaternion(
+        m.sense_rotation(
             f"chassis.q{c}",
             chassis,
             c,
             description=f"q{c} of the orientation, scalar first (qw), from vehicle to earth axes",
         )
     for c, way in zip("xyz", ("forward", "left", "up"), strict=True):
-        m.sense_velocity(
+        m.sense_position(
             f"chassis.v{c}",
             chassis,
             origin,
             c,
             chassis,
+            order=1,
             description=f"velocity of the reference point along the vehicle's {c} axis, {way}",
         )
     for c in "xyz":
-        m.sense_angular_rate(f"chassis.w{c}", chassis, c, description=f"angular velocity about the vehicle's {c} axis")
+        m.sense_rotation(
+            f"chassis.w{c}", chassis, c, order=1, description=f"angular velocity about the vehicle's {c} axis"
+        )
     for c, way in zip("xyz", ("forward", "left", "up"), strict=True):
-        m.sense_acceleration(
+        m.sense_position(
             f"chassis.a{c}",
             chassis,
             origin,
             c,
             chassis,
+            order=2,
             description=f"acceleration of the reference point along the vehicle's {c} axis, {way}, without gravity",
         )
     reference = chassis.point(origin)
-    m.sense_norm("speed", reference, 1, description="speed of the reference point")
-    m.sense_direction(
+    m.sense_vector("speed", reference, order=1, description="speed of the reference point")
+    m.sense_vector(
         "sideslip",
         reference,
-        chassis.vector(FORWARD),
-        chassis.vector(LEFT),
+        [chassis.vector(FORWARD), chassis.vector(LEFT)],
+        order=1,
         description="direction of travel from the heading, positive to the left; 0 below 0.1 m/s",
     )
     for corner, point in car.chassis.accelerometers.items():
         for c in "xyz":
-            m.sense_acceleration(
+            m.sense_position(
                 f"accelerometer_{corner}.a{c}",
                 b.chassis.accelerated,
                 point,
                 c,
                 chassis,
+                order=2,
                 description=f"acceleration of the {corner} corner of the chassis base along the vehicle's {c} axis, "
                 "without gravity",
             )
 
 
 def used_inputs(b: CarBuilder) -> None:
-    """Inputs as used.
-
-    Parameters
-    ----------
-    b : CarBuilder
-        The car so far.
-    """
+    """Inputs as used."""
     for channel in b.inputs.values():
         b.m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
 
 
 def wheel_outputs(b: CarBuilder, spin: Spin, w: str) -> None:
-    """Attitude, travel, spin and tyre forces of one wheel; the FMU puts the wheel's name before the descriptions.
-
-    Parameters
-    ----------
-    b : CarBuilder
-        The car so far.
-    spin : Spin
-        Of the wheel.
-    w : str
-        Its name.
-    """
+    """Attitude, travel, spin and tyre forces of one wheel; the FMU puts the wheel's name before the descriptions."""
     m, chassis = b.m, b.chassis.frame
     forward, left, up = (chassis.vector(v) for v in (FORWARD, LEFT, UP))
-    m.sense_angle_between(
-        f"wheel_{w}.steer", spin.axis, left, up, description="steer angle about the vehicle's z axis, positive left"
+    m.sense_angle(
+        f"wheel_{w}.steer", (spin.axis, left, up), description="steer angle about the vehicle's z axis, positive left"
     )
-    m.sense_angle_between(
+    m.sense_angle(
         f"wheel_{w}.camber",
-        spin.axis,
-        left,
-        forward,
+        (spin.axis, left, forward),
         description="deprecated, not the camber of ISO 8855 but a turn about the vehicle's x axis: use inclination",
     )
     m.sense_element(
@@ -129,7 +108,7 @@ def wheel_outputs(b: CarBuilder, spin: Spin, w: str) -> None:
         description="of the wheel plane from the road's normal about the wheel's x axis, top right positive (ISO 8855)",
     )
     m.sense_coordinate(
-        f"wheel_{w}.omega", spin, 1, description="absolute angular velocity, positive forward", display_unit="rpm"
+        f"wheel_{w}.omega", spin, order=1, description="absolute angular velocity, positive forward", display_unit="rpm"
     )
     _travel(m, chassis, spin, w)
     for name, output in (
@@ -148,17 +127,7 @@ def wheel_outputs(b: CarBuilder, spin: Spin, w: str) -> None:
 
 
 def wheel_poses(b: CarBuilder, spin: Spin, w: str) -> None:
-    """Where one wheel and its carrier are and how they are turned, and where the wheel meets the road.
-
-    Parameters
-    ----------
-    b : CarBuilder
-        The car so far.
-    spin : Spin
-        Of the wheel.
-    w : str
-        Its name.
-    """
+    """Where one wheel and its carrier are and how they are turned, and where the wheel meets the road."""
     m = b.m
     for k, c in enumerate("xyz"):
         text = f"{c} of the centre of the wheel, earth"
@@ -166,14 +135,14 @@ def wheel_poses(b: CarBuilder, spin: Spin, w: str) -> None:
     for k, c in enumerate("xyz"):
         text = f"{c} of the spin axis, earth; the unit vector points to the left"
         m.sense_coordinate(f"wheel_{w}.axis_{c}", spin.axis[k], unit="1", description=text)
-    m.sense_spin_angle(
+    m.sense_angle(
         f"wheel_{w}.angle",
         spin,
         description="angle by which the wheel has turned on its carrier since the start, about its axis, so positive "
         "forward; not wrapped",
     )
     for c in "wxyz":
-        m.sense_quaternion(
+        m.sense_rotation(
             f"wheel_{w}.q{c}",
             spin.carrier,
             c,
@@ -186,13 +155,7 @@ def wheel_poses(b: CarBuilder, spin: Spin, w: str) -> None:
 
 
 def lever_outputs(b: CarBuilder) -> None:
-    """Angles of the levers of anti-roll bars.
-
-    Parameters
-    ----------
-    b : CarBuilder
-        The car so far.
-    """
+    """Angles of the levers of anti-roll bars."""
     for index, coordinate in enumerate(b.m.coordinates):
         if coordinate.name.startswith(LINK):
             b.m.sense_coordinate(
@@ -225,9 +188,9 @@ def work_outputs(m: Model) -> None:
         elements = [e for e in m.elements if e.name.startswith(starts)]
         description = f"work of {text} since the start, without what is stored; negative: energy lost"
         if elements:
-            m.sense_work(f"energy.{name}", elements, "nonconservative", description=description)
+            m.sense_energy(f"energy.{name}", "nonconservative", elements, description=description)
         else:  # a chassis without points that touch the ground
-            m.sense_constant(f"energy.{name}", 0.0, "J", description)
+            m.sense_constant(f"energy.{name}", 0.0, unit="J", description=description)
 
 
 def health_outputs(m: Model) -> None:
@@ -248,6 +211,6 @@ def health_outputs(m: Model) -> None:
 def _travel(m: Model, chassis: Body, spin: Spin, w: str) -> None:
     reference = np.array([c.reference for c in m.coordinates])
     gap: AffineVector = spin.centre - chassis.point(spin.centre.value(reference))
-    m.sense_component(
-        f"wheel_{w}.travel", gap, chassis.vector(UP), description="travel of the wheel centre, positive in bump"
+    m.sense_vector(
+        f"wheel_{w}.travel", gap, [chassis.vector(UP)], description="travel of the wheel centre, positive in bump"
     )

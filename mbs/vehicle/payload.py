@@ -24,8 +24,6 @@ class Payload(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         name : str
             Of the payload in the file.
         fidelity : Fidelity

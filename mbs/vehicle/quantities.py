@@ -43,11 +43,6 @@ class Quantity:
         ----------
         value : float
             In `unit`.
-
-        Raises
-        ------
-        PydanticCustomError
-            It is not.
         """
         if math.isfinite(value) and (self.low <= value <= self.high or (self.zero and value == 0.0)):
             return value

@@ -11,13 +11,12 @@ from typing import Any
 from pydantic.fields import FieldInfo
 
 from ali3.files import write_text
+from ali3.typed_paths import Table, annotation_of, by_name, keys_of, kinds_of, templates, words
 from mbs.vehicle.car import Car
-from mbs.vehicle.json_schema import SCHEMA_FILE, schema_text
-from mbs.vehicle.key_paths import annotation_of, by_name, keys_of, kinds_of, templates, words
 from mbs.vehicle.names import NAME_WORDS
 from mbs.vehicle.quantities import Quantity, quantities_in
+from mbs.vehicle.schema import SCHEMA_FILE, schema_text
 from mbs.vehicle.schema_version import SCHEMA
-from mbs.vehicle.section import Section
 
 PAGE = Path(__file__).parents[2] / "docs" / "car_file.md"
 WIDTH = 118
@@ -62,14 +61,14 @@ def page() -> str:
     return "\n".join(parts)
 
 
-def _name(table: type[Section]) -> str:
+def _name(table: Table) -> str:
     """Heading of a table that stands at many places: the first words of what is said about it."""
     return inspect.cleandoc(table.__doc__ or "").partition("\n")[0].partition(";")[0].partition(",")[0].rstrip(".")
 
 
-def _tables() -> dict[type[Section], list[tuple[str, str]]]:
+def _tables() -> dict[Table, list[tuple[str, str]]]:
     """Tables with the places and templates where they stand, in the order of the file."""
-    found: dict[type[Section], list[tuple[str, str]]] = {}
+    found: dict[Table, list[tuple[str, str]]] = {}
     for table, path, kind in _walk(Car, "", ""):
         head, dot, rest = path.partition(".")
         place = f"{AXLE}{dot}{rest}" if head in ("front", "rear") else path
@@ -77,7 +76,7 @@ def _tables() -> dict[type[Section], list[tuple[str, str]]]:
     return found
 
 
-def _walk(table: type[Section], path: str, kind: str) -> Iterator[tuple[type[Section], str, str]]:
+def _walk(table: Table, path: str, kind: str) -> Iterator[tuple[Table, str, str]]:
     """Tables in the order of the file; `kind` names the template that they belong to."""
     kind = ", ".join(kinds_of(table)) or kind
     yield table, path, kind

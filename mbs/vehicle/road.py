@@ -43,8 +43,6 @@ class RoadSection(Section):
             The car.
         road : Road, RoadFile or None
             Under it; None: `default`.
-        ground : int
-            Its number in the model.
         nominal_load : float
             Of the tyres, N, for the description.
         """

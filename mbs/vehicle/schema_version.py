@@ -20,8 +20,6 @@ def check_version(data: Mapping[str, Any], what: str) -> None:
     ----------
     data : mapping
         Content of the file.
-    what : str
-        How messages call it.
 
     Raises
     ------

@@ -26,13 +26,7 @@ class Section(BaseModel):
         return self._path
 
     def key(self, field: str) -> str:
-        """Key path of a field.
-
-        Parameters
-        ----------
-        field : str
-            Name of an attribute.
-        """
+        """Key path of a field."""
         return f"{self._path}.{field}" if self._path else field
 
     def faults(self) -> Iterator[str]:
@@ -41,13 +35,7 @@ class Section(BaseModel):
 
     @classmethod
     def quantity(cls, field: str) -> Quantity | None:
-        """Unit and range of a field, None where it is no single number.
-
-        Parameters
-        ----------
-        field : str
-            Name of an attribute.
-        """
+        """Unit and range of a field, None where it is no single number."""
         info = cls.model_fields[field]
         for found in (info.metadata, *(getattr(a, "__metadata__", ()) for a in get_args(info.annotation))):
             for item in found:

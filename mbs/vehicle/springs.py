@@ -57,8 +57,6 @@ def law_faults(
         Spring or damper.
     name : str
         Key of the number.
-    number : float or None
-        Its value.
     table : rows of (float, float) or None
         In its place.
     plausible : _Plausible
@@ -216,14 +214,10 @@ def spring_and_damper(
 
     Parameters
     ----------
-    b : CarBuilder
-        The car so far.
     name : str
         Of the element.
     lower, upper : (Body, point)
         The ends as drawn, m.
-    springs : AxleSprings
-        Of the axle.
 
     Returns
     -------
@@ -244,14 +238,8 @@ def spring_beside_damper(
 
     Parameters
     ----------
-    b : CarBuilder
-        The car so far.
-    wheel : str
-        Name of the wheel.
     spring, damper : pair of (Body, point)
         Lower and upper end as drawn, m.
-    springs : AxleSprings
-        Of the axle.
     """
     _between(b, f"spring {wheel}", *spring, springs.spring, None, springs.stops)
     _between(b, f"damper {wheel}", *damper, None, springs.damper, None)

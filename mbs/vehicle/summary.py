@@ -56,8 +56,6 @@ def grip_row(car: Car, axle: str) -> tuple[str, str]:
 
     Parameters
     ----------
-    car : Car
-        Any.
     axle : {"front", "rear"}
         Which.
     """
@@ -76,13 +74,7 @@ def grip_row(car: Car, axle: str) -> tuple[str, str]:
 
 
 def parameter_table(car: Car) -> str:
-    """Key path, value, unit and range of each number that the FMU has as a parameter.
-
-    Parameters
-    ----------
-    car : Car
-        Any.
-    """
+    """Key path, value, unit and range of each number that the FMU has as a parameter."""
     rows = [("parameter", "value", "unit", "least", "most", "may change")]
     values = car.values()
     for section in sections_of(car):

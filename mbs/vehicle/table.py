@@ -1,15 +1,16 @@
-"""Tables beside a car file: CSV with a line of titles; lines that begin with # are comments."""
+"""Tables beside a car file: CSV with a line of titles."""
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ali3.tables import TextTable, number_of
+from ali3.words import brief
 from mbs.vehicle.errors import CarFileError
-from mbs.vehicle.files import LARGEST_TABLE, beside, text_of
+from mbs.vehicle.files import beside
 
 
 @dataclass(frozen=True)
@@ -22,10 +23,13 @@ class Row:
         Key path, file and line, for messages.
     cells : dict of str to str
         By the titles.
+    decimal : str
+        See `ali3.tables.TextTable`.
     """
 
     where: str
     cells: dict[str, str]
+    decimal: str
 
     def __getitem__(self, column: str) -> str:
         return self.cells[column]
@@ -35,12 +39,8 @@ class Row:
 
         Parameters
         ----------
-        column : str
-            Its title.
         low, high : float
             Least and largest plausible value.
-        unit : str
-            For the message.
 
         Raises
         ------
@@ -48,13 +48,12 @@ class Row:
             It is no number or not in the range.
         """
         try:
-            value = math.nan if "_" in self[column] else float(self[column])
+            value = number_of(self[column], self.decimal)
         except ValueError:
             value = math.nan
         if not low <= value <= high:
-            raise CarFileError(
-                f"{self.where}: {column} is {self[column]!r}; it must be a number between {low:g} and {high:g} {unit}."
-            )
+            must = f"it must be a number between {low:g} and {high:g} {unit}"
+            raise CarFileError(f"{self.where}: {column} is {brief(self[column])}; {must}.")
         return value
 
     def count(self, column: str, most: int) -> int:
@@ -62,19 +61,13 @@ class Row:
 
         Parameters
         ----------
-        column : str
-            Its title.
         most : int
             Largest plausible value.
-
-        Raises
-        ------
-        CarFileError
-            It is none.
         """
         text = self[column]
         if not (text.isascii() and text.isdigit() and 1 <= int(text[:9]) <= most):
-            raise CarFileError(f"{self.where}: {column} is {text!r}; it must be a whole number between 1 and {most}.")
+            must = f"it must be a whole number between 1 and {most}"
+            raise CarFileError(f"{self.where}: {column} is {brief(text)}; {must}.")
         return int(text)
 
 
@@ -83,8 +76,6 @@ def read_table(folder: Path, name: str, key: str, columns: Sequence[str]) -> lis
 
     Parameters
     ----------
-    folder : Path
-        Of the car's file.
     name : str
         Of the table.
     key : str
@@ -97,31 +88,15 @@ def read_table(folder: Path, name: str, key: str, columns: Sequence[str]) -> lis
     CarFileError
         There is no such file, it is no text, or a column or a cell is missing.
     """
-    path = beside(folder, name, key)
     what = f"{key} ({name})"
-    text = text_of(path, LARGEST_TABLE)
-    lines = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
-    try:
-        table = list(csv.reader([line for _, line in lines], strict=True))
-    except csv.Error as error:
-        raise CarFileError(f"{what} is no table in CSV: {error}.") from error
-    if len(table) != len(lines):
-        raise CarFileError(f"{what} is no table in CSV: a cell goes over several lines.")
-    titles: list[str] | None = None
-    rows = []
-    for (number, _), cells in zip(lines, table, strict=True):
-        stripped = [cell.strip() for cell in cells]
-        if titles is None:
-            titles = stripped
-            missing = [c for c in columns if c not in titles]
-            if missing:
-                raise CarFileError(f"{what} has no column {missing[0]}; its titles are {', '.join(titles)}.")
-            if len(set(titles)) != len(titles):
-                raise CarFileError(f"{what} has two columns of one title: {', '.join(titles)}.")
-        elif len(stripped) != len(titles):
-            raise CarFileError(f"{what}, line {number}: {len(stripped)} cells; there are {len(titles)} titles.")
-        else:
-            rows.append(Row(f"{what}, line {number}", dict(zip(titles, stripped, strict=True))))
+    table = TextTable(beside(folder, name, key), CarFileError, what)
+    missing = [column for column in columns if column not in table.names]
+    if missing:
+        raise CarFileError(f"{what} has no column {missing[0]}; its titles are {', '.join(table.names)}.")
+    rows = [
+        Row(f"{what}, line {row.line}", dict(zip(table.names, row.cells, strict=True)), table.decimal)
+        for row in table.rows()
+    ]
     if not rows:
         raise CarFileError(f"{what} has no lines under its titles.")
     return rows

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import itertools
 import math
 from pathlib import Path
@@ -10,6 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.tables import TextTable
+from ali3.words import brief
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.centre_line import CentreLine, of_segments, through
 from mbs.worlds.layers import CourseLayer, HeightOf
@@ -104,41 +105,15 @@ def read_course(file: Path) -> dict[str, Float]:
     RoadFileError
         With the file, the line and what is wrong.
     """
-    try:
-        text = file.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        words = "there is no such file" if isinstance(error, FileNotFoundError) else str(error)
-        raise RoadFileError(f"{file} cannot be read: {words}.") from None
-    lines = [
-        (k + 1, line) for k, line in enumerate(text.splitlines()) if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if not lines:
-        raise RoadFileError(f"{file} is empty.")
-    mark = next((m for m in (";", ",", "\t") if m in lines[0][1]), ",")
-    rows = [(k, [cell.strip() for cell in next(csv.reader([line], delimiter=mark))]) for k, line in lines]
-    names = list(COLUMNS[: len(rows[0][1])])
-    if not _is_number(rows[0][1][0]):
-        names = [cell.lower() for cell in rows[0][1]]
-        rows = rows[1:]
-        if unknown := [name for name in names if name not in COLUMNS]:
-            raise RoadFileError(f"{file} has a column '{unknown[0]}'; known are {', '.join(COLUMNS)}, in metres.")
+    table = TextTable(file, RoadFileError, headed=None)
+    names = [name.lower() for name in table.names] or list(COLUMNS[: table.width])
+    if unknown := [name for name in names if name not in COLUMNS]:
+        raise RoadFileError(f"{file} has a column {brief(unknown[0])}; known are {', '.join(COLUMNS)}, in metres.")
     if not {"x", "y"} <= set(names) or len(set(names)) < len(names):
         raise RoadFileError(f"{file} must have a column x and a column y, each once.")
-    values = []
-    for k, cells in rows:
-        if len(cells) != len(names):
-            raise RoadFileError(f"Line {k} of {file} has {len(cells)} numbers where {len(names)} belong.")
-        if bad := [cell for cell in cells if not _is_number(cell)]:
-            raise RoadFileError(f"Line {k} of {file}: '{bad[0]}' is no number.")
-        values.append([float(cell) for cell in cells])
-    return dict(zip(names, np.array(values, float).reshape(-1, len(names)).T, strict=True))
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        return math.isfinite(float(cell))
-    except ValueError:
-        return False
+    if table.width > len(names):
+        raise RoadFileError(f"{file} has {table.width} columns; without names they are {', '.join(COLUMNS)}.")
+    return dict(zip(names, table.values(least=0).T, strict=True))
 
 
 def _inside(line: CentreLine, course: Course, bounds: tuple[float, float, float, float]) -> None:

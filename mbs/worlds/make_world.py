@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ali3.reading import read_json, read_toml
 from mbs.roads.road_header import CHECKED_FROM, HEADER, RoadFileError
-from mbs.worlds.world_file import read_table
 
 if TYPE_CHECKING:
     from mbs.worlds.world_types import WorldDescription
@@ -29,16 +28,14 @@ def read_world(file: Path) -> WorldDescription:
     """
     from pydantic import ValidationError
 
+    from ali3.typed_sentences import Sentences
     from mbs.worlds.world_types import WorldDescription
 
+    table = read_toml(file, RoadFileError)
     try:
-        world = WorldDescription.model_validate(read_table(file))
+        world = WorldDescription.model_validate(table)
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        where = ".".join(str(part) for part in first["loc"]) or "the file"
-        given = first["input"]
-        value = f" is {given!r}" if not isinstance(given, (dict, list)) and first["type"] != "missing" else ""
-        raise RoadFileError(f"{file}: {where}{value}: {first['msg']}.") from None
+        raise RoadFileError(f"{file}: {Sentences(WorldDescription, table).of(error)[0]}") from None
     x0, y0, x1, y1 = world.bounds
     if not (x1 - x0 >= 1.0 and y1 - y0 >= 1.0):
         raise RoadFileError(
@@ -70,7 +67,7 @@ def make_world(file: Path, name: str, road: Path, tell: Callable[[str, float], N
     RoadFileError
         With what is wrong.
     """
-    if file.suffix.lower() == ".toml" and read_table(file).get("kind") == "world":
+    if file.suffix.lower() == ".toml" and read_toml(file, RoadFileError).get("kind") == "world":
         from mbs.worlds.road_of_world import write_world_road
         from mbs.worlds.terrain import Terrain
         from mbs.worlds.world_record import world_record
@@ -97,7 +94,7 @@ def part_of_world(road: Path) -> dict[str, Any] | None:
     """What is drawn of a road file by the record beside it, where there is one and it is of this road."""
     beside = road.with_suffix(".json")
     try:
-        record = json.loads(beside.read_text(encoding="utf-8"))
+        record = read_json(beside)
         if record["format"] == "ALi3 world" and record["road"] == road.name and record["checksum"] == checksum_of(road):
             part: dict[str, Any] = record["roads"][0]
             return part

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.iso_3888 import lanes
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.layers import CourseLayer
 from mbs.worlds.terrain import Terrain
@@ -66,39 +67,16 @@ def cone_places(cones: Cones) -> list[tuple[float, float]]:
     if cones.slalom is not None:
         local = [(cones.distance * k, 0.0) for k in range(cones.slalom)]
     else:
-        local = lane_change_cones(cones.lane_change or "", cones.vehicle_width)
+        assert cones.lane_change is not None
+        local = [
+            (float(u), v)
+            for lane in lanes(cones.lane_change, cones.vehicle_width)
+            for u in np.linspace(lane.x_start, lane.x_end, _count(lane.x_end - lane.x_start))
+            for v in (lane.y_right, lane.y_left)
+        ]
     x, y, yaw = cones.start
     c, s = math.cos(math.radians(yaw)), math.sin(math.radians(yaw))
     return [(x + c * u - s * v, y + s * u + c * v) for u, v in local]
-
-
-def lane_change_cones(standard: str, width: float) -> list[tuple[float, float]]:
-    """Cones of a lane change: u ahead from its beginning, v to the left from the middle of its first lane.
-
-    ISO 3888-1: sections of 15, 30, 25, 25, 15 and 15 m; lanes 1.1, 1.2 and 1.3 times as wide as the vehicle and 0.25 m
-    more; the second one 3.5 m to the left, taken from middle to middle. ISO 3888-2: sections of 12, 13.5, 11, 12.5 and
-    12 m; lanes of 1.1 widths and 0.25 m, of the width and 1 m, and of 1.3 widths and 0.25 m, at least 3 m; the second
-    one begins 1 m to the left of the first one; the left sides of the first and the last one are taken in one line.
-
-    Parameters
-    ----------
-    standard : str
-        "ISO 3888-1" or "ISO 3888-2".
-    width : float
-        Of the vehicle without mirrors, m.
-    """
-    first = 0.5 * (1.1 * width + 0.25)
-    if standard == "ISO 3888-1":
-        second, third = 0.5 * (1.2 * width + 0.25), 0.5 * (1.3 * width + 0.25)
-        lanes = [(0.0, 15.0, -first, first), (45.0, 70.0, 3.5 - second, 3.5 + second), (95.0, 125.0, -third, third)]
-    else:
-        last = max(1.3 * width + 0.25, 3.0)
-        lanes = [
-            (0.0, 12.0, -first, first),
-            (25.5, 36.5, first + 1.0, first + 2.0 + width),
-            (49.0, 61.0, first - last, first),
-        ]
-    return [(u, v) for a, b, right, left in lanes for u in np.linspace(a, b, _count(b - a)) for v in (right, left)]
 
 
 def _count(length: float) -> int:

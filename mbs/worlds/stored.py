@@ -11,11 +11,14 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from ali3.cache import cache_folder
-from ali3.files import make_folder, whole_file
+from ali3.cache import cache_folder, forget_oldest
+from ali3.files import make_folder, whole_file, whole_folder
 
 ROOT = Path(__file__).parents[2]
-CODE = ("mbs/roads", "mbs/worlds", "mbs/kernel/header.py", "viewer/road_types.py", "viewer/base64_numbers.py")
+CODE = (
+    *("mbs/roads", "mbs/worlds", "mbs/kernel/header.py"),
+    *("viewer/road_types.py", "viewer/base64_numbers.py", "ali3/iso_3888.py"),
+)
 """What worlds are made by."""
 MOST_KEPT = 12
 MADE = "made"
@@ -82,26 +85,20 @@ def _copied(folder: Path, out: Path) -> list[Path]:
 def _keep(made: Path, home: Path, entry: Path) -> None:
     """Copy what was made into the cache, whole or not at all; without one it is made again next time."""
     try:
-        place = Path(tempfile.mkdtemp(prefix=".making-", dir=home))
-        try:
+        with whole_folder(entry) as place:
             for path in made.iterdir():
                 shutil.copyfile(path, place / path.name)
             (place / MADE).touch()
-            place.rename(entry)
-        finally:
-            shutil.rmtree(place, ignore_errors=True)
-        _prune(home)
+        forget_oldest(home, MOST_KEPT)
     except OSError as error:
-        if not entry.is_dir():  # else another run made the same
-            words = error.strerror or str(error)
-            print(f"The world is not kept for the next time: {home} cannot be written to ({words}).", file=sys.stderr)
+        print(f"The world is not kept for the next time: {str(error).rstrip('.')}.", file=sys.stderr)
 
 
-def add_file(key: str, file: Path, make: Callable[[Path], None], out: Path) -> Path:
+def add_file(key: str, name: str, make: Callable[[Path], None], out: Path) -> None:
     """One more file of a world that is kept, such as its map; `make` writes it where there is none."""
     entry = cache_folder("worlds") / key
-    stored: Any = entry / file.name
-    with whole_file(out / file.name) as target:
+    stored: Any = entry / name
+    with whole_file(out) as target:
         if stored.is_file():
             shutil.copyfile(stored, target)
         else:
@@ -109,11 +106,3 @@ def add_file(key: str, file: Path, make: Callable[[Path], None], out: Path) -> P
             if entry.is_dir():
                 with whole_file(stored) as copy:
                     shutil.copyfile(target, copy)
-    return out / file.name
-
-
-def _prune(home: Path) -> None:
-    """Remove the worlds that were not used for the longest time."""
-    entries = sorted(home.iterdir(), key=lambda entry: entry.stat().st_mtime, reverse=True)
-    for entry in entries[MOST_KEPT:]:
-        shutil.rmtree(entry, ignore_errors=True)

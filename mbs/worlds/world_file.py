@@ -1,31 +1,16 @@
-"""Reads descriptions of worlds."""
+"""The files that a world is made of."""
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
-from typing import Any
 
+from ali3.reading import read_toml
 from mbs.roads.road_header import RoadFileError
-
-
-def read_table(file: Path) -> dict[str, Any]:
-    """A TOML file as it is.
-
-    Raises
-    ------
-    RoadFileError
-        It cannot be read.
-    """
-    try:
-        return tomllib.loads(file.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise RoadFileError(f"{file} cannot be read: {getattr(error, 'strerror', None) or error}.") from None
 
 
 def named_files(file: Path) -> tuple[str, list[Path]]:
     """The name of a world, and the files that its description names, as far as they are there."""
-    table = read_table(file)
+    table = read_toml(file, RoadFileError)
     found = []
     if table.get("kind") == "world":
         ground = table.get("ground")

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from ali3.iso_3888 import Track
 from viewer.road_types import SurfaceClass
 
 Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]
@@ -197,7 +198,7 @@ class Cones(_Table):
     at: list[Point] | None = None
     height: Annotated[float, Field(gt=0.0, le=3.0)] = 0.5
     colour: Literal["orange", "yellow", "blue"] = "orange"
-    lane_change: Literal["ISO 3888-1", "ISO 3888-2"] | None = None
+    lane_change: Track | None = None
     start: Start | None = None
     """Where the lane change begins, in the middle of its first lane."""
     vehicle_width: Annotated[float, Field(ge=0.5, le=4.0)] = 1.8

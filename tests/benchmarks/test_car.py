@@ -65,6 +65,7 @@ def test_another_car_has_its_own_references(capsys):
     assert "step_steer: 10 ms" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_measures_of_a_car(tmp_path, capsys):
     file, picture = tmp_path / "handling.json", tmp_path / "axles.png"
     assert handling.main(["hatchback", "--json", str(file), "--chart", str(picture)]) == 0

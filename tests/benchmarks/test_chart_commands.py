@@ -31,6 +31,7 @@ def read(file):
     return data["meta"], data["rows"]
 
 
+@pytest.mark.slow
 def test_work_precision_runs_every_method_and_the_default_gets_better_with_the_step(tmp_path, capsys):
     arguments = [
         "--quick",

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 
@@ -15,22 +13,15 @@ from benchmarks.car import limited_fall
 from benchmarks.car.step_costs import drive
 from benchmarks.car.step_replay import Replay
 from benchmarks.car.wild_ground import write_ground
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 
 H = 2e-3
 
 
-@pytest.fixture(scope="module")
-def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene("prototype_car")
-    return build_fmu(system, name, tmp_path_factory.mktemp("car"), [fmpy.platform], kind="native")
-
-
-def test_the_rows_say_what_steps_cost_and_the_pictures_are_drawn(car, tmp_path, capsys, monkeypatch):
+def test_the_rows_say_what_steps_cost_and_the_pictures_are_drawn(prototype_fmu, tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("benchmarks.car.step_replay.shutil.which", lambda name: None)  # counted in another test
     names = [tmp_path / name for name in ("rows.json", "chart.png")]
-    chosen = ["--fmu", str(car), "--seconds", "2", "--fidelity", "0", "--step", "2", "--step", "10", "--limit", "2"]
+    chosen = ["--fmu", str(prototype_fmu), "--seconds", "2", "--fidelity", "0"]
+    chosen += ["--step", "2", "--step", "10", "--limit", "2"]
     monkeypatch.setattr(real_time, "drive", _without_fidelity)
     assert real_time.main([*chosen, "--json", str(names[0]), "--chart", str(names[1])]) == 0
     rows = json.loads(names[0].read_text(encoding="utf-8"))["rows"]
@@ -51,18 +42,18 @@ def _without_fidelity(fmu, start, *rest):
     return drive(fmu, {name: value for name, value in start.items() if name != "fidelity"}, *rest)
 
 
-def test_a_drive_is_the_same_again_and_its_worst_steps_are_repeated(car, tmp_path):
+def test_a_drive_is_the_same_again_and_its_worst_steps_are_repeated(prototype_fmu, tmp_path):
     targets = write_ground(tmp_path / "wild.road")
     start = {"road.file": str(tmp_path / "wild.road")}
     shares: list[float] = []
-    one, two = (drive(car, start, H, 1.2, 2, targets, shares.append) for _ in range(2))
+    one, two = (drive(prototype_fmu, start, H, 1.2, 2, targets, shares.append) for _ in range(2))
     assert np.array_equal(one.iterations, two.iterations)
     assert one.iterations.min() >= 1
     assert shares[0] == 0.0
     assert one.worst[-1].iterations >= 3
     most = max(one.worst, key=lambda worst: worst.iterations)
     assert most.iterations == one.iterations.max()
-    replay = Replay(car, tmp_path / "unpacked")
+    replay = Replay(prototype_fmu, tmp_path / "unpacked")
     assert not replay.time(most, one.kinds, H) <= 0.0
     if replay.valgrind is None:
         pytest.skip("valgrind is not installed")
@@ -71,8 +62,8 @@ def test_a_drive_is_the_same_again_and_its_worst_steps_are_repeated(car, tmp_pat
     assert all(100_000 < n < 20_000_000 for n in counted.values())
 
 
-def test_limits_that_are_wider_leave_less(car):
-    runs = [limited_fall.fall(car, None, H, limit) for limit in (0, 1, 3)]
+def test_limits_that_are_wider_leave_less(prototype_fmu):
+    runs = [limited_fall.fall(prototype_fmu, None, H, limit) for limit in (0, 1, 3)]
     assert [run.limit for run in runs] == [0, 1, 3]
     free, narrow, wide = runs
     assert free.capped == 0

@@ -11,6 +11,7 @@ from benchmarks.methods import studies
 from benchmarks.methods.study_pages import parts_of, study_blocks
 
 
+@pytest.mark.slow
 def test_small_sizes_and_their_tables(tmp_path: Path) -> None:
     fmu = studies.spring_fmu(tmp_path)
     runs = studies.study_runs("spring", fmu, 40, 1, 0.2, tmp_path / "runs")

@@ -61,7 +61,7 @@ def fmu_file(name: str, kind: str, folder: Path) -> Path:
 
 def drive(fmu: Path, manoeuvre: str, folder: Path, *options: object) -> Path:
     """Drive an FMU through a manoeuvre; the table of the result."""
-    ali3("drive", fmu, "--manoeuvre", manoeuvre, "--out", folder, *options)
+    ali3("run", fmu, "--manoeuvre", manoeuvre, "--out", folder, *options)
     return next(folder.glob("*.csv"))
 
 
@@ -74,7 +74,7 @@ def catalogue(fmu: Path, tests: str, folder: Path, settings: Sequence[str]) -> P
 
 def study(file: Path, folder: Path) -> Path:
     """Make a study; the folder of its rows."""
-    ali3("study", file, "--workers", 1, "--no-report", "--out", folder)
+    ali3("study", file, "--jobs", 1, "--no-report", "--out", folder)
     return folder / "runs"
 
 
@@ -87,7 +87,7 @@ def compare(fmu: Path, log: Path, folder: Path, *options: str) -> Path:
 def kinematics(name: str, folder: Path, points: int) -> tuple[Path, list[Path]]:
     """Curves of a car: all numbers as JSON, and the tables."""
     file = folder / "kinematics.json"
-    ali3("kinematics", name, "--points", points, "--out", folder / "curves", "--json", file)
+    ali3("car", name, "--kinematics", "--points", points, "--out", folder / "curves", "--json", file)
     return file, sorted((folder / "curves").glob("*.csv"))
 
 
@@ -100,12 +100,12 @@ def road(source: Path, folder: Path) -> tuple[Path, Path]:
 
 def world(name: str, folder: Path) -> tuple[Path, Path]:
     """The road file and the drawing of a world, made anew."""
-    ali3("world", name, "--out", folder)
+    ali3("road", "--world", name, "--out", folder)
     return folder / f"{name}.road", folder / f"{name}.json"
 
 
 def page(result: Path, fmu: Path, folder: Path) -> tuple[Path, Path]:
     """The page of a result and its glTF."""
-    page, gltf = folder / "page.html", folder / "page.glb"
-    ali3("view", result, "--geometry", fmu, "--no-open", "--most", 200, "--out", page, "--gltf", gltf)
+    page, gltf = folder / f"{result.stem}.html", folder / "page.glb"
+    ali3("view", result, "--geometry", fmu, "--no-open", "--most", 200, "--out", folder, "--gltf", gltf)
     return page, gltf

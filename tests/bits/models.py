@@ -42,26 +42,26 @@ def arm() -> mbs.Model:
     m.sense_coordinate("root.rate", angle, order=1)
     for axis in "xyz":
         for name, axes in (("earth", "earth"), ("own", b)):
-            m.sense_velocity(f"c.v{axis}.{name}", c, None, axis, axes=axes)
-            m.sense_acceleration(f"c.a{axis}.{name}", c, (1.9, 0.2, 0.0), axis, axes=axes)
+            m.sense_position(f"c.v{axis}.{name}", c, None, axis, order=1, axes=axes)
+            m.sense_position(f"c.a{axis}.{name}", c, (1.9, 0.2, 0.0), axis, order=2, axes=axes)
         m.sense_position(f"c.{axis}", c, (1.9, 0.2, 0.0), axis)
-        m.sense_angular_rate(f"c.w{axis}", c, axis)
-        m.sense_joint_force(f"elbow.f{axis}", "elbow", axis)
-        m.sense_joint_moment(f"elbow.m{axis}", "elbow", axis)
-        m.sense_joint_force(f"sleeve.f{axis}", "sleeve", axis)
-        m.sense_joint_moment(f"sleeve.m{axis}", "sleeve", axis, on="second", axes=c)
+        m.sense_rotation(f"c.w{axis}", c, axis, order=1)
+        m.sense_joint(f"elbow.f{axis}", "elbow", axis)
+        m.sense_joint(f"elbow.m{axis}", "elbow", axis, "moment")
+        m.sense_joint(f"sleeve.f{axis}", "sleeve", axis)
+        m.sense_joint(f"sleeve.m{axis}", "sleeve", axis, "moment", on="second", axes=c)
     for part in "wxyz":
-        m.sense_quaternion(f"c.q{part}", c, part)
-    m.sense_yaw("b.yaw", b)
-    m.sense_pitch("b.pitch", b)
-    m.sense_roll("b.roll", b)
-    m.sense_norm("c.speed", c.point((1.7, 0.2, -0.1)), 1, "m/s")
-    m.sense_component("c.along", c.point((1.7, 0.2, -0.1)), b.vector((1.0, 0.0, 0.0)), unit="m")
+        m.sense_rotation(f"c.q{part}", c, part)
+    m.sense_angle("b.yaw", b, "yaw")
+    m.sense_angle("b.pitch", b, "pitch")
+    m.sense_angle("b.roll", b, "roll")
+    m.sense_vector("c.speed", c.point((1.7, 0.2, -0.1)), order=1, unit="m/s")
+    m.sense_vector("c.along", c.point((1.7, 0.2, -0.1)), [b.vector((1.0, 0.0, 0.0))], unit="m")
     vectors = b.vector((1.0, 0.0, 0.0)), b.vector((0.0, 1.0, 0.0))
-    m.sense_direction("course", c.point((1.7, 0.2, -0.1)), *vectors)
-    m.sense_angle_between("elbow.angle", a.vector((1.0, 0.0, 0.0)), vectors[0], a.vector((0.0, 0.0, 1.0)))
-    m.sense_work("work", ["coil", "push", "motor"])
-    m.sense_work("losses", ["coil", "root spring", "drag"], "nonconservative")
+    m.sense_vector("course", c.point((1.7, 0.2, -0.1)), vectors, order=1)
+    m.sense_angle("elbow.angle", (a.vector((1.0, 0.0, 0.0)), vectors[0], a.vector((0.0, 0.0, 1.0))))
+    m.sense_energy("work", "work", ["coil", "push", "motor"])
+    m.sense_energy("losses", "nonconservative", ["coil", "root spring", "drag"])
     _energies(m)
     return m
 
@@ -89,15 +89,15 @@ def planar() -> mbs.Model:
     m.torque("motor", rail, inputs=m.input("torque", min=-30.0, max=30.0, unit="N.m"))
     m.pin("hold", bead)
     for axis in "xy":
-        m.sense_joint_force(f"slide.{axis}", "slide", axis)
-        m.sense_joint_force(f"wire.{axis}", "wire", axis)
+        m.sense_joint(f"slide.{axis}", "slide", axis)
+        m.sense_joint(f"wire.{axis}", "wire", axis)
         m.sense_position(f"bead.{axis}", bead, component=axis)
-    m.sense_joint_moment("slide.moment", "slide")
-    m.sense_joint_moment("cap.moment", "cap", on="second")
-    m.sense_joint_force("winch.tension", "winch", "tension")
+    m.sense_joint("slide.moment", "slide", "z", "moment")
+    m.sense_joint("cap.moment", "cap", "z", "moment", on="second")
+    m.sense_joint("winch.tension", "winch", "tension")
     m.sense_guide("cable.length", cable, unit="m")
     m.sense_guide("cable.rate", cable, order=1, unit="m/s")
-    m.sense_guide_force("cable.force", cable, unit="N")
+    m.sense_guide("cable.force", cable, "force", unit="N")
     m.sense_element("cord.force", "cord", "force", unit="N")
     _energies(m)
     return m
@@ -136,7 +136,7 @@ def gears() -> mbs.Model:
     ):
         m.sense_coordinate(f"{name}.angle", shaft)
         m.sense_coordinate(f"{name}.acceleration", shaft, order=2)
-    m.sense_joint_force("rack.force", "rack", "force")
+    m.sense_joint("rack.force", "rack", "force")
     m.sense_position("bolt.z", bolt, component="z")
     _energies(m)
     return m
@@ -153,7 +153,7 @@ def sledge(road: Road) -> mbs.Model:
     record = m.contact_points("feet", box, feet, road=number, contact=contact)
     for axis in "xyz":
         m.sense_position(f"box.{axis}", box, component=axis)
-        m.sense_angular_rate(f"box.w{axis}", box, axis)
+        m.sense_rotation(f"box.w{axis}", box, axis, order=1)
     m.sense_element("force", record, "normal_force", unit="N")
     _energies(m)
     return m
@@ -173,7 +173,7 @@ def roller() -> mbs.Model:
     turning = 0.6 * up
     m.initial_velocity(body, linear=np.cross(turning + 4.0 * axle, radius * up), angular=turning)
     m.torque_on("motor", wheel, input=m.input("torque", min=-5.0, max=5.0, unit="N.m"))
-    m.sense_spin_angle("wheel.angle", wheel)
+    m.sense_angle("wheel.angle", wheel)
     m.sense_coordinate("wheel.rate", wheel, order=1, unit="rad/s")
     for axis in "xyz":
         m.sense_position(f"centre.{axis}", body, radius * up, axis)
@@ -187,10 +187,10 @@ def skater() -> mbs.Model:
     body = m.body("skater", mass=2.0, com=(0.3, 0.0), inertia=0.5)
     m.skate("edge", body, point=(0.0, 0.0), direction=(1.0, 0.0), switch=True)
     m.initial_velocity(body, linear=(0.4, 0.3), angular=1.0)
-    m.sense_yaw("yaw", body)
+    m.sense_angle("yaw", body, "yaw")
     for axis in "xy":
         m.sense_position(f"edge.{axis}", body, (0.0, 0.0), axis)
-        m.sense_velocity(f"edge.v{axis}", body, (0.0, 0.0), axis, axes=body)
+        m.sense_position(f"edge.v{axis}", body, (0.0, 0.0), axis, order=1, axes=body)
     _energies(m)
     return m
 
@@ -208,7 +208,7 @@ def triangle() -> mbs.Model:
     m.distance("rod", a, b)
     m.spring_damper("ac", a, c, stiffness=300.0, free_length=0.7)
     m.spring_damper("bc", b, c, stiffness=500.0)
-    m.sense_joint_force("rod.tension", "rod", "tension")
+    m.sense_joint("rod.tension", "rod", "tension")
     _energies(m)
     return m
 

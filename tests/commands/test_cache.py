@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import sys
-from pathlib import Path
 
+import platformdirs
 import pytest
 
-from ali3 import cache
-from ali3.cache import cache_folder
+from ali3.cache import cache_folder, forget_oldest
 from ali3.errors import FileError
 
 
@@ -28,10 +28,11 @@ def test_one_that_cannot_be_written_is_refused_if_it_was_named(tmp_path, monkeyp
 def test_without_a_home_it_is_a_folder_that_goes(tmp_path, monkeypatch):
     monkeypatch.delenv("ALI3_CACHE", raising=False)
     (tmp_path / "file").write_text("")
-    monkeypatch.setattr(cache, "_usual", lambda: tmp_path / "file")
+    monkeypatch.setattr(platformdirs, "user_cache_path", lambda *_, **__: tmp_path / "file" / "ali3")
     folder = cache_folder("worlds")
     assert folder.is_dir()
     assert tmp_path not in folder.parents
+    assert cache_folder("worlds") == folder
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="the place on Linux")
@@ -40,5 +41,14 @@ def test_the_usual_place(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     assert cache_folder("a") == tmp_path / "ali3" / "a"
     monkeypatch.delenv("XDG_CACHE_HOME")
-    monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
     assert cache_folder("a") == tmp_path / "home" / ".cache" / "ali3" / "a"
+
+
+def test_the_folders_that_were_used_last_stay(tmp_path):
+    for k in range(4):
+        (tmp_path / str(k)).mkdir()
+        os.utime(tmp_path / str(k), (k, k))
+    (tmp_path / ".writing-0").mkdir()  # of another program, now
+    forget_oldest(tmp_path, 2)
+    assert sorted(place.name for place in tmp_path.iterdir()) == [".writing-0", "2", "3"]

@@ -35,7 +35,7 @@ def module(name: str) -> ModuleType:
     return made
 
 
-@pytest.mark.parametrize(("number", "words"), [("1", ["ali3 build", "ali3 drive"]), ("2", ['".[test]"', "-m pytest"])])
+@pytest.mark.parametrize(("number", "words"), [("1", ["ali3 build", "ali3 run"]), ("2", ['".[test]"', "-m pytest"])])
 def test_the_commands_of_the_readme(number: str, words: list[str]) -> None:
     command = [sys.executable, CI / "readme_command.py", number]
     line = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()

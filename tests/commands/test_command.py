@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
+import importlib
 import os
+import re
+import shlex
 import subprocess
 import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -12,7 +17,8 @@ import pytest
 import ali3
 from ali3 import running
 from ali3.command import main
-from ali3.commands import COMMANDS
+from ali3.commands import BEFORE, COMMANDS, Command
+from ali3.options import SHARED, add_old_names
 
 ROOT = Path(ali3.__file__).parents[1]
 # What an installation writes into the folder of programs.
@@ -23,7 +29,75 @@ NAMES = (
     *("ziglang", "pythonfmu", "argparse", "csv", "configparser", "json", "random", "subprocess", "tempfile", "types"),
     *("typing", "zipfile", "ctypes", "dataclasses", "signal", "threading", "platform", "queue", "test", "run", "check"),
 )
-HEAVY = ("numpy", "scipy", "fmpy", "matplotlib", "mbs", "fmu_src", "hosts")
+HEAVY = ("numpy", "scipy", "fmpy", "matplotlib", "lxml", "pydantic", "tqdm", "pandas", "distributed")
+OURS = ("mbs", "fmu_src", "hosts", "viewer")
+MOST_MODULES = 40
+"""Of ours, which the help of a command may load."""
+MOST_OPTIONS = 138
+"""Of all commands together; there were 153 before they were ten."""
+CODE = ("ali3", "mbs", "fmu_src", "hosts", "viewer/page/src", "examples", "benchmarks", "docs/_site")
+
+
+class Parsed(Exception):  # noqa: N818  # in place of the work of a command
+    """The parser of a command."""
+
+
+def parser_of(command: Command) -> argparse.ArgumentParser:
+    def stop(parser: argparse.ArgumentParser, _: Sequence[str]) -> None:
+        raise Parsed(parser)
+
+    module = importlib.import_module(command.module)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(argparse.ArgumentParser, "parse_args", stop)
+        with pytest.raises(Parsed) as raised:
+            module.main([], f"ali3 {command.name}")
+    return raised.value.args[0]
+
+
+PARSERS = {command.name: parser_of(command) for command in COMMANDS}
+
+
+def options_of(name: str) -> dict[str, argparse.Action]:
+    """The options of a command by each of their names, without those that the help does not show."""
+    actions = PARSERS[name]._actions
+    return {name: action for action in actions if action.help != argparse.SUPPRESS for name in action.option_strings}
+
+
+def names_exist(words: Sequence[str]) -> str:
+    """What is wrong with the command and the options of a line that may have placeholders."""
+    if words[0] not in PARSERS:
+        return "no command"
+    known = {*options_of(words[0]), "--inside"}
+    unknown = [w for w in words if w.startswith("--") and w.partition("=")[0] not in known]
+    return f"no option {unknown[0]}" if unknown else ""
+
+
+def parses(words: Sequence[str], capsys: pytest.CaptureFixture[str]) -> str:
+    """What is wrong with a line as a user types it."""
+    try:
+        PARSERS[words[0]].parse_args(words[1:])
+    except KeyError:
+        return "no command"
+    except SystemExit as end:
+        said = capsys.readouterr().err.strip()
+        return said.splitlines()[-1] if end.code else ""
+    return ""
+
+
+def documents() -> Iterator[tuple[str, str]]:
+    """Pages for users, each with its text; the log of changes and old decisions tell of what was."""
+    for file in (*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "examples").glob("*.md")):
+        if file.name not in ("CHANGELOG.md", "changelog.md"):
+            yield file.name, file.read_text(encoding="utf-8")
+
+
+def typed_lines(text: str) -> Iterator[list[str]]:
+    """Lines of commands in indented or fenced blocks."""
+    for line in re.findall(r"^    (.*\bali3 .*)$", text.replace("\\\n", " "), re.MULTILINE):
+        for part in line.split("&&"):
+            found = re.fullmatch(r"\s*(?:\$ )?(?:[\w./]*/)?ali3 ([^#]*?)\s*(?:#.*)?", part)
+            if found and not re.search(r"[\[|<]|\.\.\.", found[1]):
+                yield shlex.split(found[1])
 
 
 @pytest.fixture
@@ -60,6 +134,7 @@ def test_each_command_is_in_the_documents() -> None:
     page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
     rows = [line.split("|")[1:3] for line in page.splitlines() if line.startswith("| `ali3 ")]
     assert [name.strip(" `") for name, _ in rows] == [f"ali3 {c.name}" for c in COMMANDS]
+    assert len(rows) == 10
     assert all(text.strip().startswith(c.text) for (_, text), c in zip(rows, COMMANDS, strict=True))
 
 
@@ -68,14 +143,116 @@ def test_the_list_of_commands_imports_nothing_heavy(tmp_path: Path) -> None:
     done = ran(["-c", text], tmp_path)
     assert all(f"\n  {c.name} " in done.stdout for c in COMMANDS)
     assert all(c.text in done.stdout for c in COMMANDS)
-    assert not set(HEAVY) & set(done.stdout.split("\n ")[-1].split())
+    assert not {*HEAVY, *OURS} & set(done.stdout.split("\n ")[-1].split())
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda c: c.name)
+def test_the_help_of_a_command_imports_nothing_heavy(command: Command, tmp_path: Path) -> None:
+    text = (
+        "import sys; from ali3.command import main\n"
+        f"try: main([{command.name!r}, '--help'])\nfinally: print('\\n', *sys.modules)"
+    )
+    loaded = set(ran(["-c", text], tmp_path).stdout.split("\n ")[-1].split())
+    assert command.module in loaded
+    assert not set(HEAVY) & loaded
+    ours = {name for name in loaded if name.partition(".")[0] in (*OURS, "ali3")}
+    assert len(ours) <= MOST_MODULES, sorted(ours)
+
+
+def test_an_option_of_two_commands_is_one_option() -> None:
+    found: dict[str, list[argparse.Action]] = {}
+    for command in COMMANDS:
+        for name, action in options_of(command.name).items():
+            found.setdefault(name, []).append(action)
+    shared = {name for name, actions in found.items() if len(actions) > 1 and name not in ("-h", "--help")}
+    assert shared <= {name for key, option in SHARED.items() for name in (key, *option.short)}
+    for key, option in SHARED.items():
+        for action in found[key]:
+            assert action.option_strings == [key, *option.short]
+            assert action.help.startswith(option.text)
+            if option.form:
+                assert (action.metavar, action.type) == (option.form, option.type)
+            else:
+                assert action.nargs == 0
+    assert sum(len(set(map(id, options_of(c.name).values()))) - 1 for c in COMMANDS) <= MOST_OPTIONS
+
+
+@pytest.mark.parametrize("before", BEFORE)
+def test_a_command_of_before_names_the_new_line(before: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([before, "x y", "--set", "a=1"]) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.startswith(f"error: The command '{before}' is now: ali3 ")
+    assert said.err.count("\n") == 1
+    words = shlex.split(said.err.partition(" is now: ali3 ")[2])
+    assert words[0] in PARSERS
+    assert words[-3:] == ["x y", "--set", "a=1"]
+
+
+@pytest.mark.parametrize(
+    ("line", "now"),
+    [
+        ("soak car.fmu --seconds 10 --seed 2", "check --soak car.fmu --stop-time 10 --seed 2"),
+        ("recording r replay", "simulator --recording r --replay"),
+        (
+            "recording r manoeuvre m.csv --begin 1 --fmu a.fmu",
+            "simulator --recording r --save-manoeuvre m.csv --from 1 a.fmu",
+        ),
+        ("page a.fmu --beside r.csv --paused", "view --live a.fmu r.csv --paused"),
+        ("parameters a.fmu --out a.ssv", "check --show-parameters a.fmu --save-parameters a.ssv"),
+        ("drive a.fmu -m slalom --driver wheelbase=2.6", "run a.fmu -m slalom --driver wheelbase=2.6"),
+        ("kerb --fidelity 1", "run --kerb --fidelity 1"),
+        ("kinematics hatchback --points 5", "car --kinematics hatchback --points 5"),
+        ("world plane --out w", "road --world plane --out w"),
+        ("kernel", "build --kernel"),
+    ],
+)
+def test_the_new_line_is_one_that_works(line: str, now: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(line.split()) == 2
+    assert capsys.readouterr().err == f"error: The command '{line.split()[0]}' is now: ali3 {now}\n"
+    assert parses(now.split(), capsys) == ""
+
+
+def test_an_option_of_before_ends_the_command_with_one_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+    parser = argparse.ArgumentParser(prog="ali3 x")
+    add_old_names(parser, {"--workers": "--jobs", "--list": "--dry-run"})
+    for given in (["--workers", "3"], ["--list"], ["--workers=3"]):
+        with pytest.raises(SystemExit) as end:
+            parser.parse_args(given)
+        assert end.value.code == 2
+        said = capsys.readouterr().err
+        assert re.fullmatch(r"error: --(workers|list) is now --(jobs|dry-run); ali3 x --help describes it\.\n", said)
+    assert "--workers" not in parser.format_help()
+
+
+def test_every_line_of_the_documents_is_a_command(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = [(file, line) for file, text in documents() for line in typed_lines(text)]
+    assert len(lines) > 50
+    wrong = [f"{file}: ali3 {shlex.join(line)}: {why}" for file, line in lines if (why := parses(line, capsys))]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_commands_that_documents_and_sentences_name_exist() -> None:
+    texts = dict(documents())
+    suffixes = (".py", ".js", ".toml")
+    texts |= {str(f): f.read_text("utf-8") for c in CODE for f in (ROOT / c).rglob("*") if f.suffix in suffixes}
+    texts = {name: text for name, text in texts.items() if not name.endswith("ali3/commands.py")}
+    spans = [(f, span) for f, text in texts.items() for span in re.findall(r"[`'\"]ali3 ([^`'\"]+)[`'\"]", text)]
+    named = [(f, span.split()) for f, span in spans if "{" not in span]
+    assert len(named) > 60
+    plain = [(f, w) for f, words in named if (w := [re.sub(r"[\[\]]", "", word).split("|")[0] for word in words])]
+    wrong = [f"{f}: ali3 {' '.join(w)}: {why}" for f, w in plain if w[0] != "COMMAND" and (why := names_exist(w))]
+    called = [(f, name) for f, text in texts.items() for name in re.findall(r"command_name\([\"'](\w+)", text)]
+    assert len(called) > 5
+    wrong += [f"{f}: command_name({name})" for f, name in called if name not in PARSERS]
+    assert not wrong, "\n".join(wrong)
 
 
 def test_a_command_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["biuld"]) == 2
     assert "no command 'biuld'. Did you mean 'build'?" in capsys.readouterr().err
     assert main(["zzz"]) == 2
-    assert "The commands are build, car, drive" in capsys.readouterr().err
+    assert "The commands are build, car, run" in capsys.readouterr().err
     assert main([]) == 2
 
 
@@ -84,13 +261,13 @@ def test_messages_name_the_command_that_was_typed(
 ) -> None:
     monkeypatch.setattr(running, "_prefix", None)
     monkeypatch.chdir(tmp_path)
-    assert main(["kerb"]) == 2
-    assert "Build it with: ali3 build --scene kerb_test" in capsys.readouterr().err
-    assert main(["drive", "-m", "slalom"], prog="python -m ali3") == 2
+    assert main(["run", "dist/X.fmu"]) == 2
+    assert "Build it with: ali3 build" in capsys.readouterr().err
+    assert main(["run", "dist/X.fmu", "-m", "slalom"], prog="python -m ali3") == 2
     assert "Build it with: python -m ali3 build" in capsys.readouterr().err
     with pytest.raises(SystemExit):
-        main(["drive"])
-    assert "ali3 drive: error: the following arguments are required" in capsys.readouterr().err
+        main(["compare"])
+    assert "ali3 compare: error: the following arguments are required" in capsys.readouterr().err
 
 
 def test_a_missing_extra_is_reported_with_the_line_that_installs_it(tmp_path: Path) -> None:
@@ -113,7 +290,7 @@ def test_files_of_the_user_cannot_break_a_command(script: Path, crowded: Path) -
     done = ran([script, "check", "dist/Pendulum.fmu", "--steps", 3], crowded)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "nothing bad found" in done.stdout
-    done = ran([script, "drive", "-m", "double_lane_change", "dist/Pendulum.fmu"], crowded)
+    done = ran([script, "run", "-m", "double_lane_change", "dist/Pendulum.fmu"], crowded)
     assert done.returncode == 2
     assert "The driver needs variables" in done.stderr
 
@@ -143,11 +320,8 @@ def test_an_installed_project_of_the_user_stays_in_the_search_path(tmp_path: Pat
 
 def test_the_modules_themselves_go_on_working_in_a_clone() -> None:
     for module in (
-        "hosts.run.drive",
-        "hosts.run.run",
+        "hosts.run.command",
         "hosts.check.command",
-        "hosts.run.kerb",
-        "mbs.kernel.build",
         "ali3",
     ):
         done = ran(["-m", module, "--help"], ROOT)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import mbs
-from ali3.files import FileError, check_writable, whole_file
+from ali3.files import FileError, check_writable, locked, whole_file, whole_folder
 from fmu_src.native.archive import write_zip
 from mbs.scenes import pendulum
 
@@ -139,3 +139,41 @@ def test_two_writers_of_one_archive_do_not_meet(tmp_path: Path) -> None:
             k = int(archive.read("modelDescription.xml"))
             assert archive.read(f"{k}.bin") == parts[k][f"{k}.bin"]
         assert names(tmp_path) == ["Some.fmu"]
+
+
+def test_a_folder_is_there_whole_or_not_at_all(tmp_path):
+    target = tmp_path / "new" / "folder"
+
+    def fill(text):
+        with whole_folder(target) as made:
+            (made / "a").write_text(text)
+
+    with pytest.raises(TypeError):
+        fill(1)
+    assert list(target.parent.iterdir()) == []
+    fill("1")
+    assert [file.name for file in target.iterdir()] == ["a"]
+
+
+def test_of_two_programs_that_make_a_folder_the_first_wins(tmp_path):
+    with whole_folder(tmp_path / "a") as made:
+        (made / "b").write_text("second")
+        (tmp_path / "a").mkdir()
+        (tmp_path / "a" / "b").write_text("first")
+    assert (tmp_path / "a" / "b").read_text() == "first"
+    assert [place.name for place in tmp_path.iterdir()] == ["a"]
+    (tmp_path / "file").write_text("")
+    with pytest.raises(FileError, match="file cannot be written: "), whole_folder(tmp_path / "file") as made:
+        (made / "b").write_text("")
+
+
+def test_a_lock_goes_with_the_process_that_holds_it(tmp_path):
+    text = f"from ali3.files import locked\nwith locked({str(tmp_path)!r}):\n    print('held', flush=True); input()"
+    pipe = subprocess.PIPE
+    with subprocess.Popen([sys.executable, "-c", text], stdin=pipe, stdout=pipe, text=True) as one:
+        assert one.stdout.readline() == "held\n"
+        with pytest.raises(FileError, match="Somebody works there"), locked(tmp_path, "Somebody works there."):
+            pass
+        one.kill()
+    with locked(tmp_path, "Somebody works there."):
+        pass

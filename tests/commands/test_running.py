@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ali3.errors import UserError
+from ali3.errors import FileError, UserError
 from ali3.running import module_command, run_command
 from mbs.kernel import build
 
@@ -54,7 +54,7 @@ def test_ctrl_c_during_a_drive_is_one_line_and_leaves_nothing(swing_fmu: Path, t
     (tmp_path / "m.csv").write_text('"time","torque"\n0,0\n100000,1\n')
     (tmp_path / "temporary").mkdir()
     process = subprocess.Popen(
-        [sys.executable, "-m", "ali3", "drive", str(swing_fmu), "-m", "m.csv"],
+        [sys.executable, "-m", "ali3", "run", str(swing_fmu), "-m", "m.csv"],
         cwd=tmp_path,
         env=os.environ | {"TMPDIR": str(tmp_path / "temporary")},
         stderr=subprocess.PIPE,
@@ -98,6 +98,6 @@ def test_a_cache_that_cannot_be_written_is_named(tmp_path: Path, monkeypatch: py
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("ZIG_GLOBAL_CACHE_DIR", str(tmp_path / "file"))
     build.cache_directory.cache_clear()
-    with pytest.raises(RuntimeError, match=r"ZIG_GLOBAL_CACHE_DIR is '.*file', which the compiler cannot write to"):
+    with pytest.raises(FileError, match=r"ZIG_GLOBAL_CACHE_DIR is '.*file', which cannot be written: "):
         build.cache_directory()
     build.cache_directory.cache_clear()

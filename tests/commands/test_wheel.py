@@ -50,7 +50,7 @@ def test_the_names_it_puts_among_the_packages(wheel: Path) -> None:
     for needed in (
         "mbs/py.typed",
         "mbs/kernel/include/ali3.h",
-        "hosts/driving/manoeuvres/slalom.csv",
+        "hosts/driving/manoeuvres/slalom.toml",
         "hosts/c/host.c",
         "viewer/bundle/ali3-viewer.js",
     ):

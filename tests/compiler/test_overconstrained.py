@@ -199,7 +199,7 @@ def test_the_moment_of_a_corrected_joint_can_be_read():
 
     def moment(pen):
         m = drawn.bennett(pen)
-        m.sense_joint_moment("moment", "B", "x")
+        m.sense_joint("moment", "B", "x", "moment")
         return simulate(compile(m), END, STEP)["moment"]
 
     aim = moment(drawn.exact)

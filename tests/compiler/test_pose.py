@@ -7,7 +7,7 @@ import pytest
 
 from mbs import Model, ModelError, Simulation, compile
 from mbs.kernel.binding import Instance, LoadedSystem
-from mbs.simulation import Pose
+from mbs.simulation.state import Pose
 
 EXACT = 1e-9
 
@@ -26,8 +26,8 @@ def trolley(floating=True):
     )  # fmt: skip
     for c in "xyz":
         m.sense_position(f"p{c}", arm, (0.5, 0.7, 0.3), c)
-        m.sense_velocity(f"v{c}", arm, (0.5, 0.7, 0.3), c)
-    m.sense_yaw("yaw", frame)
+        m.sense_position(f"v{c}", arm, (0.5, 0.7, 0.3), c, order=1)
+    m.sense_angle("yaw", frame, "yaw")
     m.sense_coordinate("angle", angle)
     m.sense_coordinate("spin", m.spins[0], order=1)
     return m

@@ -87,7 +87,7 @@ def test_velocities_against_the_joints_are_projected():
     body = m.body("bar", mass=2.0, com=(0.5, 0), inertia=2.0 / 12.0)
     m.revolute("pin", m.ground, body, point=(0, 0))
     m.initial_velocity(body, linear=(5.0, 1.0), angular=0.0)
-    m.sense_angular_rate("rate", body)
+    m.sense_rotation("rate", body, order=1)
     # least change in kinetic energy: angular momentum about the pin is kept, (2/3) w = 2 * 0.5 * 1
     assert Simulation(compile(m)).sensors["rate"] == pytest.approx(1.5, rel=1e-9)
 
@@ -149,7 +149,7 @@ def pendulum_at(angle, **given):
     rod = m.body("rod", mass=2.0, com=place, inertia=0.17)
     m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
     m.initial_velocity(rod, **given)
-    m.sense_angular_rate("rate", rod)
+    m.sense_rotation("rate", rod, order=1)
     return Simulation(compile(m)).sensors["rate"]
 
 
@@ -181,7 +181,7 @@ def test_the_crank_of_a_four_bar_turns_at_its_initial_rate():
     m.revolute("D", m.ground, bars["rocker"], point=points["D"])
     m.initial_velocity(bars["crank"], angular=10.0)
     for name, bar in bars.items():
-        m.sense_angular_rate(name, bar)
+        m.sense_rotation(name, bar, order=1)
     rate = Simulation(compile(m)).sensors
     assert rate["crank"] == pytest.approx(10.0, rel=1e-9)
     # loop equations: velocities of B and C along x, y
@@ -205,8 +205,8 @@ def test_a_free_body_has_only_its_initial_velocity():
         )  # fmt: skip
         m.initial_velocity(body, **given)
         for c in "xyz":
-            m.sense_velocity(f"v{c}", body, None, c)
-            m.sense_angular_rate(f"w{c}", body, c)
+            m.sense_position(f"v{c}", body, None, c, order=1)
+            m.sense_rotation(f"w{c}", body, c, order=1)
         found = Simulation(compile(m)).sensors
         np.testing.assert_allclose([found[f"v{c}"] for c in "xyz"], linear, atol=1e-9)
         np.testing.assert_allclose([found[f"w{c}"] for c in "xyz"], angular, atol=1e-9)

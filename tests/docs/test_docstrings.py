@@ -1,20 +1,37 @@
-"""Every public function and method says its parameters, with units and shapes, and what it returns and raises: the
+"""Docstrings of public functions and methods say what names and types do not: units of numbers, shapes of arrays. The
 reference pages are made of this.
 """
 
 from __future__ import annotations
 
+import ast
 import importlib
 import inspect
 import pkgutil
 import re
+import textwrap
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
-import mbs.scenes
+import pytest
 
-ROOMS = ("mbs", "mbs.model", "mbs.elements", "mbs.flexible", "mbs.simulation")
+import mbs.scenes
+from mbs.elements.reals import declared
+
+ROOMS = ("mbs", "mbs.model", "mbs.elements", "mbs.flexible")
 SECTION = re.compile(r"^(Parameters|Returns|Raises|Warns|Attributes|Examples)\n-+$", re.MULTILINE)
+UNIT = re.compile(
+    r"\b(m|mm|m2|kg|m3|m/s2?|s|N|rad|deg|degrees|Hz|J|W|Pa|K|[Ff]actor|[Rr]atio|share|[Cc]oefficient|Multiplies|[Rr]elative|units?"
+    r"|[Tt]urns|[Mm]ultiple|[Ff]raction|0 to 1)\b|%|(?:See|As of) `"
+)
+"""A unit, a word that says that there is none, or where it stands."""
+LITTLE = (
+    *("a", "an", "the", "of", "this", "that", "it", "its", "is", "are", "as", "for", "in", "with", "and", "or", "to"),
+    *("from", "one", "given", "stands", "model", "system", "name", "number", "value", "object", "array", "like"),
+    *("float", "int", "str", "bool", "sequence", "optional", "none"),
+)
+"""Words that say nothing of what something is."""
 
 
 def _names() -> Iterator[tuple[str, Any]]:
@@ -46,36 +63,92 @@ def _functions() -> dict[str, Any]:
 FUNCTIONS = _functions()
 
 
-def _documented(text: str) -> set[str]:
-    """Names of the parameters that a docstring describes."""
-    if "Parameters\n----------\n" not in text:
-        return set()
-    section = SECTION.split(text.split("Parameters\n----------\n", 1)[1])[0]
-    heads = [line.split(" :")[0] for line in section.splitlines() if line and not line.startswith(" ")]
-    return {name.strip().lstrip("*") for head in heads for name in head.split(",")}
+def _entries(text: str, section: str = "Parameters") -> dict[str, str]:
+    """What a section says under each of its names; the type after the colon goes before it."""
+    head = f"{section}\n{'-' * len(section)}\n"
+    if head not in text:
+        return {}
+    found: dict[str, str] = {}
+    names: list[str] = []
+    for line in SECTION.split(text.split(head, 1)[1])[0].splitlines():
+        if line and not line.startswith(" "):
+            said, _, type = line.partition(" :")
+            names = [name.strip().lstrip("*") for name in said.split(",")]
+            found |= dict.fromkeys(names, type)
+        else:
+            found |= {name: f"{found[name]}\n{line.strip()}" for name in names}
+    return found
 
 
-def _parameters(function: Any) -> list[str]:
-    return [p for p in inspect.signature(function).parameters if p not in ("self", "cls")]
+def _faults(text: str, parameters: dict[str, str]) -> list[str]:
+    """What is wrong with a docstring; `parameters` are names and annotations."""
+    entries, wrong = _entries(text), []
+    wrong += [f"{name} is no parameter" for name in entries if name not in parameters]
+    for name, entry in entries.items():
+        own = set(LITTLE).union(re.findall(r"[a-z]+", f"{name} {parameters.get(name, '')}".lower()))
+        if not set(re.findall(r"[^\W_]+", entry.partition("\n")[2].lower())) - own:
+            wrong.append(f"the entry of {name} says nothing")
+    for name, kind in parameters.items():
+        if re.search(r"\bfloat\b", kind) and not UNIT.search(entries.get(name, "")):
+            wrong.append(f"{name} is a number without a unit")
+        if re.search(r"\b(ArrayLike|NDArray|Vector)\b", kind) and "shape" not in entries.get(name, ""):
+            wrong.append(f"{name} is an array without a shape")
+    return wrong
 
 
-def test_all_parameters_are_described():
+def test_docstrings_say_units_and_shapes_and_nothing_empty():
     wrong = []
     for name, function in FUNCTIONS.items():
-        described = _documented(inspect.getdoc(function) or "")
-        if described != set(_parameters(function)):
-            wrong.append(f"{name} describes {sorted(described)}")
+        signature = inspect.signature(function)
+        kinds = {p.name: str(p.annotation) for p in signature.parameters.values() if p.name not in ("self", "cls")}
+        wrong += [f"{name}: {fault}" for fault in _faults(inspect.getdoc(function) or "", kinds)]
     assert not wrong, "\n".join(wrong)
 
 
-def test_what_is_returned_is_described():
-    wrong = []
-    for name, function in FUNCTIONS.items():
-        gives = str(inspect.signature(function).return_annotation) not in ("None", "NoReturn")
-        if _parameters(function) and gives and "Returns\n-------\n" not in (inspect.getdoc(function) or ""):
-            wrong.append(name)
+def _attributes(kind: type) -> dict[str, str]:
+    """The text under each attribute of a class."""
+    body = ast.parse(textwrap.dedent(inspect.getsource(kind))).body[0].body  # type: ignore[attr-defined]
+    return {
+        field.target.id: text.value.value
+        for field, text in pairwise(body)
+        if isinstance(field, ast.AnnAssign) and isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant)
+    }
+
+
+def test_numbers_of_elements_say_their_units():
+    wrong, count = [], 0
+    for kind in (thing for _, thing in _names() if inspect.isclass(thing) and thing.__module__.startswith("mbs.elem")):
+        texts = _attributes(kind)
+        count += len(declared(kind))
+        wrong += [f"{kind.__name__}.{name}" for name in declared(kind) if not UNIT.search(texts.get(name, ""))]
     assert not wrong, "\n".join(wrong)
+    assert count > 80
 
 
 def test_there_are_as_many_as_there_were():
     assert len(FUNCTIONS) > 150
+
+
+TEXT = """A force.
+
+Parameters
+----------
+point : array_like, shape (3,)
+    Where it acts, m.
+body : Body
+    A body of this model.
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "parameters", "fault"),
+    [
+        (TEXT.replace(", shape (3,)", ""), {"point": "ArrayLike", "body": "Body"}, "point is an array without a shape"),
+        (TEXT.replace(", m.", "."), {"point": "float", "body": "Body"}, "point is a number without a unit"),
+        (TEXT, {"point": "ArrayLike", "body": "Body", "size": "float"}, "size is a number without a unit"),
+        (TEXT, {"point": "ArrayLike", "body": "Body"}, "the entry of body says nothing"),
+        (TEXT, {"point": "ArrayLike"}, "body is no parameter"),
+    ],
+)
+def test_a_poor_docstring_is_seen(text: str, parameters: dict[str, str], fault: str):
+    assert fault in _faults(text, parameters)

@@ -60,7 +60,7 @@ def folder(tmp_path_factory):
 
 
 def test_the_page_shows_the_commands_in_order():
-    assert [line.split()[0] for line in COMMANDS] == ["car", "car", "car", "build", "drive", "drive"]
+    assert [line.split()[0] for line in COMMANDS] == ["car", "car", "car", "build", "run", "run"]
 
 
 def test_the_check_prints_what_the_page_says(folder):
@@ -68,7 +68,7 @@ def test_the_check_prints_what_the_page_says(folder):
     for line in blocks("text")[0].splitlines():
         assert line in printed
     assert "warning" not in printed
-    assert "front.damper.damping" in ali3(f"{COMMANDS[2]} --parameters", folder)
+    assert "front.damper.damping" in ali3(f"{COMMANDS[2]} --show-parameters", folder)
 
 
 def test_the_copy_names_its_schema(folder):

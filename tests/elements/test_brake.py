@@ -157,7 +157,7 @@ def test_tangent_is_exact_while_sticking_and_a_safe_secant_while_slipping() -> N
 
 def test_bad_brakes_are_refused() -> None:
     f, g, spin = vectors(3, 3, 1)
-    with pytest.raises(ValueError, match="largest torque of the brake 'FL' is -1"):
+    with pytest.raises(ValueError, match="max torque of the brake 'FL' is -1"):
         replace(BRAKE, max_torque=-1.0).record("FL", f, g, spin[0], 0)
     with pytest.raises(ValueError, match="stick damping of the brake 'FL' is 0"):
         replace(BRAKE, stick_damping=0.0).record("FL", f, g, spin[0], 0)

@@ -11,7 +11,7 @@ import pytest
 from mbs import Model, compile, simulate
 from mbs.analysis.linear_model import linearise
 from mbs.elements import ElectricDrive
-from mbs.simulation import Simulation
+from mbs.simulation.stepping import Simulation
 from tests.elements.harness import Array, Element, Result, frame, tangent_by_differences, vectors
 
 DRIVE = ElectricDrive(
@@ -246,9 +246,9 @@ def car(m: Model, drive: ElectricDrive, selector: bool = False) -> None:
             None if lever is None else lever.index,
         )
     )
-    m.sense_coordinate("carrier", m.relative_angle("pitch", m.ground, carrier, axis=(0.0, 1.0, 0.0)), 1)
+    m.sense_coordinate("carrier", m.relative_angle("pitch", m.ground, carrier, axis=(0.0, 1.0, 0.0)), order=1)
     for spin in spins:
-        m.sense_coordinate(spin.name, spin, 1)
+        m.sense_coordinate(spin.name, spin, order=1)
     for output in ("electric_power", "motor_torque", "motor_speed", "wheel_torque"):
         m.sense_element(output, "drive", output)
 

@@ -9,7 +9,7 @@ import pytest
 
 from mbs import Model, compile
 from mbs.elements import EndStops, ScalarSpringDamper, SpringDamper
-from mbs.simulation import Simulation
+from mbs.simulation.stepping import Simulation
 from tests.elements.harness import Element, signals, vectors
 
 STOPS = EndStops(0.9, 8e3, 1.1, 5e3, bump_progression=0.05)

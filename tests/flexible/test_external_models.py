@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import struct
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +13,13 @@ import scipy.sparse as sp
 from scipy.linalg import eigh
 
 from mbs.common.errors import ModelError
+from mbs.flexible.bulk_data import grid_points
 from mbs.flexible.craig_bampton import craig_bampton
 from mbs.flexible.external_model import external_model, read_matrix, read_model
 from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.lumping import lumped_masses
+from mbs.flexible.output4 import read_output4
+from mbs.flexible.read_nastran import read_nastran
 from tests.flexible.structures import portal
 
 DATA = Path(__file__).parent.parent / "data" / "external"
@@ -42,7 +47,7 @@ def test_a_frame_written_to_files_comes_back(tmp_path: Path, suffix: str) -> Non
     np.testing.assert_allclose(a.frequencies, b.frequencies, rtol=PRINTED)
     np.testing.assert_allclose(a.K, b.K, rtol=PRINTED, atol=PRINTED * b.K.max())
     (tmp_path / "nodes.csv").write_text("name,x,y,z\nN0,0.0,0.0\n")
-    with pytest.raises(ModelError, match="is not name,x,y,z"):
+    with pytest.raises(ModelError, match="line 2: 3 values where the heading has 4 columns"):
         read_model(tmp_path / f"K{suffix}", tmp_path / f"M{suffix}", tmp_path / "nodes.csv")
     assert read_matrix(tmp_path / f"K{suffix}").shape == (54, 54)
 
@@ -87,31 +92,94 @@ def test_freedoms_may_come_in_any_order() -> None:
         external_model(model.K, np.ones(9), frame.positions, dof=np.zeros((4, 6)))
 
 
-@pytest.mark.parametrize(("binary", "sparse"), [(False, "dense"), (True, "dense"), (True, "bigmat")])
-def test_a_nastran_model_is_read(tmp_path: Path, binary: bool, sparse: str) -> None:
-    op4 = pytest.importorskip("pyyeti.nastran.op4", reason="extra 'fem'")
-
-    from mbs.flexible.read_nastran import read_nastran
-
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize("sparse", ["dense", "bigmat", "nonbigmat"])
+@pytest.mark.parametrize("endian", ["<", ">"])
+def test_a_nastran_model_is_read(tmp_path: Path, binary: bool, sparse: str, endian: str) -> None:
+    """Files of pyYeti, which has a reader and a writer of its own."""
+    op4 = pytest.importorskip("pyyeti.nastran.op4")
     frame = portal()
     model = frame.finite_element_model("lumped", rotary=False)
     K, M = model.K.toarray(), model.mass_matrix().toarray()
-    op4.write(str(tmp_path / "frame.op4"), {"KGG": K, "MGG": M}, binary=binary, sparse=sparse)
+    op4.write(str(tmp_path / "frame.op4"), {"KGG": K, "MGG": M, "K4": 1j * K}, None, binary, 16, endian, sparse)
     grid = [f"GRID,{10 + i},,{x[0]:.6f},{x[1]:.6f},{x[2]:.6f}" for i, x in enumerate(frame.positions)]
     (tmp_path / "frame.bdf").write_text("\n".join(grid) + "\n")
     found = read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
     assert found.names == tuple(str(10 + i) for i in range(9))
     np.testing.assert_allclose(found.K.toarray(), K, rtol=1e-12, atol=1e-3)
     np.testing.assert_allclose(natural_modes(found, 9)[0], natural_modes(model, 9)[0], rtol=PRINTED, atol=1e-3)
-    with pytest.raises(ModelError, match="has no matrix KAA; it has KGG, MGG"):
+    np.testing.assert_allclose(read_output4(tmp_path / "frame.op4")["K4"].toarray(), 1j * K, rtol=1e-12, atol=1e-3)
+    with pytest.raises(ModelError, match=r"has no matrix KAA; it has K4, KGG, MGG"):
         read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4", stiffness="KAA")
+    with pytest.raises(ModelError, match=r"The matrix K4 of frame\.op4 is complex"):
+        read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4", stiffness="K4")
+    data = (tmp_path / "frame.op4").read_bytes()
+    for size in (0, 20, len(data) // 2, len(data) - 40):
+        (tmp_path / "frame.op4").write_bytes(data[:size])
+        with pytest.raises(ModelError, match=r"frame\.op4 (cannot be read|has no matrix)"):
+            read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4", stiffness="K4")
+
+
+@pytest.mark.parametrize(("size", "kind"), [(4, 1), (8, 1), (8, 2)])
+def test_single_precision_and_long_integers_of_output4(tmp_path: Path, size: int, kind: int) -> None:
+    value = {4: "f", 8: "d"}[size]
+    i = {4: "i", 8: "q"}[size]
+
+    def record(data: bytes) -> bytes:
+        return struct.pack("<I", len(data)) + data + struct.pack("<I", len(data))
+
+    name = b"KGG".ljust(2 * size)
+    columns = [struct.pack(f"<3{i}2{value}", 2, 1, 2, 0.5, -3.0), struct.pack(f"<3{i}{value}", 3, 1, 1, 1.0)]
+    header = struct.pack(f"<4{i}", 2, 2, 2, kind) + name
+    (tmp_path / "k.op4").write_bytes(b"".join(map(record, (header, *columns))))
+    np.testing.assert_array_equal(read_output4(tmp_path / "k.op4")["KGG"].toarray(), [[0.0, 0.5], [0.0, -3.0]])
+
+
+def test_grid_points_in_systems_upon_systems_and_in_all_forms_of_fields(tmp_path: Path) -> None:
+    """Against pyYeti: a cylinder on a turned system, a sphere on the cylinder; fields of 8, of 16 and by commas."""
+    bulk = pytest.importorskip("pyyeti.nastran.bulk")
+    (tmp_path / "more.bdf").write_text("GRID,9,7,2.,30.,40.\n")
+    (tmp_path / "deck.bdf").write_text(
+        "BEGIN BULK\n$ comment\nINCLUDE 'more.bdf'\n"
+        "CORD2R  5       0       1.0     2.0     3.0     1.0     2.0     4.0     +A\n"
+        "+A      1.0     3.0     3.0\n"
+        "CORD2C,6,5,0.1,0.2,0.3,0.1,1.2,0.5\n,1.3,0.2,0.3\n"
+        "cord2s* 7               6               1.              30.             *\n"
+        "*       0.              1.              30.             1.              *\n"
+        "*       2.              60.             0.\n"
+        "GRID    12      6       1.5     45.     -1.+1   0\n"
+        "GRID*   11                              1.5-1           2.5D0           *B\n"
+        "*B      3.25\n"
+        "ENDDATA\n"
+    )
+    found = grid_points(tmp_path / "deck.bdf")
+    table = bulk.bulk2uset(str(tmp_path / "deck.bdf"))[0].reset_index().to_numpy(float)[::6]
+    assert list(found) == [9, 11, 12] == table[:, 0].tolist()
+    np.testing.assert_allclose([place for place, _ in found.values()], table[:, 3:6], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("deck", "words"),
+    [
+        ("GRID,1,5,0.,0.,0.", "coordinate system 5 is defined by no CORD2R, CORD2C or CORD2S"),
+        ("GRID,1,5,0.,0.,0.\nCORD2R,5,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.", "coordinate system 5 refers to itself"),
+        ("GRID,1,5,0.,0.,0.\nCORD2R,5,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.", "points of coordinate system 5 lie on a line"),
+        ("GRID,1,,0.,0.,0.\nGRID,1,,0.,0.,1.", "grid point 1 is given twice"),
+        ("GRID,1,,0.,zero,0.", "could not convert string to float: 'zero'"),
+        ("INCLUDE 'frame.bdf'", "is included within itself"),
+        ("INCLUDE 'none.bdf'", "No such file"),
+        ("GRDSET,,,,,,3\nGRID,1,,0.,0.,0.", "Grid point 1 has displacements in a system of its own"),
+    ],
+)
+def test_bulk_data_that_cannot_be_used_are_refused(tmp_path: Path, deck: str, words: str) -> None:
+    (tmp_path / "frame.bdf").write_text(deck)
+    (tmp_path / "frame.op4").write_text("")
+    with pytest.raises(ModelError, match=words):
+        read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
 
 
 def test_nastran_places_are_those_of_the_basic_system(tmp_path: Path) -> None:
-    op4 = pytest.importorskip("pyyeti.nastran.op4", reason="extra 'fem'")
-
-    from mbs.flexible.read_nastran import read_nastran
-
+    op4 = pytest.importorskip("pyyeti.nastran.op4")
     frame = portal()
     model = frame.finite_element_model("lumped", rotary=False)
     op4.write(str(tmp_path / "frame.op4"), {"KGG": model.K.toarray(), "MGG": model.mass_matrix().toarray()})
@@ -180,13 +248,9 @@ def test_a_damaged_calculix_file_is_refused(tmp_path: Path, suffix: str, kept: f
         read_calculix(tmp_path / "bar.inp")
 
 
-@pytest.mark.parametrize(("module", "reader"), [("read_nastran", "pyyeti.nastran"), ("read_calculix", "meshio")])
-def test_a_missing_library_says_what_to_install(module: str, reader: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    import importlib
-    import sys
+def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    from mbs.flexible.read_calculix import read_calculix
 
-    monkeypatch.setitem(sys.modules, reader, None)
-    function = getattr(importlib.import_module(f"mbs.flexible.{module}"), module)
-    arguments = ("a.bdf", "a.op4") if module == "read_nastran" else ("a.inp",)
+    monkeypatch.setitem(sys.modules, "meshio", None)
     with pytest.raises(ModelError, match=r'pip install "ali3\[fem\]"'):
-        function(*arguments)
+        read_calculix("a.inp")

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from mbs.compiler import compile
 from mbs.model import Model
-from mbs.simulation import Simulation
+from mbs.simulation.stepping import Simulation
 from tests.flexible_engine.bodies import cloud
 
 ROUND_OFF = 1e-13

@@ -19,7 +19,7 @@ from mbs.flexible.material import Material
 from mbs.flexible.section import round_bar
 from mbs.model import Model
 from mbs.scenes import spinning_beam
-from mbs.simulation import Simulation
+from mbs.simulation.stepping import Simulation
 from tests.flexible_engine.bodies import chain
 
 REFERENCE = Path(__file__).parent.parent / "data" / "reference"

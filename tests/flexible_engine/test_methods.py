@@ -11,9 +11,9 @@ import pytest
 from mbs import Settings, compile, simulate
 from mbs.kernel import binding
 from mbs.model import Model
+from mbs.results.simulation_error import SimulationError
 from mbs.scenes import spinning_beam
 from mbs.settings.settings import METHODS
-from mbs.simulation import SimulationError
 from mbs.system.system import System
 from tests.flexible_engine.bodies import cloud
 

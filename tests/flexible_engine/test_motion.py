@@ -13,7 +13,7 @@ from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.section import round_bar
 from mbs.model import Model
 from mbs.model.body import Body
-from mbs.simulation import Simulation
+from mbs.simulation.stepping import Simulation
 from tests.flexible_engine.bodies import ALUMINIUM, bar, cloud
 
 # bodies of random shapes, so soft that they bend far beyond what linear modes stand for: the equations are what counts

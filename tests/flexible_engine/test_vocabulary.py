@@ -8,7 +8,7 @@ import pytest
 from mbs.compiler import compile
 from mbs.model import Model, ModelError
 from mbs.model.flexible import FlexibleBody
-from mbs.simulation import Simulation
+from mbs.simulation.stepping import Simulation
 from tests.flexible_engine.bodies import bar, cloud
 
 
@@ -76,7 +76,7 @@ def test_recovery_and_amplitude_sensors() -> None:
     m = Model("sensors")
     beam = _beam(m)
     weights = np.arange(8.0)
-    m.sense_recovery("moment", beam, weights, "N m")
+    m.sense_coordinate("moment", beam.combination(weights), unit="N m")
     for j in range(8):
         m.sense_coordinate(f"a{j}", beam.amplitude(j))
     m.weld("root", m.ground, beam.interface(0))
@@ -93,7 +93,7 @@ def test_floating_scene_starts_anywhere() -> None:
     beam = _beam(m)
     m.sense_position("x", beam, (1, 0, 0), "x")
     m.sense_position("y", beam, (1, 0, 0), "y")
-    m.sense_velocity("v", beam, (1, 0, 0), "y")
+    m.sense_position("v", beam, (1, 0, 0), "y", order=1)
     simulation = Simulation(compile(m))
     simulation.instance.set_pose(1000.0, -500.0, 2.0, np.pi / 2, 3.0)
     simulation.instance.initialise(0.0)
@@ -115,7 +115,6 @@ BAD = [
     (lambda m, b: m.initial_velocity(b.interface(8), (1, 0, 0)), "cannot have an initial velocity of its own"),
     (lambda m, b: m.flexible_body("b2", 3), "needs a ReducedBody, got int"),
     (lambda m, b: m.flexible_body("b2", cloud(), axes=2 * np.eye(3)), "columns of a rotation matrix"),
-    (lambda m, b: m.sense_recovery("s", m.ground, [1.0]), "needs a flexible body"),
 ]
 
 

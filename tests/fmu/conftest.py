@@ -8,6 +8,7 @@ import sys
 import traceback
 import warnings
 from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +17,9 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
+from fmu_src.build.build import KINDS, FmuBuilder, build_fmu
+from fmu_src.build.scene_registry import load_fidelities, load_scene
+from fmu_src.native.platforms import able_platforms
 
 SCENES = Path(__file__).parent / "scenes.py"
 PLATFORM = fmpy.platform
@@ -80,6 +82,20 @@ def build(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None])
         return made[scene, kind]
 
     return make
+
+
+@pytest.fixture(scope="session")
+def kerb_fmus(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Path:
+    """A folder with all kinds of FMU of the paper's test, a car with a flexible frame in four fidelities."""
+
+    def fill(folder: Path) -> None:
+        name, systems, default = load_fidelities("kerb_test")
+        builder = FmuBuilder(systems, name, default, ("", "", ""), lambda what, note="": nullcontext())
+        for kind in KINDS:
+            if PLATFORM in able_platforms(kind):
+                builder.build(kind, [PLATFORM], folder / f"{kind}.fmu")
+
+    return made_once("kerb_test", fill)
 
 
 @pytest.fixture(params=["native", "python"])

@@ -22,10 +22,10 @@ def _crane(mass: float, name: str) -> tuple[mbs.Model, Any]:
     target = (spring, "stiffness", 1.0)
     m.parameter("spring.stiffness", 5.0, 0.0, 50.0, "N.m/rad", "Stiffness of the spring", targets=[target])
     m.sense_position("rod.x", rod, component="x", description="Centre of mass, horizontal")
-    m.sense_acceleration("rod.ay", rod, component="y", description="Centre of mass, vertical")
+    m.sense_position("rod.ay", rod, component="y", order=2, description="Centre of mass, vertical")
     m.sense_coordinate("rod.angle", angle, description="Angle of the rod")
     m.sense_input("torque_used", torque)
-    m.sense_solver("solver.iterations", "iterations", "Newton iterations of the last step")
+    m.sense_solver("solver.iterations", "iterations", description="Newton iterations of the last step")
     return m, angle
 
 
@@ -59,7 +59,7 @@ def _reach(name: str) -> tuple[mbs.Model, Any, Any]:
     trolley = m.slide("trolley", m.ground, point=(1.2, 0.0), direction=(1.0, 0.0), guide=winch)
     m.distance("cable", trolley, bob)
     m.sense_position("bob.x", bob, component="x")
-    m.sense_velocity("bob.vx", bob, component="x")
+    m.sense_position("bob.vx", bob, component="x", order=1)
     m.sense_guide("pulled", winch, unit="m")
     return m, bob, pull
 
@@ -72,8 +72,8 @@ def sled() -> mbs.Model:
     m.force("engine", body, inputs=(thrust, None), axes="body")
     m.sense_position("chassis.x", body, component="x")
     m.sense_position("chassis.y", body, component="y")
-    m.sense_yaw("chassis.yaw", body)
-    m.sense_norm("speed", body.point((0.3, 0.0)), 1, "m/s")
+    m.sense_angle("chassis.yaw", body, "yaw")
+    m.sense_vector("speed", body.point((0.3, 0.0)), order=1, unit="m/s")
     return m
 
 
@@ -88,10 +88,10 @@ def turned_rail() -> mbs.Model:
     load = m.point_mass("load", mass=0.5, position=(1.0, -1.0))
     m.drive("winch", ((slider, (0.5, 0.1)), load), m.guide_time("rope", ([0.0, 1.0], [1.2, 0.9]), unit="m"))
     for c in "xy":
-        m.sense_joint_force(f"slide.{c}", "slide", c)
-    m.sense_joint_moment("slide.moment", "slide")
-    m.sense_joint_moment("rail.moment", "slide", on="second")
-    m.sense_joint_force("winch.tension", "winch", "tension")
+        m.sense_joint(f"slide.{c}", "slide", c)
+    m.sense_joint("slide.moment", "slide", "z", "moment")
+    m.sense_joint("rail.moment", "slide", "z", "moment", on="second")
+    m.sense_joint("winch.tension", "winch", "tension")
     return m
 
 
@@ -161,8 +161,8 @@ def loaded_beam(
     m.parameter("gain", gain, 0.01, 0.2, "1", "Way of the slider", targets=[(winch, "gain", 1.0)])
     m.sense_position("beam.x", beam, component="x")
     m.sense_position("beam.y", beam, component="y")
-    m.sense_acceleration("beam.ay", beam, component="y")
-    m.sense_joint_force("rope.tension", "side rope", "tension")
+    m.sense_position("beam.ay", beam, component="y", order=2)
+    m.sense_joint("rope.tension", "side rope", "tension")
     m.sense_energy("energy.total")
     m.sense_mass("mass")
     m.start_in_equilibrium = True

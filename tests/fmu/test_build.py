@@ -74,7 +74,7 @@ def test_command_builds_into_a_new_folder(file: Path, tmp_path: Path, capsys: py
 
 def test_one_kind_only(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     command = ["--scene", f"{file}:swing", "--out", str(tmp_path / "out"), "--platforms", PLATFORM]
-    assert build_fmu.main([*command, "--only", "native"]) == 0
+    assert build_fmu.main([*command, "--kind", "native"]) == 0
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["Swing.fmu", "Swing.ssv"]
     assert build_fmu.main([*command, "--kind", "wooden"]) == 2
     assert "no kind of FMU 'wooden'" in capsys.readouterr().err

@@ -12,7 +12,7 @@ import fmpy
 import pytest
 
 import build_fmu
-from ali3.parameter_set import read_parameter_set
+from ali3.read_parameter_set import read_parameter_set
 from fmu_src.build.car_registry import build_car, car_files, car_words
 from hosts.fmu.fmu import Fmu
 from mbs.vehicle import load

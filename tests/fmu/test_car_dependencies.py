@@ -7,22 +7,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import fmpy
 import numpy as np
 import pytest
-
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 
 HostMaker = Callable[..., Any]
 H, SEED = 0.002, 5
 UNDERIVED = ("step_size", "fidelity")
-
-
-@pytest.fixture(scope="module")
-def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene("prototype_car")
-    return build_fmu(system, name, tmp_path_factory.mktemp("car"), [fmpy.platform])
 
 
 def declared(unknowns: list[Any]) -> dict[str, set[str]]:
@@ -36,8 +26,8 @@ def slopes(driven: Any, names: list[str], known: str) -> dict[str, float]:
 
 
 @pytest.mark.parametrize("kerb", [1e6, 0.0])
-def test_initial_derivatives(car: Path, host: HostMaker, kerb: float) -> None:
-    driven = host(car)
+def test_initial_derivatives(prototype_fmu: Path, host: HostMaker, kerb: float) -> None:
+    driven = host(prototype_fmu)
     reach = declared(driven.description.initialUnknowns)
     outputs = [v.name for v in driven.description.modelVariables if v.causality == "output" and v.type == "Real"]
     variables = driven.description.modelVariables
@@ -58,8 +48,8 @@ def test_initial_derivatives(car: Path, host: HostMaker, kerb: float) -> None:
     assert sum(len(reach[n]) for n in outputs) < 0.7 * full  # sparse
 
 
-def test_derivatives_of_a_step(car: Path, host: HostMaker) -> None:
-    driven = host(car).start({"initial.speed": 10.0})
+def test_derivatives_of_a_step(prototype_fmu: Path, host: HostMaker) -> None:
+    driven = host(prototype_fmu).start({"initial.speed": 10.0})
     reach = declared(driven.description.outputs)
     outputs = [v.name for v in driven.description.modelVariables if v.causality == "output" and v.type == "Real"]
     rng = random.Random(SEED)

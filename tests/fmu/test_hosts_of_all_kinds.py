@@ -166,6 +166,7 @@ def test_sources_name_the_mathematical_library(build: Callable[..., Path]) -> No
     assert [e.get("name") for e in root.iter("Library")] == ["m"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["native", "fmi3"])
 def test_linux_on_arm_has_a_binary(tmp_path: Path, kind: str) -> None:
     name, system = load_scene(f"{Path(__file__).parent / 'scenes.py'}:crane")

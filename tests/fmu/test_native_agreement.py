@@ -15,7 +15,7 @@ import pytest
 import mbs
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
-from mbs.simulation import Pose
+from mbs.simulation.state import Pose
 from tests.fmu import scenes
 
 HostMaker = Callable[..., Any]

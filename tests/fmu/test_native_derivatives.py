@@ -41,8 +41,10 @@ def outputs(driven: Any) -> list[int]:
 
 def test_a_ramp_is_followed_inside_the_step(build: Callable[..., Path], host: HostMaker) -> None:
     fine, ramp, held = (host(build("crane", "native")).start({"torque": 1.0}) for _ in range(3))
+    torque = [1.0 + 40.0 * (k * INNER) - 100.0 * (k * INNER) ** 2 for k in range(11)]
     for k in range(10):
-        fine.set("torque", 1.0 + 40.0 * ((k + 1) * INNER) - 200.0 * ((k + 1) * INNER / 2.0 * ((k + 1) * INNER)))
+        fine.set("torque", torque[k])
+        slope(fine, "torque", 1, (torque[k + 1] - torque[k]) / INNER)
         assert fine.step(k * INNER, INNER) == OK
     assert slope(ramp, "torque", 1, 40.0) == slope(ramp, "torque", 2, -200.0) == OK
     assert ramp.step(0.0, STEP) == held.step(0.0, STEP) == OK

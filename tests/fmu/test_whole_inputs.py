@@ -115,7 +115,7 @@ def test_two_hosts_and_the_engine_agree_bit_for_bit(stick: Path, tmp_path: Path)
     assert np.array_equal(result["rod.x"], wanted["rod.x"])
     assert result["lever_used"].dtype.kind == "i"
     (tmp_path / "shift.csv").write_text(f"# start: step_size={H}\n{TABLE}")
-    command = [sys.executable, "-m", "hosts.run.drive", stick, "--manoeuvre", tmp_path / "shift.csv", "--step", H]
+    command = [sys.executable, "-m", "hosts.run.command", stick, "--manoeuvre", tmp_path / "shift.csv", "--step", H]
     done = subprocess.run(
         [*map(str, command), "--out", str(tmp_path / "out")], cwd=ROOT, capture_output=True, text=True, check=False
     )
@@ -127,7 +127,7 @@ def test_two_hosts_and_the_engine_agree_bit_for_bit(stick: Path, tmp_path: Path)
 
 def test_a_table_between_two_positions_is_refused(stick: Path, tmp_path: Path) -> None:
     (tmp_path / "half.csv").write_text('"time","lever"\n0,0\n1,0.5\n')
-    command = [sys.executable, "-m", "hosts.run.drive", stick, "--manoeuvre", tmp_path / "half.csv"]
+    command = [sys.executable, "-m", "hosts.run.command", stick, "--manoeuvre", tmp_path / "half.csv"]
     done = subprocess.run([*map(str, command)], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode != 0
     assert "'lever' is a whole number" in done.stderr

@@ -18,10 +18,10 @@ def sledge() -> mbs.Model:
     m.force("engine", body, inputs=(throttle, steering), axes="body")
     for component in "xy":
         m.sense_position(f"chassis.{component}", body, component=component)
-        m.sense_acceleration(f"chassis.a{component}", body, component=component, axes="body")
-    m.sense_yaw("chassis.yaw", body)
-    m.sense_angular_rate("chassis.wz", body)
-    m.sense_norm("speed", body.point((0.0, 0.0)), 1, "m/s")
+        m.sense_position(f"chassis.a{component}", body, component=component, order=2, axes="body")
+    m.sense_angle("chassis.yaw", body, "yaw")
+    m.sense_rotation("chassis.wz", body, order=1)
+    m.sense_vector("speed", body.point((0.0, 0.0)), order=1, unit="m/s")
     for wheel in WHEELS:
         m.sense_input(f"wheel_{wheel}.Fz", brake, unit="N")
     m.sense_solver("solver.iterations", "iterations")

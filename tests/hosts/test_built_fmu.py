@@ -8,8 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from hosts.common import commands
 from hosts.common.errors import HostError
 from hosts.fmu import built_fmu
+from hosts.fmu.fmu_file import fmu_file
 
 # Stands in for the builder, which needs half a minute: an FMU with the text of the car file.
 BUILD = """
@@ -18,7 +20,7 @@ car, out = sys.argv[sys.argv.index("--car") + 1], pathlib.Path(sys.argv[sys.argv
 text = (pathlib.Path(car) / "car.toml").read_text()
 if "wrong" in text:
     sys.exit("error: The car is wrong.")
-out.mkdir()
+out.mkdir(exist_ok=True)
 (out / "Car.fmu").write_text(text)
 """
 
@@ -26,7 +28,7 @@ out.mkdir()
 @pytest.fixture
 def car(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr(built_fmu, "module_command", lambda *words: [sys.executable, "-c", BUILD, *words])
+    monkeypatch.setattr(commands, "module_command", lambda *words: [sys.executable, "-c", BUILD, *words])
     folder = tmp_path / "car"
     folder.mkdir()
     (tmp_path / "frame.op4").write_text("frame")
@@ -54,6 +56,33 @@ def test_another_program_builds_again(car: Path, monkeypatch: pytest.MonkeyPatch
     first = built_fmu.fmu_of_car(str(car), print)
     monkeypatch.setattr(built_fmu, "program_version", lambda: "other")
     assert built_fmu.fmu_of_car(str(car), print) != first
+
+
+def test_other_poses_are_another_fmu(car: Path) -> None:
+    first = built_fmu.fmu_of_car(str(car), print)
+    assert built_fmu.fmu_of_car(str(car), print, "all") != first
+    assert built_fmu.fmu_of_car(str(car), print) == first
+
+
+def test_a_command_takes_an_fmu_or_a_car(
+    car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    made = fmu_file(Path("car"))
+    assert made.read_text() == (car / "car.toml").read_text()
+    assert "The car car is built for this machine" in capsys.readouterr().out
+    assert fmu_file(Path("car", "car.toml")) == fmu_file(Path("car")) == made
+    assert capsys.readouterr().out == ""
+    for given in ("x.fmu", "dist/x", "cut", "run-1"):  # what is there, or looks like a file
+        (tmp_path / "cut").write_text("")
+        assert fmu_file(Path(given)) == Path(given)
+    built = []
+    monkeypatch.setattr(built_fmu, "fmu_of_car", lambda name, tell, poses: built.append(name) or made)
+    assert fmu_file(Path("hatchback")) == fmu_file(None) == made
+    assert built == ["hatchback", "prototype"]
+    (tmp_path / "dist").mkdir()
+    (tmp_path / "dist" / "PrototypeCar.fmu").write_text("")
+    assert fmu_file(None) == Path("dist", "PrototypeCar.fmu")
 
 
 def test_the_words_of_a_build_that_fails(car: Path) -> None:

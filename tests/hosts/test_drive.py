@@ -15,7 +15,8 @@ from matplotlib import image
 
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
-from hosts.run.drive import main
+from hosts.fmu.fmu import Fmu
+from hosts.run.command import main
 from tests.in_process import run
 
 HERE = Path(__file__).parent
@@ -51,7 +52,7 @@ def colours(picture: Path) -> int:
 
 
 def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "hosts.run.drive", fmus["sledge"], "--manoeuvre", turn, "--step", "0.02"]
+    command = [sys.executable, "-m", "hosts.run.command", fmus["sledge"], "--manoeuvre", turn, "--step", "0.02"]
     utf8 = os.environ | {"PYTHONIOENCODING": "utf-8"}
     command = [*map(str, command), "--out", str(tmp_path / "out")]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT, env=utf8)
@@ -71,13 +72,43 @@ def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path:
     assert table["time"] == pytest.approx(0.02 * np.arange(151))
     assert table["chassis.x"][0] == 0.0
     assert table["speed"][0] == pytest.approx(10.0)
-    # The inputs of a row are those of the step that ends there.
-    assert (table["steering"][50], table["steering"][51]) == (0.0, 0.5)
+    # The inputs of a row are those with which the next step begins.
+    assert (table["steering"][49], table["steering"][50]) == (0.0, 0.5)
     picture = tmp_path / "out" / "sledge_turn.png"
     height, width = image.imread(picture).shape[:2]
     assert width == 1760
     assert height > 900
     assert colours(picture) > 200
+
+
+@pytest.mark.parametrize("held", ["", "# held: steering, brake\n"])
+def test_a_result_is_a_manoeuvre_that_repeats_the_run(
+    fmus: dict[str, Path], turn: Path, tmp_path: Path, held: str
+) -> None:
+    turn.write_text(held + turn.read_text())
+    result = tmp_path / "out" / "sledge_turn.csv"
+    for table, step in ((turn, ("--step", "0.02")), (result, ())):  # the record knows the step
+        assert drive(fmus["sledge"], "-m", table, *step, "--out", tmp_path / "out").returncode == 0
+    first, again = read_csv(result), read_csv(tmp_path / "out" / "sledge_sledge_turn.csv")
+    for name in first.dtype.names:
+        np.testing.assert_allclose(again[name], first[name], rtol=1e-9, atol=1e-9, err_msg=name)
+    assert np.ptp(first["chassis.x"]) > 10.0
+    assert (first["steering"][100] in (0.0, 0.5)) == bool(held)
+
+
+def test_a_result_that_began_with_a_state_repeats_the_run(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
+    with Fmu(fmus["sledge"]) as fmu:
+        fmu.initialise({"steering": 0.2, "throttle": 0.5})
+        for k in range(200):
+            fmu.step(0.01 * k, 0.01)
+        (tmp_path / "moving.state").write_bytes(fmu.state_bytes())
+    turn.write_text("# state: moving.state at 2\n" + turn.read_text())
+    for table in (turn, tmp_path / "out" / "sledge_turn.csv"):
+        assert drive(fmus["sledge"], "-m", table, "--out", tmp_path / "out").returncode == 0
+    first, again = read_csv(tmp_path / "out" / "sledge_turn.csv"), read_csv(tmp_path / "out" / "sledge_sledge_turn.csv")
+    assert first["chassis.x"][0] > 1e-3  # at the ordinary start it is 0
+    for name in first.dtype.names:
+        np.testing.assert_allclose(again[name], first[name], rtol=1e-9, atol=1e-9, err_msg=name)
 
 
 def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
@@ -157,7 +188,7 @@ def test_a_full_disk_leaves_no_table(fmus: dict[str, Path], turn: Path, tmp_path
     start = (
         "import resource, signal, sys; signal.signal(signal.SIGXFSZ, signal.SIG_IGN);"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (1_000_000, 1_000_000));"
-        "from hosts.run.drive import main; sys.exit(main())"
+        "from hosts.run.command import main; sys.exit(main())"
     )
     out = tmp_path / "out"
     command = [sys.executable, "-c", start, fmus["sledge"], "-m", turn, "--step", "2e-4", "--out", out]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.driving.course import iso_3888_1, iso_3888_2
+from hosts.driving.course import course_of
 from hosts.driving.driver import CONSTANTS, DriverSettings, make_driver
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
@@ -36,7 +36,7 @@ def drive_bicycle(settings: dict[str, str], step: float = 0.01) -> dict[str, np.
 
 
 def test_course_has_the_lengths_and_widths_of_the_standard() -> None:
-    course = iso_3888_1(vehicle_width=2.0, x_start=0.0)
+    course = course_of("iso_3888_1", vehicle_width=2.0, x_start=0.0)
     assert [(g.x_start, g.x_end) for g in course.gates] == [(0.0, 15.0), (45.0, 70.0), (95.0, 125.0)]
     widths = [g.y_left - g.y_right for g in course.gates]
     assert widths == pytest.approx([1.1 * 2.0 + 0.25, 1.2 * 2.0 + 0.25, 1.3 * 2.0 + 0.25])
@@ -44,7 +44,7 @@ def test_course_has_the_lengths_and_widths_of_the_standard() -> None:
 
 
 def test_path_runs_through_the_middle_of_the_gates_and_is_smooth() -> None:
-    course = iso_3888_1(1.5)
+    course = course_of("iso_3888_1", 1.5)
     for gate in course.gates:
         for x in np.linspace(gate.x_start, gate.x_end, 7):
             assert course.path(x)[0] == pytest.approx(gate.centre, abs=0.1)
@@ -87,7 +87,7 @@ def test_the_integral_takes_away_what_the_error_leaves() -> None:
 
 
 def test_driving_straight_misses_the_second_lane() -> None:
-    course = iso_3888_1(1.5)
+    course = course_of("iso_3888_1", 1.5)
     x = np.linspace(0.0, 150.0, 500)
     assert course.corners_outside(x, np.zeros(500), np.zeros(500), 3.2, 1.5) > 3.0
 
@@ -134,7 +134,7 @@ def test_bad_settings_are_refused(settings: dict[str, str], message: str) -> Non
 def test_obstacle_avoidance_has_the_lengths_and_widths_of_public_summaries() -> None:
     """61 m in all; the right edges of the first and last lane in a line, the second 1 m beside the first."""
     for width, last in ((1.5, 3.0), (2.2, 1.3 * 2.2 + 0.25)):
-        first, second, third = iso_3888_2(width, x_start=0.0).gates
+        first, second, third = course_of("iso_3888_2", width, x_start=0.0).gates
         assert [(g.x_start, g.x_end) for g in (first, second, third)] == [(0.0, 12.0), (25.5, 36.5), (49.0, 61.0)]
         assert first.y_left - first.y_right == pytest.approx(1.1 * width + 0.25)
         assert second.y_left - second.y_right == pytest.approx(width + 1.0)

@@ -21,7 +21,7 @@ from fmu_src.description.documentation import documentation
 from fmu_src.variables.variables import Variable
 from hosts.catalogue.report import write_report
 from hosts.compare.command import main as compare
-from hosts.view import page, view
+from hosts.view.command import main
 from tests.hosts.catalogue import synthetic_records
 from tests.in_browser import wait_until
 from tests.viewer.hand_scenes import floats
@@ -121,9 +121,9 @@ def check(shown: Any, *texts: str) -> None:
 
 
 def test_view_with_arrows(foreign: Path, tmp_path: Path, chromium: Any) -> None:
-    file = tmp_path / "view.html"
-    arguments = ["--arrows", "--plot", SIGNAL, "--stop-time", "0.1", "--out", str(file), "--no-open"]
-    assert view.main([str(foreign), *arguments]) == 0
+    file = tmp_path / "Foreign.html"
+    arguments = ["--arrows", "--plot", SIGNAL, "--stop-time", "0.1", "--out", str(tmp_path), "--no-open"]
+    assert main([str(foreign), *arguments]) == 0
     shown = opened(chromium, file)
     assert shown.evaluate("async () => { await player.ready; return player.problem; }") == ""
     assert shown.locator("[data-legend=stress]").inner_text().splitlines()[-1] == f"{NAME}: 1 MPa"
@@ -163,8 +163,8 @@ def test_units_and_names_that_are_markup_are_refused_by_the_reader_and_by_the_pa
 
 def test_the_page_that_runs_it(foreign: Path, tmp_path: Path, chromium: Any) -> None:
     arguments = ["--title", MARKUP, "--plot", SIGNAL, "--out", str(tmp_path)]
-    assert page.main([str(foreign), *arguments]) == 0
-    shown = opened(chromium, tmp_path / "Foreign.html")
+    assert main([str(foreign), "--live", "--no-open", *arguments]) == 0
+    shown = opened(chromium, tmp_path / "Foreign_live.html")
     shown.evaluate("async () => { await player.ready; }")
     wait_until(shown, "player.time > 0.1")
     shown.evaluate("document.querySelectorAll('details').forEach((part) => (part.open = true))")

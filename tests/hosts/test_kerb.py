@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
 
+import mbs
 from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_fidelities
+from hosts.fmu import built_fmu
 from hosts.measures.low_pass import low_pass
 from hosts.run import kerb
+from hosts.run.command import main
+from mbs.scenes import kerb_test
 
 PLATFORM = fmpy.platform
 
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, systems, default = load_fidelities("kerb_test")
-    return build_fmu(systems, name, tmp_path_factory.mktemp("kerb"), [PLATFORM], fidelity=default)
+    """With the two fidelities that take little time."""
+    systems = [mbs.compile(kerb_test.build(fidelity)) for fidelity in (0, 1)]
+    return build_fmu(systems, "kerb_test", tmp_path_factory.mktemp("kerb"), [PLATFORM], fidelity=1)
 
 
 def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert kerb.main([str(fmu), "--fidelity", "1", "--out", str(tmp_path)]) == 0
+    assert main(["--kerb", str(fmu), "--fidelity", "1", "--out", str(tmp_path)]) == 0
     said = capsys.readouterr().out
     assert all(f"\n{g} " in said for g in kerb.GAUGES)
     assert "Newton iterations" in said
@@ -42,28 +47,44 @@ def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.Cap
         (["--step", "nan"], "must be positive"),
         (["--set", "road.friction=9"], "--set: 'road.friction' is 9; its range is 0 to 2"),
         (["--fidelity", "1", "--set", "fidelity=1"], "give it once"),
-        (["--parameters", "no.ssv"], "no parameter set no.ssv"),
+        (["--parameters", "no.ssv"], "parameter set no.ssv cannot be read: there is no such file"),
     ],
 )
 def test_what_it_refuses(
     fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str], said: str
 ) -> None:
-    assert kerb.main([str(fmu), "--out", str(tmp_path), *options]) == 2
+    assert main(["--kerb", str(fmu), "--out", str(tmp_path), *options]) == 2
     assert said in capsys.readouterr().err
 
 
 def test_a_folder_that_cannot_be_made_is_named(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "file").write_text("")
-    assert kerb.main([str(fmu), "--out", str(tmp_path / "file" / "out")]) == 2
+    assert main(["--kerb", str(fmu), "--out", str(tmp_path / "file" / "out")]) == 2
     assert "cannot be made" in capsys.readouterr().err
 
 
-def test_a_missing_fmu_is_named(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+def test_without_an_fmu_that_of_the_scene_is_built_and_kept(
+    fmu: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
+    """The build itself is tested elsewhere; here it takes the FMU that is there."""
+    asked: list[tuple[str, ...]] = []
+
+    def build(_: str, options: tuple[str, ...], folder: Path) -> None:
+        asked.append(options)
+        folder.mkdir(exist_ok=True)
+        shutil.copy(fmu, folder)
+
+    monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(built_fmu, "build_fmu", build)
     monkeypatch.chdir(tmp_path)
-    assert kerb.main([]) == 2
-    assert "build_fmu.py --scene kerb_test" in capsys.readouterr().err
+    for told in ("The scene kerb_test is built for this machine", ""):
+        assert main(["--kerb", "--fidelity", "1", "--out", str(tmp_path)]) == 0
+        assert ("is built" in told) is ("is built" in capsys.readouterr().out)
+    assert asked == [("--scene", "kerb_test")]
+    assert main(["--kerb", "prototype"]) == 2
+    assert "--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car prototype" in capsys.readouterr().err
+    assert main(["--kerb", str(fmu), "-m", "slalom"]) == 2
+    assert "--manoeuvre does not go with --kerb" in capsys.readouterr().err
 
 
 def test_the_filter_keeps_slow_and_removes_fast() -> None:

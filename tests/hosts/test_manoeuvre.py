@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,9 @@ import pytest
 from fmpy.util import read_csv
 
 from hosts.common.errors import HostError
-from hosts.driving.manoeuvre import FOLDER, manoeuvre_names, with_names_of
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.manoeuvre_file import read_manoeuvre, write_manoeuvre
+from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 GOOD = '"time","steering","throttle"\n0,0,0\n1,0,0\n1,0.5,1\n2,0.5,0\n'
@@ -31,6 +34,22 @@ def test_a_doubled_time_is_a_step_and_the_rest_is_linear(tmp_path: Path) -> None
     assert manoeuvre.at(9.0) == {"steering": 0.5, "throttle": 0.0}
 
 
+def test_before_a_step_the_value_that_is_left_counts(tmp_path: Path) -> None:
+    manoeuvre = load_manoeuvre(written(tmp_path, GOOD))
+    assert manoeuvre.at(1.0, before=True) == {"steering": 0.0, "throttle": 0.0}
+    assert manoeuvre.at(1.5, before=True) == manoeuvre.at(1.5)
+
+
+def test_held_inputs_keep_the_value_of_a_row_up_to_the_next(tmp_path: Path) -> None:
+    manoeuvre = load_manoeuvre(written(tmp_path, "# held: throttle\n" + GOOD))
+    assert manoeuvre.at(1.5) == {"steering": 0.5, "throttle": 1.0}
+    recorded = load_manoeuvre(written(tmp_path, "# outputs from: throttle\n" + GOOD))
+    assert recorded.at(0.5) == {"steering": 0.0}
+    assert recorded.held == {"steering"}
+    with pytest.raises(HostError, match="'brake' is said to be held and is no input of the table"):
+        load_manoeuvre(written(tmp_path, "# held: brake\n" + GOOD))
+
+
 def test_a_step_is_not_missed_for_rounding(tmp_path: Path) -> None:
     manoeuvre = load_manoeuvre(written(tmp_path, '"time","u"\n0,0\n0.3,0\n0.3,1\n1,1\n'))
     assert 3 * 0.1 != 0.3
@@ -38,7 +57,7 @@ def test_a_step_is_not_missed_for_rounding(tmp_path: Path) -> None:
     assert manoeuvre.at(np.nextafter(0.3, 0.0))["u"] == 1.0
 
 
-def test_start_values_from_a_comment_and_from_the_file_beside(tmp_path: Path) -> None:
+def test_files_of_earlier_versions_are_read(tmp_path: Path) -> None:
     text = "# start: initial.speed=15, initial.yaw=0.1\n" + GOOD
     manoeuvre = load_manoeuvre(written(tmp_path, text, "[run]\nstop_time = 7\n[start]\ninitial.yaw = 0.2\n"))
     assert manoeuvre.start == {"initial.speed": 15.0, "initial.yaw": 0.2}
@@ -49,17 +68,17 @@ def test_start_values_from_a_comment_and_from_the_file_beside(tmp_path: Path) ->
     ("text", "message"),
     [
         ('"time","u"\n0,0\n2,1\n1,1\n', r"line 4: time goes back from 2 s to 1 s"),
-        ('"time","u"\n0,0\n1,nan\n', r"line 3, column 'u': the value is nan"),
-        ('"time","u"\n0,0\ninf,1\n', r"line 3, column 'time': the value is inf"),
+        ('"time","u"\n0,0\n1,nan\n', r"line 3, column 'u': 'nan' is not a finite number"),
+        ('"time","u"\n0,0\ninf,1\n', r"line 3, column 'time': 'inf' is not a finite number"),
         ('"time","u"\n0,zero\n', r"line 2, column 'u': 'zero' is not a number"),
         ('"time","u"\n0,1_0\n1,1\n', r"line 2, column 'u': '1_0' is not a number"),
         ('"time","u"\n0,\uff11\n1,1\n', r"line 2, column 'u': '\uff11' is not a number"),
-        ('"time","u"\n0,1e999\n1,1\n', r"line 2, column 'u': '1e999' is too large"),
+        ('"time","u"\n0,1e999\n1,1\n', r"line 2, column 'u': '1e999' is not a finite number"),
         (f'"time","u"\n0,{140_000 * "1"}\n1,1\n', r"line 2: a cell has 140000 characters"),
         ('"time","u"\n0,0,0\n', r"line 2: 3 values where the heading has 2 columns"),
-        ('"u","time"\n0,0\n', r"line 1: the heading is"),
-        ('"time","u","u"\n0,0,0\n', r"line 1: the heading is"),
-        ('"time"\n0\n', r"line 1: the heading is"),
+        ('"u","time"\n0,0\n', r"the heading is 'u, time'; it must be"),
+        ('"time","u","u"\n0,0,0\n', r"has the column 'u' twice"),
+        ('"time"\n0\n', r"the heading is 'time'; it must be"),
         ('"time","u"\n', r"holds no values"),
         ("", r"holds no values"),
         ('"time","u"\n0,0\n', r"does not say how long"),
@@ -73,7 +92,7 @@ def test_bad_tables_are_refused(tmp_path: Path, text: str, message: str) -> None
 
 def test_binary_tables_are_refused(tmp_path: Path) -> None:
     (tmp_path / "m.csv").write_bytes(bytes(range(128, 256)))
-    with pytest.raises(HostError, match="cannot be read as text"):
+    with pytest.raises(HostError, match="is no text in UTF-8"):
         load_manoeuvre(str(tmp_path / "m.csv"))
 
 
@@ -90,9 +109,56 @@ def test_binary_tables_are_refused(tmp_path: Path) -> None:
         ("[run]\nstop_time = 7\nstop_time = 8\n", r"not understood: .*already exists"),
     ],
 )
-def test_bad_settings_are_refused(tmp_path: Path, settings: str, message: str) -> None:
+def test_bad_settings_of_earlier_versions_are_refused(tmp_path: Path, settings: str, message: str) -> None:
     with pytest.raises(HostError, match=message):
         load_manoeuvre(written(tmp_path, GOOD, settings))
+
+
+def test_a_table_whose_record_does_not_fit_is_refused(tmp_path: Path) -> None:
+    record = {"outputs_from": "v", "start": {}, "held": [], "state": None, "step_s": 0.1, "jumps": {"1": [1.0, 0.5]}}
+    good = '"time","u","v"\n0,0,0\n1,1,0\n2,1,0\n'
+
+    def read(text: str, **changed: object) -> Manoeuvre:
+        (tmp_path / "m.json").write_text(json.dumps(record | changed))
+        return load_manoeuvre(written(tmp_path, text))
+
+    found = read(good)
+    assert found.time.tolist() == [0.0, 1.0, 1.0, 2.0]
+    assert found.inputs["u"].tolist() == [0.0, 0.5, 1.0, 1.0]
+    assert (found.step, found.held) == (0.1, frozenset())
+    cut = '"time","u","v"\n1,1,0\n2,1,0\n'
+    rows = [
+        (text, jumps)
+        for text, jumps in (
+            (good, {"3": [1.0, 0.5]}),
+            (good, {"-1": [2.0, 0.5]}),
+            (good, {"1": [1.0, 0.5, 0.5]}),
+            (good, {"1": [1.0]}),
+            (cut, record["jumps"]),
+        )
+    ]
+    for text, jumps in rows:
+        with pytest.raises(HostError, match=r"m\.csv is not the table that m\.json beside it was written with"):
+            read(text, jumps=jumps)
+    for changed in (
+        {"start": ["ab"]},
+        {"start": {"a": [1]}},
+        {"held": "u"},
+        {"jumps": [1]},
+        {"step_s": -1},
+        {"state": 1},
+    ):
+        with pytest.raises(HostError, match="is no whole record of the run"):
+            read(good, **changed)
+    (tmp_path / "m.json").write_text('{"mine": NaN} of another kind')
+    assert list(load_manoeuvre(written(tmp_path, GOOD)).inputs) == ["steering", "throttle"]
+
+
+def test_lists_of_a_manoeuvre_that_are_none_are_refused(tmp_path: Path) -> None:
+    for text in ('held = [["u"]]\n[inputs]\ntime = [0, 1]\nu = [0, 1]\n', "[inputs]\nu = [0, 1]\ntime = 5\n"):
+        (tmp_path / "m.toml").write_text(text)
+        with pytest.raises(HostError, match=r"m\.toml"):
+            load_manoeuvre(str(tmp_path / "m.toml"))
 
 
 def test_unknown_names_and_files_are_named() -> None:
@@ -111,12 +177,100 @@ def test_manoeuvres_of_the_host_are_whole(name: str) -> None:
         assert values.max() <= 1.0
 
 
-@pytest.mark.parametrize("name", [p.stem for p in sorted(FOLDER.glob("*.csv"))])
-def test_fmpy_reads_the_same_tables(name: str) -> None:
-    table = read_csv(FOLDER / f"{name}.csv")
-    manoeuvre = load_manoeuvre(name)
+def test_fmpy_reads_the_same_tables() -> None:
+    table = read_csv(FOLDER / "launch_and_brake.csv")
+    manoeuvre = load_manoeuvre("launch_and_brake")
     assert np.array_equal(table["time"], manoeuvre.time)
     assert all(np.array_equal(table[n], values) for n, values in manoeuvre.inputs.items())
+
+
+TOML = """
+stop_time = 7
+[start]
+initial.speed = 15
+"initial.yaw" = 0.2
+"road.file" = "kerb.road"
+flag = true
+[driver]
+course = "iso_3888_1"
+speed = 20
+[inputs]
+time = [0, 1, 1, 2]
+steering = [0, -0.0, 0.5, 0.1]
+front.damper.damping = [1000, 1000, 2e3, 2e3]
+[state]
+file = "m.state"
+time = 0.5
+"""
+
+
+def same(one: Manoeuvre, other: Manoeuvre) -> bool:
+    arrays = [(one.time, other.time), *((one.inputs[name], other.inputs[name]) for name in one.inputs)]
+    return (
+        list(one.inputs) == list(other.inputs)
+        and all(a.tobytes() == b.tobytes() for a, b in arrays)
+        and (one.name, one.stop_time, one.start, one.state, one.state_time)
+        == (other.name, other.stop_time, other.start, other.state, other.state_time)
+        and {name: word_or_number(text) for name, text in one.driver.items()}
+        == {name: word_or_number(text) for name, text in other.driver.items()}
+    )
+
+
+def word_or_number(text: str) -> str | float:
+    return float(text) if text[0].isdigit() else text
+
+
+def test_one_toml_file_has_all_of_a_manoeuvre_and_is_written_as_it_is_read(tmp_path: Path) -> None:
+    (tmp_path / "m.toml").write_text(TOML)
+    (tmp_path / "m.state").write_bytes(b"state")
+    (tmp_path / "m.ini").write_text("[run]\nstop_time = 1\n")  # of an earlier version, which it replaces
+    manoeuvre = load_manoeuvre(str(tmp_path / "m.toml"))
+    assert manoeuvre.stop_time == 7.0
+    assert manoeuvre.start == {"initial.speed": 15, "initial.yaw": 0.2, "road.file": "kerb.road", "flag": True}
+    assert manoeuvre.driver == {"course": "iso_3888_1", "speed": "20"}
+    assert manoeuvre.at(1.5) == {"steering": pytest.approx(0.3), "front.damper.damping": 2000.0}
+    assert (manoeuvre.state, manoeuvre.state_time) == (b"state", 0.5)
+    again = tmp_path / "again" / "m.toml"
+    write_manoeuvre(manoeuvre, again, "What it is.")
+    assert again.read_text().startswith("# What it is.\n")
+    assert same(read_manoeuvre(str(again)), manoeuvre)
+
+
+def test_many_numbers_come_back_to_the_bit(tmp_path: Path) -> None:
+    values = np.array([-0.0, 0.1 + 0.2, 1e-300, -1e22, 123456.0, 1234567.0, *np.random.default_rng(1).normal(size=500)])
+    made = Manoeuvre("m", np.arange(len(values)) / 3.0, {"a b": values, 'ä."q': -values}, 9.0)
+    write_manoeuvre(made, tmp_path / "m.toml")
+    assert max(map(len, (tmp_path / "m.toml").read_text(encoding="utf-8").splitlines())) <= 120
+    assert same(read_manoeuvre(str(tmp_path / "m.toml")), made)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("stop_tme = 7\n", r"m\.toml has 'stop_tme'; known are stop_time, held"),
+        ("stop_time = -3\n", r"stop_time is -3 s; it must be positive"),
+        ("stop_time = true\n", r"stop_time: true is not a number"),
+        ("stop_time = '7'\n", r'stop_time: "7" is not a number'),
+        ("start = 3\n", r"start must be a table, \[start\]"),
+        ("stop_time = 1\n[start]\nx = [1]\n", r"start value 'x': it must be a number"),
+        ("stop_time = 1\n[driver]\nspeed = 2020-01-01\n", r"driver: speed: it must be a number"),
+        ("[inputs]\nsteering = [1]\n", r"\[inputs\] has steering; it must have time and inputs"),
+        ("[inputs]\ntime = [0, 1]\n", r"\[inputs\] has time; it must have time and inputs"),
+        ("[inputs]\ntime = [0, 1]\nu = 3\n", r"'u' must be a list of numbers"),
+        ("[inputs]\ntime = [0, 1]\nu = [0, 'a']\n", r"""inputs: 'u': "a" is not a number"""),
+        ("[inputs]\ntime = [0, 1]\nu = [0, nan]\n", r"nan"),
+        ("[inputs]\ntime = [0, 1]\nu = [0]\n", r"'u' has 1 values where time has 2"),
+        ("[inputs]\ntime = [0, 2, 1]\nu = [0, 0, 0]\n", r"time goes back from 2 s to 1 s"),
+        ("[inputs]\ntime = [0]\nu = [0]\n", r"does not say how long"),
+        ("stop_time = 1\n[state]\nfile = 'a'\n", r"\[state\] must have the name of a file and a time"),
+        ("stop_time = 1\n[state]\nfile = 'a.state'\ntime = 0\n", r"the state .*a\.state cannot be read"),
+        ("stop_time = \n", r"is no TOML file"),
+    ],
+)
+def test_bad_toml_files_are_refused(tmp_path: Path, text: str, message: str) -> None:
+    (tmp_path / "m.toml").write_text(text)
+    with pytest.raises(HostError, match=message):
+        load_manoeuvre(str(tmp_path / "m.toml"))
 
 
 def test_of_several_names_the_first_that_there_is_counts(tmp_path):

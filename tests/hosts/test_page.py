@@ -1,4 +1,4 @@
-"""What the command `page` makes of an FMU, and the sentences for what it cannot use."""
+"""What `ali3 view --live` makes of an FMU, and the sentences for what it cannot use."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ import pytest
 
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
-from hosts.view import page
+from hosts.common import commands
+from hosts.view.command import main
 
 SCENE = "resources/geometry.json"
 SCENES = Path(__file__).parent / "scenes.py"
@@ -50,7 +51,7 @@ def same(name: str, content: bytes) -> bytes:
 
 
 def refusal(fmu: Path, capsys: pytest.CaptureFixture[str], *more: str) -> str:
-    assert page.main([str(fmu), "--out", str(fmu.parent / "made"), *more]) == 2
+    assert main(["--live", "--no-open", str(fmu), "--out", str(fmu.parent / "made"), *more]) == 2
     assert not list((fmu.parent / "made").glob("*"))
     said = capsys.readouterr().err.strip()
     assert said.count("\n") == 0
@@ -70,8 +71,8 @@ def test_the_page_holds_what_the_fmu_has_and_no_more(tuned: Path, tmp_path: Path
         "--step",
         "0.005",
     ]
-    assert page.main([str(fmu), "--out", str(tmp_path), *arguments]) == 0
-    text = (tmp_path / "Tuned.html").read_text(encoding="utf-8")
+    assert main(["--live", "--no-open", str(fmu), "--out", str(tmp_path), *arguments]) == 0
+    text = (tmp_path / "Tuned_live.html").read_text(encoding="utf-8")
     assert f"<title>{html.escape('1 < 2 & </script>')}</title>" in text
     data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)[1])
     assert data["options"] == {
@@ -99,7 +100,7 @@ def test_an_fmu_without_the_binary_gets_it_from_its_own_sources_or_says_how(
     tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bare = changed(tuned, tmp_path, lambda name, content: None if name.endswith(".wasm") else content)
-    monkeypatch.setattr(page, "module_command", lambda *a: ["false"])
+    monkeypatch.setattr(commands, "module_command", lambda *a: ["false"])
     said = refusal(bare, capsys)
     assert "has no binary in WebAssembly, and none could be added" in said
     assert "--scene tuned --kind native --platforms this,wasm32" in said
@@ -164,7 +165,7 @@ def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture
         assert words in refusal(fmu, capsys, *more)
     blocked = tmp_path / "file"
     blocked.write_text("")
-    assert page.main([str(fmu), "--out", str(blocked)]) == 2
+    assert main(["--live", "--no-open", str(fmu), "--out", str(blocked)]) == 2
     assert "file is a file" in capsys.readouterr().err
-    assert page.main([str(fmu)] * 5) == 2
+    assert main(["--live", *[str(fmu)] * 5]) == 2
     assert "5 pictures are too many for a page" in capsys.readouterr().err

@@ -22,17 +22,19 @@ from pyssp_standard.standard import ModelicaStandard
 
 import mbs
 from ali3.errors import UserError
-from ali3.parameter_set import UnitDefinition, is_as_built, read_parameter_set, write_parameter_set
+from ali3.parameter_set import UnitDefinition
+from ali3.read_parameter_set import read_parameter_set
+from ali3.write_parameter_set import is_as_built, write_parameter_set
 from fmu_src.build.build import FmuBuilder, build_fmu
 from fmu_src.build.car_registry import build_car
 from fmu_src.build.parameter_file import write_beside
 from fmu_src.build.scene_registry import load_scene
+from hosts.check.command import main as check
 from hosts.common.errors import HostError
-from hosts.fmu import parameters
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import Settings
 from hosts.fmu.variables import Variables
-from hosts.run import drive, run
+from hosts.run.command import main as run
 
 HERE = Path(__file__).parent
 PLATFORM = fmpy.platform
@@ -100,7 +102,7 @@ def test_what_a_build_writes_every_reader_reads(tuned: Path, file: Path) -> None
     name, system = load_scene(f"{HERE / 'scenes.py'}:tuned")
     builder = FmuBuilder(system, name, 0, ("", "", ""), lambda *_: nullcontext())
     assert write_beside(builder.parameters, file)
-    assert parameters.main([str(tuned), "--out", str(file.with_name("shown.ssv"))]) == 0
+    assert check([str(tuned), "--save-parameters", str(file.with_name("shown.ssv"))]) == 0
     assert file.read_bytes() == file.with_name("shown.ssv").read_bytes()
     for schema in ("ssv", "ssv2"):  # what is right in 1.0 is right in 2.0
         xmlschema.validate(str(file), str(ModelicaStandard.schemas[schema]))
@@ -126,7 +128,7 @@ def test_values_come_back_to_the_last_bit(tuned: Path, file: Path, tmp_path: Pat
         "step_size": 1e-3,
     }
     given = [text for n, x in odd.items() for text in ("--set", f"{n}={x!r}")]
-    assert parameters.main([str(tuned), *given, "--out", str(file)]) == 0
+    assert check([str(tuned), *given, "--save-parameters", str(file)]) == 0
     assert not is_as_built(file)
     with Fmu(tuned) as fmu:
         made = Settings(fmu.table)
@@ -256,11 +258,11 @@ def test_display_units_of_the_fmu_are_known(file: Path) -> None:
 
 
 def test_files_that_are_none_are_named(variables: Variables, tmp_path: Path) -> None:
-    for path, words in ((tmp_path / "no.ssv", "There is no parameter set"), (tmp_path, "is no file")):
+    for path, words in ((tmp_path / "no.ssv", "there is no such file"), (tmp_path, "is a folder")):
         with pytest.raises(UserError, match=words):
             Settings(variables).add_set(path)
     (tmp_path / "large.ssv").write_bytes(b" " * 10_000_001)
-    with pytest.raises(UserError, match="has 10000001 bytes; a parameter set has at most 10000000"):
+    with pytest.raises(UserError, match="has 10000001 bytes; it must have at most 10000000"):
         Settings(variables).add_set(tmp_path / "large.ssv")
 
 
@@ -336,14 +338,14 @@ def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(
     table = tmp_path / "pull.csv"
     table.write_text('# start: spring.damping=5,spring.stiffness=50\n"time","pull"\n0,0\n1,10\n')
     command = [str(tuned), "--parameters", str(file), "--set", "spring.stiffness=300", "--set", "pull=4"]
-    assert run.main([*command, "--input", str(table), "--out", str(tmp_path)]) == 0
+    assert run([*command, "--input", str(table), "--out", str(tmp_path)]) == 0
     printed = capsys.readouterr().out
     assert "set.ssv           3 values, 2 of them other than in the FMU" in printed
     assert "--set replaces 200 N/m of set.ssv" in printed
     assert "set.ssv replaces 5 N.s/m of start of pull" in printed
     assert "4 N of --set has no effect: it is a column of the manoeuvre pull" in printed
     assert "100 -> 300 N/m (--set)" in printed
-    record = json.loads((tmp_path / "Tuned.json").read_text())
+    record = json.loads((tmp_path / "tuned_pull.json").read_text())
     assert record["set"] == [
         {"name": "spring.stiffness", "old": 100.0, "new": 300.0, "unit": "N/m", "from": "--set"},
         {"name": "spring.damping", "old": 1.0, "new": 3.0, "unit": "N.s/m", "from": "set.ssv"},
@@ -356,12 +358,12 @@ def test_what_does_nothing_is_told(tuned: Path, file: Path, tmp_path: Path, caps
         (ssv("spring.damping=1"), "all 1 values are those of the FMU: it changes nothing"),
     ):
         file.write_text(text)
-        assert run.main([str(tuned), "--parameters", str(file), "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
+        assert run([str(tuned), "--parameters", str(file), "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
         assert words in capsys.readouterr().out
-    assert run.main([str(tuned), "--set", "spring.damping=1", "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
+    assert run([str(tuned), "--set", "spring.damping=1", "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
     assert "1 N.s/m as in the FMU (--set)" in capsys.readouterr().out
     twice = ["--set", "spring.damping=1", "--set", "spring.damping=2"]
-    assert run.main([str(tuned), *twice, "--out", str(tmp_path)]) == 2
+    assert run([str(tuned), *twice, "--out", str(tmp_path)]) == 2
     assert "--set: 'spring.damping' is given as 1 and as 2; give it once" in capsys.readouterr().err
 
 
@@ -370,9 +372,9 @@ def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
 ) -> None:
     table = tmp_path / "softer.csv"
     table.write_text('"time","pull","spring.stiffness"\n0,0,100\n1,0,100\n1,0,50\n2,0,50\n')
-    assert run.main([str(tuned), "--input", str(table), "--out", str(tmp_path), "--step", "0.01"]) == 0
-    found = read_csv(tmp_path / "Tuned.csv")
-    assert (found["spring.stiffness"][100], found["spring.stiffness"][101]) == (100.0, 50.0)
+    assert run([str(tuned), "--input", str(table), "--out", str(tmp_path), "--step", "0.01"]) == 0
+    found = read_csv(tmp_path / "tuned_softer.csv")
+    assert (found["spring.stiffness"][99], found["spring.stiffness"][100]) == (100.0, 50.0)
     with Fmu(tuned) as fmu:  # the same by hand
         fmu.initialise({})
         for k in range(200):
@@ -382,39 +384,44 @@ def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
         assert fmu.getter(["bob.y"])()[0] == found["bob.y"][-1]
     assert found["bob.y"][-1] < found["bob.y"][100] - 0.05
     table.write_text('"time","spring.free_length"\n0,0.8\n1,0.7\n')
-    assert run.main([str(tuned), "--input", str(table), "--out", str(tmp_path)]) == 2
+    assert run([str(tuned), "--input", str(table), "--out", str(tmp_path)]) == 2
     said = capsys.readouterr().err
     assert "a column 'spring.free_length', a fixed parameter of Tuned.fmu: it can be set before the start only" in said
     table.write_text('"time","spring.stiffness"\n0,100\n1,1e5\n')
-    assert run.main([str(tuned), "--input", str(table), "--out", str(tmp_path)]) == 2
+    assert run([str(tuned), "--input", str(table), "--out", str(tmp_path)]) == 2
     assert "'spring.stiffness' is 100000 N/m; its range is 10 to 900 N/m" in capsys.readouterr().err
     table.write_text('"time","bob.x"\n0,1\n1,1\n')
-    assert drive.main([str(tuned), "-m", str(table), "--out", str(tmp_path)]) == 2
+    assert run([str(tuned), "-m", str(table), "--out", str(tmp_path)]) == 2
     said = capsys.readouterr().err
     assert "'bob.x', which is no input of Tuned.fmu; its inputs are: pull; a tunable parameter, such as" in said
 
 
 def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file.write_text(ssv("spring.stiffness=0.2[kN/m]", "spring.damping=1"))
-    assert parameters.main([str(tuned), "--diff", str(file)]) == 0
+    assert check([str(tuned), "--diff", str(file)]) == 0
     assert capsys.readouterr().out == "spring.stiffness  100 -> 200 N/m\n"
-    assert parameters.main([str(tuned), "--set", "spring.stiffness=200", "--diff", str(file)]) == 0
+    assert check([str(tuned), "--set", "spring.stiffness=200", "--diff", str(file)]) == 0
     assert "sets nothing to another value" in capsys.readouterr().out
-    assert parameters.main([str(tuned)]) == 0
+    assert check([str(tuned), "--show-parameters"]) == 0
     printed = capsys.readouterr().out
     rows = [re.split(r"\s{2,}", line) for line in printed.splitlines()]
     assert ["spring.free_length", "0.8", "m", "0.1 to 2", "fixed", "Of the spring: free_length"] in rows
 
 
-@pytest.mark.parametrize("command", [drive, run, parameters])
+@pytest.mark.parametrize("more", [["-m", "pull.csv"], [], ["--show-parameters"]])
 def test_every_host_says_the_same_of_a_wrong_set(
-    tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], command: object
+    tuned: Path,
+    file: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    more: list[str],
 ) -> None:
+    monkeypatch.chdir(tmp_path)
     file.write_text(ssv("spring.damping=200"))
-    table = tmp_path / "pull.csv"
-    table.write_text('"time","pull"\n0,0\n1,10\n')
-    more = ["-m", str(table)] if command is drive else []
-    assert command.main([str(tuned), *more, "--parameters", str(file)]) == 2  # type: ignore[attr-defined]
+    Path("pull.csv").write_text('"time","pull"\n0,0\n1,10\n')
+    command = check if "--show-parameters" in more else run
+    assert command([str(tuned), *more, "--parameters", str(file)]) == 2
     said = capsys.readouterr().err
     assert said == "error: set.ssv: 'spring.damping' is 200 N.s/m; its range is 0 to 20 N.s/m.\n"
 
@@ -468,7 +475,7 @@ def test_a_set_of_all_parameters_of_a_car_is_the_engine_with_them(file: Path, tm
         changed[p["name"]] = high if high > p["value"] else low
     assert len(changed) > 30
     given = [text for n, x in changed.items() for text in ("--set", f"{n}={x!r}")]
-    assert parameters.main([str(fmu), *given, "--out", str(file)]) == 0
+    assert check([str(fmu), *given, "--save-parameters", str(file)]) == 0
     simulation = mbs.Simulation(system, parameters=changed)
     for _ in range(50):
         simulation.step(0.002)
@@ -490,12 +497,13 @@ def test_a_column_of_whole_numbers_is_held_between_its_rows(tmp_path: Path, caps
     fmu = build_fmu(system, name, tmp_path, [PLATFORM])
     table = tmp_path / "shift.csv"
     table.write_text('"time","pull","gear"\n0,0,1\n1,2,3\n2,2,-1\n')
-    assert run.main([str(fmu), "--input", str(table), "--step", "0.1", "--out", str(tmp_path)]) == 0
-    found = read_csv(tmp_path / "Switched.csv")
-    assert list(found["gear"]) == list(found["gear_used"]) == [1.0] * 11 + [3.0] * 10
-    assert found["pull"][6] == pytest.approx(1.0)
+    assert run([str(fmu), "--input", str(table), "--step", "0.1", "--out", str(tmp_path)]) == 0
+    found = read_csv(tmp_path / "switched_shift.csv")
+    assert list(found["gear"]) == [1.0] * 10 + [3.0] * 11  # with which the next step begins
+    assert list(found["gear_used"]) == [1.0] * 11 + [3.0] * 10
+    assert found["pull"][5] == pytest.approx(1.0)
     table.write_text('"time","gear"\n0,1\n1,1.5\n')
-    assert run.main([str(fmu), "--input", str(table), "--out", str(tmp_path)]) == 2
+    assert run([str(fmu), "--input", str(table), "--out", str(tmp_path)]) == 2
     assert "a column 'gear' with the value 1.5; 'gear' is a whole number" in capsys.readouterr().err
-    assert run.main([str(fmu), "--set", "gear=0.5", "--out", str(tmp_path)]) == 2
+    assert run([str(fmu), "--set", "gear=0.5", "--out", str(tmp_path)]) == 2
     assert "--set: 'gear' is 0.5; it must be a whole number" in capsys.readouterr().err

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from hosts.driving.course import COURSES
+from hosts.driving.course import course_of
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.course_from_here import CourseFromHere
 from hosts.driving.pilots.fixed_steering import FixedSteering
@@ -54,7 +54,7 @@ def test_steering_is_fixed_at_its_mean() -> None:
 def test_a_car_without_slip_follows_the_line_from_wherever_it_is(x0: float, y0: float, yaw0: float) -> None:
     # axles 1.3 m before and behind the centre; the car answers the steering at once
     step, speed, half = 0.005, 15.0, 1.3
-    course = planned(COURSES["iso_3888_2"](1.8, 12.0), 0.0, 4.2, 1.8)
+    course = planned(course_of("iso_3888_2", 1.8, 12.0), 0.0, 4.2, 1.8)
     pilot = CourseFromHere(LineFollower(course, 2 * half, 0.6, 0.0, 0.4, 0.0), speed, lambda t, s: t >= 0.5, 20.0)
     x, y, yaw, sideslip, rate = x0, y0, yaw0, 0.0, 0.0
     seen, pedals = [], []

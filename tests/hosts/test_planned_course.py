@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from ali3.iso_3888 import Gate
 from hosts.common.errors import HostError
-from hosts.driving.course import COURSES, Course, Gate
+from hosts.driving.course import TRACKS, Course, course_of
 from hosts.driving.planned_course import planned
 from hosts.measures.clearance import clearance
 
@@ -17,9 +18,9 @@ def points(course: Course, x: np.ndarray) -> np.ndarray:
     return np.array([course.path(v) for v in x]).T
 
 
-@pytest.mark.parametrize("name", list(COURSES))
+@pytest.mark.parametrize("name", list(TRACKS))
 def test_line_keeps_its_room_and_bends_less_than_the_centre_line(name: str) -> None:
-    course = COURSES[name](WIDTH)
+    course = course_of(name, WIDTH)
     line = planned(course, 0.0, LENGTH, WIDTH)
     x = np.linspace(0.0, course.gates[-1].x_end + 5.0, 2000)
     y, slope, bend = points(line, x)
@@ -47,6 +48,6 @@ def test_one_lane_change_needs_the_curvature_of_two_arcs() -> None:
 
 
 def test_a_car_too_wide_is_told() -> None:
-    course = COURSES["iso_3888_2"](1.5)
+    course = course_of("iso_3888_2", 1.5)
     with pytest.raises(HostError, match=r"lane 1 is 1\.9 m wide; a car of 2\.1 m"):
         planned(course, 0.0, 4.0, 2.1)

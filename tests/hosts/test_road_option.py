@@ -12,7 +12,7 @@ import mbs
 from fmu_src.build.build import build_fmu
 from hosts.common.errors import HostError
 from hosts.common.road import road_value
-from hosts.run.run import main
+from hosts.run.command import main
 from mbs.elements import ContactPoints, PlaneRoad
 
 TABLE = "x,-5,0,5\n-50,{0},{0},{0}\n0,{0},{0},{0}\n50,{0},{0},{0}\n"

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+import signal
+import subprocess
 import sys
+import time
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from mmap import mmap
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import psutil
 import pytest
 
+from hosts.check.command import main
 from hosts.driving.co_simulation import run
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.recordings.load_manoeuvre import load_manoeuvre
@@ -20,7 +27,6 @@ from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.replay import replay
 from hosts.soak import drive as drive_module
 from hosts.soak.checks import BadStepError, Watch
-from hosts.soak.command import main
 from hosts.soak.drive import Failure, Outcome, Task, drive
 from hosts.soak.grounds import Ground, ground_of, jump_ground, jump_heights
 from hosts.soak.memory import Memory
@@ -47,9 +53,8 @@ def task(car: Path, out: Path, **other: Any) -> Task:
 def test_a_short_soak_test_is_good(car: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     """Four drives of 10 s in processes of their own, on ramps, kerbs and rough roads."""
     numbers = tmp_path / "soak.json"
-    hours = str(40.0 / 3600.0)
-    command = [str(car), "--seconds", "10", "--hours", hours, "--jobs", "2", "--seed", "3", "--out", str(tmp_path)]
-    assert main([*command, "--json", str(numbers)]) == 0
+    command = [str(car), "--soak", "--stop-time", "10", "--drives", "4", "--jobs", "2", "--seed", "3"]
+    assert main([*command, "--out", str(tmp_path), "--json", str(numbers)]) == 0
     told = capfd.readouterr().out
     assert "0.0111 h simulated in 20" in told
     assert "0 failures, 0 drives whose memory grew" in told
@@ -214,27 +219,53 @@ def test_growing_memory_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     assert not is_good(Outcome(1, 0, failures=[Failure("refused", "", 0, 0.0, "")]))
 
 
+def dying(task: Task, tell: Callable[[float], None]) -> Outcome:
+    """In place of `drive`: the process does not live long."""
+    tell(2.5)
+    os.kill(os.getpid(), 9 if os.name != "nt" else 15)
+    raise AssertionError
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends a signal")
+def test_a_soak_test_that_is_ended_tells_what_is_done(car: Path, tmp_path: Path) -> None:
+    out = tmp_path / "numbers.json"
+    words = ["--soak", "--stop-time", "300", "--drives", "2", "--jobs", "2", "--json", str(out)]
+    command = [sys.executable, "-m", "ali3", "check", str(car), *words, "--out", str(tmp_path)]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    end = time.monotonic() + 60.0
+    workers: list[psutil.Process] = []
+    while len(workers) < 2 and time.monotonic() < end:
+        time.sleep(0.1)
+        workers = [p for p in psutil.Process(process.pid).children() if "ali3.isolated" in " ".join(p.cmdline())]
+    process.send_signal(signal.SIGHUP)
+    told, error = process.communicate(timeout=30.0)
+    assert process.returncode == 128 + signal.SIGHUP
+    assert error.splitlines()[-1] == "stopped by SIGHUP"
+    assert "Traceback" not in error
+    assert "h simulated in" in told
+    assert len(json.loads(out.read_text())["outcomes"]) == 2
+
+
 def test_a_process_that_dies_is_a_failure(
     car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    death = "print('{\"done\": 2.5}', flush=True); import os; os.kill(os.getpid(), 9 if os.name != 'nt' else 15)"
-    monkeypatch.setattr("hosts.soak.pool.module_command", lambda *_: [sys.executable, "-c", death])
-    hours = str(10.0 / 3600.0)
-    assert main([str(car), "--seconds", "5", "--hours", hours, "--out", str(tmp_path), "--seed", "8"]) == 1
+    monkeypatch.setattr(drive_module, "drive", dying)
+    drives = ["--stop-time", "5", "--drives", "2", "--seed", "8"]
+    assert main([str(car), "--soak", *drives, "--out", str(tmp_path)]) == 1
     told = capfd.readouterr().out
     assert "seed 9, run -1, 2.5 s" in told
-    assert "the signal SIGKILL" in told or sys.platform == "win32"
-    assert re.search(r"the whole drive again: .* --seed 9 --seconds 5 --hours 0.0013888", told)
+    assert "The process of the drive was killed (SIGKILL)" in told or sys.platform == "win32"
+    assert re.search(r"the whole drive again: .* --soak .* --seed 9 --stop-time 5.0 --drives 1", told)
     assert "2 failures" in told
 
 
 def test_bad_wishes_are_refused(car: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     def refused(*arguments: str) -> str:
-        assert main([str(car), "--out", str(tmp_path), *arguments]) == 2
+        assert main([str(car), "--soak", "--out", str(tmp_path), *arguments]) == 2
         return capfd.readouterr().err
 
-    assert "0 hours; a positive number is needed" in refused("--hours", "0")
-    assert "both must be positive" in refused("--seconds", "-1")
+    assert "both must be positive" in refused("--stop-time", "-1")
+    assert "both must be positive" in refused("--step", "0")
     assert "has no choice of fidelity" in refused("--fidelity", "2")
     assert "no parameter or input 'initial.sped'" in refused("--set", "initial.sped=1")
     assert "its range is" in refused("--set", "step_size=7")

@@ -19,8 +19,8 @@ import pytest
 import mbs
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities, load_scene
-from hosts.run.run import main as run_fmu
-from hosts.view import view
+from hosts.run.command import main as run_fmu
+from hosts.view.command import main as view
 from tests.viewer.test_page_text import data_of, numbers
 from viewer import browser
 from viewer.browser import BrowserError, find_chromium
@@ -82,7 +82,7 @@ Said = Callable[..., tuple[int, str]]
 @pytest.fixture
 def said(capsys: pytest.CaptureFixture[str]) -> Said:
     def run(*arguments: object) -> tuple[int, str]:
-        status = view.main([*map(str, arguments)])
+        status = view([*map(str, arguments)])
         out, err = capsys.readouterr()
         return status, out + err
 
@@ -148,10 +148,10 @@ def test_two_are_shown_over_each_other_with_names_that_differ(result: Path, said
 
 
 def test_a_part_of_the_time_and_fewer_times(result: Path, said: Said) -> None:
-    status, text = said(result, "--times", "0.2", "0.6", "--most", "5", "--no-open", "--out", "part.html")
+    status, text = said(result, "--from", "0.2", "--to", "0.6", "--most", "5", "--no-open", "--out", "part")
     assert status == 0
     assert "5 of " in text
-    (run,) = shown(Path("part.html"))
+    (run,) = shown(Path("part/MotorPendulum.html"))
     assert run["columns"]["time"][[0, -1]] == pytest.approx([0.2, 0.6])
 
 
@@ -280,19 +280,19 @@ def test_a_table_that_would_fill_the_memory_is_read_in_part(
 @pytest.mark.parametrize(
     ("name", "content", "sentence"),
     [
-        ("a.csv", "", "its heading begins with nothing; it must be time"),
+        ("a.csv", "", "a.csv holds no values"),
         ("a.csv", "time,x\n", "holds no values"),
-        ("a.csv", "time,x\n0,one\n", "'one' in row 2, column 2, is no number"),
-        ("a.csv", "time,x\n0,1\n1\n", "row 3 has 1 values where those before have 2"),
-        ("a.csv", "time,x\n0\n", "1 values in a row where the heading has 2 columns"),
+        ("a.csv", "time,x\n0,one\n", "a.csv, line 2, column 'x': 'one' is not a number"),
+        ("a.csv", "time,x\n0,1\n1\n", "line 3: 1 values where the heading has 2 columns"),
+        ("a.csv", "time,x\n0\n", "line 2: 1 values where the heading has 2 columns"),
         ("a.csv", "x,y\n0,1\n", "its heading begins with 'x'; it must be time"),
         ("a.csv", "time,x,x\n0,1,1\n", "has the column 'x' twice"),
         ("a.csv", "time\n0\n", "a column of times and no other"),
         ("a.csv", "time,x\n1,1\n0,1\n", "go back from 1 s to 0 s"),
         ("a.csv", "time,x\nnan,1\n", "time 0 (from 0 on) is nan"),
-        ("a.csv", b"\xff\xfe\x00", "is no table of text"),
+        ("a.csv", b"\xff\xfe\x00", "is no text in UTF-8"),
         ("a.json", "{}", "has no table a.csv beside it"),
-        ("a.toml", "", "is shown when it is built: "),
+        ("a.toml", "", "The FMU of the car a.toml cannot be built: "),
         ("a.txt", "x", "is neither a result (.csv, .json) nor an FMU (.fmu)"),
         ("a.fmu", "x", "is not an FMU (not a zip archive)"),
     ],
@@ -315,9 +315,12 @@ def test_lines_of_comment_are_left_out(work: Path, said: Said) -> None:
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (["--out", "page.txt"], "page.txt would be a page; give it the suffix .html."),
+        (["--live"], "out/MotorPendulum.csv is a result; --live needs an FMU, which the page runs."),
+        (["--live", "--png", "p.png"], "--png does not go with --live."),
+        (["--live", "--from", "0"], "--from does not go with --live."),
+        (["--paused"], "--paused goes with --live."),
         (["--plot", "rod.angel"], "There is no signal 'rod.angel' to be plotted; the result has rod.angle"),
-        (["--times", "7", "8"], "There is no time from 7 s to 8 s in 'MotorPendulum'"),
+        (["--from", "7", "--to", "8"], "There is no time from 7 s to 8 s in 'MotorPendulum'"),
         (["--most", "1"], "must be a whole number from 2 on"),
         (["--manoeuvre", "slalom"], "results are shown as they are"),
         (["--geometry", "none.fmu"], "There is no file none.fmu."),
@@ -330,6 +333,17 @@ def test_options_that_cannot_be_met(result: Path, said: Said, arguments: list[st
     assert status == 2
     assert sentence in text
     assert not Path("out/MotorPendulum.html").exists()
+
+
+def test_names_of_before_are_named(result: Path, said: Said, capsys: pytest.CaptureFixture[str]) -> None:
+    for given, words in (
+        (["--out", "page.html"], "page.html is the name of a file; --out names the folder of what is written"),
+        (["--times", "0", "1"], "error: --times is now --from T and --to T; "),
+    ):
+        with pytest.raises(SystemExit) as end:
+            said(result, *given)
+        assert end.value.code == 2
+        assert words in capsys.readouterr().err
 
 
 def test_without_a_browser_for_pictures_there_is_one_sentence(

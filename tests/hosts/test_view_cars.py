@@ -12,8 +12,8 @@ from PIL import Image
 
 import mbs
 from fmu_src.build.build import build_fmu
-from hosts.run.drive import main as drive
-from hosts.view import view
+from hosts.run.command import main as drive
+from hosts.view.command import main as view
 from hosts.view.recorded import read_table
 from mbs.vehicle import load
 from tests.hosts.test_view import shown
@@ -39,8 +39,8 @@ def results(prototype_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> di
 
 @pytest.mark.parametrize("name", CARS)
 def test_a_car_is_drawn_whole_with_its_wheels_on_the_road(results: dict[str, Path], name: str, tmp_path: Path) -> None:
-    page = tmp_path / "car.html"
-    assert view.main([str(results[name]), "--no-open", "--out", str(page)]) == 0
+    page = tmp_path / f"{results[name].stem}.html"
+    assert view([str(results[name]), "--no-open", "--out", str(tmp_path)]) == 0
     (run,) = shown(page)
     assert run["missing"] == []
     assert run["notes"] == []
@@ -71,7 +71,7 @@ def test_both_cars_in_one_picture(results: dict[str, Path], tmp_path: Path) -> N
     for names in (CARS[:1], CARS):
         file = tmp_path / f"{len(names)}.png"
         paths = [str(results[name]) for name in names]
-        assert view.main([*paths, "--png", str(file), "--at", "3", "--size", "320", "180"]) == 0
+        assert view([*paths, "--png", str(file), "--at", "3", "--size", "320", "180"]) == 0
         pictures.append(np.asarray(Image.open(io.BytesIO(file.read_bytes())).convert("RGB")).astype(int))
     alone, both = pictures
     changed = np.abs(alone - both).max(axis=2) > 10

@@ -163,8 +163,7 @@ def test_a_step_that_the_past_misleads_starts_again_from_the_present() -> None:
         b.elements = [Element(3, [b.signal({0: 1.0})], [1.0], [0])]
         instance = start(b)
         for k in range(6):
-            instance.set_input(0, 20.0 * (k + 1))
-            instance.step(0.01)
+            instance.run(0.01, 1, np.array([20.0 * (k + 1)]))
         one = {"max_iterations": 1, "max_halvings": 0, "tolerance_r": 1e-7, "tolerance_phi": 1e-7}
         instance.set_settings(predictor=predictor, **one)
         before = instance.report()["iterations"]

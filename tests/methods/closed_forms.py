@@ -43,9 +43,9 @@ class Mechanism:
 def _sensors(m, rod, tip):
     for c in "xy":
         m.sense_position(f"tip.{c}", rod, tip, c)
-        m.sense_velocity(f"tip.v{c}", rod, tip, c)
-        m.sense_acceleration(f"tip.a{c}", rod, tip, c)
-        m.sense_joint_force(f"force.{c}", "hinge", c)
+        m.sense_position(f"tip.v{c}", rod, tip, c, order=1)
+        m.sense_position(f"tip.a{c}", rod, tip, c, order=2)
+        m.sense_joint(f"force.{c}", "hinge", c)
 
 
 def _solve(acceleration, start, t):
@@ -113,7 +113,7 @@ def arm() -> Mechanism:
     rise = PPoly(np.array([[6.0], [-15.0], [10.0], [0.0], [0.0], [0.0]]), np.array([0.0, 1.0]))
     m.drive("motor", angle, m.guide_time("rise", rise, unit="rad"))
     _sensors(m, second, (ARM, -LENGTH))
-    m.sense_joint_force("torque", "motor", "drive", unit="N.m")
+    m.sense_joint("torque", "motor", "drive", unit="N.m")
     about = INERTIA + MASS * CENTRE**2
 
     def end_of_arm(t):

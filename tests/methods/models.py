@@ -23,7 +23,7 @@ def triangle() -> Model:
         m.initial_velocity(points[name], linear=speeds[name])
         for c in "xy":
             m.sense_position(f"{name}.{c}", points[name], None, c)
-            m.sense_velocity(f"{name}.v{c}", points[name], None, c)
+            m.sense_position(f"{name}.v{c}", points[name], None, c, order=1)
     m.distance("rod", points["a"], points["b"])
     m.spring_damper("ac", points["a"], points["c"], stiffness=300.0, free_length=0.7)
     m.spring_damper("bc", points["b"], points["c"], stiffness=500.0)
@@ -109,6 +109,6 @@ def sliding_mass(stiffness: float, damping: float, start: float, speed: float) -
     along = mass.point(None).components[0]
     m.torsional_spring_damper("tie", along, stiffness=stiffness, damping=damping, free_angle=0.0)
     m.sense_position("x", mass, None, "x")
-    m.sense_velocity("v", mass, None, "x")
+    m.sense_position("v", mass, None, "x", order=1)
     m.sense_energy("energy", "total")
     return compile(m)

@@ -24,11 +24,11 @@ def sleigh(turn: float = TURN, switch: bool | None = None, drift: float = 0.0) -
     body = m.body("sleigh", mass=SLEIGH_MASS, com=(ARM, 0.0), inertia=SLEIGH_INERTIA)
     m.skate("edge", body, point=(0.0, 0.0), direction=(1.0, 0.0), switch=switch)
     m.initial_velocity(body, linear=(0.0, ARM * turn + drift), angular=turn)
-    m.sense_yaw("yaw", body)
+    m.sense_angle("yaw", body, "yaw")
     for c in "xy":
         m.sense_position(f"edge.{c}", body, (0.0, 0.0), c)
-        m.sense_velocity(f"edge.v{c}", body, (0.0, 0.0), c, axes=body)
-    m.sense_angular_rate("turn", body)
+        m.sense_position(f"edge.v{c}", body, (0.0, 0.0), c, order=1, axes=body)
+    m.sense_rotation("turn", body, order=1)
     m.sense_energy("energy", "total")
     return m
 
@@ -89,7 +89,7 @@ def roly_poly(rate: float, turn: float = 0.0) -> Model:
         m.rolling(name, body, radius=ROLY_RADIUS, centre=(0.0, y, ROLY_RADIUS), axis=(0.0, 1.0, 0.0))
     angular = np.array([0.0, rate, 0.0])
     m.initial_velocity(body, linear=np.cross(angular, com), angular=angular)
-    m.sense_pitch("pitch", body)
+    m.sense_angle("pitch", body, "pitch")
     m.sense_position("height", body, None, "z")
     m.sense_energy("energy", "total")
     return m

@@ -12,7 +12,7 @@ SEMI = ("semi_recursive", "semi_recursive_4")
 
 def watch(m, angle):
     for order, name in enumerate(("angle", "rate", "acceleration")):
-        m.sense_coordinate(f"{angle.name}.{name}", angle, order)
+        m.sense_coordinate(f"{angle.name}.{name}", angle, order=order)
 
 
 def planar_arm(armature=0.0):

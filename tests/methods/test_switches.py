@@ -21,10 +21,10 @@ def pendulum(on: bool = False) -> Model:
     second = m.body("second", mass=1.0, com=(1.0, 0.5), inertia=1.0 / 12.0)
     m.revolute("pivot", m.ground, first, point=(0.0, 0.0))
     m.revolute("knee", first, second, point=(1.0, 0.0))
-    m.sense_joint_force("pin.fy", m.pin("tip", second, TIP, on=on), "y")
+    m.sense_joint("pin.fy", m.pin("tip", second, TIP, on=on), "y")
     for c in "xy":
         m.sense_position(f"tip.{c}", second, TIP, c)
-        m.sense_velocity(f"tip.v{c}", second, TIP, c)
+        m.sense_position(f"tip.v{c}", second, TIP, c, order=1)
     m.sense_energy("kinetic", "kinetic")
     m.sense_energy("energy", "total")
     return m

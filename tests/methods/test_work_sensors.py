@@ -22,16 +22,16 @@ def block():
     mass = m.point_mass("block", mass=MASS, position=(0.0, 0.0))
     m.initial_velocity(mass, linear=(-SPEED, 0.0))
     damper = m.spring_damper("damper", (m.ground, (50.0, 0.0)), mass, stiffness=0.0, damping=DAMPING)
-    m.sense_work("work", damper)
-    m.sense_work("lost", "damper", "nonconservative")
+    m.sense_energy("work", "work", damper)
+    m.sense_energy("lost", "nonconservative", "damper")
     return compile(m)
 
 
 def oscillator(damping=2.0, stops=False):
     """Two rods whose spring and damper are sensed."""
     m = swing(damping, stops)
-    m.sense_work("work", ["spring"])
-    m.sense_work("lost", "spring", "nonconservative")
+    m.sense_energy("work", "work", ["spring"])
+    m.sense_energy("lost", "nonconservative", "spring")
     return m
 
 
@@ -59,7 +59,7 @@ def motor_model():
     angle = m.relative_angle("angle", m.ground, rotor)
     record = m.torque_on("motor", angle, input=m.input("torque", unit="N.m"))
     m.sense_coordinate("angle", angle)
-    m.sense_work("work", record)
+    m.sense_energy("work", "work", record)
     m.sense_energy("energy")
     return compile(m)
 
@@ -73,7 +73,7 @@ def test_a_motor_of_constant_torque_gives_torque_times_angle(method):
 
 
 def test_another_method_goes_on_with_the_force_that_there_was():
-    """The torque goes straight from 4 to 8 N m in the first step of the trapezoidal rule, so that its mean is 6 N m."""
+    """The torque is 8 N m from the start of the first step of the trapezoidal rule."""
     simulation = Simulation(motor_model(), settings=Settings(method="radau_5"))
     simulation.set_input("torque", 4.0)
     simulation.step(0.01, 20)
@@ -82,7 +82,7 @@ def test_another_method_goes_on_with_the_force_that_there_was():
     simulation.instance.set_settings(**Settings(method="ali3p").kernel_fields())
     simulation.step(0.01)
     after = simulation.sensors
-    assert after["work"] - before["work"] == pytest.approx(6.0 * (after["angle"] - before["angle"]), rel=1e-9)
+    assert after["work"] - before["work"] == pytest.approx(8.0 * (after["angle"] - before["angle"]), rel=1e-9)
 
 
 def test_a_turned_torque_takes_work():
@@ -124,8 +124,8 @@ def test_with_the_error_of_the_energy_the_balance_of_ali3p_closes_also_at_stops(
 
 def test_springs_give_back_what_they_take():
     m = triangle()
-    m.sense_work("work", ["ac", "bc"])
-    m.sense_work("lost", ["ac", "bc"], "nonconservative")
+    m.sense_energy("work", "work", ["ac", "bc"])
+    m.sense_energy("lost", "nonconservative", ["ac", "bc"])
     m.sense_energy("kinetic", "kinetic")
     system = compile(m)
     run = simulate(system, 1.0, 0.01, method="energy_momentum", **QUIET)
@@ -182,16 +182,17 @@ def test_drives_work_apart_from_elements():
     """A guide gives what is left: without an element the work is nothing, and sensors need one."""
     m = driven()
     with pytest.raises(ModelError, match="asks for element 'motor'.*it has: none"):
-        m.sense_work("work", "motor")
+        m.sense_energy("work", "work", "motor")
 
 
 def test_what_is_refused():
     m = swing(0.0)
-    with pytest.raises(ModelError, match="'heat'; it must be 'work' or 'nonconservative'"):
-        m.sense_work("w", "spring", "heat")
+    kinds = "'heat'; it must be kinetic, gravity, elastic, total, work or nonconservative"
+    with pytest.raises(ModelError, match=kinds):
+        m.sense_energy("w", "heat", "spring")
     for elements in ([], ["spring", "spring"]):
         with pytest.raises(ModelError, match="at least one element and each once"):
-            m.sense_work("w", elements)
+            m.sense_energy("w", "work", elements)
 
 
 def test_sensors_of_work_change_no_bit_of_the_motion():

@@ -64,7 +64,7 @@ def random_tree(seed: int) -> Model:
         m.spherical("loop", bodies[7], bodies[1], point=centres[7])
     for c in "xyz":
         m.sense_position(c, body, None, c)
-        m.sense_acceleration(f"a{c}", body, None, c)
+        m.sense_position(f"a{c}", body, None, c, order=2)
     return m
 
 
@@ -88,7 +88,7 @@ def carriage() -> Model:
     m.revolute("lower", first, second, point=(0.1, 0.4, -0.4), axis=(0.0, 1.0, 1.0))
     m.initial_velocity(cart, linear=(0.7, 0.0, 0.0))
     for body in (cart, first, second):
-        m.sense_velocity(f"{body.name}.vx", body, None, "x")
+        m.sense_position(f"{body.name}.vx", body, None, "x", order=1)
     m.sense_energy("energy")
     return m
 
@@ -101,7 +101,7 @@ def pendulum(length: float, mass: float, spin_inertia: float, angle: float) -> M
     m.revolute("pin", m.ground, body, point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
     for c in "xz":
         m.sense_position(f"body.{c}", body, None, c)
-    m.sense_joint_force("pin.z", "pin", "z")
+    m.sense_joint("pin.z", "pin", "z")
     return m
 
 
@@ -121,6 +121,6 @@ def double_pendulum(angles: tuple[float, float]) -> Model:
 def _sense(m: Model, body, point, name: str) -> None:
     for c in "xyz":
         m.sense_position(f"{name}.{c}", body, point, c)
-        m.sense_velocity(f"{name}.v{c}", body, point, c)
-        m.sense_acceleration(f"{name}.a{c}", body, point, c)
+        m.sense_position(f"{name}.v{c}", body, point, c, order=1)
+        m.sense_position(f"{name}.a{c}", body, point, c, order=2)
     m.sense_energy(f"{name}.energy")

@@ -66,7 +66,7 @@ def test_an_angle_reads_zero_in_the_reference_configuration(dimension):
 def test_driving_torque_of_a_level_arm_is_its_weight_times_the_arm():
     m, _, angle = driven_arm(2)
     hold = m.drive("motor", angle, m.guide_time("hold", quintic(0.0, 0.0, 1.0), unit="rad"))
-    m.sense_joint_force("torque", hold, "drive", unit="N m")
+    m.sense_joint("torque", hold, "drive", unit="N m")
     assert Simulation(compile(m)).sensors["torque"] == pytest.approx(0.5 * 9.81, rel=1e-9)
 
 
@@ -88,8 +88,8 @@ def test_a_torque_on_an_angle_acts_on_both_bodies():
     angle = m.relative_angle("theta", one, two)
     torque = m.input("torque", start=0.3, unit="N m")
     m.torque_on("motor", angle, input=torque)
-    m.sense_angular_rate("one", one)
-    m.sense_angular_rate("two", two)
+    m.sense_rotation("one", one, order=1)
+    m.sense_rotation("two", two, order=1)
     t = Simulation(compile(m)).run(1.0, 0.001)
     assert t["two"][-1] == pytest.approx(3.0, rel=1e-5)
     assert t["one"][-1] == pytest.approx(-0.75, rel=1e-5)

@@ -24,7 +24,7 @@ def lifted(axis=Y, side=0.0):
     m.torsional_spring_damper("bar", angle, stiffness=K)
     m.sense_coordinate("angle", angle)
     m.sense_position("z", body, body.com, "z")
-    m.sense_joint_force("tension", "link", "tension")
+    m.sense_joint("tension", "link", "tension")
     return m
 
 
@@ -68,7 +68,7 @@ def rolling(linked):
         m.distance(f"{name} link", (arm, places["lever_end"]), (m.ground, places["link_end"]))
         angles.append(m.relative_angle(f"{name} angle", body, arm, axis=Y))
     m.anti_roll_bar("bar", *angles, stiffness=K)
-    m.sense_roll("roll", body)
+    m.sense_angle("roll", body, "roll")
     m.sense_element("torque", "bar", "force")
     m.initial_velocity(body, angular=(1.0, 0, 0))
     return m

@@ -31,7 +31,7 @@ def rack(limits=LIMITS, gains=GAINS, start=0.0):
 def test_both_inputs_add_up_and_full_travel_is_the_end():
     m, guide, _ = rack()
     m.sense_guide("s", guide)
-    m.sense_guide_excess("excess", guide, 2.0)
+    m.sense_guide("excess", guide, "excess", scale=2.0)
     simulation = Simulation(compile(m))
     for share, angle in ((0.5, 1.0), (0.5, -6.0), (1.0, 2.0), (-1.0, -3.0), (-0.2, 0.0)):
         simulation.set_input("share", share)
@@ -48,8 +48,8 @@ def test_with_the_second_input_at_nought_it_is_a_guide_of_one_input_to_the_last_
     bob = m.point_mass("bob", mass=1.0, position=(3.0, 0.0, -1.0))
     m.distance("seen", bob, m.slide("seen end", m.ground, point=(3.0, 0.0, 0.0), direction=(1, 0, 0), guide=other))
     for order in range(3):
-        m.sense_guide(f"two {order}", guide, order)
-        m.sense_guide(f"one {order}", other, order)
+        m.sense_guide(f"two {order}", guide, order=order)
+        m.sense_guide(f"one {order}", other, order=order)
     t = Simulation(compile(m)).run(1.0, 0.004, inputs={"share": lambda t: np.sin(9.0 * t)})
     for order in range(3):
         assert np.ptp(t[f"one {order}"]) > 0.05
@@ -69,21 +69,25 @@ def test_a_limit_the_wrong_way_round_is_refused_and_a_guide_of_one_input_has_non
     m, _, _ = rack()
     guide = m.guide_input("other", input=m.inputs[0], frequency=1.0)
     with pytest.raises(ModelError, match="guide 'other' of sensor 'x' has no limits"):
-        m.sense_guide_excess("x", guide)
+        m.sense_guide("x", guide, "excess")
     with pytest.raises(ModelError, match="force of guide 'other', which none of its joints follows"):
-        m.sense_guide_force("x", guide)
+        m.sense_guide("x", guide, "force")
+    with pytest.raises(ModelError, match="order of sensor 'x' is 1; it must be 0"):
+        m.sense_guide("x", guide, "force", order=1)
+    with pytest.raises(ModelError, match="reads the motion of a guide; joints are for its force"):
+        m.sense_guide("x", guide, joints=m.joints)
 
 
 def test_the_force_of_a_guide_does_the_work_that_the_rest_receives():
     """Power of the guide = rate of the energy; and at rest virtual work with the springs."""
     m, guide, rods = rack()
-    m.sense_guide_force("force", guide)
-    m.sense_guide_force("of rods", guide, rods, scale=-1.0)
-    m.sense_guide("rate", guide, 1)
+    m.sense_guide("force", guide, "force")
+    m.sense_guide("of rods", guide, "force", joints=rods, scale=-1.0)
+    m.sense_guide("rate", guide, order=1)
     m.sense_guide("s", guide)
     m.sense_energy("energy", "total")
     for rod in rods:
-        m.sense_joint_force(rod.name, rod, "tension")
+        m.sense_joint(rod.name, rod, "tension")
     system = compile(m)
     h = 1e-4
     t = Simulation(system).run(0.4, h, inputs={"share": lambda t: 0.8 * np.sin(7.0 * t) ** 2})
@@ -102,9 +106,9 @@ def test_a_drive_and_a_shaft_count_in_the_force_of_a_guide():
     m.drive("column", shaft.affine * r, guide)
     m.torsional_spring_damper("spring", shaft, stiffness=3.0, damping=0.2)
     for order in range(3):
-        m.sense_coordinate(f"angle {order}", shaft, order)
-    m.sense_guide_force("all", guide)
-    m.sense_guide_force("rods", guide, rods)
+        m.sense_coordinate(f"angle {order}", shaft, order=order)
+    m.sense_guide("all", guide, "force")
+    m.sense_guide("rods", guide, "force", joints=rods)
     t = Simulation(compile(m)).run(0.5, 0.001, inputs={"share": lambda t: 0.8 * np.sin(7.0 * t) ** 2})
     torque = 0.03 * t["angle 2"] + 0.2 * t["angle 1"] + 3.0 * t["angle 0"]
     assert np.max(np.abs(torque)) > 3.0
@@ -118,13 +122,13 @@ def test_the_force_of_rods_on_a_body_is_that_of_their_tensions_along_the_axis():
     rods = [m.distance(n, (body, p), (m.ground, q)) for n, (p, q) in ends.items()]
     turned = m.distance("c", (m.ground, (0.0, 1.0, 1.2)), (body, (0.0, 0.1, 0.0)))
     for rod in (*rods, turned):
-        m.sense_joint_force(rod.name, rod, "tension")
+        m.sense_joint(rod.name, rod, "tension")
     for c in "xyz":
         for n, p in (*((n, p) for n, (p, _) in ends.items()), ("c", (0.0, 0.1, 0.0))):
             m.sense_position(f"{n} {c}", body, p, c)
     axis = np.array([0.6, 0.8, 0.0])
     m.sense_rod_force("force", [*rods, turned], body, axis, scale=2.0)
-    m.sense_angular_rate("w", body, "x")
+    m.sense_rotation("w", body, "x", order=1)
     t = Simulation(compile(m)).run(0.05, 0.001)
     k = 0  # as drawn: the axis of the body is the one of the earth
     total = 0.0
@@ -150,10 +154,10 @@ def wheel_and_hands():
     m.gear("grip", wheel, hands, ratio=1.0)
     m.drive("hold", hands, guide, switch=True)
     m.torsional_spring_damper("spring", wheel, stiffness=5.0, damping=0.1)
-    m.sense_joint_force("T", "grip")
+    m.sense_joint("T", "grip")
     m.sense_guide("demand", guide)
     for order in range(3):
-        m.sense_coordinate(f"wheel {order}", wheel, order)
+        m.sense_coordinate(f"wheel {order}", wheel, order=order)
     m.sense_energy("energy", "total")
     return compile(m)
 

@@ -46,8 +46,8 @@ def test_the_tension_of_a_pendulum_whose_length_is_driven(method):
     m = Model("winch", dimension=2)
     bob = m.point_mass("bob", mass=mass, position=(1.0, 0.0))
     m.drive("rope", ((m.ground, (0.0, 0.0)), bob), m.guide_time("length", length, unit="m"))
-    m.sense_joint_force("tension", "rope", "tension")
-    m.sense_joint_force("push", "rope", "drive")
+    m.sense_joint("tension", "rope", "tension")
+    m.sense_joint("push", "rope", "drive")
     run = simulate(compile(m), 0.9, 0.002, method=method, every=50)
 
     def rates(t, x):
@@ -68,7 +68,7 @@ def test_a_cylinder_that_holds_a_boom():
     long = float(np.linalg.norm(head - foot))
     still = PPoly(np.array([[0.0], [long]]), np.array([0.0, 1.0]))
     m.drive("cylinder", ((m.ground, foot), (boom, head)), m.guide_time("stroke", still, unit="m"))
-    m.sense_joint_force("cylinder", "cylinder")
+    m.sense_joint("cylinder", "cylinder")
     along = (head - foot) / long
     lever = (head[0] - 0.0) * along[1] - (head[1] - 1.0) * along[0]
     assert Simulation(compile(m)).sensors["cylinder"] == pytest.approx(200.0 * G * 2.0 / lever, rel=1e-9)
@@ -84,7 +84,7 @@ def bead():
     m.point_on_line("wire", (mass, None), (wire, (0.0, 0.0)), axis=(1.0, 0.0))
     m.drive("motor", m.relative_angle("angle", m.ground, wire), m.guide_time("turn", shifted(0.0, 1.5), unit="rad"))
     for c in "xy":
-        m.sense_joint_force(f"force.{c}", "wire", c)
+        m.sense_joint(f"force.{c}", "wire", c)
     return compile(m)
 
 
@@ -112,9 +112,9 @@ def test_the_derivative_of_such_a_force_by_an_input():
     m.prismatic("wire", mass, wire, axis=(1.0, 0.0), point=(0.5, 0.1))
     m.torque("motor", wire, inputs=m.input("torque", unit="N.m"))
     for c in "xy":
-        m.sense_joint_force(f"force.{c}", "wire", c)
-    m.sense_joint_moment("moment", "wire")
-    m.sense_joint_moment("moment.second", "wire", on="second")
+        m.sense_joint(f"force.{c}", "wire", c)
+    m.sense_joint("moment", "wire", "z", "moment")
+    m.sense_joint("moment.second", "wire", "z", "moment", on="second")
     system = compile(m)
     simulation = Simulation(system, settings=Settings(tolerance_r=1e-13, tolerance_phi=1e-12))
     simulation.set_input("torque", 3.0)
@@ -145,10 +145,10 @@ def test_the_moment_of_a_bearing_that_carries_an_unbalanced_rotor(method):
     m.revolute("bearing", rotor, m.ground, point=(0, 0, 0), axis=(0, 0, 1))
     m.initial_velocity(rotor, angular=(0.0, 0.0, w))
     for c in "xyz":
-        m.sense_joint_moment(f"body.{c}", "bearing", c, axes=rotor)
-        m.sense_joint_moment(f"earth.{c}", "bearing", c)
-        m.sense_joint_moment(f"second.{c}", "bearing", c, on="second")
-        m.sense_joint_moment(f"centre.{c}", "bearing", c, axes=rotor, point=r)
+        m.sense_joint(f"body.{c}", "bearing", c, "moment", axes=rotor)
+        m.sense_joint(f"earth.{c}", "bearing", c, "moment")
+        m.sense_joint(f"second.{c}", "bearing", c, "moment", on="second")
+        m.sense_joint(f"centre.{c}", "bearing", c, "moment", axes=rotor, point=r)
     run = simulate(compile(m), 0.4, 0.001, method=method, every=40)
     spin, weight = np.array([0.0, 0.0, w]), np.array([0.0, 0.0, -mass * G])
     expected = np.cross(spin, about @ spin) - np.cross(r, weight)
@@ -173,10 +173,10 @@ def test_a_cantilever_hangs_from_its_wall():
     m.weld("seam", outer, inner)
     m.weld("wall", inner, m.ground)
     for c in "xyz":
-        m.sense_joint_moment(f"seam.{c}", "seam", c, point=(1.0, 0.0, 0.0))
-        m.sense_joint_moment(f"wall.{c}", "wall", c, point=(0.0, 0.0, 0.0))
-        m.sense_joint_moment(f"centre.{c}", "seam", c)
-        m.sense_joint_force(f"force.{c}", "wall", c)
+        m.sense_joint(f"seam.{c}", "seam", c, "moment", point=(1.0, 0.0, 0.0))
+        m.sense_joint(f"wall.{c}", "wall", c, "moment", point=(0.0, 0.0, 0.0))
+        m.sense_joint(f"centre.{c}", "seam", c, "moment")
+        m.sense_joint(f"force.{c}", "wall", c)
     found = Simulation(compile(m)).sensors
     seam = -np.cross((0.4, 0.3, 0.0), (0.0, 0.0, -2.0 * G))
     wall = -np.cross((0.5, 0.0, 0.0), (0.0, 0.0, -3.0 * G)) - np.cross((1.4, 0.3, 0.0), (0.0, 0.0, -2.0 * G))
@@ -194,7 +194,7 @@ def test_the_bending_moment_of_a_pendulum_of_two_welded_parts(method):
     lower = m.body("lower", mass=0.8, com=(0.8, 0.0), inertia=0.8 * 0.16 / 12.0)
     m.revolute("pivot", m.ground, upper, point=(0.0, 0.0))
     m.weld("seam", lower, upper)
-    m.sense_joint_moment("moment", "seam", point=(0.6, 0.0))
+    m.sense_joint("moment", "seam", "z", "moment", point=(0.6, 0.0))
     run = simulate(compile(m), 0.9, 0.002, method=method, every=50)
     first = 1.2 * 0.3 + 0.8 * 0.8
     about = 1.2 * (0.36 / 12.0 + 0.09) + 0.8 * (0.16 / 12.0 + 0.64)
@@ -218,8 +218,8 @@ def test_the_moments_of_a_slider_on_either_side(method):
     m = Model("slider", dimension=2)
     block = m.body("block", mass=mass, com=centre, inertia=0.2)
     m.prismatic("rail", block, m.ground, axis=along, point=(0.0, 0.0))
-    m.sense_joint_moment("block", "rail")
-    m.sense_joint_moment("rail", "rail", on="second")
+    m.sense_joint("block", "rail", "z", "moment")
+    m.sense_joint("rail", "rail", "z", "moment", on="second")
     run = simulate(compile(m), 0.5, 0.005, method=method, every=20)
     normal = mass * G * across[1]
     arm = centre @ along  # of the weight's part across the rail about the block's point; along it nothing is held
@@ -251,15 +251,15 @@ def test_euler_s_law_of_either_body_of_two_that_fly(kind, which):
     side = ("first", "second")[which]
     centre = {} if joint.places is None else {"point": places[which]}
     for c in "xyz":
-        m.sense_angular_rate(f"w{c}", pair[which], c)
-        m.sense_joint_moment(f"M{c}", joint, c, on=side, axes=pair[which], **centre)
-        m.sense_acceleration(f"a{c}", pair[which], None, c, axes="body")
+        m.sense_rotation(f"w{c}", pair[which], c, order=1)
+        m.sense_joint(f"M{c}", joint, c, "moment", on=side, axes=pair[which], **centre)
+        m.sense_position(f"a{c}", pair[which], None, c, order=2, axes="body")
     if joint.places is None:  # about the joint's own point on that body
         for c in "xyz":
-            m.sense_joint_force(f"F{c}", joint, c)
+            m.sense_joint(f"F{c}", joint, c)
             m.sense_position(f"r{c}", pair[which], None, c)
         for c in "wxyz":
-            m.sense_quaternion(f"q{c}", pair[which], c)
+            m.sense_rotation(f"q{c}", pair[which], c)
             m.sense_position(f"o{c}", pair[which], (0.5, 0.1, -0.2), c) if c != "w" else None
     h = 1e-3
     run = simulate(compile(m), 0.4, h, method="runge_kutta_8")
@@ -295,8 +295,8 @@ def test_the_torque_of_a_drive_is_its_moment():
     rod = m.body("rod", mass=2.0, com=(0.5, 0.0), inertia=0.2)
     m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
     m.drive("motor", m.relative_angle("angle", m.ground, rod), m.guide_time("turn", RISE, unit="rad"))
-    m.sense_joint_moment("moment", "motor")
-    m.sense_joint_force("force", "motor", "drive")
+    m.sense_joint("moment", "motor", "z", "moment")
+    m.sense_joint("force", "motor", "drive")
     run = simulate(compile(m), 0.8, 0.01)
     expected = (0.2 + 0.5) * RISE(run.t, 2) + 2.0 * G * 0.5 * np.cos(RISE(run.t))
     assert np.abs(run["moment"] - expected).max() < 1e-4
@@ -345,7 +345,7 @@ def test_a_moment_sensor_changes_no_motion():
         rotor = m.body("rotor", mass=2.0, com=(0.4, 0.0, 0.3), inertia=(0.02, 0.05, 0.04))
         m.revolute("bearing", rotor, m.ground, point=(0, 0, 0), axis=(0, 1, 0))
         if sensed:
-            m.sense_joint_moment("moment", "bearing")
+            m.sense_joint("moment", "bearing", "z", "moment")
         m.sense_position("x", rotor, None, "x")
         system = compile(m)
         assert system.report["degrees_of_freedom"] == 1
@@ -356,15 +356,23 @@ def test_a_moment_sensor_changes_no_motion():
 @pytest.mark.parametrize(
     ("act", "sentence"),
     [
-        (lambda m: m.sense_joint_moment("s", "ball"), "'ball' .spherical. transmits no moment; revolute"),
-        (lambda m: m.sense_joint_moment("s", "hinge", "w"), "it must be 'x', 'y' or 'z'"),
-        (lambda m: m.sense_joint_moment("s", "hinge", on="third"), "on 'third'; it must be 'first' or 'second'"),
-        (lambda m: m.sense_joint_moment("s", "hinge", axes="body"), "must be 'earth' or a body"),
-        (lambda m: m.sense_joint_moment("s", "cardan", point=(0, 0, 0)), "at its own point only"),
-        (lambda m: m.sense_joint_moment("s", "nothing"), "no joint named 'nothing'"),
-        (lambda m: m.sense_joint_force("s", "rope", "y"), "for a driven distance it must be 'tension' or 'drive'"),
+        (lambda m: m.sense_joint("s", "ball", "z", "moment"), "'ball' .spherical. transmits no moment; revolute"),
+        (lambda m: m.sense_joint("s", "hinge", "w", "moment"), "it must be 'x', 'y' or 'z'"),
         (
-            lambda m: m.sense_joint_force("s", "turn"),
+            lambda m: m.sense_joint("s", "hinge", "z", "moment", on="third"),
+            "on 'third'; it must be 'first' or 'second'",
+        ),
+        (lambda m: m.sense_joint("s", "hinge", "z", "moment", axes="body"), "must be 'earth' or a body"),
+        (lambda m: m.sense_joint("s", "cardan", "z", "moment", point=(0, 0, 0)), "at its own point only"),
+        (lambda m: m.sense_joint("s", "nothing", "z", "moment"), "no joint named 'nothing'"),
+        (
+            lambda m: m.sense_joint("s", "hinge", on="second"),
+            "first body in earth axes; on, axes and point are for moments",
+        ),
+        (lambda m: m.sense_joint("s", "hinge", "x", "weight"), "'force' or 'moment'"),
+        (lambda m: m.sense_joint("s", "rope", "y"), "for a driven distance it must be 'tension' or 'drive'"),
+        (
+            lambda m: m.sense_joint("s", "turn"),
             "lines, distances, drop links, drives, gears, racks and screws have one",
         ),
     ],

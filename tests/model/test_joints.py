@@ -27,7 +27,7 @@ def pair(dimension=3):
     m.initial_velocity(two, linear=(-0.4, 0.1, 0.2)[:dimension], angular=spin[1])
     for body in (one, two):
         for c in "xyz"[:dimension]:
-            m.sense_velocity(f"{body.name}.v{c}", body, None, c)
+            m.sense_position(f"{body.name}.v{c}", body, None, c, order=1)
     m.sense_energy("energy", "kinetic")
     return m, one, two
 
@@ -79,18 +79,18 @@ def watch(m, kind, one, two, dimension):
     u = np.array(AXIS[:dimension]) / np.linalg.norm(AXIS[:dimension])
     held = {}
     if kind in ("revolute", "spherical", "universal", "weld"):
-        m.sense_norm("gap", gap)
+        m.sense_vector("gap", gap)
         held["gap"] = 0.0
     if dimension == 3 and kind in ("revolute", "cylindrical", "prismatic", "weld"):
-        m.sense_norm("axis gap", one.vector(u) - two.vector(u))
+        m.sense_vector("axis gap", one.vector(u) - two.vector(u))
         held["axis gap"] = 0.0
     if kind in ("prismatic", "weld"):
         x = np.eye(dimension)[0]
-        m.sense_norm("turn", one.vector(x) - two.vector(x))
+        m.sense_vector("turn", one.vector(x) - two.vector(x))
         held["turn"] = 0.0
     if kind == "distance":
         end = np.array((1.0, 0.4, 0.5)[:dimension])
-        m.sense_norm("length", one.point(p) - two.point(end))
+        m.sense_vector("length", one.point(p) - two.point(end))
         held["length"] = float(np.linalg.norm(p - end))
     return held
 

@@ -48,8 +48,8 @@ def pendulum(way, mass=1.5):
     hung(m, "load", rod, (1.0, 0.2), mass, way)
     m.sense_position("x", rod, (0.5, 0.0), "x")
     m.sense_position("y", rod, (0.5, 0.0), "y")
-    m.sense_joint_force("hinge.y", "hinge", "y")
-    m.sense_acceleration("ay", rod, (0.5, 0.0), "y")
+    m.sense_joint("hinge.y", "hinge", "y")
+    m.sense_position("ay", rod, (0.5, 0.0), "y", order=2)
     for kind in ("kinetic", "gravity", "total"):
         m.sense_energy(kind, kind)
     return m
@@ -152,7 +152,7 @@ def flexible(way, method="ali3p", mass=3.0):
     m.initial_velocity(body, linear=(0.1, 0.0, 0.0), angular=(0.3, 0.0, 2.0))
     for c in "xyz":
         m.sense_position(c, end, None, c)
-    m.sense_acceleration("az", end, None, "z")
+    m.sense_position("az", end, None, "z", order=2)
     for kind in ("kinetic", "gravity", "elastic"):
         m.sense_energy(kind, kind)
     return m
@@ -200,8 +200,8 @@ def ported(way, mass=2.0):
     for k in range(9):
         m.sense_quasi_static(f"out{k}", ports, relief, k, LEFT)
     for c in "xyz":
-        m.sense_acceleration(f"a{c}", body, MIDDLE, c, body)
-        m.sense_acceleration(f"fall{c}", body, MIDDLE, c)
+        m.sense_position(f"a{c}", body, MIDDLE, c, body, order=2)
+        m.sense_position(f"fall{c}", body, MIDDLE, c, order=2)
     m.sense_position("z", body, RIGHT, "z")
     return m
 
@@ -251,7 +251,7 @@ def test_several_points_share_a_payload():
         m.payload("load", carrier, place, mass=20.0, point=point)
         m.initial_velocity(body, linear=(0.0, 0.0, 1.0), angular=(0.5, -0.2, 1.0))
         m.sense_position("z", body, None, "z")
-        m.sense_yaw("yaw", body)
+        m.sense_angle("yaw", body, "yaw")
         return m
 
     one, other = (Simulation(compile(model(ports))).run(0.5, 0.002) for ports in (True, False))

@@ -38,7 +38,7 @@ def beam(outputs=18):
     )
     for k in range(outputs):
         m.sense_quasi_static(f"out{k}", ports, relief(2, outputs), k, LEFT)
-    m.sense_acceleration("az", body, RIGHT, "z", body)
+    m.sense_position("az", body, RIGHT, "z", body, order=2)
     return m
 
 

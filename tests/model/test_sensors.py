@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from mbs import Model, ModelError, Simulation, compile
+from mbs.model.sensors import RENAMED
 
 EXACT = 1e-9
 
@@ -17,20 +20,19 @@ def flying_plate():
     m.initial_velocity(body, linear=(1.0, -0.5, 0.3), angular=(0.7, 1.1, -0.4))
     p = (0.5, 0.3, 0.1)
     for c in "xyz":
-        for quantity in ("position", "velocity", "acceleration"):
-            sense = getattr(m, f"sense_{quantity}")
-            sense(f"{quantity}.{c}", body, p, c)
-            sense(f"{quantity}.{c}.body", body, p, c, axes="body")
-        m.sense_angular_rate(f"rate.{c}", body, c)
+        for order, quantity in enumerate(("position", "velocity", "acceleration")):
+            m.sense_position(f"{quantity}.{c}", body, p, c, order=order)
+            m.sense_position(f"{quantity}.{c}.body", body, p, c, axes="body", order=order)
+        m.sense_rotation(f"rate.{c}", body, c, order=1)
         for k in "xyz":
             m.sense_coordinate(f"axis.{c}.{k}", body.vector(np.eye(3)["xyz".index(c)])["xyz".index(k)])
     for c in "wxyz":
-        m.sense_quaternion(f"quaternion.{c}", body, c)
-    m.sense_yaw("yaw", body)
-    m.sense_pitch("pitch", body)
-    m.sense_roll("roll", body)
-    m.sense_norm("speed", body.point(p), order=1)
-    m.sense_angle_between("turn", body.vector((0, 1, 0)), body.vector((1, 0, 0)), body.vector((0, 0, 1)))
+        m.sense_rotation(f"quaternion.{c}", body, c)
+    m.sense_angle("yaw", body, "yaw")
+    m.sense_angle("pitch", body, "pitch")
+    m.sense_angle("roll", body, "roll")
+    m.sense_vector("speed", body.point(p), order=1)
+    m.sense_angle("turn", (body.vector((0, 1, 0)), body.vector((1, 0, 0)), body.vector((0, 0, 1))))
     m.sense_energy("kinetic", "kinetic")
     return m
 
@@ -64,7 +66,7 @@ def test_quaternion_after_nearly_half_a_turn(axis):
     turn = 0.95 * np.pi * np.array(axis) / np.linalg.norm(axis)
     m.initial_velocity(ball, angular=turn)
     for c in "wxyz":
-        m.sense_quaternion(c, ball, c)
+        m.sense_rotation(c, ball, c)
     t = Simulation(compile(m)).run(1.0, 0.001)
     x, y, z, w = Rotation.from_rotvec(turn).as_quat()
     found = np.array([t[c] for c in "wxyz"])
@@ -78,7 +80,7 @@ def test_a_direction_of_motion_is_given_from_a_tenth_of_a_metre_per_second():
         m = Model("block", dimension=3, gravity=(0, 0, 0))
         block = m.body("block", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
         m.initial_velocity(block, linear=(speed * np.cos(0.5), speed * np.sin(0.5), 0.0))
-        m.sense_direction("sideslip", block.point((0, 0, 0)), block.vector((1, 0, 0)), block.vector((0, 1, 0)), order=1)
+        m.sense_vector("sideslip", block.point((0, 0, 0)), [block.vector((1, 0, 0)), block.vector((0, 1, 0))], order=1)
         assert Simulation(compile(m)).sensors["sideslip"] == pytest.approx(expected, abs=EXACT)
 
 
@@ -106,9 +108,9 @@ def test_forces_of_kept_joints():
     pin = m.revolute("pin", upper, m.ground, point=(0, 0))
     rod = m.distance("rod", (upper, (0, -1)), bob)
     without = compile(m)
-    m.sense_joint_force("pin.x", pin, "x")
-    m.sense_joint_force("pin.y", "pin", "y")
-    m.sense_joint_force("tension", rod, "tension")
+    m.sense_joint("pin.x", pin, "x")
+    m.sense_joint("pin.y", "pin", "y")
+    m.sense_joint("tension", rod, "tension")
     system = compile(m)
     assert system.nc == without.nc + 2
     assert system.nq == without.nq + 2
@@ -124,10 +126,10 @@ def test_tension_of_a_pendulum_in_motion():
     m = Model("pendulum", dimension=2)
     bob = m.point_mass("bob", mass=1.5, position=(-0.8, 0.0))
     rod = m.distance("rod", (m.ground, (0, 0)), bob)
-    m.sense_joint_force("tension", rod, "tension")
+    m.sense_joint("tension", rod, "tension")
     for c in "xy":
         m.sense_position(c, bob, None, c)
-        m.sense_velocity(f"v{c}", bob, None, c)
+        m.sense_position(f"v{c}", bob, None, c, order=1)
     t = Simulation(compile(m)).run(1.0, 0.0005)
     speed2 = t["vx"] ** 2 + t["vy"] ** 2
     expected = 1.5 * (9.81 * -t["y"] / 0.8 + speed2 / 0.8)
@@ -161,10 +163,18 @@ def test_energies_add_up():
         (lambda m, b: m.sense_position("s", b, None, "x", axes="wheel"), "'earth', 'body' or a body"),
         (lambda m, b: m.sense_energy("s", "dark"), "kinetic, gravity"),
         (lambda m, b: m.sense_element("s", "spring", "force"), "no such element"),
-        (lambda m, b: m.sense_joint_force("s", "hinge"), "no joint named 'hinge'"),
+        (lambda m, b: m.sense_joint("s", "hinge"), "no joint named 'hinge'"),
         (lambda m, b: m.sense_solver("s", "mood"), "iterations"),
         (lambda m, b: m.sense_coordinate("s", b), "needs a coordinate"),
         (lambda m, b: m.sense_coordinate("s", b.point((0, 0, 0))[0], order=3), "0, 1 or 2"),
+        (lambda m, b: m.sense_vector("s", b.point((0, 0, 0)), order=2), "must be 0 or 1"),
+        (lambda m, b: m.sense_vector("s", b.point((0, 0, 0)), [b.vector((1, 0, 0))] * 3), "at most two vectors"),
+        (lambda m, b: m.sense_rotation("s", b, "w", order=1), "'x', 'y' or 'z'"),
+        (lambda m, b: m.sense_angle("s", b), "'yaw', 'pitch' or 'roll'"),
+        (lambda m, b: m.sense_angle("s", [b.vector((1, 0, 0))]), "a body, a spin or three vectors"),
+        (lambda m, b: m.sense_angle("s", [b.vector((1, 0, 0))] * 3, "yaw"), "only bodies have yaw, pitch and roll"),
+        (lambda m, b: m.sense_energy("s", "kinetic", ["spring"]), "elements are for 'work' and 'nonconservative'"),
+        (lambda m, b: m.sense_energy("s", "work"), "force elements or their names, got None"),
     ],
 )
 def test_impossible_sensors_are_refused(act, sentence):
@@ -173,6 +183,43 @@ def test_impossible_sensors_are_refused(act, sentence):
     with pytest.raises(ModelError) as error:
         act(m, body)
     assert sentence in str(error.value)
+
+
+def test_in_the_plane_a_body_turns_about_z_only():
+    m = Model("plane", dimension=2)
+    body = m.body("b", mass=1.0, com=(0, 0), inertia=1.0)
+    with pytest.raises(ModelError, match="in the plane it must be 'z'"):
+        m.sense_rotation("s", body, "x", order=1)
+    with pytest.raises(ModelError, match="a body has yaw only"):
+        m.sense_angle("s", body, "roll")
+
+
+@pytest.mark.parametrize(("old", "new"), RENAMED.items())
+def test_old_names_answer_with_a_call_that_is_there(old: str, new: str):
+    m = Model("old")
+    with pytest.raises(AttributeError, match=re.escape(f"has no '{old}'; it is now {new}.")):
+        getattr(m, old)
+    assert hasattr(Model, new.split("(")[0])
+    assert not hasattr(m, "sense_nothing")
+
+
+def test_units_follow_the_order():
+    m = Model("units")
+    body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    x, y = body.vector((1, 0, 0)), body.vector((0, 1, 0))
+    guide = m.guide_time("guide", ([0.0, 1.0], [0.0, 1.0]), unit="m")
+    for order in range(3):
+        m.sense_position(f"position {order}", body, order=order)
+        m.sense_vector(f"component {order}", body.point((1, 0, 0)), [x], order=order)
+        m.sense_guide(f"guide {order}", guide, order=order)
+    for order in range(2):
+        m.sense_vector(f"length {order}", body.point((1, 0, 0)), order=order)
+        m.sense_vector(f"direction {order}", body.point((1, 0, 0)), [x, y], order=order)
+        m.sense_rotation(f"rotation {order}", body, order=order)
+    assert [s.unit for s in m.sensors] == [
+        *("m", "m", "m", "m/s", "m/s", "m/s", "m/s2", "m/s2", "m/s2"),
+        *("m", "rad", "1", "m/s", "rad", "rad/s"),
+    ]
 
 
 def test_coordinates_of_another_model_are_refused():
@@ -199,7 +246,7 @@ def test_a_joint_without_multipliers_of_a_force_is_refused():
     body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
     angle = m.relative_angle("turn", m.ground, body, axis=(0, 0, 1))
     with pytest.raises(ModelError, match="no force reading"):
-        m.sense_joint_force("s", "turn")
+        m.sense_joint("s", "turn")
     assert angle.name == "turn"
 
 
@@ -209,9 +256,9 @@ def test_forces_of_lines_of_the_ground():
     beam = m.body("beam", mass=10.0, com=(1.0, 0.0), inertia=3.3)
     m.revolute("pin", m.ground, beam, point=(0.0, 0.0))
     m.point_on_line("roller", (beam, (3.0, 0.0)), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
-    m.sense_joint_force("pin.y", "pin", "y")
-    m.sense_joint_force("roller.x", "roller", "x")
-    m.sense_joint_force("roller.y", "roller", "y")
+    m.sense_joint("pin.y", "pin", "y")
+    m.sense_joint("roller.x", "roller", "x")
+    m.sense_joint("roller.y", "roller", "y")
     s = Simulation(compile(m)).sensors
     assert s["roller.y"] == pytest.approx(98.1 / 3.0, abs=EXACT)  # on the beam
     assert s["pin.y"] == pytest.approx(-98.1 * 2.0 / 3.0, abs=EXACT)  # on the ground
@@ -222,7 +269,7 @@ def test_forces_of_lines_of_the_ground():
     slope = np.array([0.8, 0.0, -0.6])
     m.prismatic("slide", block, m.ground, axis=slope)
     for c in "xyz":
-        m.sense_joint_force(c, "slide", c)
+        m.sense_joint(c, "slide", c)
     t = Simulation(compile(m)).run(0.5, 0.01)
     weight = np.array([0.0, 0.0, -2.0 * 9.81])
     expected = slope * (weight @ slope) - weight  # what the slope adds to the weight

@@ -96,7 +96,7 @@ def satellite(reduced):
         m.torque_on("motor", angle, input=torque, gain=2.0)
     m.initial_velocity(carrier, angular=(0.0, 0.0, 0.0), linear=(0.0, 0.0, 0.0))
     for c in "xyz":
-        m.sense_angular_rate(f"rate.{c}", carrier, c)
+        m.sense_rotation(f"rate.{c}", carrier, c, order=1)
     m.sense_energy("kinetic", "kinetic")
     return compile(m)
 
@@ -127,7 +127,7 @@ def test_the_wheel_and_its_carrier_keep_the_momentum_about_a_fixed_axis():
     )  # fmt: skip
     m.torque_on("motor", wheel, input=m.input("torque", unit="N.m"))
     m.sense_coordinate("wheel.rate", wheel, order=1)
-    m.sense_angular_rate("carrier.rate", carrier, "z")
+    m.sense_rotation("carrier.rate", carrier, "z", order=1)
     run = simulate(compile(m), 1.0, 0.01, {"torque": 2.0})
     assert run["wheel.rate"][-1] == pytest.approx(4.0, rel=5e-4)
     assert run["carrier.rate"][-1] == pytest.approx(-4.0, rel=5e-4)

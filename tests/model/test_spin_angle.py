@@ -28,12 +28,12 @@ def gyroscope(reduced: bool) -> Model:
             diametral_inertia=I_DIAMETRAL,
         )
         m.initial_rate(wheel, SPEED)
-        m.sense_spin_angle("angle", wheel)
+        m.sense_angle("angle", wheel)
         m.sense_coordinate("chi", wheel)
         for c in "xyz":
             m.sense_position(f"centre.{c}", carrier, CENTRE, c)
         for c in "xyzw":
-            m.sense_quaternion(f"q{c}", carrier, c)
+            m.sense_rotation(f"q{c}", carrier, c)
     else:
         inertia = I_DIAMETRAL * np.eye(3) + (I_SPIN - I_DIAMETRAL) * np.outer(AXIS, AXIS)
         full = m.body("wheel", mass=MASS, com=CENTRE, inertia=inertia)
@@ -81,13 +81,13 @@ def test_a_state_is_restored_with_its_angle_and_a_new_start_begins_at_zero() -> 
 def test_two_sensors_share_one_sum() -> None:
     m = gyroscope(True)
     before = len(m.elements)
-    m.sense_spin_angle("again", m.spins[0])
+    m.sense_angle("again", m.spins[0])
     assert len(m.elements) == before
     t = Simulation(compile(m)).run(0.05, 0.001)
     assert np.array_equal(t["again"], t["angle"])
 
 
-def test_what_is_no_spin_is_refused() -> None:
+def test_a_wheel_has_no_yaw() -> None:
     m = gyroscope(True)
-    with pytest.raises(ModelError, match="needs a spin"):
-        m.sense_spin_angle("wrong", m.bodies[0])  # type: ignore[arg-type]
+    with pytest.raises(ModelError, match="'yaw' of Spin '.*'; only bodies have yaw, pitch and roll"):
+        m.sense_angle("wrong", m.spins[0], "yaw")

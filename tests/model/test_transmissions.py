@@ -47,7 +47,7 @@ def gear_train(ratio):
 @pytest.mark.parametrize("ratio", [3.0, -2.5])
 def test_a_gear_train_has_the_reduced_inertia(method, ratio):
     m, teeth = gear_train(ratio)
-    m.sense_joint_force("teeth.torque", teeth, "torque")
+    m.sense_joint("teeth.torque", teeth, "torque")
     r = run(m, method, {"torque": 0.15})
     acceleration = 0.15 / (0.02 + 0.3 / ratio**2)
     assert r["angle.1"][-1] - 0.4 == pytest.approx(0.5 * acceleration, rel=close(method))
@@ -77,10 +77,10 @@ def test_gears_on_a_free_carrier_leave_its_momentum_alone(method):
         wheel = m.body(f"wheel {k}", mass=1e-9, com=(0.1 * k, 0.0), inertia=inertia[k])
         m.revolute(f"bearing {k}", housing, wheel, point=(0.1 * k, 0.0))
         angles.append(m.relative_angle(f"angle {k}", housing, wheel))
-        m.sense_coordinate(f"rate.{k}", angles[k], 1)
+        m.sense_coordinate(f"rate.{k}", angles[k], order=1)
     m.gear("teeth", *angles, ratio=ratio)
     m.torque_on("motor", angles[0], input=m.input("torque"))
-    m.sense_angular_rate("yaw", housing, "z")
+    m.sense_rotation("yaw", housing, "z", order=1)
     r = run(m, method, {"torque": 0.3})
     own, first, second = r["yaw"][-1], r["rate.0"][-1], r["rate.1"][-1]
     assert first == pytest.approx(ratio * second, rel=1e-6)
@@ -103,9 +103,9 @@ def test_geared_spins_count_from_their_carriers(method):
     ]  # fmt: skip
     m.gear("teeth", *wheels, ratio=-2.0)
     m.torque("push", carrier, inputs=(None, None, m.input("torque")))
-    m.sense_angular_rate("yaw", carrier, "z")
+    m.sense_rotation("yaw", carrier, "z", order=1)
     for k, wheel in enumerate(wheels):
-        m.sense_coordinate(f"rate.{k}", wheel, 1)
+        m.sense_coordinate(f"rate.{k}", wheel, order=1)
     r = run(m, method, {"torque": 0.6}, h=0.002)
     # a - c = -2 (b - c): a = 3 c - 2 b
     T = np.array([[1.0, 0.0], [3.0, -2.0], [0.0, 1.0]])  # c, a, b from c, b
@@ -126,10 +126,10 @@ def bevel(method, h):
     m.gear("teeth", x, y, ratio=1.5)
     m.initial_velocity(housing, linear=(0.0, 0.0, 0.0), angular=(2.0, 1.0, 3.0))
     m.sense_energy("energy", "kinetic")
-    m.sense_coordinate("x.rate", x, 1)
-    m.sense_coordinate("y.rate", y, 1)
+    m.sense_coordinate("x.rate", x, order=1)
+    m.sense_coordinate("y.rate", y, order=1)
     for c in "xyz":
-        m.sense_angular_rate(f"w.{c}", housing, c)
+        m.sense_rotation(f"w.{c}", housing, c, order=1)
     return run(m, method, h=h)
 
 
@@ -154,7 +154,7 @@ def pinion_and_rack(spring=0.0):
         m.spring_damper("spring", (m.ground, (-1.7, 0.0)), (rod, (0.3, 0.0)), stiffness=spring, free_length=2.0)
     m.sense_coordinate("angle", angle)
     m.sense_position("place", rod, (0.3, 0.0), "x")
-    m.sense_joint_force("teeth.force", joint, "force")
+    m.sense_joint("teeth.force", joint, "force")
     return m, angle
 
 
@@ -193,8 +193,8 @@ def test_a_rack_on_a_free_carrier_moves_it_back():
     for k, (body, _, _, com) in enumerate(bodies):
         for c in "xy":
             m.sense_position(f"p{k}.{c}", body, com, c)
-            m.sense_velocity(f"v{k}.{c}", body, com, c)
-        m.sense_angular_rate(f"w{k}", body, "z")
+            m.sense_position(f"v{k}.{c}", body, com, c, order=1)
+        m.sense_rotation(f"w{k}", body, "z", order=1)
     m.sense_coordinate("angle", angle)
     m.sense_energy("energy", "kinetic")
     r = run(m, "radau_5", {"torque": 0.2}, h=0.005)
@@ -217,7 +217,7 @@ def test_a_nut_falls_on_a_screw(method, pitch):
     joint = m.screw("thread", nut, m.ground, point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0), pitch=pitch)
     m.sense_position("z", nut, (0.0, 0.0, 0.0), "z")
     m.sense_coordinate("angle", joint.angle)
-    m.sense_joint_force("force", joint, "force")
+    m.sense_joint("force", joint, "force")
     assert compile(m).report["degrees_of_freedom"] == 1
     r = run(m, method, t_end=0.5)
     p = pitch / (2.0 * np.pi)

@@ -26,7 +26,7 @@ NOT_BUILT = 99
 LIMIT = 600.0  # s of CPU: a mutant whose tests take longer runs for ever, which a test has noticed
 STILL = 300.0  # s: tests that use no CPU for so long wait for ever
 PAUSE = 0.5  # s between looks at the CPU time
-OPTIONS = ("-x", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=0")
+OPTIONS = ("-x", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=0", "-m", "not proof")
 IGNORED = shutil.ignore_patterns("__pycache__", "*.so", "*.dylib", "*.dll", ".hypothesis", "node_modules")
 WARM = ("numpy", "scipy.integrate", "scipy.linalg", "scipy.optimize", "scipy.sparse", "scipy.spatial.transform")
 WARM += ("fmpy", "matplotlib.figure", "pydantic")

@@ -13,7 +13,7 @@ import pytest
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads import write_road
 from mbs.roads.scene_part import drawn_roads, scene_part
-from mbs.worlds.road_command import main
+from mbs.worlds.command import main
 from tests.elements.harness import contacts
 from viewer.scene import scene_errors
 

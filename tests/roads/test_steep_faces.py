@@ -14,7 +14,7 @@ from mbs.elements.road import GridRoad, KerbRoad
 from mbs.roads import RoadWarning, write_road
 from mbs.roads.road_file import RoadFile
 from mbs.roads.steep_faces import steep_face
-from mbs.worlds import road_command as road_command
+from mbs.worlds import command as road_command
 
 ROADS = Path(mbs.__file__).parent / "roads" / "files"
 FACE = 5.0

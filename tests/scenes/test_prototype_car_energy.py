@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mbs.scenes import prototype_car
-from mbs.simulation import Pose
+from mbs.simulation.state import Pose
 from tests.scenes.car import WHEELS, car, drive
 
 AIR = prototype_car.car().aerodynamics

@@ -95,7 +95,7 @@ def test_forces_of_rods_and_joints_are_arrows():
     rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1)
     pin = m.revolute("pin", rod, m.ground, point=(0.0, 0.0))
     for c in "yx":
-        m.sense_joint_force(f"pin.{c}", pin, c)
+        m.sense_joint(f"pin.{c}", pin, c)
     (arrow,) = mbs.compile(m).scene["arrows"]
     assert arrow["vector"][:2] == ["pin.x", "pin.y"]
     assert arrow["at"] == ["rod", [-0.5, 0.0, 0.0]]

@@ -25,8 +25,8 @@ def pendulum_model(hanging=False, damped=False):
         m.parameter("tie stiffness", 30.0, 0.0, 100.0, "N/m", targets=[(spring, "stiffness", 1.0)])
     m.sense_position("bob.x", bob, start, "x")
     m.sense_position("bob.y", bob, start, "y")
-    m.sense_velocity("bob.vx", bob, start, "x")
-    m.sense_acceleration("bob.ax", bob, start, "x")
+    m.sense_position("bob.vx", bob, start, "x", order=1)
+    m.sense_position("bob.ax", bob, start, "x", order=2)
     m.sense_energy("energy", "total")
     m.sense_input("push", push_x)
     return m
@@ -43,7 +43,7 @@ def free_mass(acceleration_input=True):
     push_x, push_y = m.input("push x", unit="N"), m.input("push y", unit="N")
     m.force("push", body, (0.0, 0.0), inputs=(push_x, push_y))
     m.sense_position("x", body, (0.0, 0.0), "x")
-    m.sense_velocity("v", body, (0.0, 0.0), "x")
+    m.sense_position("v", body, (0.0, 0.0), "x", order=1)
     m.sense_input("push", push_x)
     return compile(m)
 

@@ -12,6 +12,8 @@ import pytest
 
 import mbs
 from mbs import BranchWarning, Model, Settings, Simulation, SimulationError, System, compile
+from mbs.compiler import assembly_modes
+from mbs.compiler.trace import trace
 from mbs.kernel.binding import KernelError, LoadedSystem, Status
 from mbs.scenes import (
     assembly_defect_four_bar,
@@ -22,6 +24,7 @@ from mbs.scenes import (
     spatial_slider_crank,
     squeezer,
 )
+from mbs.simulation.standing_system import StandingSystem
 
 from .loops import four_bar, suspension
 
@@ -46,6 +49,20 @@ def defect() -> System:
 def thrown() -> System:
     """A suspension whose upright starts upwards fast enough to turn about its ball joints."""
     return compile(suspension(15.0))
+
+
+def test_modes_are_traced_once_and_for_steps_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    traced = []
+    monkeypatch.setattr(assembly_modes, "trace", lambda *given: traced.append(given) or trace(*given))
+    model = suspension(15.0)
+    system = compile(model)
+    StandingSystem(system)
+    assert not traced
+    model.body("added later", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(1.0, 1.0, 1.0))
+    whole = system.to_bytes()
+    Simulation(system)
+    assert len(traced) == 1
+    assert whole == compile(suspension(15.0)).to_bytes() != without_modes(system).to_bytes()
 
 
 def test_a_suspension_that_turns_inside_out_is_reported_by_name_and_time(thrown: System) -> None:

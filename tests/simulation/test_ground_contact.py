@@ -30,11 +30,11 @@ def block(road, speed=(0.0, 0.0, 0.0), lift=0.0, points=CORNERS, contact=CONTACT
     m.initial_velocity(body, linear=speed)
     for c in "xyz":
         m.sense_position(c, body, None, c)
-        m.sense_velocity(f"v{c}", body, None, c)
+        m.sense_position(f"v{c}", body, None, c, order=1)
         m.sense_element(f"f{c}", "feet", f"force_{c}")
     for name in ("normal_force", "touching", "depth"):
         m.sense_element(name, "feet", name)
-    m.sense_pitch("pitch", body)
+    m.sense_angle("pitch", body, "pitch")
     m.sense_energy("energy", "total")
     return mbs.compile(m)
 

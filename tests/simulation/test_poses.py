@@ -28,7 +28,7 @@ def swinging(dimension: int = 3) -> mbs.Model:
         m.sense_position(f"tip.{component}", rod, tip, component)
     if dimension == 3:
         for part in "wxyz":
-            m.sense_quaternion(f"rod.q{part}", rod, part)
+            m.sense_rotation(f"rod.q{part}", rod, part)
     return m
 
 

@@ -2,34 +2,38 @@
 
 from __future__ import annotations
 
-import io
+import math
 
 import pytest
 
 from mbs.common.progress import DELAY, Progress, progress_for
 
 
-def bar_after(seconds, delay=DELAY):
-    stream, now = io.StringIO(), [0.0]
-    with Progress(delay, stream, lambda: now[0]) as bar:
-        now[0] = seconds
-        bar.update(0.25)
-    return stream.getvalue()
+@pytest.fixture
+def bar_after(capsys):
+    def shown(seconds, delay=DELAY):
+        now = [0.0]
+        with Progress(delay, lambda: now[0]) as bar:
+            now[0] = seconds
+            bar.update(0.25)
+        return capsys.readouterr().err
+
+    return shown
 
 
-def test_a_short_run_is_silent():
+def test_a_short_run_is_silent(bar_after):
     assert bar_after(1.9) == ""
 
 
-def test_a_long_run_shows_share_and_remaining_time():
+def test_a_long_run_shows_its_share(bar_after):
     text = bar_after(4.0)
     assert " 25 %" in text
-    assert "12 s left" in text
+    assert " left" in text
     assert text.endswith("\n")
 
 
-def test_no_bar_when_switched_off():
-    assert bar_after(1e6, delay=float("inf")) == ""
+def test_no_bar_when_switched_off(bar_after):
+    assert bar_after(1e6, delay=math.inf) == ""
     assert isinstance(progress_for(False), Progress)
 
 

@@ -30,7 +30,7 @@ def test_a_copy_is_the_same_car(name, tmp_path, capsys):
 
 @pytest.mark.parametrize("name", car_names())
 def test_it_prints_what_a_car_is(name, capsys):
-    assert main(["car", name, "--parameters"]) == 0
+    assert main(["car", name, "--show-parameters"]) == 0
     printed = capsys.readouterr()
     assert printed.err == ""
     for path in load(name).values():

@@ -118,7 +118,7 @@ def test_the_own_frame_of_the_prototype_comes_back_from_matrices(tmp_path: Path)
 
 
 def test_the_own_frame_of_the_prototype_comes_back_from_nastran(tmp_path: Path) -> None:
-    op4 = pytest.importorskip("pyyeti.nastran.op4", reason="extra 'fem'")
+    op4 = pytest.importorskip("pyyeti.nastran.op4")
     flexible = PROTOTYPE.flexible_frame
     model, given = flexible.model, PROTOTYPE._data["chassis"]["frame"]
     matrices = {"KGG": model.K.toarray(), "MGG": model.mass_matrix().toarray()}
@@ -221,7 +221,7 @@ def test_the_smallest_table_of_a_frame(small: Car) -> None:
         ("joints.csv", "F1L,0.45,0.28", "F1L,0.45,-0.28", r"F1L has y = -0\.28 m; y must be positive on the left"),
         ("joints.csv", "F2L,0.45", "F1L,0.45", "joint F1L is there twice"),
         ("joints.csv", "F1L,0.45,0.28,0.19,", "F1L,450,0.28,0.19,", r"line 5: x is '450'; .* between -9 and 9 m"),
-        ("joints.csv", "F1L,0.45,0.28,0.19,", "F1L,0.45,0.28,", r"line 5: 4 cells; there are 5 titles"),
+        ("joints.csv", "F1L,0.45,0.28,0.19,", "F1L,0.45,0.28,", r"line 5: 4 values where the heading has 5 columns"),
         ("joints.csv", "joint,x,y,z", "name,x,y,z", r"chassis\.frame\.joints \(joints\.csv\) has no column joint"),
         ("joints.csv", "F1L,", "F1X,", r"joint is 'F1X'; its name must end in L \(left\) or c"),
         ("tubes.csv", "F1L,LFL,M,2", "F1L,LFL,Q,2", r"section 'Q' is not in chassis\.frame\.sections"),

@@ -21,13 +21,13 @@ TURN = {"throttle": lambda t: 0.5 * (t < 2.0) + 0.15, "steering": lambda t: 0.2 
 def car():
     m = CAR.model()
     for w, y in (("FL", 1.0), ("FR", -1.0)):
-        m.sense_joint_force(f"tension {w}", f"tie rod {w}", "tension")
+        m.sense_joint(f"tension {w}", f"tie rod {w}", "tension")
         upright = next(b for b in m.bodies if b.name == f"upright {w}")
         outer = np.array(CAR.front.suspension.points.tie_rod_outer) * (1.0, y, 1.0)
         chassis = next(b for b in m.bodies if b.name == "chassis")
         inner = np.array(CAR.front.suspension.points.tie_rod_inner) * (1.0, y, 1.0)
         gap = upright.point(outer) - chassis.point(inner)
-        m.sense_component(f"across {w}", gap, chassis.vector((0.0, 1.0, 0.0)))
+        m.sense_vector(f"across {w}", gap, [chassis.vector((0.0, 1.0, 0.0))])
     return compile(m)
 
 

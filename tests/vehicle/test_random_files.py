@@ -17,7 +17,7 @@ from pydantic import ValidationError
 from mbs import compile
 from mbs.vehicle import Car, CarFileError, CarWarning, car_names, load
 from mbs.vehicle.car import car_from
-from mbs.vehicle.json_schema import json_schema
+from mbs.vehicle.schema import json_schema
 from tests.vehicle.content import sentences
 
 EXAMPLES = int(os.environ.get("CAR_FILE_EXAMPLES", "60"))

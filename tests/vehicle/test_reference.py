@@ -11,12 +11,12 @@ import fastjsonschema
 import jsonschema
 import pytest
 
+from ali3.typed_paths import all_keys, annotation_of, by_name, keys_of, templates
 from mbs.vehicle import Car, car_names, json_schema, load
 from mbs.vehicle import quantities as listed
-from mbs.vehicle.json_schema import SCHEMA_FILE, schema_text
-from mbs.vehicle.key_paths import all_keys, annotation_of, by_name, keys_of, templates
 from mbs.vehicle.quantities import Quantity, quantities_in
 from mbs.vehicle.reference import PAGE, page
+from mbs.vehicle.schema import SCHEMA_FILE, schema_text
 
 
 def every_table(table=Car):

@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.car.stress_picture import motion_of
+from benchmarks.car.stress_picture import frame_alone, motion_of
 from mbs import Simulation, Trajectory, compile
 from mbs.model.flexible import FlexibleBody
 from mbs.scenes import kerb_test, prototype_car
 from mbs.shapes.pose_outputs import pose_outputs
 from tests.scene_numbers import amplitudes, places, rows_of_stress, stress, turned
+from viewer.scene import scene_errors
 
 NODES = ("TFL", "D3c", "S2R", "B3L")
 STRESS = 1e-6  # of the largest: the scene has 24 bits
@@ -55,6 +56,10 @@ def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
     eta = amplitudes(part, run)
     frame, _ = prototype_car.car().tubular_frame.frame()
     motion = motion_of(frame, prototype_car.car().flexible_frame.reduced(3), run.t, eta, 1.0)
+    alone = frame_alone(run.recording(), 20e6).scene
+    assert scene_errors(alone) == []
+    assert alone["flexible"][0]["stress"]["range"] == 20e6
+    assert sum(shape["kind"] == "tube" for shape in alone["shapes"]) == sum(len(p["beams"]) for p in alone["flexible"])
     assert motion.stress.max() > 36e6
     np.testing.assert_allclose(stress(part, eta), motion.stress, rtol=0, atol=STRESS * motion.stress.max())
     moved = places(part, eta)

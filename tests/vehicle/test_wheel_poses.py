@@ -166,6 +166,7 @@ def test_the_angle_times_the_rolling_radius_is_the_way(car: str) -> None:
         assert run[f"wheel_{w}.angle"][-1] * radius == pytest.approx(way * (1.0 + slip), rel=5e-5)
 
 
+@pytest.mark.slow
 def test_a_thousand_seconds_in_a_circle_leave_no_drift() -> None:
     """Each round adds psi' e_z to the angle of a leaning wheel: what a steady circle gives in closed form."""
     cruise = {"steering": lambda t: 0.3, "throttle": lambda t: 0.25}

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import gc
 import io
-import os
 import pickle
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -63,6 +63,7 @@ def chromium() -> Iterator[Any]:
         program, _ = browser.find_chromium(), bundle.bundle()
     except RuntimeError as error:
         pytest.skip(str(error))
+    gc.collect()  # an error of another test may hold a browser of its own, beside which there can be no second
     with play.sync_playwright() as started:
         chromium = started.chromium.launch(executable_path=program, args=browser.launch_arguments())
         yield chromium
@@ -89,19 +90,14 @@ def drawn(_page: Any) -> Iterator[DrawnPage]:
 
 
 @pytest.fixture(scope="session")
-def recorded(shared: Path) -> Callable[[str], Recording]:
+def recorded(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[[str], Recording]:
     """The run of a film, driven once for all tests that look at it."""
     from benchmarks.paper.animations import ANIMATIONS  # takes a second, which other pages do not need
 
-    folder = shared / "recordings"
-    folder.mkdir(exist_ok=True)
-
     def get(name: str) -> Recording:
-        file = folder / name
-        if not file.is_file():
-            part = folder / f"{name}.{os.getpid()}"  # whole at once: other processes look for it too
-            part.write_bytes(pickle.dumps(ANIMATIONS[name].record()))
-            part.replace(file)
-        return pickle.loads(file.read_bytes())
+        def fill(folder: Path) -> None:
+            (folder / "run").write_bytes(pickle.dumps(ANIMATIONS[name].record()))
+
+        return pickle.loads((made_once(f"recording_{name}", fill) / "run").read_bytes())
 
     return get

@@ -37,6 +37,7 @@ def page(tmp_path, modules):
     """A copy of the sources."""
     copy = tmp_path / "page"
     shutil.copytree(PAGE, copy, ignore=shutil.ignore_patterns("node_modules", ".*", "test"))
+    shutil.copy(PAGE.parent / "looks.json", tmp_path)
     (copy / "node_modules").symlink_to(modules, target_is_directory=True)
     return copy
 
@@ -71,6 +72,9 @@ def test_it_is_built_on_first_use_kept_and_built_again_when_a_source_changes(pag
     main = page / "src" / "main.js"
     main.write_text(main.read_text(encoding="utf-8") + 'export const mark = "a mark of the test";\n', encoding="utf-8")
     assert "a mark of the test" in bundle.bundle(page, out).read_text(encoding="utf-8")
+    looks = tmp_path / "looks.json"
+    looks.write_text(looks.read_text(encoding="utf-8").replace("#440154", "#123456"), encoding="utf-8")
+    assert "#123456" in bundle.bundle(page, out).read_text(encoding="utf-8")
 
 
 def test_a_script_in_a_page_carries_its_licences_and_ends_no_element(page, tmp_path):
@@ -169,7 +173,7 @@ def test_a_wheel_uses_its_script_and_one_without_it_says_so(tmp_path):
 
 def test_a_folder_that_cannot_be_written_is_one_sentence(page, tmp_path):
     (tmp_path / "bundle").write_text("a file", encoding="utf-8")
-    with pytest.raises(RuntimeError, match="cannot be built in .*bundle: "):
+    with pytest.raises(RuntimeError, match="cannot be built: .*bundle cannot be made"):
         bundle.bundle(page, tmp_path / "bundle")
 
 

@@ -17,7 +17,7 @@ import pytest
 
 from ali3.errors import FileError
 from tests.viewer.hand_scenes import crank
-from viewer import page_file
+from viewer import html_document
 from viewer.errors import ViewerError
 from viewer.notebook import html_of
 from viewer.page_data import page_data
@@ -30,7 +30,7 @@ HOSTILE = "</script><script>alert(1)</script><!-- & \" ' \u2028 ]]>"
 
 @pytest.fixture(autouse=True)
 def _short_script(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(page_file, "script", lambda: "var ALi3Viewer={};")
+    monkeypatch.setattr(html_document, "script", lambda: "var ALi3Viewer={};")
 
 
 class Elements(HTMLParser):
@@ -184,7 +184,7 @@ def test_without_the_script_there_is_one_sentence(monkeypatch: pytest.MonkeyPatc
     def none() -> Path:
         raise RuntimeError("It is not there.")
 
-    monkeypatch.setattr(page_file, "bundle", none)
+    monkeypatch.setattr(html_document, "bundle", none)
     with pytest.raises(ViewerError, match="It is not there."):
         write_page(tmp_path / "p.html", crank(TIMES))
     assert list(tmp_path.iterdir()) == []

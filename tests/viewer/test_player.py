@@ -207,6 +207,35 @@ def test_the_settings_show_what_is_set_by_keys_and_programs(opened: Callable[...
     assert not page.page.locator(".ali3-panel").is_visible()
 
 
+def test_letters_are_the_same_with_caps_lock(opened: Callable[..., Opened]) -> None:
+    page = opened(crank(TIMES), arrows=False)
+    page.page.keyboard.press("A")
+    assert page("player.player.look.arrows") is True
+
+
+def test_signals_are_chosen_by_keyboard_and_space_does_not_play(opened: Callable[..., Opened]) -> None:
+    page = opened(crank(TIMES))
+    page.page.keyboard.press("S")
+    page.page.locator(".ali3-find input").focus()
+    page.page.keyboard.press("Tab")  # the button that shows the list
+    page.page.keyboard.press("Tab")
+    page.page.keyboard.press(" ")
+    (first,) = page("player.plots.chosen")
+    assert page("document.activeElement.checked") is True
+    page.page.keyboard.press(" ")
+    assert page("player.plots.chosen") == []
+    assert page("player.player.clock.playing") is False
+    page.page.locator(".ali3-list label", has_text=first).first.click()
+    page.page.keyboard.press(" ")  # after a click the keys are the page's
+    assert page("player.player.clock.playing") is True
+    assert page("player.plots.chosen") == [first]
+
+
+def test_the_drawing_has_a_name(opened: Callable[..., Opened]) -> None:
+    page = opened(crank(TIMES))
+    assert page.page.get_by_role("img", name="drawing of crank").count() == 1
+
+
 def test_signals_are_searched_and_chosen(pair: Opened) -> None:
     pair.page.fill(".ali3-find input", "crank qz")
     assert pair.page.locator(".ali3-list label").count() == 1

@@ -17,7 +17,7 @@ MOST_CALLS, MOST_TRIANGLES = 200, 1_500_000
 @pytest.fixture(scope="module")
 def proving_ground(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     folder = tmp_path_factory.mktemp("world")
-    assert world_command.main(["proving_ground", "--out", str(folder)]) == 0
+    assert world_command.main(["--world", "proving_ground", "--out", str(folder)]) == 0
     made: dict[str, Any] = json.loads((folder / "proving_ground.json").read_text(encoding="utf-8"))
     return made
 

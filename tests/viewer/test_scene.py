@@ -203,7 +203,7 @@ def test_a_file_of_a_scene_is_read_and_one_that_is_not_there_is_named(tmp_path: 
     (tmp_path / "scene.json").write_text(json.dumps(everything()))
     assert read_scene(tmp_path / "scene.json") == everything()
     assert read_scene(json.dumps(everything()).encode()) == everything()
-    with pytest.raises(SceneError, match=r"none\.json cannot be read: no such file"):
+    with pytest.raises(SceneError, match=r"none\.json cannot be read: there is no such file"):
         read_scene(tmp_path / "none.json")
 
 

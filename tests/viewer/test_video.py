@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 
-import imageio_ffmpeg
+import av
 import numpy as np
 import pytest
 from PIL import Image
@@ -34,20 +33,8 @@ def _drawn():
 
 def frames_of(path):
     if path.suffix == ".mp4":
-        command = [
-            imageio_ffmpeg.get_ffmpeg_exe(),
-            "-v",
-            "error",
-            "-i",
-            path,
-            "-f",
-            "rawvideo",
-            "-pix_fmt",
-            "rgb24",
-            "-",
-        ]
-        data = subprocess.run(command, capture_output=True, check=True).stdout
-        return list(np.frombuffer(data, np.uint8).reshape(-1, SIZE[1], SIZE[0], 3))
+        with av.open(path) as film:
+            return [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
     with Image.open(path) as file:
         made = []
         for k in range(file.n_frames):
@@ -130,16 +117,18 @@ def test_without_a_browser(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_without_ffmpeg(tmp_path, monkeypatch):
-    def nothing():
-        raise RuntimeError("no ffmpeg")
-
-    monkeypatch.setattr(imageio_ffmpeg, "get_ffmpeg_exe", nothing)
-    with pytest.raises(FilmError, match=r"^There is no ffmpeg on this machine, which MP4 files need; "):
-        write_mp4(tmp_path / "a.mp4", hand_scenes.crank(T))
-    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+def test_without_the_package_that_encodes(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "av", None)
     with pytest.raises(FilmError, match=r'run: python -m pip install "ali3\[pictures\]"$'):
         write_mp4(tmp_path / "a.mp4", hand_scenes.crank(T))
+
+
+@pytest.mark.usefixtures("_drawn")
+def test_a_film_that_ffmpeg_refuses(tmp_path, monkeypatch):
+    monkeypatch.setattr(video, "_QUALITY", "no number")
+    with pytest.raises(FilmError, match=r"^ffmpeg does not encode the film: .*\.$"):
+        write_mp4(tmp_path / "a.mp4", hand_scenes.crank(T), size=SIZE, fps=2.0)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_folder_is_no_film(tmp_path):

@@ -12,11 +12,10 @@ import pytest
 
 import mbs
 from fmu_src.build.build import build_fmu
-from fmu_src.build.car_registry import build_car
 from fmu_src.build.scene_registry import load_scene
 from mbs.elements import GridRoad
 from mbs.roads import write_road
-from mbs.scenes import prototype_car
+from mbs.vehicle import load
 
 # pytest imports this folder's files by path
 sys.path.insert(0, str(Path(__file__).parent))
@@ -24,11 +23,22 @@ from wasm_hosts import Fmu
 
 SCENES = Path(__file__).parents[1] / "fmu" / "scenes.py"
 PLATFORMS = [fmpy.platform, "wasm32"]
+Built = Callable[..., Fmu]
 
 
-def built(tmp: pytest.TempPathFactory, systems: object, name: str, added: dict[str, bytes] | None = None) -> Fmu:
-    folder = tmp.mktemp(name)
-    return Fmu(build_fmu(systems, name, folder, PLATFORMS, kind="native"), folder / "unpacked", added)
+@pytest.fixture(scope="session")
+def built(made_once: Callable[[str, Callable[[Path], None]], Path], tmp_path_factory: pytest.TempPathFactory) -> Built:
+    """Builds the FMU of what a function gives, name and Systems, once for all processes."""
+
+    def make(named: str, systems: Callable[[], tuple[str, object]], added: dict[str, bytes] | None = None) -> Fmu:
+        def fill(folder: Path) -> None:
+            name, given = systems()
+            build_fmu(given, name, folder, PLATFORMS)
+
+        (path,) = made_once(f"wasm_{named}", fill).glob("*.fmu")
+        return Fmu(path, tmp_path_factory.mktemp(named) / "unpacked", added)
+
+    return make
 
 
 @pytest.fixture(scope="session")
@@ -41,28 +51,29 @@ def rough(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 
 @pytest.fixture(scope="session")
-def prototype(tmp_path_factory: pytest.TempPathFactory, rough: bytes) -> Fmu:
+def prototype(built: Built, rough: bytes) -> Fmu:
     """The prototype in its first three fidelities."""
-    offered = prototype_car.fidelities()
-    systems = {k: mbs.compile(make()) for k, make in offered.items() if k <= 2}
-    return built(tmp_path_factory, systems, "prototype_car", {"roads/own.road": rough})
+    return built("prototype", lambda: ("prototype_car", _fidelities("prototype")), {"roads/own.road": rough})
 
 
 @pytest.fixture(scope="session")
-def hatchback(tmp_path_factory: pytest.TempPathFactory) -> Fmu:
-    """The hatchback in all its fidelities."""
-    return built(tmp_path_factory, build_car("hatchback").systems, "hatchback")
+def hatchback(built: Built) -> Fmu:
+    """The hatchback in its first three fidelities."""
+    return built("hatchback", lambda: ("hatchback", _fidelities("hatchback")))
+
+
+def _fidelities(car: str) -> list[mbs.System]:
+    return [mbs.compile(load(car).model(fidelity=k)) for k in range(3)]
 
 
 @pytest.fixture(scope="session")
-def small(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Fmu]:
+def small(built: Built) -> Callable[[str], Fmu]:
     """FMUs of small scenes, built once."""
     made: dict[str, Fmu] = {}
 
     def make(scene: str) -> Fmu:
         if scene not in made:
-            name, system = load_scene(f"{SCENES}:{scene}")
-            made[scene] = built(tmp_path_factory, system, name)
+            made[scene] = built(scene, lambda: load_scene(f"{SCENES}:{scene}"))
         return made[scene]
 
     return make

@@ -71,8 +71,6 @@ def test_the_prototype(prototype: Fmu, expected: Any, name: str, host: Callable[
 @pytest.mark.parametrize("host", HOSTS)
 def test_the_hatchback(hatchback: Fmu, expected: Any, name: str, host: Callable[[Fmu, Plan], Driven]) -> None:
     steps, start = PLANS[name]
-    if "fidelity" in start and "fidelity" not in hatchback.kinds:
-        pytest.skip("the hatchback has one fidelity")
     plan = drive(steps // 2, dict(start), every=125)
     compared = expected(hatchback, f"hatchback {name}", plan)
     assert moved(compared) > 70

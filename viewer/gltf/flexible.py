@@ -10,17 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viewer.base64_numbers import decoded
-from viewer.gltf.materials import linear
+from viewer.gltf.materials import LOOKS, linear
 from viewer.poses import Vectors
 from viewer.solids import Solid, along, joined, lathe
 
 MOST_TARGETS = 8
 """Morph targets that every reader animates."""
-VIRIDIS = (
-    *("440154", "48186a", "472d7b", "424086", "3b528b", "33638d", "2c728e", "26828e", "21918c"),
-    *("1fa088", "28ae80", "3fbc73", "5ec962", "84d44b", "addc30", "d8e219", "fde725"),
-)
-"""At 17 places from 0 to 1 (Smith, van der Walt, Firing; public domain)."""
 _SAMPLES = 400  # times at which the largest displacement and stress are looked for
 
 
@@ -95,7 +90,7 @@ def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], 
 
 def stress_colors(share: Vectors) -> Vectors:
     """Linear colours of stresses as shares of the limit: the map viridis, as in the page."""
-    table = np.array([linear(f"#{stop}") for stop in VIRIDIS])
+    table = np.array([linear(stop) for stop in LOOKS["stress"]])
     at = np.linspace(0.0, 1.0, len(table))
     return np.stack([np.interp(share, at, table[:, k]) for k in range(3)], axis=-1)
 

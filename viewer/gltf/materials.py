@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 
@@ -33,28 +35,8 @@ class Look:
     double: bool = False
 
 
-@dataclass(frozen=True)
-class Kind:
-    """What a material has where the shape says nothing."""
-
-    color: str
-    metalness: float
-    roughness: float
-    opacity: float = 1.0
-    clearcoat: tuple[float, float] | None = None
-
-
-KINDS = {
-    "steel": Kind("#8f979e", 0.85, 0.42),
-    "paint": Kind("#a5271f", 0.15, 0.45, clearcoat=(0.8, 0.12)),
-    "dark_paint": Kind("#23282d", 0.2, 0.5, clearcoat=(0.3, 0.3)),
-    "rubber": Kind("#17181a", 0.0, 0.88),
-    "rim": Kind("#b9bec4", 0.9, 0.28),
-    "glass": Kind("#8fb0bf", 0.0, 0.05, 0.28),
-    "plastic": Kind("#4c7ba6", 0.0, 0.5),
-    "chrome": Kind("#dfe3e6", 1.0, 0.12),
-}
-"""By name."""
+LOOKS: dict[str, Any] = json.loads(Path(__file__).parents[1].joinpath("looks.json").read_text(encoding="utf-8"))
+"""Materials by name, and the colours of stress; the page has the same."""
 
 
 def look(shape: Mapping[str, Any], other: str = "plastic", color: str | None = None, double: bool = False) -> Look:
@@ -72,15 +54,15 @@ def look(shape: Mapping[str, Any], other: str = "plastic", color: str | None = N
         Seen from both sides.
     """
     name = shape.get("material") or other
-    kind = KINDS[name]
+    kind = LOOKS["materials"][name]
     opacity = shape.get("opacity")
-    shade = linear(shape.get("color") or color or kind.color)
+    shade = linear(shape.get("color") or color or kind["color"])
     return Look(
         name,
-        (*shade, float(kind.opacity if opacity is None else opacity)),
-        kind.metalness,
-        kind.roughness,
-        kind.clearcoat,
+        (*shade, float(kind.get("opacity", 1.0) if opacity is None else opacity)),
+        float(kind["metalness"]),
+        float(kind["roughness"]),
+        (kind["clearcoat"], kind["clearcoatRoughness"]) if "clearcoat" in kind else None,
         double,
     )
 

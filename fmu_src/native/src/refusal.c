@@ -13,6 +13,12 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
   r->time = time;
   r->step = step;
   s->calls.phase = SLAVE_STEP_FAILED;
+  if (status == ALI3_ROAD_LOST) /* no step passes a road that is not there */
+    return slave_say(
+        s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
+        "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s The file of the "
+        "road must be whole again, whatever the step_size.",
+        time, step, r->count > 1 ? " again" : "", time, ali3_status_text(status), worst);
   if (r->count == 1)
     return slave_say(s, SLAVE_DISCARD,
                      "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s A smaller "

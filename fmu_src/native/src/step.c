@@ -50,10 +50,9 @@ static ali3_status apply_pending(slave *s) {
 }
 
 /* The inputs at `elapsed` after the communication point; the kernel holds them in their ranges. */
-static ali3_status follow_slopes(slave *s, double elapsed) {
+static void follow_slopes(const slave *s, double elapsed, double *input) {
   const slave_table *t = &slave_the_table;
-  ali3_status status = ALI3_OK;
-  for (size_t i = 0; i < t->n_known && status == ALI3_OK; i++) {
+  for (size_t i = 0; i < t->n_known; i++) {
     if (t->variable[i].source != SLAVE_INPUT) continue;
     const double *slope = s->slope + i * SLAVE_MOST_ORDERS;
     double u = s->value[i], power = 1.0;
@@ -61,9 +60,8 @@ static ali3_status follow_slopes(slave *s, double elapsed) {
       power *= elapsed / (k + 1);
       u += slope[k] * power;
     }
-    status = ali3_set_input(s->fidelity.kernel, t->variable[i].index, u);
+    input[t->variable[i].index] = u;
   }
-  return status;
 }
 
 /* *left: the largest residual of an inner step that ended at the limit of its iterations. */
@@ -78,8 +76,8 @@ static ali3_status advance(slave *s, int64_t n, double h, double *left) {
     return status;
   }
   for (int64_t k = 0; k < n && status == ALI3_OK; k++) {
-    status = follow_slopes(s, (double)(k + 1) * h);
-    if (status == ALI3_OK) status = ali3_step(kernel, h);
+    follow_slopes(s, (double)(k + 1) * h, s->direction);
+    status = ali3_run(kernel, h, 1, s->direction, 1, NULL, NULL, NULL);
     *left = fmax(*left, ali3_capped_residual(kernel));
   }
   return status;

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
 from typing import TYPE_CHECKING
 
 import lxml.html
@@ -25,5 +24,5 @@ def document(title: str, main: HtmlElement, style: str = "") -> str:
     style : str
         CSS besides that of all reports.
     """
-    body = str(lxml.html.tostring(main, encoding="unicode", method="html"))
-    return html.page(clean(title), body, files(__package__).joinpath("page.css").read_text("utf-8") + style)
+    body = "".join(str(lxml.html.tostring(part, encoding="unicode", method="html")) for part in main)
+    return html.report(clean(title), body, style)

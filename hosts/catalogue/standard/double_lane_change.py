@@ -14,7 +14,7 @@ from hosts.catalogue.lane_change_measures import Passage, measures_of, plots_of
 from hosts.catalogue.preparation import held, with_step_up_to
 from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
 from hosts.common.errors import HostError
-from hosts.driving.course import COURSES, Course
+from hosts.driving.course import Course, course_of
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.course_from_here import CourseFromHere
 from hosts.driving.pilots.line_follower import LineFollower
@@ -196,7 +196,7 @@ def drive(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage
     """
     constants, wanted = car.facts.constants, speed / 3.6
     length, width = constants["vehicle.length"], constants["vehicle.width"]
-    course = COURSES[layout.course](width, RUN_UP + 0.5 * length)
+    course = course_of(layout.course, width, RUN_UP + 0.5 * length)
     can_start = "initial.speed" in car.facts.parameters
     near = max(0.005 * wanted, 0.05)
     pilot = CourseFromHere(

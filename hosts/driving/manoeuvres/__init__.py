@@ -9,4 +9,4 @@ FOLDER = Path(__file__).parent
 
 def manoeuvre_names() -> list[str]:
     """Names of the manoeuvres, sorted."""
-    return sorted({p.stem for p in FOLDER.iterdir() if p.suffix in (".csv", ".ini")})
+    return sorted({p.stem for p in FOLDER.iterdir() if p.suffix in (".toml", ".csv")})

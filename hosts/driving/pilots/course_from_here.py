@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import ChainMap
 from collections.abc import Callable, Mapping
 
 from hosts.driving.pilots.pilot import Pilot
@@ -58,7 +59,7 @@ class CourseFromHere:
         self.released = self.released or x >= self.release_at
         if self.released:
             pedals = {"throttle": 0.0, "brake": 0.0}
-        here = {**senses, "chassis.x": x, "chassis.y": y, "chassis.yaw": yaw}
+        here = ChainMap({"chassis.x": x, "chassis.y": y, "chassis.yaw": yaw}, senses)  # type: ignore[arg-type]
         return {**self.steering.act(time, here), **pedals}
 
     def seen(self, senses: Mapping[str, float]) -> tuple[float, float, float]:

@@ -6,10 +6,10 @@ import math
 from typing import Any
 
 from ali3.parameter_set import UnitDefinition
+from ali3.words import brief
 from hosts.common.errors import HostError
-from hosts.common.unit_of import unit_of
+from hosts.common.units import known_unit, same_quantity, says_nothing, unit_of
 from hosts.fmu.aliases.alias import Alias
-from hosts.fmu.aliases.units import KNOWN, same_quantity, says_nothing
 from hosts.fmu.variables import Variable
 
 _TOLERANCE = 1e-3
@@ -23,7 +23,7 @@ def declared(variable: Variable) -> str:
 
 def definition(variable: Variable) -> UnitDefinition | None:
     """What that unit is; None where it says nothing or nobody knows it."""
-    unit = variable.definition or KNOWN.get(variable.unit)
+    unit = variable.definition or known_unit(variable.unit or "")
     return None if unit is None or variable.kind != "Real" or says_nothing(unit) else unit
 
 
@@ -50,9 +50,11 @@ def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
         Nobody knows the unit, or the FMU declares another.
     """
     own = variable.definition if variable is not None and variable.unit == unit else None
-    known = own or (KNOWN.get(unit) if isinstance(unit, str) else None)
+    known = own or (known_unit(unit) if isinstance(unit, str) else None)
     if known is None:
-        raise HostError(f"{where}: the unit {unit!r} is not known; known are {', '.join(u for u in KNOWN if u)}.")
+        raise HostError(f"{where}: the unit {brief(unit)} is not known, as m, km/h, deg or rpm are; give a factor.")
+    if known.offset:
+        raise HostError(f"{where}: the zero of the unit {brief(unit)} is another than in SI; give factor and offset.")
     if variable is not None:
         there = definition(variable)
         if there is not None and not _same(known, there):
@@ -74,12 +76,12 @@ def check_unit(alias: Alias, variable: Variable, unit: str | None, by_constant: 
     ours, theirs = unit_of(alias.ours), definition(variable)
     if ours is None or theirs is None or by_constant:
         return
-    mine = KNOWN.get(ours) or UnitDefinition({})
-    if ours in KNOWN and not same_quantity(mine, theirs):
+    mine = known_unit(ours)
+    if mine is not None and not same_quantity(mine, theirs):
         raise HostError(
             f"{where} is in {ours}, but the FMU declares '{variable.name}' in {declared(variable)}, another quantity."
         )
-    if unit is not None or ours not in KNOWN:
+    if unit is not None or mine is None:
         return
     expected = [1.0 / theirs.factor]
     if mine.exponents.get("rad") and not theirs.exponents.get("rad") and "s" in theirs.exponents:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ali3.reading import read_toml
 from hosts.common.errors import HostError
-from hosts.fmu.aliases.toml_file import read_toml
 
 CONSTANTS = "constants"
 """The table of an alias file that says what the FMU does not tell of its car, such as ``vehicle.wheelbase``."""
@@ -72,7 +72,7 @@ class Content:
 
 def read_content(file: Path, depth: int = 0) -> Content:
     """Read a file and those that it extends; `HostError` with the file and the key."""
-    table = read_toml(file)
+    table = read_toml(file, HostError, f"The alias file {file}")
     made = Content(str(file))
     base = table.pop(EXTENDS, None)
     if base is not None:

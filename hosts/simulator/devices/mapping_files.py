@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tomllib
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -11,12 +10,14 @@ from typing import Any
 import tomli_w
 from platformdirs import user_config_path
 
+from ali3.errors import FileError
 from ali3.files import reason, whole_file
+from ali3.reading import read_toml
+from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.simulator.devices.mapping import DeviceMapping, read_input, read_settings
 
 FORMAT, VERSION = "ALi3 device", 1
-_LARGEST = 100_000
 _HEAD = """\
 # How this device drives the car; written by the simulator's page of devices, and may be edited.
 # source: "axis 0", "button 3" or "hat 0 up". low, high: ends of the axis, from -1 to 1. inverted: the input grows as
@@ -51,8 +52,8 @@ class MappingFiles:
     def serial(self, device: str) -> str:
         """Serial number in a device's file, empty without one."""
         try:
-            return str(self._table(self.file(device)).get("serial", ""))
-        except (OSError, HostError):
+            return str(read_toml(self.file(device)).get("serial", ""))
+        except FileError:
             return ""
 
     def read(self, device: str) -> DeviceMapping | None:
@@ -64,13 +65,11 @@ class MappingFiles:
             The file cannot be read or is damaged; the sentence names it.
         """
         file = self.file(device)
-        try:
-            table = self._table(file)
-            return _mapping(table)
-        except FileNotFoundError:
+        if not file.exists():
             return None
-        except OSError as error:
-            raise HostError(f"{file} cannot be read: {reason(error)}.") from None
+        table = read_toml(file, HostError)
+        try:
+            return _mapping(table)
         except HostError as error:
             raise HostError(f"{file} is damaged: {error}") from None
 
@@ -102,17 +101,6 @@ class MappingFiles:
         except OSError as error:
             raise HostError(f"{self.file(device)} cannot be removed: {reason(error)}.") from None
 
-    @staticmethod
-    def _table(file: Path) -> dict[str, Any]:
-        with file.open("rb") as opened:
-            data = opened.read(_LARGEST + 1)
-        if len(data) > _LARGEST:
-            raise HostError(f"it has more than {_LARGEST} bytes.")
-        try:
-            return tomllib.loads(data.decode("utf-8"))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise HostError(f"{error}.") from None
-
 
 def _mapping(table: dict[str, Any]) -> DeviceMapping:
     if table.get("format") != FORMAT or table.get("version") != VERSION:
@@ -122,6 +110,6 @@ def _mapping(table: dict[str, Any]) -> DeviceMapping:
             raise HostError(f"'{name}' is unknown.")
     inputs = table.get("inputs", {})
     if not isinstance(inputs, dict):
-        raise HostError(f"inputs = {inputs!r} is no table.")
+        raise HostError(f"inputs = {brief(inputs)} is no table.")
     read = {name: read_input(name, fields) for name, fields in inputs.items()}
     return DeviceMapping(read, read_settings(table.get("settings", {})))

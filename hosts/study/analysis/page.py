@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from lxml.html import HtmlElement
 
 _STYLE = """
-main > figure.plot { margin: 0.6rem 0; } .plot img { width: auto; max-width: 100%; }
 td code { display: block; margin-bottom: 0.2rem; user-select: all; font-size: 0.78rem; min-width: 24rem; }
 table.small, .wide table { font-size: 0.85rem; } td { min-width: 0; }
 """

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ali3.files import reason
+from ali3.reading import LARGEST_TEXT, read_text
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import Result
@@ -137,11 +137,7 @@ def read_user_function(file: Path, function: str, name: str = "") -> UserFunctio
     """
     if not function.isidentifier():
         raise HostError(f"'{file}:{function}' names no function; the form is file.py:function.")
-    try:
-        source = file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        words = reason(error) if isinstance(error, OSError) else "it is no text in UTF-8"
-        raise HostError(f"{file}, in which the function {function} is to be, cannot be read: {words}.") from None
+    source = read_text(file, LARGEST_TEXT, HostError, f"{file}, in which the function {function} is to be,")
     made = UserFunction(name or function, str(file), function, source)
     _load(made)
     made.columns({})

@@ -77,7 +77,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_element_step": (c_int32, [c_void_p] + [_DOUBLES] * 3 + [c_double] + [_DOUBLES] * 2),
 }
 
-_OTHER_SOURCES = ": it was compiled from other sources. Compile it again: python -m mbs.kernel.build"
+_OTHER_SOURCES = ": it was compiled from other sources. Compile it again: python -m ali3 build --kernel"
 
 _libraries: dict[str, ctypes.CDLL] = {}
 

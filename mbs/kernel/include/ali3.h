@@ -153,12 +153,13 @@ ALI3_API ali3_status ali3_reset(ali3_instance *in); /* back to q0, qd0, y0, defa
 ALI3_API ali3_settings ali3_default_settings(void);
 ALI3_API ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings);
 ALI3_API ali3_status ali3_get_settings(const ali3_instance *in, ali3_settings *settings);
-ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value); /* clamped to its range */
+/* The value from the present time on, clamped to its range; it is held until it is set again. */
+ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value);
 /* Inputs as a function of time: writes those at time t to `input` (nu), which comes with the present ones, so that some
  * may be left as they are; returns other than 0 to refuse. Steps then ask at every time at which their method looks at
  * inputs, halves of a step too: with after = 1 at the start of a step, where the value behind a jump counts, else with
  * 0. Numbers are clamped to their ranges; what is refused or not finite ends the step with ALI3_BAD_ARGUMENT. NULL: the
- * values of ali3_set_input, along straight lines from step to step, as before. The function is no part of a saved
+ * values of ali3_set_input or ali3_run, as before. The function is no part of a saved
  * state; ali3_reset takes it away. */
 typedef int32_t ali3_input_function(void *context, double t, int32_t after, double *input);
 ALI3_API ali3_status ali3_set_input_function(ali3_instance *in, ali3_input_function *function, void *context);
@@ -208,7 +209,8 @@ ALI3_API const char *ali3_method_excludes(const ali3_instance *in);
  * then as ali3_initialise. */
 ALI3_API ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double tolerance, int32_t max_iterations);
 ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
-/* steps: inputs is (n_steps x nu) row major, one row per step, or NULL (keep); every k-th state's sensors go to out
+/* steps: inputs is (n_steps x nu) row major, the values at the end of each step, to which they go straight from those at
+   its start, or NULL (held); every k-th state's sensors go to out
    (n_steps/every x ns), its coordinates to positions (n_steps/every x nq) unless they are NULL. *done is the number of
    accepted steps. */
 ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every,

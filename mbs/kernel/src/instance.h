@@ -99,12 +99,12 @@ struct ali3_instance {
   double *F_stages, *F_C, *F_K; /* tangent of all stages, front storage of dampers and of springs and rows */
   double *y_work, *out_work, *potential_work, *parameter_work;
   ali3_tree_work *tree;
-  /* inputs.c: the function that is called, inputs at the start of the step, its start, its length, the time of in->now
-   * */
+  /* inputs.c: the function that is called; of a whole step as asked for: inputs at both ends, its start, its length; of
+   * the present part of it: inputs at the start, its start, its length; the time of in->now */
   ali3_input_function *input_function;
   void *input_context;
-  double *input_begin, *stage_input; /* nu; of the stages of radau.c */
-  double input_time, input_length, t_now;
+  double *input_from, *input_to, *input_begin, *stage_input; /* nu; of the stages of radau.c */
+  double whole_time, whole_length, input_time, input_length, t_now;
   /* of branch_watch.c, signed squares: sines and cosines of the triads at in->now; sines before the step, after it,
    * after it in parts; loops that left their modes */
   double *mode_sine, *mode_cosine, *sine_before, *sine_after, *sine_few, *mode_left;

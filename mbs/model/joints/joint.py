@@ -47,13 +47,12 @@ class Drawing:
 
     Attributes
     ----------
-    bodies : pair of Body
     points : pair of array_like, shape (dimension,)
         As drawn, earth axes, m.
     axes : pair of array_like or None
         As drawn, earth axes.
     conditions : tuple of str
-        Of these: "point" (the points are one), "axis" (the axes are parallel), "orientation" (nothing turns), "line"
+        Of these: "point" (the points coincide), "axis" (the axes are parallel), "orientation" (nothing turns), "line"
         (the first point on the second axis), "angle" (between the axes), "distance" (between the points).
     remake : callable
         ``remake(points, axes, length)`` is the joint with other ends.
@@ -86,7 +85,6 @@ class JointEnds:
 
     Attributes
     ----------
-    bodies : tuple of Body
     points : tuple of AffineVector
         On the first and on the second body.
     axis : AffineVector or None
@@ -129,8 +127,6 @@ class Joint:
 
     Attributes
     ----------
-    name, type : str
-    equations : list of Equation
     as_rows : bool
         Its force equations are rows, never eliminated, so that their multipliers (the joint force) exist; a joint-force
         sensor sets it.
@@ -235,20 +231,11 @@ def point_pair(point: PointPair, dimension: int, what: str, thing: str = "point"
         A pair where the drawing does not close.
     dimension : int
         2 or 3.
-    what : str
-        What joins there, for the message.
-    thing : {"point", "axis"}
-        What it is, for the message.
 
     Returns
     -------
     pair of ndarray, shape (dimension,)
         Of the first and of the second body.
-
-    Raises
-    ------
-    ModelError
-        It is neither, or a number is not finite.
     """
     wanted = f"{dimension} numbers, or a pair of {'points' if thing == 'point' else 'axes'}, one per body"
     name = f"the {thing} of {what}"

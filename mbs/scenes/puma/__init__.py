@@ -13,7 +13,7 @@ from mbs.model import Model
 from mbs.results.trajectory import Trajectory
 from mbs.scenes.puma.robot_data import FOREARM_EXCESS, GRAVITY, HAND_POINT, LINKS, STAGES_S, START_DEG, frames
 from mbs.settings.settings import Settings
-from mbs.simulation import Simulation
+from mbs.simulation.stepping import Simulation
 from mbs.system.system import System
 
 PIN = "hand"

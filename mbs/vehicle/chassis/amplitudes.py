@@ -12,13 +12,7 @@ COMPUTED = "stress.computed"
 
 
 def amplitude_names(flexible: FlexibleFrame) -> list[str]:
-    """Names of the outputs, one per mode.
-
-    Parameters
-    ----------
-    flexible : FlexibleFrame
-        Of the car.
-    """
+    """Names of the outputs, one per mode."""
     return [f"chassis.mode_{k + 1}" for k in range(flexible.drawn.n_modes)]
 
 
@@ -27,15 +21,6 @@ def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
 
     A flexible chassis with other modes gives the amplitudes that are nearest in the energy norm, the quasi-static one
     those of the static deformation; the rigid chassis has none, they read 0.
-
-    Parameters
-    ----------
-    m : Model
-        The car so far.
-    mount : Mount
-        Its chassis.
-    flexible : FlexibleFrame
-        Its frame.
     """
     drawn, body = flexible.drawn, mount.body
     rows = flexible.drawn_amplitudes(body.reduced) if isinstance(body, FlexibleBody) else None
@@ -44,8 +29,10 @@ def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
         text = f"amplitude of mode '{mode}' of the chassis, for pictures; zero where {COMPUTED} is 0"
         if isinstance(body, FlexibleBody):
             assert rows is not None
-            m.sense_recovery(name, body, rows[k], unit, text)
+            m.sense_coordinate(name, body.combination(rows[k]), unit=unit, description=text)
         elif isinstance(body, PortedBody):
-            m.sense_quasi_static(name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit, text)
+            m.sense_quasi_static(
+                name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit=unit, description=text
+            )
         else:
-            m.sense_constant(name, 0.0, unit, text, computed=False)
+            m.sense_constant(name, 0.0, unit=unit, description=text, computed=False)

@@ -20,10 +20,6 @@ def build_chassis(m: Model, data: Chassis, flexible: FlexibleFrame | None, fidel
 
     Parameters
     ----------
-    m : Model
-        Gets it.
-    data : Chassis
-        Of the car's file.
     flexible : FlexibleFrame or None
         Needed from QUASI_STATIC on.
     fidelity : Fidelity
@@ -88,26 +84,22 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
 
     Parameters
     ----------
-    m : Model
-        The car so far.
-    mount : Mount
-        Its chassis.
     flexible : FlexibleFrame
         Has the gauges.
-    fidelity : Fidelity
-        Of the chassis.
     """
     note = "; zero where stress.computed is 0"
     for k, reading in enumerate(flexible.structure.readings):
         name, unit, text = reading.name, reading.unit, reading.description
         if fidelity is Fidelity.RIGID:
-            m.sense_constant(name, 0.0, unit, text + note, computed=False)
+            m.sense_constant(name, 0.0, unit=unit, description=text + note, computed=False)
         elif isinstance(mount.body, PortedBody):
-            m.sense_quasi_static(name, mount.body, flexible.quasi_static, k, mount.origin, unit, text + note)
+            m.sense_quasi_static(
+                name, mount.body, flexible.quasi_static, k, mount.origin, unit=unit, description=text + note
+            )
         else:
             body = mount.body
             assert isinstance(body, FlexibleBody)
             row = body.reduced.recovery(flexible.gauge_rows[k : k + 1])[0]
-            m.sense_recovery(name, body, row, unit, text + note)
+            m.sense_coordinate(name, body.combination(row), unit=unit, description=text + note)
     text = "1 where moments and stresses are computed; 0: they read zero"
-    m.sense_constant("stress.computed", float(fidelity is not Fidelity.RIGID), "1", text, whole=True)
+    m.sense_constant("stress.computed", float(fidelity is not Fidelity.RIGID), unit="1", description=text, whole=True)

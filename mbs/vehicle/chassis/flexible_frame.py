@@ -35,8 +35,6 @@ class FlexibleFrame:
 
     Parameters
     ----------
-    section : FrameSection
-        Of the file.
     folder : Path
         Of the file and its tables.
     structure : Structure
@@ -68,13 +66,7 @@ class FlexibleFrame:
         return np.array(rows).reshape(len(rows), self.model.n_dof)
 
     def place(self, joint: str) -> np.ndarray:
-        """Place of a joint, m.
-
-        Parameters
-        ----------
-        joint : str
-            Its name.
-        """
+        """Place of a joint, m."""
         return np.asarray(self.model.positions[self.model.node(joint)])
 
     def reduced(self, fidelity: Fidelity | int | str) -> ReducedBody:

@@ -53,10 +53,6 @@ class JointFinder:
 
     Parameters
     ----------
-    section : FrameSection
-        Of the file.
-    structure : Structure
-        The frame.
     attached : Attachments
         Hard points on the chassis.
     keys : mapping of tuple to str

@@ -19,8 +19,6 @@ def check_mass(model: FiniteElementModel, chassis: Chassis) -> None:
     ----------
     model : FiniteElementModel
         Of the frame with all it carries.
-    chassis : Chassis
-        Of the file.
 
     Raises
     ------

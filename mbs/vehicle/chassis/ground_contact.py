@@ -24,10 +24,6 @@ def ground_contact(
 
     Parameters
     ----------
-    b : CarBuilder
-        The car so far.
-    data : GroundContact
-        Of the car's file.
     mass : float
         Of the car, kg.
     joints : callable

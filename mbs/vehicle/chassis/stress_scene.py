@@ -11,7 +11,7 @@ from mbs.compiler import compile
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model import Model
-from mbs.simulation import Simulation
+from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.chassis.amplitudes import COMPUTED, amplitude_names
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.side import Point
@@ -25,8 +25,6 @@ def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point)
 
     Parameters
     ----------
-    flexible : FlexibleFrame
-        Of the car.
     model : Model
         The car with fidelity `Fidelity.DYNAMIC`.
     reference_point : tuple of float
@@ -56,7 +54,7 @@ def _standing(flexible: FlexibleFrame, model: Model) -> np.ndarray:
     """Amplitudes of the car as it stands at the start."""
     system = compile(model)
     names = list(system.meta["coordinates"])
-    state = Simulation(system).state
+    state = StandingSystem(system).state
     return np.array([state.q[names.index(f"chassis.{mode}")] for mode in flexible.drawn.mode_names])
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from mbs.compiler import compile
 from mbs.model import Model
-from mbs.simulation import Simulation
+from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 
@@ -102,17 +102,15 @@ def settled(model: Model, car: CarContent) -> Rest:
 
     Parameters
     ----------
-    model : Model
-        Of the car.
     car : CarContent
         Without faults.
 
     Raises
     ------
-    ModelError, SimulationError
+    ModelError
         Its parts refuse a number, or it has no equilibrium.
     """
-    at_rest = Simulation(compile(model)).sensors
+    at_rest = StandingSystem(compile(model)).sensors
 
     def mean(name: str, axle: str) -> float:
         return 0.5 * sum(at_rest[name.format(f"{axle[0].upper()}{side}")] for side in "LR")

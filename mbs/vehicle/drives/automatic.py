@@ -105,8 +105,6 @@ class Automatic(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         spins : mapping of str to Spin
             Of the wheels, by their names.
         neutral : bool
@@ -130,13 +128,7 @@ class Automatic(Section):
         b.m.equilibrium_parameters = {self.key("creep_torque"): 0.0}
 
     def outputs(self, b: CarBuilder) -> None:
-        """Add the outputs of the drive.
-
-        Parameters
-        ----------
-        b : CarBuilder
-            The car so far.
-        """
+        """Add the outputs of the drive."""
         b.m.sense_element("engine_speed", "drive", "engine_speed", description="speed of the engine")
         b.m.sense_element("gear", "drive", "gear", description="gear engaged")
         b.m.sense_element("drive_torque", "drive", "wheel_torque", description=f"torque on each {self.wheels} wheel")

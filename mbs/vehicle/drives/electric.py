@@ -76,8 +76,6 @@ class Electric(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         spins : mapping of str to Spin
             Of the wheels, by their names.
         neutral : bool
@@ -96,13 +94,7 @@ class Electric(Section):
             b.tie(self, name, element, name)
 
     def outputs(self, b: CarBuilder) -> None:
-        """Add the outputs of the drive.
-
-        Parameters
-        ----------
-        b : CarBuilder
-            The car so far.
-        """
+        """Add the outputs of the drive."""
         for name, output, text in (
             ("motor_speed", "motor_speed", "speed of the motor"),
             ("motor_torque", "motor_torque", "torque of the motor at its shaft"),

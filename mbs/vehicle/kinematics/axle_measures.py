@@ -29,13 +29,6 @@ HEAVE, ROLL = np.array([1.0, 1.0, 0.0]), np.array([1.0, -1.0, 0.0])
 def wheel_measures(linkage: Linkage, at: Position) -> dict[str, float]:
     """Columns of both wheels.
 
-    Parameters
-    ----------
-    linkage : Linkage
-        Of the axle.
-    at : Position
-        Of it.
-
     Returns
     -------
     dict of str to float
@@ -71,10 +64,6 @@ def travel_measures(linkage: Linkage, at: Position, direction: Array) -> dict[st
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the axle.
-    at : Position
-        Of it.
     direction : ndarray, shape (3,)
         Rates of the travels of the left and the right wheel, and of the rack.
 
@@ -108,15 +97,7 @@ def travel_measures(linkage: Linkage, at: Position, direction: Array) -> dict[st
 
 
 def roll_measures(linkage: Linkage, at: Position) -> dict[str, float]:
-    """Columns of opposite travel besides: what the chassis does as it rolls.
-
-    Parameters
-    ----------
-    linkage : Linkage
-        Of the axle.
-    at : Position
-        Of it.
-    """
+    """Columns of opposite travel besides: what the chassis does as it rolls."""
     left, right = (wheel_motion(linkage, at, k) for k in range(2))
     track, per_angle = linkage.data.track, -2.0 / linkage.data.track  # travel of the right wheel less the left's
     steer = 0.5 * float((left.steer_rate + right.steer_rate) @ ROLL)
@@ -154,8 +135,6 @@ def anti_measures(car: Car, axle: str, wheels: list[WheelMotion]) -> dict[str, f
     ----------
     car : Car
         Gives the shares, the wheelbase and the height of the centre of mass.
-    axle : {"front", "rear"}
-        Which one.
     wheels : list of WheelMotion
         Left and right.
     """
@@ -169,15 +148,7 @@ def anti_measures(car: Car, axle: str, wheels: list[WheelMotion]) -> dict[str, f
 
 
 def brake_share(car: Car, axle: str) -> float:
-    """Share of an axle in the braking force on the level road, by the balance of the brakes and the wheels' radii.
-
-    Parameters
-    ----------
-    car : Car
-        Any.
-    axle : {"front", "rear"}
-        Which one.
-    """
+    """Share of an axle in the braking force on the level road, by the balance of the brakes and the wheels' radii."""
     front = car.brakes.balance / car.front.wheel.centre[2]
     rear = (1.0 - car.brakes.balance) / car.rear.wheel.centre[2]
     return (front if axle == "front" else rear) / (front + rear)
@@ -188,12 +159,8 @@ def length(linkage: Linkage, line: AffineVector, at: Position) -> float:
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the axle.
     line : AffineVector
         From one end to the other.
-    at : Position
-        Of the axle.
     """
     D, d = linkage.linear(line)
     return float(np.linalg.norm(D @ at.q + d))
@@ -204,12 +171,8 @@ def stretch(linkage: Linkage, line: AffineVector, at: Position, direction: Array
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the axle.
     line : AffineVector
         From one end to the other.
-    at : Position
-        Of the axle.
     direction : ndarray, shape (3,)
         Rates of the travels of the left and the right wheel, and of the rack.
     """

@@ -31,8 +31,6 @@ class Kinematics:
 
     Attributes
     ----------
-    car : str
-        Its name.
     curves : dict of (str, str) to Curve
         By axle and motion; "steer" of the front axle alone.
     notes : tuple of str
@@ -45,11 +43,6 @@ class Kinematics:
 
     def drawn(self, axle: str) -> dict[str, float]:
         """Values and gradients at the drawing, SI units.
-
-        Parameters
-        ----------
-        axle : {"front", "rear"}
-            Which one.
 
         Returns
         -------
@@ -82,8 +75,6 @@ def kinematics(
 
     Parameters
     ----------
-    car : Car
-        From `mbs.vehicle.load`.
     travel : (float, float)
         Least and largest wheel travel, m, from the drawing, positive in bump; 0 is between them.
     points : int
@@ -98,10 +89,8 @@ def kinematics(
 
     Raises
     ------
-    ArgumentTypeError
-        `car` is no Car.
     ModelError
-        The range or the number of points is not one.
+        The travel does not span 0, or there are too few or too many points.
     """
     instance_of(Car, car, "The car of kinematics()", "a Car of mbs.vehicle.load()")
     low, high = checked_travel(travel)
@@ -133,11 +122,6 @@ def checked_travel(travel: object) -> tuple[float, float]:
     ----------
     travel : object
         To be two numbers, m.
-
-    Raises
-    ------
-    ModelError
-        It is none.
     """
     if not isinstance(travel, (tuple, list)) or len(travel) != 2 or not all(is_finite(v) for v in travel):
         raise ModelError(f"The range of wheel travel is {shown(travel)}; it must be two numbers, m.")

@@ -35,8 +35,6 @@ class Compliance:
 
     Attributes
     ----------
-    fidelity : Fidelity
-        Of the chassis.
     freedoms : int
         Independent small motions that held wheels and steering leave; 0: nothing gives, and all values are zero.
     values : dict of str to dict of str to float
@@ -58,8 +56,6 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
 
     Parameters
     ----------
-    car : Car
-        From `mbs.vehicle.load`.
     fidelity : Fidelity, int or str, optional
         Of the chassis; by default its flexible frame with all static modes, where the car has one.
 
@@ -89,8 +85,6 @@ def fidelity_of(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
 
     Parameters
     ----------
-    car : Car
-        From `mbs.vehicle.load`.
     fidelity : Fidelity, int or str, optional
         A member, its number, also as text, or its name; None: the best that the car offers.
 

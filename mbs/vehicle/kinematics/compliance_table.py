@@ -28,13 +28,7 @@ _ANGLES = (
 
 
 def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
-    """Title, value in front, value behind, unit and meaning; a title alone is a heading.
-
-    Parameters
-    ----------
-    found : Compliance
-        Of a car.
-    """
+    """Title, value in front, value behind, unit and meaning; a title alone is a heading."""
     title = f"Compliance of the left wheel per load (fidelity {found.fidelity.value})"
     lines: list[tuple[str, str, str, str, str]] = [(title, "", "", "", "")]
     for load in LOADS if found.freedoms else ():

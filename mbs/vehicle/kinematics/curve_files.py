@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import csv
-import re
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
+from ali3.errors import TableError
 from ali3.files import whole_file
-from mbs.common.checks import shown
+from ali3.tables import TextTable
+from ali3.words import brief
 from mbs.vehicle.kinematics.curves import DIRECTIONS, Curve
 from mbs.vehicle.kinematics.quantities import BY_NAME
-
-_HEADING = re.compile(r"(?P<name>[a-z_]+) \[(?P<unit>[^\]]+)\]")
 
 
 def write_curve(curve: Curve, file: str | PathLike[str]) -> None:
@@ -48,29 +47,16 @@ def read_curve(file: str | PathLike[str]) -> Curve:
 
     Raises
     ------
-    OSError
-        It cannot be read.
-    ValueError
-        Its name, a heading, a unit or a value is not what `write_curve` writes; the message names it.
+    TableError
+        It cannot be read, or its name, a heading, a unit or a value is not what `write_curve` writes.
     """
     axle, _, motion = Path(file).stem.partition("_")
     if axle not in ("front", "rear") or motion not in DIRECTIONS:
-        raise ValueError(f"{file} must be called AXLE_MOTION.csv: front or rear, and one of {', '.join(DIRECTIONS)}.")
-    with Path(file).open(newline="", encoding="utf-8") as lines:
-        rows = list(csv.reader(lines))
-    if not rows:
-        raise ValueError(f"{file} is empty; it must begin with a line of headings.")
-    names = [_checked(file, heading) for heading in rows[0]]
-    columns: list[list[float]] = []
-    for number, row in enumerate(rows[1:], start=2):
-        if len(row) != len(names):
-            raise ValueError(f"{file}, line {number}: {len(row)} values where {len(names)} belong.")
-        try:
-            columns.append([float(cell) for cell in row])
-        except ValueError as error:
-            raise ValueError(f"{file}, line {number}: {error}.") from None
-    data = np.array(columns).reshape(-1, len(names))
-    return Curve(axle, motion, dict(zip(names, data.T, strict=True)))
+        raise TableError(f"{file} must be called AXLE_MOTION.csv: front or rear, and one of {', '.join(DIRECTIONS)}.")
+    table = TextTable(file, TableError, units=True)
+    for name in table.names:
+        _check(file, name, table.units.get(name, ""))
+    return Curve(axle, motion, dict(zip(table.names, table.values(finite=False, least=0).T, strict=True)))
 
 
 def curve_file(curve: Curve) -> str:
@@ -84,13 +70,8 @@ def curve_file(curve: Curve) -> str:
     return f"{curve.axle}_{curve.motion}.csv"
 
 
-def _checked(file: str | PathLike[str], heading: str) -> str:
-    match = _HEADING.fullmatch(heading)
-    name = match["name"] if match else ""
+def _check(file: str | PathLike[str], name: str, unit: str) -> None:
     quantity = BY_NAME.get(name.removesuffix("_left").removesuffix("_right"))
-    if match is None or quantity is None or quantity.unit != match["unit"]:
-        what = (
-            f"{name} [{quantity.unit}]" if quantity is not None else "the name and unit of a quantity, as name [unit]"
-        )
-        raise ValueError(f"{file}: the heading {shown(heading)} must be {what}.")
-    return name
+    if quantity is None or quantity.unit != unit:
+        what = f"{name} [{quantity.unit}]" if quantity else "the name and unit of a quantity, as name [unit]"
+        raise TableError(f"{file}: the heading {brief(f'{name} [{unit}]' if unit else name)} must be {what}.")

@@ -36,8 +36,6 @@ class Curve:
 
     Attributes
     ----------
-    axle : {"front", "rear"}
-        Which one.
     motion : {"parallel", "opposite", "single", "steer"}
         Wheels up and down together; left up as right goes down; left alone; rack.
     columns : dict of str to ndarray, shape (n,)
@@ -81,8 +79,6 @@ def travel_curve(linkage: Linkage, motion: str, travel: Array) -> Curve:
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the axle.
     motion : {"parallel", "opposite", "single"}
         What the right wheel does.
     travel : ndarray, shape (n,)
@@ -124,8 +120,6 @@ def reached(linkage: Linkage, direction: Array, values: Array) -> tuple[list[Pos
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the axle.
     direction : ndarray, shape (3,)
         Travels of the left and the right wheel and of the rack per value.
     values : ndarray, shape (n,)

@@ -15,8 +15,8 @@ from mbs.elements.road import PlaneRoad
 from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.ends import End
-from mbs.simulation import Simulation
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
+from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car import Car
@@ -57,8 +57,6 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
     ----------
     car : Car
         Without faults.
-    fidelity : Fidelity
-        Of its chassis.
     """
     m = Model(f"{car.name} held", gravity=(0.0, 0.0, 0.0))
     m.start_in_equilibrium = False
@@ -88,8 +86,6 @@ class HeldCar:
     ----------
     car : Car
         Without faults.
-    fidelity : Fidelity
-        Of its chassis.
 
     Attributes
     ----------
@@ -104,7 +100,7 @@ class HeldCar:
         system = compile(m)
         assert system.frames is not None
         self._T, self._constant = system.frames.T.toarray(), system.frames.constant
-        self._evaluator = Evaluator(Simulation(system))
+        self._evaluator = Evaluator(StandingSystem(system))
         self._carriers = {
             name: (
                 centre,

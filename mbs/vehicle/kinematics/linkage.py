@@ -24,8 +24,8 @@ from mbs.compiler import compile
 from mbs.elements.road import PlaneRoad
 from mbs.model import Model
 from mbs.model.ends import End
-from mbs.simulation import Simulation
 from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
+from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car import Car
@@ -76,8 +76,6 @@ class Linkage:
     ----------
     car : Car
         Without faults.
-    axle : {"front", "rear"}
-        Which one.
 
     Attributes
     ----------
@@ -121,7 +119,7 @@ class Linkage:
         system = compile(m)
         assert system.frames is not None
         self._T, self._constant = system.frames.T.toarray(), system.frames.constant
-        self._evaluator = Evaluator(Simulation(system))
+        self._evaluator = Evaluator(StandingSystem(system))
         self._centres = [self.linear(c.carrier.point(c.side.point(self.data.wheel.centre))) for c in corners]
         self._triads = [[self.linear(c.carrier.vector(e)) for e in (FORWARD, LEFT, UP)] for c in corners]
         self._heights = np.array([centre[0][2] for centre in self._centres])
@@ -144,13 +142,7 @@ class Linkage:
         return full @ self._T, full @ self._constant + [component.constant for component in v.components]
 
     def full(self, k: int) -> tuple[Array, float]:
-        """Row (nq,) and constant of a full coordinate.
-
-        Parameters
-        ----------
-        k : int
-            Its number.
-        """
+        """Row (nq,) and constant of a full coordinate."""
         return self._T[k], float(self._constant[k])
 
     def centre(self, side: int) -> tuple[Array, Array]:
@@ -203,8 +195,6 @@ class Linkage:
 
         Parameters
         ----------
-        at : Position
-            Where.
         directions : ndarray, shape (3, n)
             Rates of the travels of the left and the right wheel and of the rack.
         """
@@ -227,11 +217,6 @@ class Linkage:
         """Rates (nq,) of the coordinates per travel of the rack with springs of constant length.
 
         So a steering axis is defined: the suspension stands, the rod turns the wheel.
-
-        Parameters
-        ----------
-        at : Position
-            Where.
         """
         still = np.zeros(len(at.q))
         _, jacobian, ahead = self._evaluator.constraints(at.q, still, at.rack)

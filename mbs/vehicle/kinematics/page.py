@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import io
 from html import escape
 from typing import TYPE_CHECKING
@@ -17,21 +16,12 @@ from mbs.vehicle.kinematics.table import rows
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-STYLE = """
-body { font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 90em; padding: 0 1em; color: #222; }
-table { border-collapse: collapse; } td, th { padding: 0.15em 0.8em; text-align: right; }
-td:first-child, td:nth-child(n+4), th { text-align: left; } th { padding-top: 0.8em; }
-tr td { border-top: 1px solid #e3e3e3; } img { width: 100%; margin-top: 2em; } td:last-child { color: #666; }
-"""
-
 
 def page(found: Kinematics, gives: Compliance) -> str:
     """The page as text; it needs no other file.
 
     Parameters
     ----------
-    found : Kinematics
-        Of a car.
     gives : Compliance
         Of the same car.
     """
@@ -40,21 +30,17 @@ def page(found: Kinematics, gives: Compliance) -> str:
         f"<h1>{escape(title)}</h1>",
         "<p>The chassis is held, rigid; the wheel centres move. Terms of ISO 8855: x forward, y left, z up.</p>",
         *(f"<p>{escape(text)}</p>" for text in (*found.notes, gives.sentence) if text),
-        "<table><tr><td></td><td>front</td><td>rear</td><td></td><td></td></tr>",
+        html.table(
+            ("", "front", "rear", "unit", ""),
+            (line if any(line[1:]) else line[:1] for line in (*rows(found), *compliance_rows(gives))),
+        ),
     ]
-    for line in (*rows(found), *compliance_rows(gives)):
-        if not any(line[1:]):
-            lines.append(f'<tr><th colspan="5">{escape(line[0])}</th></tr>')
-        else:
-            lines.append("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in line) + "</tr>")
-    lines.append("</table>")
     for figure in (travel_figure(found, "front"), travel_figure(found, "rear"), steer_figure(found)):
-        words = escape(figure.get_suptitle())
-        lines.append(f'<img alt="{words}" src="data:image/png;base64,{_png(figure)}">')
-    return html.page(title, "\n".join(lines), STYLE)
+        lines.append(html.picture(_png(figure), figure.get_suptitle()))
+    return html.report(title, "\n".join(lines))
 
 
-def _png(figure: Figure) -> str:
+def _png(figure: Figure) -> bytes:
     out = io.BytesIO()
     figure.savefig(out, format="png", dpi=110)
-    return base64.b64encode(out.getvalue()).decode()
+    return out.getvalue()

@@ -73,15 +73,7 @@ LARGEST_CIRCLE = 60.0  # m: wider circles would hide the others
 
 
 def travel_figure(found: Kinematics, axle: str) -> Figure:
-    """Panels of an axle over wheel travel, of its left wheel.
-
-    Parameters
-    ----------
-    found : Kinematics
-        Of a car.
-    axle : {"front", "rear"}
-        Which one.
-    """
+    """Panels of an axle over wheel travel, of its left wheel."""
     curves = {motion: c for (of, motion), c in found.curves.items() if of == axle and motion != "steer"}
     panels = [(name, motions) for name, motions in TRAVEL_PANELS if _column(curves["parallel"], name)]
 
@@ -96,13 +88,7 @@ def travel_figure(found: Kinematics, axle: str) -> Figure:
 
 
 def steer_figure(found: Kinematics) -> Figure:
-    """Panels of the front axle over the angle of the steering wheel.
-
-    Parameters
-    ----------
-    found : Kinematics
-        Of a car.
-    """
+    """Panels of the front axle over the angle of the steering wheel."""
     curve = found.curves["front", "steer"]
 
     def draw(ax: Axes, k: int) -> None:

@@ -19,8 +19,6 @@ class Quantity:
         Of the column; columns of a wheel have ``_left`` or ``_right`` behind it.
     unit : str
         SI.
-    title : str
-        In words.
     shown : str
         Unit in tables and plots for people.
     factor : float

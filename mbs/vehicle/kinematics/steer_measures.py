@@ -23,8 +23,6 @@ def steer_measures(linkage: Linkage, at: Position, wheel_per_rack: float) -> dic
     ----------
     linkage : Linkage
         Of the steered axle.
-    at : Position
-        Of it.
     wheel_per_rack : float
         Angle of the steering wheel per travel of the rack, rad/m.
 

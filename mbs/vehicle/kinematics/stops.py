@@ -14,8 +14,6 @@ def stop_notes(linkage: Linkage, parallel: Curve) -> list[str]:
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the axle.
     parallel : Curve
         Over parallel travel.
     """

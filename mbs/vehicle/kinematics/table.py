@@ -47,13 +47,7 @@ def named(name: str) -> tuple[Quantity, str]:
 
 
 def rows(found: Kinematics) -> list[tuple[str, str, str, str, str]]:
-    """Title, value in front, value behind, unit and meaning; a title alone is a heading.
-
-    Parameters
-    ----------
-    found : Kinematics
-        Of a car.
-    """
+    """Title, value in front, value behind, unit and meaning; a title alone is a heading."""
     drawn = {axle: found.drawn(axle) for axle in ("front", "rear")}
     lines = []
     for heading, names in SECTIONS:

@@ -26,10 +26,6 @@ def wheel_loads(linkage: Linkage, at: Position, direction: Array) -> tuple[Array
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the axle.
-    at : Position
-        Of it.
     direction : ndarray, shape (3,)
         Rates of the travels of the left and the right wheel, and of the rack.
 

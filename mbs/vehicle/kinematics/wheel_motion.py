@@ -153,10 +153,6 @@ def wheel_motion(linkage: Linkage, at: Position, side: int) -> WheelMotion:
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the axle.
-    at : Position
-        Of it.
     side : int
         0 left, 1 right.
     """
@@ -175,10 +171,6 @@ def steering_axis(linkage: Linkage, at: Position, side: int) -> SteeringAxis | N
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the axle.
-    at : Position
-        Of it.
     side : int
         0 left, 1 right.
     """

@@ -15,12 +15,8 @@ def anti_roll_bar_shapes(looks: Looks, name: str, axle: Axle) -> None:
 
     Parameters
     ----------
-    looks : Looks
-        Draws.
     name : str
         "front" or "rear".
-    axle : Axle
-        Of the car.
     """
     bar = axle.anti_roll_bar
     if bar is None:

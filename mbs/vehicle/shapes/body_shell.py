@@ -188,8 +188,6 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
 
     Parameters
     ----------
-    looks : Looks
-        Draws.
     clear : bool
         Whether one sees through it, onto the frame in it.
     """

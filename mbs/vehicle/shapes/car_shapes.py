@@ -38,8 +38,6 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> Non
     ----------
     b : CarBuilder
         The whole car.
-    car : CarContent
-        The file.
     spins : mapping of str to Spin
         Its wheels by name.
     """

@@ -14,12 +14,8 @@ def double_wishbone_shapes(looks: Looks, name: str, axle: Axle) -> None:
 
     Parameters
     ----------
-    looks : Looks
-        Draws.
     name : str
         "front" or "rear".
-    axle : Axle
-        With such a suspension.
     """
     for side in sides(name):
         w = side.wheel

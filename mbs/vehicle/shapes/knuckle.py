@@ -17,12 +17,6 @@ def knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], a
 
     Parameters
     ----------
-    looks : Looks
-        Draws.
-    side : Side
-        Of the axle.
-    carrier : Body
-        Of the wheel.
     joints : sequence of (body, point)
         Of the carrier, from the lowest to the highest.
     arm : (body, point) or None

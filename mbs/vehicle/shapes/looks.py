@@ -41,8 +41,6 @@ class Looks:
     ----------
     b : CarBuilder
         With all its bodies.
-    car : CarContent
-        The file.
     spins : mapping of str to Spin
         Wheels by name.
     rack : Owner

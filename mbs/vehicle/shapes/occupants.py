@@ -30,13 +30,7 @@ def driver_place(car: CarContent) -> Point:
 
 
 def occupant_shapes(looks: Looks) -> None:
-    """Draw the driver, and the payloads that the car's file gives a mass.
-
-    Parameters
-    ----------
-    looks : Looks
-        Draws.
-    """
+    """Draw the driver, and the payloads that the car's file gives a mass."""
     car = looks.car
     _person(looks, driver_place(car), driver=True)
     for name, payload in car.payload.items():

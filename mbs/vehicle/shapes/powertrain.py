@@ -11,13 +11,7 @@ INNER = 0.16  # m from the middle of the car: inner joints of the shafts
 
 
 def powertrain_shapes(looks: Looks) -> None:
-    """Draw engine or motor between the driven wheels, and their shafts.
-
-    Parameters
-    ----------
-    looks : Looks
-        Draws.
-    """
+    """Draw engine or motor between the driven wheels, and their shafts."""
     car, chassis = looks.car, looks.chassis
     name = car.drive.wheels
     axle = getattr(car, name)

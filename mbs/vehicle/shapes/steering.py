@@ -24,13 +24,7 @@ def rack_of(b: CarBuilder, car: CarContent) -> Owner:
 
 
 def steering_shapes(looks: Looks) -> None:
-    """Draw rack, column and steering wheel.
-
-    Parameters
-    ----------
-    looks : Looks
-        Draws.
-    """
+    """Draw rack, column and steering wheel."""
     car, chassis = looks.car, looks.chassis
     x, y, z = car.rack_ends
     looks.cylinder(looks.rack, ((x, -y, z), (x, y, z)), 0.010 * looks.scale, **POLISHED)

@@ -14,12 +14,8 @@ def lower_arm_strut_shapes(looks: Looks, name: str, axle: Axle) -> None:
 
     Parameters
     ----------
-    looks : Looks
-        Draws.
     name : str
         "front" or "rear".
-    axle : Axle
-        With such a suspension.
     """
     _strut_shapes(looks, name, axle, "lower_ball_joint", "toe_link")
 
@@ -29,12 +25,8 @@ def macpherson_shapes(looks: Looks, name: str, axle: Axle) -> None:
 
     Parameters
     ----------
-    looks : Looks
-        Draws.
     name : str
         "front" or "rear".
-    axle : Axle
-        With such a suspension.
     """
     _strut_shapes(looks, name, axle, "strut_lower", "tie_rod")
 

@@ -18,8 +18,6 @@ def tube_frame_shapes(looks: Looks, frame: TubularFrame, *, bends: bool) -> None
 
     Parameters
     ----------
-    looks : Looks
-        Draws.
     frame : TubularFrame
         Tables of the car.
     bends : bool

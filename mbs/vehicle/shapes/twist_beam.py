@@ -14,12 +14,8 @@ def twist_beam_shapes(looks: Looks, name: str, axle: Axle) -> None:
 
     Parameters
     ----------
-    looks : Looks
-        Draws.
     name : str
         "front" or "rear".
-    axle : Axle
-        With such a suspension.
     """
     ends = []
     for side in sides(name):

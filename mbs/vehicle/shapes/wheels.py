@@ -26,12 +26,8 @@ def wheel_shapes(looks: Looks, name: str, axle: Axle) -> None:
 
     Parameters
     ----------
-    looks : Looks
-        Draws.
     name : str
         "front" or "rear".
-    axle : Axle
-        Of the car.
     """
     for side in sides(name):
         looks.m.shape(

@@ -86,8 +86,6 @@ class Column(RackSection):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         way : float
             1 where the rack moves to the left to steer to the left, -1 where it moves to the right.
 
@@ -190,8 +188,8 @@ class Column(RackSection):
         def add() -> None:
             (rack,) = racks
             rods = [j for j in m.joints if j.type == "distance" and j.ends is not None and rack in j.ends.bodies]
-            m.sense_joint_force("steering_wheel_torque", "grip", "torque", "N.m", WHEEL_TORQUE)
-            m.sense_coordinate("steering_wheel_speed", wheel, 1, description=WHEEL_SPEED)
+            m.sense_joint("steering_wheel_torque", "grip", "torque", unit="N.m", description=WHEEL_TORQUE)
+            m.sense_coordinate("steering_wheel_speed", wheel, order=1, description=WHEEL_SPEED)
             m.sense_rod_force("steering_rack_force", rods, rack, LEFT, description=RACK_FORCE)
             demand_outputs(m, demand, held, 1.0)
             m.sense_input(f"used.{torque.name}", torque, description=f"{torque.name} as used")
@@ -200,10 +198,10 @@ class Column(RackSection):
                 "steering_assistance", "torsion bar", "assistance", description="torque of the assistance on the pinion"
             )
             names = ("steering torque", "torsion bar", "steering friction", "rack friction", "rack stop")
-            m.sense_work(
+            m.sense_energy(
                 "energy.steering",
-                [e for e in m.elements if e.name in names],
                 "nonconservative",
+                [e for e in m.elements if e.name in names],
                 description="work of steering_torque, assistance, friction and stops of the steering since the start, "
                 "without what is stored",
             )

@@ -44,11 +44,12 @@ def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
         Radians of the steering wheel per unit of the guide.
     """
     m.sense_input(f"used.{demand.name}", demand, description=f"{demand.name} as used")
-    excess = m.sense_guide_excess(
+    excess = m.sense_guide(
         "steering_demand_excess",
         guide,
-        scale,
-        "rad",
-        "part of the demanded angle of the steering wheel beyond full lock, which is not followed",
+        "excess",
+        scale=scale,
+        unit="rad",
+        description="part of the demanded angle of the steering wheel beyond full lock, which is not followed",
     )
     m.notice(excess, "The demanded angle of the steering wheel is beyond full lock and held there")

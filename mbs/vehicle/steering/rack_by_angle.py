@@ -29,8 +29,6 @@ class RackByAngle(RackSection):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         way : float
             1 where the rack moves to the left to steer to the left, -1 where it moves to the right.
 
@@ -69,9 +67,15 @@ class RackByAngle(RackSection):
             )
 
         def torque_outputs() -> None:
-            m.sense_guide_force("steering_wheel_torque", rack, scale=per_radian, unit="N.m", description=WHEEL_TORQUE)
-            m.sense_guide("steering_wheel_speed", rack, 1, 1.0 / per_radian, "rad/s", WHEEL_SPEED)
-            m.sense_guide_force("steering_rack_force", rack, tie_rods(m, rack), -1.0, description=RACK_FORCE)
+            m.sense_guide(
+                "steering_wheel_torque", rack, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE
+            )
+            m.sense_guide(
+                "steering_wheel_speed", rack, order=1, scale=1.0 / per_radian, unit="rad/s", description=WHEEL_SPEED
+            )
+            m.sense_guide(
+                "steering_rack_force", rack, "force", joints=tie_rods(m, rack), scale=-1.0, description=RACK_FORCE
+            )
             demand_outputs(m, demand, rack, 1.0 / per_radian)
 
         return Steered(end, outputs, torque_outputs)

@@ -64,8 +64,6 @@ class AntiRollBar(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         axle : str
             "front" or "rear".
         corners : sequence of Corner

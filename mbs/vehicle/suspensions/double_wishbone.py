@@ -123,8 +123,6 @@ class DoubleWishbone(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         axle : str
             "front" or "rear".
         springs : AxleSprings

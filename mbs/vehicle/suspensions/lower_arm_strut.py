@@ -77,8 +77,6 @@ class LowerArmStrut(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         axle : str
             "front" or "rear".
         springs : AxleSprings

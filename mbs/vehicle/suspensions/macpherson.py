@@ -80,8 +80,6 @@ class MacPherson(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         axle : str
             "front" or "rear".
         springs : AxleSprings

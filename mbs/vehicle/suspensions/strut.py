@@ -41,8 +41,6 @@ def strut_corner(
 
     Parameters
     ----------
-    b : CarBuilder
-        The car so far.
     side : Side
         Axle, and left or right.
     points : mapping of str to tuple of float

@@ -85,8 +85,6 @@ class TwistBeam(Section):
 
         Parameters
         ----------
-        b : CarBuilder
-            The car so far.
         axle : str
             "front" or "rear".
         springs : AxleSprings

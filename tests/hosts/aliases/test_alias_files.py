@@ -52,12 +52,12 @@ def test_start_values_keep_their_kind(file):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("steering = ", "is not TOML: "),
+        ("steering = ", "is no TOML file: "),
         ('steering = "StrAngle"', "'steering': the FMU has no variable 'StrAngle'; did you mean StrAng."),
         ("steering = 3", "'steering' must be a name of the FMU"),
         ('chassis.x = "X"', "a name with a dot needs quotation marks"),
         ('steering = { name = "X", factor = 0 }', "factor is 0"),
-        ('steering = { name = "X", factor = nan }', "factor is nan; it must be a finite number"),
+        ('steering = { name = "X", factor = nan }', "steering.factor is nan; it must be a finite number"),
         ('steering = { name = "X", factor = true }', "factor is True"),
         ('steering = { name = "X", gain = 2 }', "has 'gain'; known are name, factor, offset"),
         ('steering = "X"\nthrottle = "X"', "'X' is named steering and throttle"),
@@ -74,8 +74,8 @@ def test_what_is_wrong_is_one_sentence(file, text, words):
 
 
 def test_a_file_that_cannot_be_read(tmp_path):
-    with pytest.raises(HostError, match=r"alias file .*none\.toml cannot be read: no such file"):
+    with pytest.raises(HostError, match=r"alias file .*none\.toml cannot be read: there is no such file"):
         read_aliases(tmp_path / "none.toml", NAMES)
     (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
-    with pytest.raises(HostError, match="is not TOML"):
+    with pytest.raises(HostError, match="is no text in UTF-8"):
         read_aliases(tmp_path / "bytes.toml", NAMES)

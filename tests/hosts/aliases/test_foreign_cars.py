@@ -98,7 +98,7 @@ def test_a_wheel_has_them():
     root = Path(__file__).parents[3]
     packed = {file.distribution_path.replace("\\", "/") for file in builder(str(root)).recurse_included_files()}
     assert {f"hosts/fmu/alias_files/{style}.toml" for style in STYLES} <= packed
-    assert "hosts/catalogue/report/page.css" in packed
+    assert "ali3/report.css" in packed
 
 
 # Rates are differences over 10 ms, in which inputs are held, and so are half a step late; CarSim's axes do not roll.

@@ -107,6 +107,7 @@ class BicycleCar(TestedCar):
         rows, failed = [[*acts.values(), *senses.values()]], 0
         for k in range(round(manoeuvre.stop_time / step)):
             acts |= pilot.act(k * step, senses)
+            rows[-1][: len(acts)] = acts.values()  # a row has the inputs with which the next step begins
             if k * step > self.refuses_after:
                 failed = 1
                 break

@@ -74,10 +74,11 @@ class BicycleCar:
         for k in range(round(manoeuvre.stop_time / self.step) + 1):
             senses = self._senses(state, act)
             time.append(k * self.step)
-            rows.append([*act.values(), *senses.values()])
             if until is not None and k and until(k * self.step, senses):
+                rows.append([*act.values(), *senses.values()])
                 break
             act = act | pilot.act(k * self.step, senses)
+            rows.append([*act.values(), *senses.values()])
             state = self._step(state, act)
         names = [*INPUTS, *OUTPUTS]
         units = dict.fromkeys(names, "1")

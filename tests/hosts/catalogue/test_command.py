@@ -36,7 +36,7 @@ def test_cars_stand_side_by_side_and_jobs_change_nothing(
     soft.write_text(SSV, encoding="utf-8")
     for jobs in (1, 2):
         out = tmp_path / f"out_{jobs}"
-        sets = ["--parameters", "as-is", "--parameters", str(soft)]
+        sets = ["--variant", "as-is", "--variant", str(soft)]
         assert main([str(prototype_fmu), *FAST, *sets, "--jobs", str(jobs), "--out", str(out)]) == 0
     printed = capsys.readouterr().out
     first, second = tmp_path / "out_1", tmp_path / "out_2"
@@ -74,6 +74,12 @@ def test_a_test_that_cannot_be_done_is_a_row_with_its_reason(
     assert "1 of 1 tests could not be done" in capsys.readouterr().out
 
 
+def test_no_tests_at_a_time(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["car.fmu", "--jobs", "0"])
+    assert "argument --jobs: '0' is given; it must be a whole number of at least 1" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -83,9 +89,8 @@ def test_a_test_that_cannot_be_done_is_a_row_with_its_reason(
         (["--test-setting", "circle.radius=50"], "it must be TEST.NAME=VALUE"),
         (["--set", "road.frction=1"], "did you mean road.friction"),
         (["--set", "initial.speed=3"], "the tests themselves say where a car starts"),
-        (["--parameters", "none.ssv"], "none.ssv"),
+        (["--variant", "none.ssv"], "none.ssv"),
         (["--aliases", "a.toml", "--aliases", "b.toml"], "1 FMUs and 2 alias files"),
-        (["--jobs", "0"], "it must be at least 1"),
         (["--step", "0.5"], "at most 0.1 s"),
     ],
 )
@@ -131,12 +136,15 @@ def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> 
             time.sleep(0.2)
         assert process.poll() is None
         os.killpg(process.pid, signal.SIGINT)
-        _, error = process.communicate(timeout=20.0)
+        told, error = process.communicate(timeout=60.0)
     finally:
         process.kill()
     assert process.returncode == 130
     assert error.strip().endswith("stopped by Ctrl-C")
     assert "Traceback" not in error
+    assert "1 of 2" not in told  # no verdict on what was not tried
+    assert str(out / "report.html") in told
+    assert "was stopped" in (out / "report.html").read_text()
     (left,) = (row for row in rows(out) if row["test"] == "steady_circle")
     assert left["note"] == "Not done yet: the command is at work, or was stopped."
     assert "load.peak_FL" in {row["measure"] for row in rows(out) if row["test"] == "drop"}

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from ali3.iso_3888 import Gate
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.lane_change_measures import Passage, measures_of
 from hosts.catalogue.perform import missing_for, perform
@@ -16,7 +17,7 @@ from hosts.catalogue.standard import double_lane_change
 from hosts.catalogue.standard.double_lane_change import _LAYOUTS, DRIVERS, limit
 from hosts.common.errors import HostError
 from hosts.driving.co_simulation import Result
-from hosts.driving.course import Course, Gate
+from hosts.driving.course import Course
 
 OBSTACLE = {"course": 2.0, "lowest": 60.0, "highest": 80.0, "increment": 10.0, "resolution": 5.0}
 LANE = Course("lane", (Gate(10.0, 30.0, -1.5, 1.5),))

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import sys
 import time
 from pathlib import Path
 
+import psutil
 import pytest
 
+from ali3.isolated import Lost, done_by
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.pool import done_by
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.task import Task
+from hosts.catalogue.task import Task, do
 from tests.hosts.catalogue.bicycle_car import BicycleCar
 from tests.hosts.catalogue.crashing_car import CrashingCar, FaultyCar
 
@@ -24,9 +24,10 @@ def test_a_crash_and_a_fault_are_rows_and_the_others_are_done(tmp_path: Path) ->
     cars = [CrashingCar(label="a"), BicycleCar(label="b"), FaultyCar(label="c"), BicycleCar(label="d", ratio=20.0)]
     tasks = [Task("steady_circle", car, FAST, tmp_path) for car in cars]  # type: ignore[arg-type]
     heard: list[tuple[int, float]] = []
-    outcomes = dict(done_by(tasks, 2, lambda place, part: heard.append((place, part))))
+    outcomes = dict(done_by(do, tasks, 2, lambda place, part: heard.append((place, part))))
     assert set(outcomes) == {0, 1, 2, 3}
-    assert outcomes[0] == "The process of the test ended by the signal SIGKILL: the FMU has crashed."
+    assert isinstance(outcomes[0], Lost)
+    assert outcomes[0].how.startswith("was killed (SIGKILL)")
     assert "KeyError('nothing')" in str(outcomes[2])
     for place in (1, 3):
         assert isinstance(outcomes[place], TestRecord)
@@ -41,15 +42,15 @@ def test_processes_and_what_they_unpacked_go_with_the_iteration(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, prototype_fmu: Path
 ) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    others = multiprocessing.active_children()
+    others = psutil.Process().children()
     slow = Task("steady_circle", TestedCar("slow", prototype_fmu), {"speed_rise": 0.02})
-    iteration = done_by([slow, Task("steady_circle", FaultyCar(), FAST)], 2, lambda place, part: None)  # type: ignore[arg-type]
+    iteration = done_by(do, [slow, Task("steady_circle", FaultyCar(), FAST)], 2, lambda place, part: None)  # type: ignore[arg-type]
     assert next(iteration)[0] == 1
     end = time.monotonic() + 30.0
     while not list(tmp_path.rglob("modelDescription.xml")) and time.monotonic() < end:
         time.sleep(0.05)
-    children = [child for child in multiprocessing.active_children() if child not in others]
+    children = [child for child in psutil.Process().children() if child not in others]
     assert len(children) == 2
     iteration.close()
-    assert not any(child.is_alive() for child in children)
+    assert not any(child.is_running() for child in children)
     assert not list(tmp_path.iterdir())

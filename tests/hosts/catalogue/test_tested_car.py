@@ -100,6 +100,12 @@ def test_what_a_pilot_lacks_is_named(prototype: TestedCar) -> None:
     with pytest.raises(HostError, match="needs the output 'eyes'"):
         prototype.drive(still, Blind())
 
+    class Careful:
+        def act(self, time: float, senses: dict[str, float]) -> dict[str, float]:
+            return {"steering": 0.25 if senses.get("eyes") is None and "eyes" not in senses else 0.5}
+
+    assert prototype.drive(still, Careful())["steering"][-1] == 0.25
+
 
 def test_a_pilot_that_asks_for_nothing_is_told(prototype: TestedCar) -> None:
     turn = SteeringTable([0.0, 0.1, 0.2], [0.0, 0.0, math.nan])

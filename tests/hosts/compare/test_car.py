@@ -79,7 +79,7 @@ def logged(car: Path, folder: Path, start: Mapping[str, float], delay: float = 0
 
 def compared(car: Path, log: Path, *options: str, signals: str = "speed,chassis.wz,chassis.ay") -> tuple[int, dict]:
     record = log.parent / "record.json"
-    arguments = [str(car), str(log), "--aliases", str(log.with_suffix(".toml")), "--out", str(log.parent / "out")]
+    arguments = [str(car), str(log), "--log-aliases", str(log.with_suffix(".toml")), "--out", str(log.parent / "out")]
     status = main([*arguments, "--signals", signals, "--json", str(record), *options])
     return status, json.loads(record.read_text())
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -44,6 +44,26 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.usefixtures("tuned")
 class TestCommand:
+    def test_a_fit_that_is_stopped_leaves_the_comparison(
+        self,
+        tuned: Path,
+        log: Path,
+        tmp_path: Path,
+        capsys: pytest.CaptureFixture[str],
+        monkeypatch: pytest.MonkeyPatch,
+    ) -> None:
+        def stopped(outputs: object, unknowns: object, simulate: Callable[[Mapping[str, float]], object]) -> None:
+            simulate({"spring.stiffness": 120.0})
+            raise KeyboardInterrupt
+
+        monkeypatch.setattr("hosts.compare.perform.fit", stopped)
+        assert main([str(tuned), str(log), "--out", str(tmp_path), "--fit", "spring.stiffness"]) == 130
+        said = capsys.readouterr()
+        assert said.err.endswith("stopped by Ctrl-C\n")
+        assert "drive.html" in said.out
+        assert "The fit was stopped after " in (tmp_path / "drive.html").read_text()
+        assert not (tmp_path / "drive.ssv").exists()
+
     def test_compare_and_fit(self, tuned: Path, log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         arguments = [str(tuned), str(log), "--out", str(tmp_path), "--json", str(tmp_path / "all.json")]
         assert (

@@ -26,7 +26,7 @@ UNKNOWNS = [
 @pytest.fixture(scope="module")
 def replay(tuned: Path) -> Iterator[Replay]:
     manoeuvre = inputs_of("log", {"pull": measured_pull()}, {}, END, STEP)
-    with Replay(tuned, Aliases(), manoeuvre, STEP, slopes=True) as made:
+    with Replay(tuned, Aliases(), manoeuvre, STEP) as made:
         assert made.check_reset()
         yield made
 

@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.common.unit_names import unit_definition
+from hosts.common.units import unit_definition
 from hosts.compare.log import Log, log_for
-from hosts.compare.log_aliases import LogAliases, read_log_aliases
+from hosts.compare.log_aliases import Form, LogAliases, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases import Aliases
@@ -171,12 +173,25 @@ def test_bad_logs_are_told_in_a_sentence(fmu: AliasedFmu, tmp_path: Path, text: 
     assert "\n" not in str(told.value)
 
 
+def test_what_pandas_has_written_besides_does_not_matter(tmp_path: Path) -> None:
+    """The index is a column; of damaged notes of pandas nothing is read."""
+    frame = pd.DataFrame({"u": [1.0, 2.0]}, index=pd.Index([0.0, 0.1], name="t"))
+    table = pa.Table.from_pandas(frame)
+    for notes in (table.schema.metadata, {b"pandas": b'{"index_columns": ["lost"], "columns": 3}'}, {b"pandas": b"{"}):
+        pq.write_table(table.replace_schema_metadata(notes), tmp_path / "a.parquet")
+        log = read_log(tmp_path / "a.parquet", Form())
+        assert log.numbers("u").tolist() == [1.0, 2.0]
+        assert log.numbers("t").tolist() == [0.0, 0.1]
+    pq.write_table(pa.Table.from_pandas(pd.DataFrame({"u": [1.0]}, index=[7])), tmp_path / "b.parquet")
+    assert list(read_log(tmp_path / "b.parquet", Form()).table) == ["u"]
+
+
 def test_a_file_of_another_kind(tmp_path: Path) -> None:
     for name, content, words in (
         ("a.mf4", b"MDF     4.10", "asammdf"),
         ("a.parquet", b"PAR1 no", "is no Parquet file"),
         ("a.csv", b"\x00\x01\x02", "is no text"),
-        ("b.csv", None, "does not exist"),
+        ("b.csv", None, "there is no such file"),
     ):
         if content is not None:
             (tmp_path / name).write_bytes(content)

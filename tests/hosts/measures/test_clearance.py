@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from hosts.driving.course import Course, Gate
+from ali3.iso_3888 import Gate
+from hosts.driving.course import Course
 from hosts.measures.clearance import clearance, outline
 
 # one lane from 0 to 10 m, 4 m wide; a car of 4 m by 2 m

@@ -8,6 +8,7 @@ import math
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -20,14 +21,15 @@ import pytest
 
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
+from hosts.common import commands
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.driving.wild_driver import WildDriver
 from hosts.fmu import built_fmu
 from hosts.fmu.aliases import Aliases, read_aliases
 from hosts.recordings.load_manoeuvre import load_manoeuvre
-from hosts.recordings.tables import ParquetTable
-from hosts.simulator import fmu_file
+from hosts.recordings.recorded_drive import read_recording
+from hosts.recordings.written_tables import ParquetTable
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.command import main
@@ -62,7 +64,9 @@ def told(capsys):
 
 
 def test_a_run_without_a_page_ends_with_its_report(fmus, told, tmp_path):
-    code, out, _ = told(fmus["sledge"], "--headless", "--seconds", 0.5, "--step", 0.005, "--json", tmp_path / "r.json")
+    code, out, _ = told(
+        fmus["sledge"], "--headless", "--stop-time", 0.5, "--step", 0.005, "--json", tmp_path / "r.json"
+    )
     assert code == 0
     for words in (
         "100 steps of 5 ms: 0.500 s simulated in ",
@@ -83,18 +87,41 @@ def test_a_run_without_a_page_ends_with_its_report(fmus, told, tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without asking it")
-def test_a_run_without_a_page_that_is_terminated_ends_with_its_report(fmus, tmp_path):
-    command = [sys.executable, "-m", "hosts.simulator", str(fmus["sledge"]), "--headless", "--seconds", "600"]
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+def test_a_run_without_a_page_that_is_ended_ends_with_its_report(name, fmus, tmp_path):
+    command = [sys.executable, "-m", "hosts.simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
     command += ["--step", "0.005", "--record", str(tmp_path / "drive")]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as program:
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as program:
         assert any(line.startswith("Ready") for line in program.stdout)
         time.sleep(0.5)
-        program.terminate()
-        said = program.communicate(timeout=30)[0]
-    assert program.returncode == 0
+        os.killpg(program.pid, getattr(signal, name))  # as a terminal and `timeout` do
+        said, error = program.communicate(timeout=30)
+    assert (program.returncode, error) == (0, "")
     assert "Ended by Ctrl-C or a signal." in said
     assert " steps of 5 ms: " in said
-    assert (tmp_path / "drive" / "inputs_outputs.parquet").is_file()
+    rows = read_recording(tmp_path / "drive").rows()
+    assert len(rows.time) > 20
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there are no such terminals")
+def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
+    ours, theirs = os.openpty()
+    command = [sys.executable, "-m", "hosts.simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
+    command += ["--step", "0.005", "--record", str(tmp_path / "drive"), "--json", str(tmp_path / "report.json")]
+    take = "import fcntl, termios, os, sys; fcntl.ioctl(0, termios.TIOCSCTTY, 0); os.execv(sys.argv[1], sys.argv[1:])"
+    program = subprocess.Popen(
+        [sys.executable, "-c", take, *command], stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True
+    )
+    os.close(theirs)
+    said = b""
+    while b"Ready" not in said:
+        said += os.read(ours, 1000)
+    time.sleep(0.5)
+    os.close(ours)
+    assert program.wait(timeout=60) == 0
+    assert json.loads((tmp_path / "report.json").read_text())["steps"]["steps"] > 20
+    assert len(read_recording(tmp_path / "drive").rows().time) > 20
 
 
 def test_a_recording_that_cannot_be_finished_is_said_in_the_report(fmus, told, tmp_path, monkeypatch):
@@ -102,7 +129,17 @@ def test_a_recording_that_cannot_be_finished_is_said_in_the_report(fmus, told, t
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(ParquetTable, "close", full)
-    arguments = ("--headless", "--seconds", 0.1, "--step", 0.005, "--record", tmp_path / "r", "--json", tmp_path / "j")
+    arguments = (
+        "--headless",
+        "--stop-time",
+        0.1,
+        "--step",
+        0.005,
+        "--record",
+        tmp_path / "r",
+        "--json",
+        tmp_path / "j",
+    )
     code, out, _ = told(fmus["sledge"], *arguments)
     assert code == 1
     assert out.count("The recording could not be finished: ") == 1
@@ -151,7 +188,7 @@ def test_a_manoeuvre_that_needs_more_than_the_car_has(fmus, tmp_path):
 
 def test_a_refused_step_ends_the_run_with_the_words_of_the_fmu(fmus, told, tmp_path):
     (tmp_path / "pull.csv").write_text('"time","pull"\n0,0\n1,10\n')
-    arguments = ("--headless", "-m", tmp_path / "pull.csv", "--seconds", 5, "--step", 0.01)
+    arguments = ("--headless", "-m", tmp_path / "pull.csv", "--stop-time", 5, "--step", 0.01)
     code, out, _ = told(fmus["reach"], *arguments, "--json", tmp_path / "r")
     assert code == 1
     report = json.loads((tmp_path / "r").read_text())
@@ -188,18 +225,18 @@ def renamed(fmus, tmp_path):
 
 
 def test_an_fmu_with_other_names_says_what_it_lacks_and_runs_all_the_same(renamed, told):
-    code, out, _ = told(renamed, "--headless", "--seconds", 0.1)
+    code, out, _ = told(renamed, "--headless", "--stop-time", 0.1)
     assert code == 0
     words = "foreign.fmu has no input steering, throttle, brake and no output chassis.x, chassis.z, chassis.yaw, which"
     assert words in out
     assert "(--aliases FILE). Its inputs are StrAng, Acc_ped, Brk; its outputs X," in out
     assert "is not drawn" in out
-    assert "20 steps" in told(renamed, "--headless", "--seconds", 0.1, "--step", 0.005)[1]
+    assert "20 steps" in told(renamed, "--headless", "--stop-time", 0.1, "--step", 0.005)[1]
 
 
 def test_an_alias_file_gives_it_our_names(renamed, told, tmp_path):
     (tmp_path / "names.toml").write_text(ALIASES)
-    out = told(renamed, "--headless", "--seconds", 0.1, "--aliases", tmp_path / "names.toml")[1]
+    out = told(renamed, "--headless", "--stop-time", 0.1, "--aliases", tmp_path / "names.toml")[1]
     assert "foreign.fmu has no output chassis.z, which driving needs." in out
     aliases = read_aliases(tmp_path / "names.toml", [*NAMES.values(), "chassis.y", "speed"])
     with started(renamed, aliases) as car:
@@ -232,20 +269,20 @@ def test_a_hello_has_our_names(renamed, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--headless"], "needs its length: --headless --seconds N, or a --manoeuvre"),
-        (["--seconds", 3], "--seconds is for a run without a page; add --headless"),
-        (["--wild", 3], "--wild is for a run without a page"),
-        (["--headless", "--seconds", 0], "--seconds is 0; it must be positive"),
-        (["--headless", "--seconds", "nan"], "--seconds is nan"),
-        (["--headless", "--seconds", 1, "--wild", 1, "-m", "slalom"], "give one of them"),
-        (["--headless", "--seconds", 1, "--step", 3], "The step is 3 s"),
-        (["--headless", "--seconds", 1, "--step", "nan"], "The step is nan s"),
+        (["--headless"], "needs its length: --headless --stop-time T, or a --manoeuvre"),
+        (["--stop-time", 3], "--stop-time is for a run without a page; add --headless"),
+        (["--seed", 3], "--seed is for a run without a page"),
+        (["--headless", "--stop-time", 0], "--stop-time is 0; it must be positive"),
+        (["--headless", "--stop-time", "nan"], "--stop-time is nan"),
+        (["--headless", "--stop-time", 1, "--seed", 1, "-m", "slalom"], "give one of them"),
+        (["--headless", "--stop-time", 1, "--step", 3], "The step is 3 s"),
+        (["--headless", "--stop-time", 1, "--step", "nan"], "The step is nan s"),
         (["--headless", "-m", "waltz"], "There is no manoeuvre 'waltz'"),
-        (["--headless", "--seconds", 1, "--world", "moon"], "has no parameter 'road.file', so that the world moon"),
-        (["--headless", "--seconds", 1, "--place", "start"], "of this FMU has no place 'start'; it has: none."),
-        (["--headless", "--seconds", 1, "--fidelity", 2], "no parameter or input 'fidelity'"),
-        (["--headless", "--seconds", 1, "--set", "steering=2"], "its range is -1 to 1"),
-        (["--headless", "--seconds", 1, "--aliases", "none.toml"], "The alias file none.toml cannot be read"),
+        (["--headless", "--stop-time", 1, "--world", "moon"], "has no parameter 'road.file', so that the world moon"),
+        (["--headless", "--stop-time", 1, "--place", "start"], "of this FMU has no place 'start'; it has: none."),
+        (["--headless", "--stop-time", 1, "--fidelity", 2], "no parameter or input 'fidelity'"),
+        (["--headless", "--stop-time", 1, "--set", "steering=2"], "its range is -1 to 1"),
+        (["--headless", "--stop-time", 1, "--aliases", "none.toml"], "The alias file none.toml cannot be read"),
         (["--port", 70000], "The port is 70000"),
         (["--listen", "203.0.113.1"], "cannot listen on 203.0.113.1"),
     ],
@@ -260,14 +297,14 @@ def test_what_cannot_be_done_is_one_sentence(fmus, told, arguments, words):
 def test_a_folder_that_cannot_be_written_is_refused_before_the_run(fmus, told, tmp_path):
     (tmp_path / "file").write_text("")
     for option in ("--record", "--json"):
-        code, out, error = told(fmus["sledge"], "--headless", "--seconds", 1, option, tmp_path / "file" / "x")
+        code, out, error = told(fmus["sledge"], "--headless", "--stop-time", 1, option, tmp_path / "file" / "x")
         assert code == 2
         assert "file" in error
         assert "simulated" not in out
 
 
 def test_a_recording_is_not_written_over_another(fmus, told, tmp_path):
-    run = (fmus["sledge"], "--headless", "--seconds", 0.1, "--wild", 7, "--record", tmp_path / "rec")
+    run = (fmus["sledge"], "--headless", "--stop-time", 0.1, "--seed", 7, "--record", tmp_path / "rec")
     assert told(*run)[0] == 0
     assert json.loads((tmp_path / "rec" / "recording.json").read_text())["seed"] == 7
     code, out, error = told(*run)
@@ -278,12 +315,12 @@ def test_a_recording_is_not_written_over_another(fmus, told, tmp_path):
 
 
 def test_no_fmu_and_fmus_of_other_kinds(told, tmp_path):
-    assert "There is no file none.fmu" in told("none.fmu", "--headless", "--seconds", 1)[2]
+    assert "There is no file none.fmu" in told("none.fmu", "--headless", "--stop-time", 1)[2]
     (tmp_path / "text.fmu").write_text("text")
-    assert "is not an FMU" in told(tmp_path / "text.fmu", "--headless", "--seconds", 1)[2]
+    assert "is not an FMU" in told(tmp_path / "text.fmu", "--headless", "--stop-time", 1)[2]
     name, system = load_scene(f"{TESTS / 'hosts' / 'scenes.py'}:sledge")
     made = build_fmu(system, name, tmp_path, [fmpy.platform], kind="fmi3")
-    error = told(made, "--headless", "--seconds", 1)[2]
+    error = told(made, "--headless", "--stop-time", 1)[2]
     assert "is an FMU of FMI 3.0; the simulator drives FMI 2.0 co-simulation, the kind native of " in error
 
 
@@ -293,32 +330,32 @@ def test_without_an_fmu_one_is_built_and_kept(fmus, told, tmp_path, monkeypatch)
     monkeypatch.chdir(tmp_path)
     built = []
 
-    def build(folder):
-        built.append(folder)
-        folder.mkdir(parents=True)
-        shutil.copy(fmus["sledge"], folder / fmu_file.NAME)
+    def build(_, options, folder):
+        built.append(options)
+        folder.mkdir(parents=True, exist_ok=True)
+        shutil.copy(fmus["sledge"], folder)
 
-    monkeypatch.setattr(fmu_file, "_build", build)
-    out = told("--headless", "--seconds", 0.1)[1]
-    assert "There is no dist" in out
-    assert "(cold: the FMU was built in 0.0 s of it)" in out
-    assert "(warm: the FMU was there)" in told("--headless", "--seconds", 0.1)[1]
-    assert len(built) == 1
-    monkeypatch.setattr(fmu_file, "program_version", lambda: "other")
-    assert "(cold: " in told("--headless", "--seconds", 0.1)[1]
+    monkeypatch.setattr(built_fmu, "build_fmu", build)
+    out = told("--headless", "--stop-time", 0.1)[1]
+    assert "The car prototype is built for this machine" in out
+    assert re.search(r"\(cold: the FMU was built in \d+\.\d s of it\)", out)
+    assert "(warm: the FMU was there)" in told("--headless", "--stop-time", 0.1)[1]
+    assert built == [("--car", "prototype", "--poses", "all")]
+    monkeypatch.setattr(built_fmu, "program_version", lambda: "other")
+    assert "(cold: " in told("--headless", "--stop-time", 0.1)[1]
     (tmp_path / "dist").mkdir()
-    shutil.copy(fmus["reach"], tmp_path / "dist" / fmu_file.NAME)
-    assert "Its inputs are pull" in told("--headless", "--seconds", 0.1)[1]
+    shutil.copy(fmus["reach"], tmp_path / "dist" / "PrototypeCar.fmu")
+    assert "Its inputs are pull" in told("--headless", "--stop-time", 0.1)[1]
 
 
 def test_a_build_that_fails_is_one_sentence(told, tmp_path, monkeypatch):
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(
-        built_fmu, "module_command", lambda *_: [sys.executable, "-c", "import sys; sys.exit('error: No.')"]
+        commands, "module_command", lambda *_: [sys.executable, "-c", "import sys; sys.exit('error: No.')"]
     )
-    code, _, error = told("--headless", "--seconds", 1)
-    assert (code, error) == (2, "error: The FMU of the car cannot be built: No.")
+    code, _, error = told("--headless", "--stop-time", 1)
+    assert (code, error) == (2, "error: The FMU of the car prototype cannot be built: No.")
 
 
 def test_packages_that_are_missing_are_named_with_their_extra(fmus, told, monkeypatch):

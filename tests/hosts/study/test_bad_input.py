@@ -21,7 +21,7 @@ def _no_run(monkeypatch: pytest.MonkeyPatch) -> None:
     def run(*_: object) -> None:
         raise AssertionError("a run was made")
 
-    monkeypatch.setattr(trial, "run_isolated", run)
+    monkeypatch.setattr(trial, "_outcomes", run)
 
 
 @pytest.fixture
@@ -63,10 +63,13 @@ def test_what_the_command_line_asks(
     told: Callable[..., str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main([str(tmp_path / "none.toml")]) == 2
-    assert capsys.readouterr().err == f"error: There is no file {tmp_path}/none.toml.\n"
+    assert capsys.readouterr().err == f"error: {tmp_path}/none.toml cannot be read: there is no such file.\n"
     assert main([str(tmp_path)]) == 2
     assert capsys.readouterr().err == f"error: {tmp_path} is a folder; a study is a TOML file.\n"
-    assert main([str(tmp_path), "--workers", "0"]) == 2
-    assert capsys.readouterr().err == "error: --workers is 0; at least one is needed.\n"
+    for option, words in (("--jobs", "a whole number of at least 1"), ("--workers", "error: --workers is now --jobs; ")):
+        with pytest.raises(SystemExit) as end:
+            main([str(tmp_path), option, "0"])
+        assert end.value.code == 2
+        assert words in capsys.readouterr().err
     assert main([str(tmp_path), "--run", "1"]) == 2
     assert "is no folder of a study: there is no study.json in it." in capsys.readouterr().err

@@ -56,6 +56,7 @@ def table_study(study_file: Callable[..., Path], folder: Path) -> Path:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_runs_that_raise_crash_or_hang_are_rows(study_file: Callable[..., Path], tmp_path: Path) -> None:
     file = table_study(study_file, tmp_path)
@@ -77,9 +78,9 @@ def test_runs_that_raise_crash_or_hang_are_rows(study_file: Callable[..., Path],
     assert (failed["status"] == "failed").all()
     assert failed["highest"].isna().all()
     assert failed["reason"].tolist() == [
-        "The run ended its process by the signal SIGKILL.",
+        "The process of the run was killed (SIGKILL), by a user or by the system for want of memory.",
         "The run took more than 2 s (time_limit).",
-        "The run ended its process with exit code 3.",
+        "The process of the run ended with exit code 3.",
     ]
 
 

@@ -10,13 +10,17 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import psutil
 import pyarrow.parquet as pq
 import pytest
 from distributed import Client
+from distributed.comm import CommClosedError
 
+from hosts.common.errors import HostError
+from hosts.study.cluster import bring
 from hosts.study.parts import part_files
 from hosts.study.store import read_study
 
@@ -88,7 +92,7 @@ def test_the_command_is_killed(slow_study: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     before: dict[int, tuple[object, ...]] = {}
     for _ in range(2):
-        process = command(slow_study, "--out", out, "--workers", 2)
+        process = command(slow_study, "--out", out, "--jobs", 2)
         wait_for_part(out, process, len(part_files(out)) + 1)
         children = psutil.Process(process.pid).children(recursive=True)
         process.send_signal(signal.SIGKILL)
@@ -98,7 +102,7 @@ def test_the_command_is_killed(slow_study: Path, tmp_path: Path) -> None:
         assert {index: now[index] for index in before} == before
         before = now
         assert psutil.wait_procs(children, timeout=30.0)[1] == []  # the workers end with the command
-    process = command(slow_study, "--out", out, "--workers", 2)
+    process = command(slow_study, "--out", out, "--jobs", 2)
     told, error = process.communicate(timeout=120.0)
     assert (process.returncode, error) == (0, "")
     assert f"{len(before)} of {RUNS} runs are there" in told
@@ -180,12 +184,25 @@ def test_the_scheduler_is_killed(slow_study: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_ctrl_c_keeps_what_has_come(slow_study: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("number", "name"), [("SIGINT", "Ctrl-C"), ("SIGHUP", "SIGHUP")])
+def test_ctrl_c_keeps_what_has_come(number: str, name: str, slow_study: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    process = command(slow_study, "--out", out, "--workers", 2)
+    process = command(slow_study, "--out", out, "--jobs", 2)
     wait_for_part(out, process, 1)
-    process.send_signal(signal.SIGINT)
+    os.killpg(process.pid, getattr(signal, number))  # as a terminal does
     _, error = process.communicate(timeout=60.0)
-    assert process.returncode == 130
-    assert error.strip().splitlines()[-1] == "stopped by Ctrl-C"
+    assert process.returncode == 128 + getattr(signal, number)
+    words = f"{len(rows(out))} of {RUNS} runs are written and stay; the same command makes the others."
+    assert error.strip().splitlines()[-2:] == [words, f"stopped by {name}"]
     assert 0 < len(rows(out)) < RUNS
+
+
+def test_a_worker_that_ends_too_early_is_told_as_such() -> None:
+    class Lost:
+        def register_plugin(self, _: object) -> None:
+            raise CommClosedError("in <TCP local=...>: Stream is closed")
+
+    plan = SimpleNamespace(key="a", work=None, seed=0, fmu=Path(__file__))
+    with pytest.raises(HostError, match="A worker has ended or was cut off before it had the study") as caught:
+        bring(Lost(), plan)  # type: ignore[arg-type]
+    assert "version" not in str(caught.value)

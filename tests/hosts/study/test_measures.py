@@ -241,7 +241,7 @@ def test_files_that_are_refused(functions: Path, source: str, function: str, sen
 
 
 def test_no_file(tmp_path: Path) -> None:
-    with pytest.raises(HostError, match=r"none.py, in which the function f is to be, cannot be read: no such file"):
+    with pytest.raises(HostError, match=r"in which the function f is to be, cannot be read: there is no such file"):
         parse_measure("none.py:f", folder=tmp_path)
 
 

@@ -33,7 +33,7 @@ def frame() -> pd.DataFrame:
 
 
 def commands(index: int) -> list[str]:
-    return [f"ali3 drive Car.fmu -m 'a & b' --set x={index}", f"ali3 view Car.fmu {index}"]
+    return [f"ali3 run Car.fmu -m 'a & b' --set x={index}", f"ali3 view Car.fmu {index}"]
 
 
 def test_the_whole_report(frame: pd.DataFrame, tmp_path: Path) -> None:
@@ -46,7 +46,7 @@ def test_the_whole_report(frame: pd.DataFrame, tmp_path: Path) -> None:
     assert "The FMU refused the step at … s." in text
     # Failed runs come first, and the highest run with the command that repeats it, escaped once.
     highest = int(frame["peak"].idxmax())
-    assert f"<code>ali3 drive Car.fmu -m 'a &amp; b' --set x={highest}</code>" in text
+    assert f"<code>ali3 run Car.fmu -m 'a &amp; b' --set x={highest}</code>" in text
     assert f"<code>ali3 view Car.fmu {int(frame['peak'].idxmin())}</code>" in text
     assert not re.search(r'(src|href)="(?!data:)', text)  # nothing outside of the file
     assert text.count("data:image/png") == 6

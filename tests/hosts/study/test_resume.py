@@ -14,13 +14,14 @@ import pyarrow.parquet as pq
 import pytest
 from fmpy.util import read_csv
 
+from ali3.errors import UserError
+from ali3.files import locked
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.common.errors import HostError
-from hosts.run.drive import main as drive
+from hosts.run.command import main as drive
 from hosts.study.campaign import run_study
 from hosts.study.command import main
-from hosts.study.folder import locked
 from hosts.study.repeat import repeat_command
 from hosts.study.store import read_study
 
@@ -50,7 +51,7 @@ def half(finished: Path, tmp_path: Path) -> Path:
 
 
 def refused(folder: Path) -> str:
-    with pytest.raises(HostError) as caught:
+    with pytest.raises(UserError) as caught:
         run_study(folder / "study.toml", folder / "out", "tcp://127.0.0.1:9", None)
     return str(caught.value).replace(f"{folder}/", "")
 
@@ -111,7 +112,7 @@ def test_only_what_is_missing_is_made(
 
 
 def test_two_programs_do_not_write_to_one_folder(half: Path) -> None:
-    with locked(half / "out"):
+    with locked(half / "out", "It is locked."):
         assert refused(half) == (
             f"Another program runs a study in {half / 'out'}; wait for it, or give another --out."
         ).replace(f"{half}/", "")
@@ -168,7 +169,7 @@ def test_a_run_is_repeated_as_a_drive(finished: Path) -> None:
     out = finished / "out"
     lines = repeat_command(out, 11)
     words = shlex.split(lines.drive)
-    assert drive(words[words.index("drive") + 1 :]) == 0
+    assert drive(words[words.index("run") + 1 :]) == 0
     table = read_csv(out / "repeat" / "tuned_run-11.csv")
     assert max(table["bob.y"]) == read_study(out).loc[11, "highest"]
     assert " view " in lines.view

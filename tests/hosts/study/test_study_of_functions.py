@@ -87,7 +87,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     fmu = build_fmu(system, name, place, [fmpy.platform])
     (place / "study.toml").write_text(STUDY.format(fmu=fmu.name))
     (place / "functions.py").write_text(FUNCTIONS)
-    command("hosts.study", place / "study.toml", "--out", place / "out", "--workers", 2)
+    command("hosts.study", place / "study.toml", "--out", place / "out", "--jobs", 2)
     return place / "out"
 
 
@@ -129,7 +129,7 @@ def test_the_worst_run_is_repeated_to_the_bit(folder: Path) -> None:
     worst = int(frame["lowest"].idxmin())
     text = (folder / "report.html").read_text(encoding="utf-8")
     lines = [html.unescape(line) for line in re.findall(r"<code>(.*?)</code>", text)]
-    drives = [line for line in lines if f"run-{worst}." in line and " drive " in line]
+    drives = [line for line in lines if f"run-{worst}." in line and " run " in line]
     assert drives
     assert any(f"run-{worst}." in line and " view " in line for line in lines)
     words = shlex.split(drives[0])

@@ -7,7 +7,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from mbs.worlds.command import WORLDS, main
+from mbs.worlds.command import main
+from mbs.worlds.world import WORLDS
 
 
 @pytest.fixture(scope="session")
@@ -15,6 +16,6 @@ def proving_ground(tmp_path_factory):
     """Path of its road file, and its record."""
     out = tmp_path_factory.mktemp("proving_ground")
     assert WORLDS.is_dir()
-    assert main(["proving_ground", "--out", str(out)]) == 0
+    assert main(["--world", "proving_ground", "--out", str(out)]) == 0
     record = json.loads((out / "proving_ground.json").read_text(encoding="utf-8"))
     return SimpleNamespace(road=out / "proving_ground.road", record=record, json=out / "proving_ground.json")

@@ -45,7 +45,7 @@ def own_cache(tmp_path, monkeypatch):
 
 def test_the_example_of_the_page_is_a_world_to_drive_in(folder, own_cache, tmp_path, capsys):
     out = tmp_path / "worlds"
-    assert main([str(folder / "mine.toml"), "--out", str(out), "--picture"]) == 0
+    assert main(["--world", str(folder / "mine.toml"), "--out", str(out), "--picture", str(out / "mine.png")]) == 0
     said = capsys.readouterr()
     assert "mine: road ..." in said.err
     assert {path.name for path in out.iterdir()} == {"mine.road", "mine.json", "mine.png"}
@@ -74,19 +74,19 @@ def test_the_example_of_the_page_is_a_world_to_drive_in(folder, own_cache, tmp_p
     assert abs(run["chassis.z"][0] - beneath[0]) < 0.6
 
     first = {path.name: path.read_bytes() for path in out.iterdir() if path.suffix != ".png"}
-    assert main([str(folder / "mine.toml"), "--out", str(tmp_path / "again")]) == 0
+    assert main(["--world", str(folder / "mine.toml"), "--out", str(tmp_path / "again")]) == 0
     assert "kept from before" in capsys.readouterr().out
     for entry in own_cache.iterdir():  # made anew: the same bytes
         for file in entry.iterdir():
             file.unlink()
         entry.rmdir()
-    assert main([str(folder / "mine.toml"), "--out", str(tmp_path / "third")]) == 0
+    assert main(["--world", str(folder / "mine.toml"), "--out", str(tmp_path / "third")]) == 0
     assert "made: " in capsys.readouterr().out
     for other in ("again", "third"):
         assert {path.name: path.read_bytes() for path in (tmp_path / other).iterdir()} == first
     with (folder / "course.csv").open("a", encoding="utf-8") as file:  # another content: not from the cache
         file.write("# \n")
-    assert main([str(folder / "mine.toml"), "--out", str(tmp_path / "fourth")]) == 0
+    assert main(["--world", str(folder / "mine.toml"), "--out", str(tmp_path / "fourth")]) == 0
     assert "made: " in capsys.readouterr().out
 
 
@@ -127,14 +127,14 @@ def refused(tmp_path, text, course=COURSE):
 @pytest.mark.parametrize(
     ("course", "sentence"),
     [
-        ("", "is empty"),
+        ("", "holds no values"),
         ("x,y\n1,2\n", "fewer than two points"),
-        ("x,y\n1,2\n3\n", "Line 3 of .* has 1 numbers where 2 belong"),
-        ("x,y\n1,2\n3,four\n", "Line 3 of .*'four' is no number"),
-        ("x,y\n1,2\n3,nan\n", "'nan' is no number"),
+        ("x,y\n1,2\n3\n", "line 3: 1 values where the heading has 2"),
+        ("x,y\n1,2\n3,four\n", "line 3, column 'y': 'four' is not a number"),
+        ("x,y\n1,2\n3,nan\n", "'nan' is not a finite number"),
         ("x,height\n1,2\n", "column 'height'; known are x, y, z, width, bank"),
         ("x,z\n1,2\n", "must have a column x and a column y"),
-        ("x,y,y\n1,2,2\n", "each once"),
+        ("x,y,y\n1,2,2\n", "has the column 'y' twice"),
         ("x,y\n11.5756,48.1372\n11.5757,48.1373\n11.5758,48.1373\n", "in metres, not in degrees"),
         ("".join(f"{x},0\n" for x in [*range(-40, -20), *range(20, 40)]), "a gap of 41 m between points 20 and 21"),
         ("-40,0\n0,0\n0,0\n40,0\n", "Points 2 and 3 of the course 'lap' are the same"),
@@ -160,15 +160,15 @@ def test_what_is_wrong_with_a_course_is_said(tmp_path, course, sentence):
             "its end misses its start by 9 m",
         ),
         (LAP + "heights = [[0.0, 0.0], [0.0, 1.0]]\n", "stations of heights of the course 'lap' do not rise"),
-        (LAP + 'colour = "red"\n', "courses.0.colour is 'red'"),
-        (LAP + "width = 0.2\n", "courses.0.width is 0.2"),
+        (LAP + 'colour = "red"\n', "courses.0.colour is not known; 'colour' stands at lines.colour"),
+        (LAP + "width = 0.2\n", "courses.0.width is 0.2; it must be a number from"),
         ('[[areas]]\nname = "pad"\nat = [0.0, 0.0]\n', "'pad' must have a radius or a size"),
         ('[ground]\nheights = "none.npz"\n', "none.npz cannot be read: there is no such file"),
         ('[ground]\nheights = "a.npz"\nvariation = { height = 1.0, length = 20.0 }\n', "heights and a variation"),
         ('[[places]]\nname = "far"\nat = [90.0, 0.0, 0.0]\n', "'far' lies at \\(90, 0\\), outside"),
         ('[[places]]\nname = "Far away"\nat = [9.0, 0.0, 0.0]\n', "places.0.name is 'Far away'"),
         ('[[obstacles]]\nkind = "wall"\nat = [9.0, 0.0, 0.0]\n', "obstacles.0"),
-        ("[frictions]\ntar = 1.0\n", "frictions.tar"),
+        ("[frictions]\ntar = 1.0\n", "frictions has the name 'tar'; a name is 'asphalt'"),
         ("[frictions]\nice = -1.0\n", "frictions.ice is -1.0"),
     ],
 )
@@ -219,7 +219,7 @@ def test_heights_widths_and_banks_of_a_course_file(tmp_path):
     [
         (["mars"], "There is no world 'mars' and no such file; worlds are proving_ground, kerb, plane, rough"),
         (["a.txt"], "a.txt is no world"),
-        (["broken.toml"], "broken.toml cannot be read"),
+        (["broken.toml"], "broken.toml is no TOML file"),
         (["empty.toml"], "empty.toml"),
         (["none.road"], "There is no world 'none.road' and no such file"),
         (["bad.road"], "bad.road is no road file"),
@@ -229,7 +229,7 @@ def test_what_is_no_world_is_said_in_one_sentence(tmp_path, monkeypatch, capsys,
     monkeypatch.chdir(tmp_path)
     for name, text in (("a.txt", "1"), ("broken.toml", "a = ="), ("empty.toml", ""), ("bad.road", "x" * 300)):
         (tmp_path / name).write_text(text)
-    assert main([*arguments, "--out", "out"]) == 2
+    assert main(["--world", *arguments, "--out", "out"]) == 2
     said = capsys.readouterr()
     assert sentence in said.err
     assert said.err.count("\n") == 1
@@ -238,9 +238,9 @@ def test_what_is_no_world_is_said_in_one_sentence(tmp_path, monkeypatch, capsys,
 
 @pytest.mark.parametrize("name", ["plane", "kerb", "washboard", "rough", "split"])
 def test_roads_of_the_package_are_worlds(tmp_path, own_cache, name):
-    from mbs.worlds.command import ROADS
+    from mbs.worlds.world import ROADS
 
-    assert main([name, "--out", str(tmp_path / "out")]) == 0
+    assert main(["--world", name, "--out", str(tmp_path / "out")]) == 0
     assert (tmp_path / "out" / f"{name}.road").read_bytes() == (ROADS / f"{name}.road").read_bytes()
     record = json.loads((tmp_path / "out" / f"{name}.json").read_text(encoding="utf-8"))
     assert record["roads"][0]["kind"] in ("flat", "profile", "grid")
@@ -250,5 +250,5 @@ def test_roads_of_the_package_are_worlds(tmp_path, own_cache, name):
 def test_a_cache_that_cannot_be_written_is_said(tmp_path, monkeypatch, capsys):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "file" / "cache"))
-    assert main(["plane", "--out", str(tmp_path / "out")]) == 2
+    assert main(["--world", "plane", "--out", str(tmp_path / "out")]) == 2
     assert "ALI3_CACHE is" in capsys.readouterr().err

@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hosts.driving.course import TRACKS, course_of
 from mbs.worlds.make_world import read_world
-from mbs.worlds.scenery import cone_places, lane_change_cones, scenery_of
+from mbs.worlds.scenery import cone_places, scenery_of
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.world_types import FRICTIONS, Cones
 
@@ -146,17 +147,21 @@ def test_a_grid_of_places_and_single_places_are_the_same(terrain):
     assert np.ptp(z) > 0.2
 
 
-def test_the_lane_changes_have_the_lengths_of_the_standards():
-    first = np.array(lane_change_cones("ISO 3888-1", 1.8))
-    assert (first[:, 0].min(), first[:, 0].max()) == (0.0, 125.0)
-    inside = first[(first[:, 0] >= 45.0) & (first[:, 0] <= 70.0)]
-    assert inside[:, 1].mean() == pytest.approx(3.5)
-    assert np.ptp(inside[:, 1]) == pytest.approx(1.2 * 1.8 + 0.25)
-    second = np.array(lane_change_cones("ISO 3888-2", 1.8))
-    assert second[:, 0].max() == 61.0
-    lane = second[(second[:, 0] > 20.0) & (second[:, 0] < 40.0)]
-    assert lane[:, 1].min() == pytest.approx(0.5 * (1.1 * 1.8 + 0.25) + 1.0)
-    assert np.ptp(lane[:, 1]) == pytest.approx(2.8)
+@pytest.mark.parametrize("name", list(TRACKS))
+def test_the_cones_stand_along_the_gates_that_are_driven(terrain, name):
+    (cones,) = (c for c in terrain.world.cones if c.lane_change == TRACKS[name])
+    gates = course_of(name, cones.vehicle_width, x_start=cones.start[0]).gates
+    drawn = {tuple(part["at"][:2]) for part in scenery_of(terrain) if part["kind"] == "cone"}
+    found = set()
+    for gate in gates:
+        for edge in (gate.y_right, gate.y_left):
+            y = round(cones.start[1] + edge, 4)
+            along = [at for at in drawn if gate.x_start <= at[0] <= gate.x_end and at[1] == pytest.approx(y)]
+            x = sorted(at[0] for at in along)
+            assert (x[0], x[-1]) == (gate.x_start, gate.x_end), edge
+            assert np.diff(x).max() < 7.0
+            found |= set(along)
+    assert found == {at for at in drawn if gates[0].x_start <= at[0] <= gates[-1].x_end and abs(at[1] + 40.0) < 20.0}
 
 
 def test_the_slalom_has_cones_every_18_m(terrain):

@@ -30,9 +30,8 @@ def made(tmp_path_factory):
     """A folder of the command's files, and what it printed."""
     folder = tmp_path_factory.mktemp("made")
     with contextlib.redirect_stdout(io.StringIO()) as printed:
-        code = main(
-            ["kinematics", "hatchback", "--points", "9", "--out", str(folder), "--json", str(folder / "k.json")]
-        )
+        written = ["--out", str(folder), "--json", str(folder / "k.json")]
+        code = main(["car", "hatchback", "--kinematics", "--points", "9", *written])
     assert code == 0
     return folder, printed.getvalue()
 
@@ -102,7 +101,7 @@ def test_the_page_of_the_documentation_prints_what_it_says(capsys):
 def test_bad_input_is_one_sentence_before_the_work(arguments, sentence, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "FILE").write_text("")
-    assert main(["kinematics", *arguments]) == 2
+    assert main(["car", "--kinematics", *arguments]) == 2
     error = capsys.readouterr().err
     assert error.startswith("error: ")
     assert sentence in error
@@ -136,11 +135,11 @@ def test_a_range_into_the_stops_is_told(found):
     ("name", "content", "sentence"),
     [
         ("left_parallel", "", "must be called AXLE_MOTION.csv"),
-        ("front_parallel", "", "is empty"),
+        ("front_parallel", "", "holds no values"),
         ("front_parallel", "toe_angle_left [deg]\n1\n", r"'toe_angle_left \[deg\]' must be toe_angle_left \[rad\]"),
         ("front_parallel", "toe [rad]\n1\n", "must be the name and unit of a quantity"),
-        ("front_parallel", "toe_angle_left [rad]\n1,2\n", "line 2: 2 values where 1 belong"),
-        ("front_parallel", "toe_angle_left [rad]\nx\n", "line 2: could not convert"),
+        ("front_parallel", "toe_angle_left [rad]\n1,2\n", "line 2: 2 values where the heading has 1 columns"),
+        ("front_parallel", "toe_angle_left [rad]\nx\n", "line 2, column 'toe_angle_left': 'x' is not a number"),
     ],
 )
 def test_a_file_that_is_none_of_ours_is_refused(name, content, sentence, tmp_path):

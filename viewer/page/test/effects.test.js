@@ -29,7 +29,7 @@ function numbers(more = {}) {
 }
 const contact = (more = {}, options = {}) => new Wheels(SCENE, options).contacts(numbers(more))[0];
 
-/** Goes along x and gives the tracks. */
+/** Goes along x and gives the tracks. @param {(station: number) => Data} slipAt @param {Data} [options] */
 function drive(slipAt, { length = 10, most = 4096, surface } = {}) {
   const wheels = new Wheels(SCENE, { surface });
   const tracks = new Tracks(1, most);

@@ -15,9 +15,15 @@ function frame(numbers, values, { magic = 0x31463341, epoch = 7, flags = 1 } = {
 const TEN = [1000, 2.5, 0.5, 12, 1e-4, 2e-4, 3e-4, 4, 0.004, 30];
 
 class Socket {
+  /** @type {any[]} */
   static all = [];
+  /** @type {any[]} */
+  said = [];
+  readyState = 0;
+  /** @type {(event: {reason: string}) => void} */
+  onclose;
   constructor(url) {
-    Object.assign(this, { url, readyState: 0, said: [] });
+    this.url = url;
     Socket.all.push(this);
   }
   open() {
@@ -37,6 +43,7 @@ class Socket {
 
 function linked(handlers = {}) {
   Socket.all = [];
+  /** @type {Data} */
   const means = { WebSocket: Socket, time: 0, waits: [] };
   means.now = () => means.time;
   means.wait = (work, ms) => means.waits.push([work, ms]);

@@ -43,7 +43,7 @@ test("a run is looked up at any time, quaternions as one", () => {
   put("a", [0, 0]);
   put("b", [0, 0]);
   put("c", angle.map((a) => Math.sin(a / 2)));
-  const sampler = new Sampler({ scene: { frames }, t: [0, 2], columns, name: "run" });
+  const sampler = new Sampler({ scene: { frames }, t: [0, 2], columns });
   sampler.at(1);
   assert.equal(sampler.lookup("x"), 2);
   near(2 * Math.atan2(sampler.lookup("c"), sampler.lookup("w")), 1.5);

@@ -3,14 +3,14 @@ import fs from "node:fs";
 import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
-globalThis.self = globalThis; // the loader looks for a browser's name of it
+Object.assign(globalThis, { self: globalThis }); // the loader looks for a browser's name of it
 const [file, ...times] = process.argv.slice(2);
 const data = fs.readFileSync(file);
 const gltf = await new GLTFLoader().parseAsync(data.buffer.slice(data.byteOffset, data.byteOffset + data.length), "");
 const mixer = new THREE.AnimationMixer(gltf.scene);
 for (const clip of gltf.animations) {
   const action = mixer.clipAction(clip);
-  action.setLoop(THREE.LoopOnce).clampWhenFinished = true;
+  action.setLoop(THREE.LoopOnce, 1).clampWhenFinished = true;
   action.play();
 }
 const associations = gltf.parser.associations;

@@ -201,7 +201,7 @@ test("a camera on a rope: it follows a turn in its time, stays level, and jumps 
   let now = 0;
   const trailing = new Trailing(0.2, () => now);
   const up = [0, 0, 1];
-  const angle = ([x, y]) => Math.atan2(y, x);
+  const angle = (/** @type {number[]} */ [x, y]) => Math.atan2(y, x);
   assert.deepEqual(trailing.along([1, 0, 0], up), [1, 0, 0]);
   now += 0.02;
   assert.ok(angle(trailing.along([Math.cos(0.3), Math.sin(0.3), 0], up)) < 0.05);

@@ -11,7 +11,8 @@ const frames = { pose: () => ({ rotation: EYE }) };
 function reach(shape, height) {
   const made = spring({ radius: 0.05, wire: 0.01, coils: 4, ends: [["a"], ["b"]], ...shape }, { materials, frames });
   made.update(([name]) => (name === "a" ? [0, 0, 0] : [0, 0, height]));
-  const positions = made.object.children[0].geometry.getAttribute("position").array;
+  const wire = /** @type {import("three").Mesh} */ (made.object.children[0]);
+  const positions = wire.geometry.getAttribute("position").array;
   const heights = Array.from(positions).filter((_, i) => i % 3 === 2);
   return [Math.min(...heights), Math.max(...heights)];
 }

@@ -1,5 +1,5 @@
-/* What the inputs of the last step do to its end: (19) and (20) linearised at the converged step and solved with the
- * factorised tangent (23), then the projections (24), (25) linearised.
+/* What inputs that are held over the last step do to its end: (19) and (20) linearised at the converged step and solved
+ * with the factorised tangent (23), then the projections (24), (25) linearised.
  * The tangent leaves out the unsymmetric part of the elements, so the linear system is solved in corrections; its
  * residual, the change of rows and forces along a direction, comes from differences of those two alone. */
 #include <math.h>
@@ -12,12 +12,14 @@
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../methods/input_jump.h"
 #include "../methods/newton.h"
 #include "../rows/constraints.h"
 #include "../rows/guides.h"
 #include "../rows/velocity_rows.h"
 #include "../sensors/sensors.h"
 #include "../state/road_files.h"
+#include "../state/vectors.h"
 
 enum { POSITION, VELOCITY, ACCELERATION, MOST_CORRECTIONS = 60, SWEEPS = 2 };
 static const double PART = 1e-5; /* of an input's range: the difference taken */
@@ -95,7 +97,7 @@ static void changes(ali3_instance *in, const linear_step *step, int stage) {
   difference(in->direction.watched, in->watched, n_watched, span);
 }
 
-/* Filtered guides: ali3_guides_step differentiated with respect to the input at the end of the step. */
+/* Filtered guides: ali3_guides_step differentiated with respect to an input that is held over the step. */
 static void guides(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   ali3_vectors *d = &in->direction;
@@ -103,12 +105,36 @@ static void guides(ali3_instance *in, double h) {
     if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
     const double w = in->guide_real[S->guide_real_ptr[g]], demand = ali3_guide_demand(in, g, in->now.used);
     const bool held = ali3_guide_held(in, g, demand) != demand; /* then it does not follow */
-    const double target = held ? 0.0 : ali3_guide_demand(in, g, d->used), slope = target / h, lag = 2.0 * slope / w;
-    const double rate = w * lag - slope, decay = ali3_exp(-w * h);
-    d->s[g] = target - lag + (lag + rate * h) * decay;
-    d->sd[g] = slope - (slope + w * rate * h) * decay;
+    const double target = held ? 0.0 : ali3_guide_demand(in, g, d->used), decay = ali3_exp(-w * h);
+    d->s[g] = target - target * (1.0 + w * h) * decay;
+    d->sd[g] = w * w * h * target * decay;
     d->sdd[g] = w * w * (target - d->s[g]) - 2.0 * w * d->sd[g];
   }
+}
+
+/* in->d0 and direction.step_force: what the inputs do to accelerations and watched forces at the start of the step, whose
+ * place and velocity are those of the end with its accelerations turned back. */
+static ali3_status start(ali3_instance *in, const linear_step *step) {
+  const ali3_system *S = in->system;
+  const double h = step->h, span = step->plus - step->minus;
+  double *before = in->input_from, *behind = in->input_to, *force = in->direction.step_force;
+  bool jumps;
+  memset(in->d0, 0, (size_t)S->size.nq * sizeof(double));
+  for (int32_t i = 0; i < S->size.nu; i++) {
+    before[i] = in->now.used[i] + step->minus * in->direction.used[i];
+    behind[i] = in->now.used[i] + step->plus * in->direction.used[i];
+  }
+  ali3_vectors_copy(in, &in->whole, &in->now);
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    in->now.q[i] += h * (0.5 * h * in->now.qdd[i] - in->now.qd[i]);
+    in->now.qd[i] -= h * in->now.qdd[i];
+  }
+  copy(in->now.y, in->now.y_last, S->size.ny);
+  const ali3_status status = ali3_input_change(in, h, before, behind, force, &jumps);
+  ali3_vectors_copy(in, &in->now, &in->whole);
+  for (int32_t i = 0; i < S->n_work_force; i++) force[i] = (in->watched[S->n_work + i] - force[i]) / span;
+  for (int32_t i = 0; i < S->size.nq && jumps; i++) in->d0[i] = in->x[i] / span;
+  return status;
 }
 
 static ali3_status factorise(ali3_instance *in, const linear_step *step) {
@@ -144,7 +170,8 @@ static double correct(ali3_instance *in, const linear_step *step) {
   double last = 0.0, size = 0.0;
   changes(in, step, POSITION);
   ali3_flexible_prepare(in, in->now.q);
-  ali3_mass_times(in, d->q, in->w);
+  for (int32_t i = 0; i < nq; i++) in->hat[i] = d->q[i] - step->c * in->d0[i];
+  ali3_mass_times(in, in->hat, in->w);
   for (int32_t k = 0; k < nc; k++) in->mu[k] *= step->alpha;
   ali3_rows_transposed(S, in->J_tangent, in->mu, in->x);
   for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->w[i] + step->c * (in->r[i] + in->x[i]));
@@ -179,7 +206,8 @@ static void project(ali3_instance *in, const linear_step *step, double *rate, in
 static ali3_status solve(ali3_instance *in, const linear_step *step) {
   ali3_vectors *d = &in->direction;
   guides(in, step->h);
-  const ali3_status status = factorise(in, step);
+  ali3_status status = start(in, step);
+  if (status == ALI3_OK) status = factorise(in, step);
   if (status != ALI3_OK) return status;
   double relative = HUGE_VAL;
   for (int i = 0; i < MOST_CORRECTIONS && relative > FINE; i++) {
@@ -189,7 +217,7 @@ static ali3_status solve(ali3_instance *in, const linear_step *step) {
   }
   if (!(relative <= COARSE)) return ALI3_NOT_CONVERGED;
   changes(in, step, POSITION); /* element outputs that belong to the last correction */
-  for (int32_t i = 0; i < in->system->size.nq; i++) d->qdd[i] = d->q[i] / step->c;
+  for (int32_t i = 0; i < in->system->size.nq; i++) d->qdd[i] = d->q[i] / step->c - in->d0[i];
   if (in->settings.project) {
     project(in, step, d->qd, VELOCITY);
     project(in, step, d->qdd, ACCELERATION);

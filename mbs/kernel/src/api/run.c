@@ -14,6 +14,7 @@
 #include "../sensors/sensors.h"
 #include "../start/initialise.h"
 #include "../start/start_on_road.h"
+#include "../state/inputs.h"
 #include "../state/road_files.h"
 #include "../state/vectors.h"
 
@@ -64,8 +65,11 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
   return begin(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);
 }
 
-static ali3_status step(ali3_instance *in, double h) {
+/* The inputs go straight to `end` (nu), or are held where it is NULL. */
+static ali3_status step(ali3_instance *in, double h, const double *end) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
+  const ali3_status aimed = ali3_inputs_aim(in, h, end);
+  if (aimed != ALI3_OK) return aimed;
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
   const ali3_report before = in->report;
@@ -80,7 +84,7 @@ static ali3_status step(ali3_instance *in, double h) {
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
     if (in->backed_up) ali3_vectors_copy(in, &in->now, &in->start);
-    if (in->input_function != NULL) memcpy(in->input, in->now.used, (size_t)in->system->size.nu * sizeof(double));
+    memcpy(in->input, in->input_from, (size_t)in->system->size.nu * sizeof(double));
     ali3_balance_restore(&in->report, &before);
     in->report.failures++;
     return status;
@@ -104,14 +108,14 @@ ali3_status ali3_step(ali3_instance *in, double h) {
   const ali3_status status = ali3_check_method(in);
   in->unobserved = in->sampled = false;
   in->call_residual = 0.0;
-  return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h), h) : status;
+  return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h, NULL), h) : status;
 }
 
 /* After a unobserved or sampled step the last good state lacks what only a reader needs. */
 static ali3_status give_up(ali3_instance *in, ali3_status status, bool unobserved, bool sampled) {
   const ali3_method *method = ali3_method_of(in);
   ali3_vectors_copy(in, &in->start, &in->now);
-  in->force_input = in->start.used; /* the present inputs are those of the step that failed */
+  in->force_input = in->start.used; /* the present inputs are not always theirs */
   if (unobserved && method->after_unobserved != NULL) method->after_unobserved(in);
   if (sampled && method->after_sampled != NULL) method->after_sampled(in);
   in->force_input = in->input;
@@ -135,15 +139,10 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
   bool unobserved = false, sampled = false; /* the last good step */
   in->call_residual = 0.0;
   for (int64_t n = 0; n < n_steps; n++) {
-    if (inputs != NULL)
-      for (int32_t i = 0; i < nu; i++) {
-        const ali3_status status = ali3_set_input(in, i, inputs[n * nu + i]);
-        if (status != ALI3_OK) return give_up(in, status, unobserved, sampled);
-      }
     const bool recorded = (out != NULL || positions != NULL) && (n + 1) % every == 0;
     in->unobserved = !recorded && n + 1 < n_steps;
     in->sampled = n + 1 < n_steps;
-    const ali3_status status = step(in, h);
+    const ali3_status status = step(in, h, inputs != NULL ? inputs + n * nu : NULL);
     if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, unobserved, sampled), h);
     unobserved = in->unobserved;
     sampled = in->sampled;

@@ -18,6 +18,7 @@
 #include "energy_balance.h"
 #include "energy_watch.h"
 #include "generalised_alpha.h"
+#include "input_jump.h"
 #include "newton.h"
 #include "predict.h"
 #include "projection.h"
@@ -143,6 +144,8 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   const double alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
   const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_damped_start(in, h);
+  ali3_status status = ali3_input_jump(in, h);
+  if (status != ALI3_OK) return status;
   ali3_guides_step(in, from, to, t, h);
   const bool from_past = ali3_predict(in, h, true);
   if (is_alpha)
@@ -154,7 +157,7 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
   /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
-  ali3_status status = newton(in, h, alpha, 0);
+  status = newton(in, h, alpha, 0);
   if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */
     ali3_predict(in, h, false);
     status = newton(in, h, alpha, in->report.last_iterations);

@@ -70,7 +70,7 @@ ali3_status ali3_refresh(ali3_instance *in) {
   in->t_now = ali3_time(in);
   ali3_vectors_copy(in, &in->start, &in->now);
   ali3_guides_time(in, &in->now, in->t_now);
-  ali3_status status = ali3_inputs_begin(in, in->t_now, 0.0);
+  ali3_status status = in->input_function != NULL ? ali3_inputs_begin(in, in->t_now, 0.0) : ALI3_OK;
   if (in->input_function != NULL) memcpy(in->input, in->input_begin, (size_t)in->system->size.nu * sizeof(double));
   if (status == ALI3_OK) status = ali3_solve_rates(in, false);
   if (status != ALI3_OK) {
@@ -251,6 +251,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   ali3_roads_forgive(in);
   if (control->h == 0.0) control->h = fmin(control->longest, FIRST * control->span);
   if (jumped(in)) status = ali3_refresh(in);
+  if (status == ALI3_OK) status = ali3_inputs_aim(in, 0.0, NULL);
   ali3_branch_before(in); /* the modes of the start, where they have not been evaluated yet */
   in->unobserved = false;
   in->sampled = in->controlled = true;

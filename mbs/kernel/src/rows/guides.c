@@ -92,8 +92,8 @@ void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_ve
   ali3_guides_time(in, to, t);
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
-    /* exact solution of s'' = w^2 (gain u - s) - 2 w s' for an input that goes straight from its last value to this
-     * one; held over the step it would lead by h/2, which is an error of first order */
+    /* exact solution of s'' = w^2 (gain u - s) - 2 w s' for an input that goes straight from its value at the start of
+     * the step to that at its end; held at the end it would lead by h/2, which is an error of first order */
     const double *real = in->guide_real + S->guide_real_ptr[g];
     const double w = real[0], target = target_of(in, g, in->input), before = target_of(in, g, in->input_begin),
                  slope = (target - before) / h, lag = 2.0 * slope / w;

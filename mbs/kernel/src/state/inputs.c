@@ -1,6 +1,7 @@
-/* Inputs at the times within a step. Values that the caller has set go straight from those of the last step to the
- * present ones; a function of time is asked for each of them: behind a jump at the start of the step, before one at
- * its end. */
+/* Inputs at the times within a step. Values that the caller has set go straight from the present ones to those given for
+ * the end of the step, or are held; a function of time is asked for each of them: behind a jump at the start of the
+ * step, before one at its end. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +9,9 @@
 #include "../instance.h"
 #include "inputs.h"
 
-static const double ROUND_OFF = 1e-13; /* of a table's value at one of its times, from either side */
+static const double NEAR = 1e-9; /* of a step: a part that ends so near to its end ends there */
+/* Of a value that is reached and set again, or of a table at one of its times, from either side. */
+static const double ROUND_OFF = 1e-13;
 
 /* Inputs of the function at time t to `to` (nu), held in their ranges. */
 static ali3_status ask(ali3_instance *in, double t, bool after, double *to) {
@@ -20,16 +23,37 @@ static ali3_status ask(ali3_instance *in, double t, bool after, double *to) {
   return ALI3_OK;
 }
 
-/* Inputs at both ends of a step of size h that ends at time t: in->input_begin and in->input. */
+/* For a step of size h from the present time: from the present inputs to `end` (nu), held in their ranges; NULL: they
+ * are held. */
+ali3_status ali3_inputs_aim(ali3_instance *in, double h, const double *end) {
+  const ali3_system *S = in->system;
+  if (end != NULL && !ali3_finite(end, S->size.nu)) return ALI3_BAD_ARGUMENT;
+  in->whole_time = ali3_time(in);
+  in->whole_length = h;
+  for (int32_t i = 0; i < S->size.nu; i++) {
+    in->input_from[i] = in->input[i];
+    in->input_to[i] = end != NULL ? fmax(S->input_min[i], fmin(S->input_max[i], end[i])) : in->input[i];
+  }
+  return ALI3_OK;
+}
+
+/* Inputs at both ends of a step, or a part of one, of size h that ends at time t: in->input_begin and in->input. */
 ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h) {
+  const ali3_system *S = in->system;
   in->input_time = in->t_now;
   in->input_length = h;
-  if (in->input_function == NULL) {
-    memcpy(in->input_begin, in->now.used, (size_t)in->system->size.nu * sizeof(double));
-    return ALI3_OK;
+  if (in->input_function != NULL) {
+    const ali3_status status = ask(in, in->t_now, true, in->input_begin);
+    return status == ALI3_OK ? ask(in, t, false, in->input) : status;
   }
-  const ali3_status status = ask(in, in->t_now, true, in->input_begin);
-  return status == ALI3_OK ? ask(in, t, false, in->input) : status;
+  const double left = in->whole_time + in->whole_length - t;
+  memcpy(in->input_begin, in->t_now == in->whole_time ? in->input_from : in->now.used,
+         (size_t)S->size.nu * sizeof(double));
+  memcpy(in->input, in->input_to, (size_t)S->size.nu * sizeof(double));
+  if (!(left > fmax(NEAR * in->whole_length, 4.0 * DBL_EPSILON * fabs(t)))) return ALI3_OK; /* late times are coarse */
+  for (int32_t i = 0; i < S->size.nu; i++)
+    in->input[i] -= left / in->whole_length * (in->input_to[i] - in->input_from[i]);
+  return ALI3_OK;
 }
 
 /* in->input_middle becomes the inputs at a share, 0 to 1, of the step that was given to ali3_inputs_begin. */
@@ -47,7 +71,6 @@ ali3_status ali3_inputs_at(ali3_instance *in, double share) {
 
 /* Whether the inputs jump at the start of the step: what the last one left of accelerations is then of before. */
 bool ali3_inputs_jump(const ali3_instance *in) {
-  if (in->input_function == NULL) return false;
   for (int32_t i = 0; i < in->system->size.nu; i++) {
     const double before = in->now.used[i], behind = in->input_begin[i];
     if (fabs(behind - before) > ROUND_OFF * (fabs(behind) + fabs(before))) return true;

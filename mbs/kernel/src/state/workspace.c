@@ -42,6 +42,8 @@ static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->input = ali3_pool_array(p, nu);
   in->input_work = ali3_pool_array(p, nu);
   in->input_middle = ali3_pool_array(p, nu);
+  in->input_from = ali3_pool_array(p, nu);
+  in->input_to = ali3_pool_array(p, nu);
   in->input_begin = ali3_pool_array(p, nu);
   in->stage_input = ali3_pool_array(p, ALI3_RADAU * nu);
   in->parameter = ali3_pool_array(p, np);

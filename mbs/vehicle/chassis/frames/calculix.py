@@ -19,27 +19,11 @@ class CalculixFrame(MatrixFrame):
     """Input deck, name.inp; name.sti, name.mas and name.dof lie beside it."""
 
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """Files of the matrices, each of which is there.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
-
-        Raises
-        ------
-        ModelError
-            One is not.
-        """
+        """Files of the matrices, each of which is there."""
         return (beside(folder, self.deck, self.key("deck")),)
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read the deck and its matrices.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
 
         Raises
         ------

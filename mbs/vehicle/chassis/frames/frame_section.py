@@ -77,11 +77,6 @@ class FrameSection(Section):
     def structure(self, folder: Path) -> Structure:
         """Read it.
 
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
-
         Raises
         ------
         ModelError
@@ -91,11 +86,6 @@ class FrameSection(Section):
     @abstractmethod
     def check(self, folder: Path) -> None:
         """Refuse at once what can be seen without reading large files.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
 
         Raises
         ------

@@ -28,27 +28,11 @@ class MatricesFrame(MatrixFrame):
     """Table of the nodes in the order of the matrices: name, x, y, z."""
 
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """Files of the matrices, each of which is there.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
-
-        Raises
-        ------
-        ModelError
-            One is not.
-        """
+        """Files of the matrices, each of which is there."""
         return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read the files.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
 
         Raises
         ------

@@ -22,42 +22,15 @@ class MatrixFrame(FrameSection):
 
     @abstractmethod
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """Files of the matrices, each of which is there.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
-
-        Raises
-        ------
-        ModelError
-            One is not.
-        """
+        """Files of the matrices, each of which is there."""
 
     def check(self, folder: Path) -> None:
-        """Look for the files.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
-
-        Raises
-        ------
-        ModelError
-            One is missing.
-        """
+        """Look for the files."""
         self.files(folder)
 
     @abstractmethod
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read the matrices.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
 
         Raises
         ------
@@ -67,11 +40,6 @@ class MatrixFrame(FrameSection):
 
     def structure(self, folder: Path) -> Structure:
         """Read the matrices and the gauges on their nodes.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
 
         Raises
         ------

@@ -25,27 +25,11 @@ class NastranFrame(MatrixFrame):
     """Name of the mass matrix in it."""
 
     def files(self, folder: Path) -> tuple[Path, ...]:
-        """Files of the matrices, each of which is there.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
-
-        Raises
-        ------
-        ModelError
-            One is not.
-        """
+        """Files of the matrices, each of which is there."""
         return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("bulk_data", "matrices"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
         """Read grid points and matrices.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
 
         Raises
         ------

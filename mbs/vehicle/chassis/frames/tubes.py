@@ -19,11 +19,6 @@ class TubesFrame(TubeTables):
     def structure(self, folder: Path) -> Structure:
         """Read the tables.
 
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
-
         Raises
         ------
         ModelError
@@ -37,11 +32,6 @@ class TubesFrame(TubeTables):
 
     def check(self, folder: Path) -> None:
         """Read the tables, and the places of the gauges.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car's file.
 
         Raises
         ------

@@ -32,12 +32,8 @@ class NodePair(Section):
 
         Parameters
         ----------
-        name : str
-            Of the gauge.
         model : FiniteElementModel
             Has the nodes.
-        folder : Path
-            Of the car's file.
 
         Raises
         ------

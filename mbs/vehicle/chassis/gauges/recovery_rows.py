@@ -39,12 +39,8 @@ class RecoveryRows(Section):
 
         Parameters
         ----------
-        name : str
-            Of the gauge.
         model : FiniteElementModel
             Has the nodes.
-        folder : Path
-            Of the car's file.
 
         Raises
         ------

@@ -60,8 +60,6 @@ class TubeGauge(Section):
 
         Parameters
         ----------
-        name : str
-            Of the gauge.
         ends : pair of ndarray, shape (3,)
             First and last joint of the tube, m.
         radius : float

@@ -257,7 +257,7 @@ def test_a_damaged_file_is_said_and_kept_and_the_kind_drives(attach, start, tmp_
     file.write_text("inputs = 3\nnot toml", encoding="utf-8")
     again = start()
     until(again.devices.state)
-    assert again.said(f"{file} is damaged")
+    assert again.said(f"{file} is no TOML file")
     assert again.only()["mapping"]["throttle"]["source"] == "axis 2"
     again.devices.assign(again.only()["id"], "brake", None)
     assert file.with_name(file.name + ".damaged").read_text(encoding="utf-8") == "inputs = 3\nnot toml"

@@ -1,5 +1,5 @@
 // The bar below the picture: start, stop, single steps, slow motion, going back.
-import { button, el, select } from "./dom.js";
+import { button, el, select } from "../common/dom.js";
 
 const SLOW = [0.5, 0.25, 0.1, 0.02].map((rate) => [rate, `slow motion × 1/${1 / rate}`]);
 const SPEEDS = [[1, "real time"], ...SLOW, [2, "fast × 2"], [5, "fast × 5"]];
@@ -8,17 +8,17 @@ const SPEEDS = [[1, "real time"], ...SLOW, [2, "fast × 2"], [5, "fast × 5"]];
 export class Bar {
   /** @param {Data} act - Functions: reset, toggle, step, back, speed, scrub, camera, csv. */
   constructor(act, { cameras, steps, step, views }) {
-    this._play = button("play", "Run", "run or pause (P)", act.toggle);
+    this._play = button("play", "Run", act.toggle, "run or pause (P)");
     this._line = el("input", { type: "range", min: 0, max: 1, step: "any", title: "go back, then drive on from there", data: "timeline" });
     this._line.addEventListener("input", () => act.scrub(Number(this._line.value)));
     this._time = el("span.a3-clock", { data: "clock" });
     this.element = el(
       "div.a3-bar",
       {},
-      button("reset", "Reset", "begin anew (Home)", act.reset),
-      button("back", "2 s back", "two seconds back (Backspace)", act.back),
+      button("reset", "Reset", act.reset, "begin anew (Home)"),
+      button("back", "2 s back", act.back, "two seconds back (Backspace)"),
       this._play,
-      button("step", "Step", "one communication step (.)", act.step),
+      button("step", "Step", act.step, "one communication step (.)"),
       select("rate", "how fast time runs", SPEEDS, (v) => act.speed(Number(v)), 1),
       this._line,
       this._time,
@@ -26,8 +26,8 @@ export class Bar {
     );
     this._camera = select("camera", "camera", cameras.map((c) => [c, c]), act.camera);
     if (cameras.length) this.element.append(this._camera);
-    for (const { data, text, title, work } of views) this.element.append(button(data, text, title, work));
-    this.element.append(button("csv", "Save CSV", "inputs and outputs of the run as a table", act.csv));
+    for (const { data, text, title, work } of views) this.element.append(button(data, text, work, title));
+    this.element.append(button("csv", "Save CSV", act.csv, "inputs and outputs of the run as a table"));
   }
 
   /** A camera was chosen. */

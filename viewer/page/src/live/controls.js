@@ -1,5 +1,5 @@
 // A line of the panel for one variable: slider and number, steps, choice or switch, with unit, range and description.
-import { el, short } from "./dom.js";
+import { el, short } from "../common/dom.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "./ranges.js";
 
 const POSITIONS = 1000;

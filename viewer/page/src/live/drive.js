@@ -1,10 +1,11 @@
 // An FMU that runs in the page: it is driven by keys, gamepads, fingers and sliders, drawn, plotted and recorded.
+import { button, el, short } from "../common/dom.js";
+import { keys } from "../common/keys.js";
 import { decoded } from "../player/decode.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
-import { el, short } from "./dom.js";
 import { BACK } from "./engine.js";
-import { Hands, typing } from "./hands.js";
+import { Hands } from "./hands.js";
 import { HELP } from "./keyboard.js";
 import { gamepadPanel, inputPanel, parameterPanel, picturePanel } from "./panel.js";
 import { Plots } from "./plots.js";
@@ -310,11 +311,6 @@ class Drive {
 
   _refused(which, text, alive) {
     const part = this.stage.parts.filter((p) => p.variables)[which];
-    const button = (data, words, work) => {
-      const made = el("button", { type: "button", data }, words);
-      made.addEventListener("click", work);
-      return made;
-    };
     const choices = [button("begin anew", "Begin anew", () => this.reset()), button("go back", "2 s back", () => this.back())];
     const time = this.session.time.toFixed(3);
     this.stage.tell(part, `Stopped at ${time} s. ${text}`, alive ? [] : choices);
@@ -339,9 +335,9 @@ class Drive {
   _listen() {
     this._listeners = new AbortController();
     const { signal } = this._listeners;
-    const key = (event) => this._key(event);
-    window.addEventListener("keydown", key, { signal });
-    window.addEventListener("keyup", key, { signal });
+    const { act } = this;
+    const acts = { p: act.toggle, ".": act.step, Backspace: act.back, Home: act.reset };
+    keys({ acts, signal, first: (event) => this.hands.key(event, this.get("speed")) });
     window.addEventListener("blur", () => this.hands.letKeysGo(), { signal });
     document.addEventListener("visibilitychange", () => this._hidden(), { signal });
   }
@@ -351,21 +347,6 @@ class Drive {
     if (!document.hidden || !this.session.running) return;
     this.pause();
     this._tell("Paused, because the page was not on the screen.");
-  }
-
-  _key(event) {
-    const down = event.type === "keydown";
-    const other = typing(event.target) || event.ctrlKey || event.metaKey || event.altKey;
-    if (down && other) return; // a key that was down is let go in any case
-    if (this.hands.key(event, this.get("speed"))) {
-      event.preventDefault();
-      return;
-    }
-    const { act } = this;
-    const work = { KeyP: act.toggle, Period: act.step, Backspace: act.back, Home: act.reset }[event.code];
-    if (!work) return;
-    event.preventDefault();
-    if (down && !event.repeat) work();
   }
 
   _frame() {

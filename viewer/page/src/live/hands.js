@@ -2,14 +2,6 @@
 import { Keyboard, RATES } from "./keyboard.js";
 import { Gamepad } from "./gamepad.js";
 
-/**
- * Whether somebody writes or chooses where an event comes from, so that its key is not for driving.
- * @param {Partial<HTMLInputElement>} target
- */
-export function typing({ tagName, type, isContentEditable }) {
-  return tagName === "SELECT" || tagName === "TEXTAREA" || isContentEditable || (tagName === "INPUT" && /^(number|text|search)$/.test(type));
-}
-
 /** Keys and gamepad of a page. */
 export class Hands {
   /**
@@ -37,7 +29,7 @@ export class Hands {
 
   /**
    * A key goes down or up.
-   * @param {KeyboardEvent} event
+   * @param {{code: string, type: string, shiftKey?: boolean, repeat?: boolean}} event - Of the keyboard.
    * @param {number} speed - Of the car, m/s.
    * @returns {boolean} Whether it is a key for driving.
    */

@@ -1,5 +1,5 @@
 // The figures over the picture: speed, gear, engine, time, and how the computer keeps up.
-import { el, short } from "./dom.js";
+import { el, short } from "../common/dom.js";
 
 const SPEEDS = ["speed"];
 export const TURNS = ["engine_speed", "motor_speed"];

@@ -1,6 +1,6 @@
 // The panel beside the picture: inputs, the gamepad, parameters by group.
 import { control } from "./controls.js";
-import { el, short } from "./dom.js";
+import { el, short } from "../common/dom.js";
 import { sourcesOf } from "./gamepad.js";
 
 /** A part of the panel that opens and closes. */

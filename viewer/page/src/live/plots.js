@@ -1,13 +1,10 @@
 // Plots of chosen outputs, in step with the run.
-import uPlot from "uplot";
-import uplotCss from "uplot/dist/uPlot.min.css";
-import { styled } from "../styles.js";
-import { el } from "./dom.js";
+import { button, el } from "../common/dom.js";
+import { COLOURS, TimePlot } from "../common/time_plot.js";
 import { section } from "./panel.js";
 
 const MOST_POINTS = 1000;
 const HEIGHT = 120;
-const COLOURS = ["#1f77b4", "#d62728", "#2ca02c", "#9467bd"];
 /** @type {[number, string][]} */
 const SPANS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [Infinity, "all"]];
 
@@ -34,7 +31,6 @@ export class Plots {
       this._span = Number(span.value);
       this.stale = true;
     });
-    styled(uplotCss);
     this.element = section("Plots", true, el("div.a3-control", {}, choice, span), this._list);
     this._first = first;
     this.stale = true;
@@ -55,9 +51,8 @@ export class Plots {
     if (this._plots.has(name)) return;
     const { unit = "1", description = "" } = this._variables.get(name) ?? {};
     const label = unit === "1" ? name : `${name}, ${unit}`;
-    const close = el("button", { type: "button", title: "remove", data: `unplot ${name}` }, "×");
+    const close = button(`unplot ${name}`, "×", () => this.remove(name), "remove");
     const holder = el("div.a3-plot", { data: `plot ${name}` }, el("div.a3-name", { title: description }, label, close));
-    close.addEventListener("click", () => this.remove(name));
     this._list.append(holder);
     this._plots.set(name, { holder, plot: null });
     this.stale = true;
@@ -65,7 +60,7 @@ export class Plots {
 
   remove(name) {
     const found = this._plots.get(name);
-    found?.plot?.destroy();
+    found?.plot?.dispose();
     found?.holder.remove();
     this._plots.delete(name);
   }
@@ -88,31 +83,14 @@ export class Plots {
       if (!series.length) continue;
       const data = [series[0][0], ...series.map(([, values]) => values)];
       entry.plot ??= this._make(entry.holder, series.length);
-      entry.time = time;
-      entry.plot.setData(data);
+      entry.plot.plot.setData(data);
+      entry.plot.at(time);
     }
   }
 
   _make(holder, count) {
-    const entry = [...this._plots.values()].find((e) => e.holder === holder);
-    const lines = Array.from({ length: count }, (_, k) => ({ stroke: COLOURS[k], width: 1.2, dash: k ? [6, 3] : [] }));
-    const axis = { stroke: "currentColor", grid: { stroke: "#8884", width: 1 }, ticks: { show: false }, font: "11px system-ui" };
-    const cursor = (u) => {
-      const x = u.valToPos(entry.time, "x", true);
-      if (x < u.bbox.left || x > u.bbox.left + u.bbox.width) return;
-      u.ctx.fillStyle = "#8888";
-      u.ctx.fillRect(x, u.bbox.top, 1, u.bbox.height);
-    };
-    const options = {
-      width: Math.max(120, holder.clientWidth - 4),
-      height: HEIGHT,
-      legend: { show: false },
-      cursor: { show: false },
-      scales: { x: { time: false } },
-      axes: [{ ...axis, size: 22 }, { ...axis, size: 52 }],
-      series: [{}, ...lines],
-      hooks: { draw: [cursor] },
-    };
-    return new uPlot(options, [[], ...lines.map(() => [])], holder);
+    const series = COLOURS.slice(0, count).map((stroke, k) => ({ stroke, width: 1.2, dash: k ? [6, 3] : [] }));
+    const options = { width: Math.max(120, holder.clientWidth - 4), height: HEIGHT, cursor: { show: false }, series, axes: [{ size: 22 }, { size: 52 }] };
+    return new TimePlot(holder, [[], ...series.map(() => [])], options);
   }
 }

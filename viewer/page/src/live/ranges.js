@@ -52,6 +52,7 @@ export function fromSlider(range, x) {
 
 /**
  * The choices of a whole-number variable of few values, with the words of its description, such as "0 neutral".
+ * @param {Data} variable
  * @returns {[number, string][] | null}
  */
 export function choicesOf({ type, min, max, description = "", items }) {

@@ -84,7 +84,7 @@ export class Record {
   }
 
   /**
-   * The run as a table that `ali3 drive --manoeuvre`, `ali3 run --input` and `ali3 view` read.
+   * The run as a table that `ali3 run --manoeuvre` and `ali3 view` read.
    * @param {string[]} comments - Lines behind the numbers, where programs that know no comments do not meet them.
    * @param {string[]} [kept] - Of what is set, which columns; by default all.
    * @param {string[]} [outputs] - Names of columns of outputs; by default all.

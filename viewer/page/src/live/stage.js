@@ -1,7 +1,7 @@
 // The pictures: one beside the other, each of an FMU that runs or of a recording that goes along.
 import { SceneView } from "../scene/scene_view.js";
 import { Blend, turnsOf } from "./blend.js";
-import { el } from "./dom.js";
+import { el } from "../common/dom.js";
 import { Hud } from "./hud.js";
 import { between } from "./record.js";
 import { movedRoads } from "./roads.js";

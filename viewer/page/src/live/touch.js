@@ -1,5 +1,5 @@
 // Driving by fingers: a lever for the steering and two for the pedals, which spring back.
-import { el } from "./dom.js";
+import { el } from "../common/dom.js";
 
 /**
  * A lever over the picture.

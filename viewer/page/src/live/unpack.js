@@ -12,7 +12,7 @@ export async function unpack(given) {
   return bytes[0] === 0x1f && bytes[1] === 0x8b ? gunzipped(bytes) : bytes;
 }
 
-/** What this browser lacks, as one sentence; empty if nothing. */
+/** What this browser lacks, as one sentence; empty if nothing. @param {Data} [scope] */
 export function missingParts(scope = globalThis) {
   if (typeof scope.WebAssembly !== "object") {
     return "This browser has no WebAssembly, in which the FMU runs; use a current Chrome, Edge, Firefox or Safari.";

@@ -1,16 +1,9 @@
 // Physically based materials by name; one object a look and colour, shared by all shapes that have it.
 import * as THREE from "three";
+import looks from "../../../looks.json" with { type: "json" };
 
-const KINDS = {
-  steel: { color: "#8f979e", metalness: 0.85, roughness: 0.42 },
-  paint: { color: "#a5271f", metalness: 0.15, roughness: 0.45, clearcoat: 0.8, clearcoatRoughness: 0.12 },
-  dark_paint: { color: "#23282d", metalness: 0.2, roughness: 0.5, clearcoat: 0.3, clearcoatRoughness: 0.3 },
-  rubber: { color: "#17181a", metalness: 0, roughness: 0.88 },
-  rim: { color: "#b9bec4", metalness: 0.9, roughness: 0.28 },
-  glass: { color: "#8fb0bf", metalness: 0, roughness: 0.05, opacity: 0.28 },
-  plastic: { color: "#4c7ba6", metalness: 0, roughness: 0.5 },
-  chrome: { color: "#dfe3e6", metalness: 1, roughness: 0.12 },
-};
+/** @type {Object<string, Data>} */
+const KINDS = looks.materials;
 
 /** Makes and keeps the materials of a scene. */
 export class Materials {

@@ -1,6 +1,6 @@
 // The bar below the picture: slider, buttons, speed, camera, and a panel of settings.
+import { el, icon } from "../common/dom.js";
 import { SPEEDS } from "./clock.js";
-import { element, icon } from "./elements.js";
 
 /** The bar; it asks the player and tells it. */
 export class Bar {
@@ -10,10 +10,9 @@ export class Bar {
     const { clock } = player;
     const { t } = player.runs[0];
     this.digits = digitsOf((t[t.length - 1] - t[0]) / Math.max(1, t.length - 1));
-    const button = (name, title, onclick) => element("button", { title, "aria-label": title, onclick }, [icon(name)]);
+    const button = (name, title, onclick) => el("button", { title, "aria-label": title, onclick }, icon(name));
     this.playing = button("play", "play or pause (space)", () => player.toggle());
-    this.slide = element("input", {
-      class: "ali3-slide",
+    this.slide = el("input.ali3-slide", {
       type: "range",
       "aria-label": "time",
       min: clock.begin,
@@ -21,22 +20,24 @@ export class Bar {
       step: "any",
       oninput: () => player.seek(Number(this.slide.value)),
     });
-    this.time = element("span", { class: "ali3-time" });
-    this.rate = element("span", { class: "ali3-rate", role: "status" });
-    this.speed = element("select", { title: "speed (up and down)", "aria-label": "speed", onchange: () => player.speed(Number(this.speed.value)) });
+    this.time = el("span.ali3-time");
+    this.rate = el("span.ali3-rate", { role: "status" });
+    this.speed = el("select", { title: "speed (up and down)", "aria-label": "speed", onchange: () => player.speed(Number(this.speed.value)) });
     this.speeds(clock.speed);
     const moves = clock.end > clock.begin;
     this.slide.disabled = !moves;
     parent.append(
-      element("div", { class: "ali3-group" }, [
+      el(
+        "div.ali3-group",
+        {},
         button("back", "one step back (left)", () => player.step(-1)),
         this.playing,
         button("forward", "one step on (right)", () => player.step(1)),
-      ]),
+      ),
       this.slide,
       this.time,
-      element("div", { class: "ali3-group" }, [this.speed, this.rate]),
-      element("div", { class: "ali3-group" }, this.#views()),
+      el("div.ali3-group", {}, this.speed, this.rate),
+      el("div.ali3-group", {}, ...this.#views()),
     );
     /** @type {NodeListOf<HTMLButtonElement>} */
     const buttons = parent.querySelectorAll(".ali3-group:first-child button");
@@ -48,15 +49,15 @@ export class Bar {
     const { player } = this;
     const made = [];
     if (player.cameras.length > 1) {
-      this.camera = element("select", { title: "camera (c)", "aria-label": "camera", onchange: () => player.camera(this.camera.value) });
-      this.camera.append(...player.cameras.map((name) => element("option", { value: name, text: name })));
+      this.camera = el("select", { title: "camera (c)", "aria-label": "camera", onchange: () => player.camera(this.camera.value) });
+      this.camera.append(...player.cameras.map((name) => el("option", { value: name }, name)));
       made.push(this.camera);
     }
-    this.signals = element("button", { text: "signals", title: "diagrams beside the picture (s)", onclick: () => player.side(!player.sideOpen) });
-    this.settings = element("button", { text: "settings", "aria-haspopup": "true", onclick: () => player.settings.toggle() });
+    this.signals = el("button", { title: "diagrams beside the picture (s)", onclick: () => player.side(!player.sideOpen) }, "signals");
+    this.settings = el("button", { "aria-haspopup": "true", onclick: () => player.settings.toggle() }, "settings");
     made.push(this.signals, this.settings);
     if (document.fullscreenEnabled) {
-      const full = element("button", { title: "full screen (f)", "aria-label": "full screen", onclick: () => player.fullScreen() }, [icon("full")]);
+      const full = el("button", { title: "full screen (f)", "aria-label": "full screen", onclick: () => player.fullScreen() }, icon("full"));
       made.push(full);
     }
     return made;
@@ -65,7 +66,7 @@ export class Bar {
   /** @param {number} chosen speed, which may be another than those of the list */
   speeds(chosen) {
     const all = [...new Set([...SPEEDS, chosen])].sort((a, b) => a - b);
-    this.speed.replaceChildren(...all.map((speed) => element("option", { value: speed, text: `${speed}×` })));
+    this.speed.replaceChildren(...all.map((speed) => el("option", { value: speed }, `${speed}×`)));
     this.speed.value = String(chosen);
   }
 

@@ -1,11 +1,10 @@
 // One diagram: the signals of one unit over time, of all runs, with a line at the time that is shown.
 import uPlot from "uplot";
-import { element } from "./elements.js";
+import { el } from "../common/dom.js";
+import { COLOURS, TimePlot } from "../common/time_plot.js";
 import { linear, place } from "./sampler.js";
 import { resampled, values } from "./series.js";
 
-// Okabe and Ito's palette: distinguishable with any colour vision.
-const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#8a8f94"];
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
 const NULL_RETAIN = 1; // of uPlot.join: a gap of a run stays one
 
@@ -33,11 +32,10 @@ export class Chart {
     this.compare = compare;
     this.curves = this.#curves();
     this.legend = this.#legend();
-    this.box = element("div", { class: "ali3-chart" }, [this.legend]);
+    this.box = el("div.ali3-chart", {}, this.legend);
     parent.append(this.box);
-    this.plot = new uPlot(this.#settings(), this.#data(), this.box);
-    this.line = element("div", { class: "ali3-now" });
-    this.plot.over.append(this.line);
+    this.timed = new TimePlot(this.box, this.#data(), this.#settings());
+    this.plot = this.timed.plot;
     this.plot.over.addEventListener("click", (event) => this.#clicked(event));
   }
 
@@ -79,53 +77,45 @@ export class Chart {
     return [joined[0], ...this.curves.map(({ data }) => at.get(data))];
   }
 
-  /** @returns {uPlot.Options} */
+  /** @returns {import("../common/time_plot.js").PlotOptions} */
   #settings() {
-    const ink = () => getComputedStyle(this.box).getPropertyValue("--soft").trim() || "#555";
-    const grid = () => getComputedStyle(this.box).getPropertyValue("--grid").trim() || "#ddd";
-    const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1 }, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", labelSize: 16 };
     const { begin, end } = this.player.clock;
     return {
       width: 300,
       height: 140,
-      legend: { show: false },
       padding: [6, 8, 0, 0],
-      scales: { x: { time: false, range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min: begin, max: end } },
+      scales: { x: { range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min: begin, max: end } },
       axes: [
-        { ...axis, label: "time, s", size: 26 },
-        { ...axis, label: this.unit || "1", size: (plot, labels) => 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length)) },
+        { label: "time, s", size: 26 },
+        { label: this.unit || "1", size: (plot, labels) => 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length)) },
       ],
-      series: [
-        {},
-        ...this.curves.map(({ label, colour, dash, t }) => ({
-          label,
-          stroke: colour,
-          dash,
-          width: 1.5,
-          points: { show: t.length === 1 ? true : undefined },
-        })),
-      ],
+      series: this.curves.map(({ label, colour, dash, t }) => ({
+        label,
+        stroke: colour,
+        dash,
+        width: 1.5,
+        points: { show: t.length === 1 ? true : undefined },
+      })),
       cursor: { sync: { key: `ali3-${this.player.id}` }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
       hooks: {
         setScale: [(plot, key) => key === "x" && !this.#quiet && this.zoomed(this, [plot.scales.x.min, plot.scales.x.max])],
-        draw: [() => this.now()],
       },
     };
   }
 
   #legend() {
     const entries = this.curves.map((curve) => {
-      curve.output = element("output");
+      curve.output = el("output");
       const dashed = `repeating-linear-gradient(90deg, ${curve.colour} 0 4px, transparent 4px 6px)`;
       const style = `background:${curve.dash.length > 0 ? dashed : curve.colour}`;
-      const swatch = element("span", { class: "ali3-swatch", style });
-      return element("span", {}, [swatch, curve.label, curve.output]);
+      const swatch = el("span.ali3-swatch", { style });
+      return el("span", {}, swatch, curve.label, curve.output);
     });
-    const legend = element("div", { class: "ali3-legend" }, entries);
+    const legend = el("div.ali3-legend", {}, ...entries);
     if (this.runs.length > 1) {
       const press = () => this.compare(this.unit, !this.difference);
       const title = "show the difference to the first run";
-      legend.append(element("button", { text: "difference", title, "aria-pressed": String(this.difference), onclick: press }));
+      legend.append(el("button", { title, "aria-pressed": String(this.difference), onclick: press }, "difference"));
     }
     return legend;
   }
@@ -139,12 +129,8 @@ export class Chart {
 
   /** The line and the values at the time that is shown. */
   now() {
-    if (!this.line) return;
     const { time } = this.player.clock;
-    const left = this.plot.valToPos(time, "x");
-    const seen = left >= 0 && left <= this.plot.over.clientWidth;
-    this.line.style.display = seen ? "" : "none";
-    this.line.style.transform = `translateX(${left}px)`;
+    this.timed.at(time);
     for (const { t, data, output } of this.curves) {
       const inside = time >= t[0] && time <= t[t.length - 1];
       const [k, share] = place(t, time);
@@ -173,7 +159,7 @@ export class Chart {
   }
 
   dispose() {
-    this.plot.destroy();
+    this.timed.dispose();
     this.box.remove();
   }
 }

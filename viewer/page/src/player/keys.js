@@ -1,9 +1,10 @@
 // The keys of the player.
+import { keys } from "../common/keys.js";
 import { SPEEDS } from "./clock.js";
 
-/** Listen to the keys of a page. @param {Data} player */
-export function keys(player) {
-  const { root, clock } = player;
+/** Listen to the keys of a page. @param {Data} player @param {AbortSignal} signal ends it */
+export function playerKeys(player, signal) {
+  const { clock } = player;
   const nextSpeed = (way) => {
     const k = SPEEDS.findIndex((speed) => speed >= clock.speed - 1e-9);
     const at = k < 0 ? SPEEDS.length - 1 : k;
@@ -15,8 +16,8 @@ export function keys(player) {
   };
   const acts = {
     " ": () => player.toggle(),
-    ArrowLeft: (event) => player.step(event.shiftKey ? -10 : -1),
-    ArrowRight: (event) => player.step(event.shiftKey ? 10 : 1),
+    ArrowLeft: ({ shiftKey }) => player.step(shiftKey ? -10 : -1),
+    ArrowRight: ({ shiftKey }) => player.step(shiftKey ? 10 : 1),
     Home: () => player.seek(clock.begin),
     End: () => player.seek(clock.end),
     ArrowUp: () => nextSpeed(1),
@@ -28,17 +29,5 @@ export function keys(player) {
     s: () => player.side(!player.sideOpen),
     Escape: () => player.settings.toggle(false),
   };
-  const listener = (event) => {
-    const typed = event.target.closest?.("input[type=search], select, button") ?? null;
-    const own = typed === null || (typed.tagName === "BUTTON" && event.key !== " " && event.key !== "Enter");
-    const act = acts[event.key];
-    if (!own || act === undefined || event.ctrlKey || event.altKey || event.metaKey) return;
-    if (!document.contains(root)) {
-      document.removeEventListener("keydown", listener, true);
-      return;
-    }
-    event.preventDefault();
-    act(event);
-  };
-  document.addEventListener("keydown", listener, true);
+  keys({ acts, signal });
 }

@@ -1,11 +1,10 @@
 // Plays recordings: the picture, the bar below it and the diagrams beside it, all at one time.
-import uplotStyle from "uplot/dist/uPlot.min.css";
+import { el } from "../common/dom.js";
 import { SceneView } from "../scene/scene_view.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
 import { Clock } from "./clock.js";
-import { element } from "./elements.js";
-import { keys } from "./keys.js";
+import { playerKeys } from "./keys.js";
 import { fromHash, toHash } from "./link.js";
 import { Plots } from "./plots.js";
 import { Sampler } from "./sampler.js";
@@ -35,9 +34,9 @@ export class Player {
 
   /** @param {HTMLElement} container @param {{runs: import("./decode.js").Run[], options?: Data}} given */
   constructor(container, { runs, options = {} }) {
-    styled(uplotStyle);
     styled(style);
     this.id = count++;
+    this.listeners = new AbortController();
     this.runs = runs;
     /** @type {Data} */
     this.options = { ...options, ...(options.controls === false ? {} : fromHash(location.hash)) };
@@ -200,6 +199,7 @@ export class Player {
   }
 
   dispose() {
+    this.listeners.abort();
     cancelAnimationFrame(this.loopId);
     clearTimeout(this.later);
     this.observer.disconnect();
@@ -210,11 +210,11 @@ export class Player {
   }
 
   #build(container) {
-    this.viewBox = element("div", { class: "ali3-view" });
-    this.sideBox = element("aside", { class: "ali3-side", hidden: true, "aria-label": "signals" });
-    this.stage = element("div", { class: "ali3-stage" }, [this.viewBox, this.sideBox]);
-    this.foot = element("div", { class: "ali3-foot" });
-    this.root = element("div", { class: "ali3-player", tabindex: "-1" }, [this.stage, this.foot]);
+    this.viewBox = el("div.ali3-view");
+    this.sideBox = el("aside.ali3-side", { hidden: true, "aria-label": "signals" });
+    this.stage = el("div.ali3-stage", {}, this.viewBox, this.sideBox);
+    this.foot = el("div.ali3-foot");
+    this.root = el("div.ali3-player", { tabIndex: -1 }, this.stage, this.foot);
     container.replaceChildren(this.root);
   }
 
@@ -253,7 +253,7 @@ export class Player {
 
   #controls() {
     this.#head();
-    this.barBox = element("div", { class: "ali3-bar" });
+    this.barBox = el("div.ali3-bar");
     this.foot.append(this.barBox);
     this.bar = new Bar(this.barBox, this);
     if (this.bar.camera) this.bar.camera.value = this.cameraName;
@@ -261,21 +261,21 @@ export class Player {
     const plotsOnly = this.solid < 0;
     if (plotsOnly) this.root.dataset.plotsOnly = "yes";
     if (plotsOnly || this.options.plots?.length) this.side(true);
-    keys(this);
+    playerKeys(this, this.listeners.signal);
   }
 
   /** Names of the runs and what there is to say of them, over the picture. */
   #head() {
     const rows = this.runs.map(({ name }) => {
       const ghost = this.ghosts.find((other) => other.name === name);
-      const swatch = ghost && element("span", { class: "ali3-swatch", style: `background:${ghost.options.tint}` });
-      return element("div", { class: "ali3-name" }, [...(swatch ? [swatch] : []), name, ...(ghost ? [" (ghost)"] : [])]);
+      const swatch = ghost && el("span.ali3-swatch", { style: `background:${ghost.options.tint}` });
+      return el("div.ali3-name", {}, ...(swatch ? [swatch] : []), name, ...(ghost ? [" (ghost)"] : []));
     });
     const said = [...this.notes, ...this.#spans(), ...(this.wrong ? [this.wrong] : [])];
     if (this.solid < 0) said.push("There are no poses in this result: signals can be plotted, and nothing is drawn.");
     const more = said.length > SHOWN_NOTES ? [`${said.length - SHOWN_NOTES} more notes stand in the settings.`] : [];
-    for (const note of [...said.slice(0, SHOWN_NOTES), ...more]) rows.push(element("div", { class: "ali3-note", text: note }));
-    this.viewBox.append(element("div", { class: "ali3-head" }, rows));
+    for (const note of [...said.slice(0, SHOWN_NOTES), ...more]) rows.push(el("div.ali3-note", {}, note));
+    this.viewBox.append(el("div.ali3-head", {}, ...rows));
   }
 
   /** Which runs do not last the whole time. */

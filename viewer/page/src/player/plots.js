@@ -1,6 +1,6 @@
 // The side of the page: a list of all signals to choose from, and a diagram for each unit of those chosen.
 import { Chart, palette } from "./chart.js";
-import { element } from "./elements.js";
+import { el } from "../common/dom.js";
 import { byUnit, found, signalNames, unitOf } from "./series.js";
 
 const LISTED = 300;
@@ -17,17 +17,17 @@ export class Plots {
     this.differences = new Set();
     this.colours = palette();
     this.charts = [];
-    this.search = element("input", {
+    this.search = el("input", {
       type: "search",
       placeholder: `search ${this.names.length} signals`,
       "aria-label": "search signals",
       oninput: () => this.#list(),
       onfocus: () => this.#open(true),
     });
-    this.opener = element("button", { text: "list", title: "show or hide the list of signals", onclick: () => this.#open(this.list.hidden) });
-    this.list = element("div", { class: "ali3-list" });
-    this.area = element("div", { class: "ali3-plots" });
-    parent.append(element("div", { class: "ali3-find" }, [this.search, this.opener]), this.list, this.area);
+    this.opener = el("button", { title: "show or hide the list of signals", onclick: () => this.#open(this.list.hidden) }, "list");
+    this.list = el("div.ali3-list");
+    this.area = el("div.ali3-plots");
+    parent.append(el("div.ali3-find", {}, this.search, this.opener), this.list, this.area);
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.area);
     this.#open(this.chosen.length === 0);
@@ -72,13 +72,13 @@ export class Plots {
     const names = found(this.names, this.search.value);
     /** @type {HTMLElement[]} */
     const rows = names.slice(0, LISTED).map((name) => {
-      const box = element("input", { type: "checkbox", onchange: () => this.#toggle(name) });
+      const box = el("input", { type: "checkbox", onchange: () => this.#toggle(name) });
       box.checked = this.chosen.includes(name);
-      const unit = element("span", { class: "ali3-unit", text: unitOf(name, this.runs) });
-      return element("label", {}, [box, element("span", { class: "ali3-signal", text: name }), unit]);
+      const unit = el("span.ali3-unit", {}, unitOf(name, this.runs));
+      return el("label", {}, box, el("span.ali3-signal", {}, name), unit);
     });
-    if (names.length > LISTED) rows.push(element("div", { class: "ali3-more", text: `and ${names.length - LISTED} more; search for them` }));
-    if (names.length === 0) rows.push(element("div", { class: "ali3-more", text: "no signal has these words in its name" }));
+    if (names.length > LISTED) rows.push(el("div.ali3-more", {}, `and ${names.length - LISTED} more; search for them`));
+    if (names.length === 0) rows.push(el("div.ali3-more", {}, "no signal has these words in its name"));
     this.list.replaceChildren(...rows);
   }
 
@@ -110,7 +110,7 @@ export class Plots {
           difference: this.differences.has(unit),
         }),
     );
-    if (this.charts.length === 0) this.area.append(element("div", { class: "ali3-empty", text: "Choose signals from the list; a click in a diagram goes to that time." }));
+    if (this.charts.length === 0) this.area.append(el("div.ali3-empty", {}, "Choose signals from the list; a click in a diagram goes to that time."));
     this.resize();
   }
 }

@@ -56,7 +56,7 @@ export class Sampler {
   #share = 0;
   #turned = new Map();
 
-  /** @param {import("./decode.js").Run} run */
+  /** @param {{scene: Data | null, t: ArrayLike<number>, columns: import("./decode.js").Run["columns"]}} run */
   constructor(run) {
     this.run = run;
     /** Columns that are parts of a quaternion: [names of the four, which one]. */

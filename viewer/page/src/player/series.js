@@ -21,7 +21,7 @@ export const values = (data) => Array.from(data, (value) => (Number.isFinite(val
 
 /**
  * Signals by unit, in the order of their names.
- * @param {string[]} names @param {import("./decode.js").Run[]} runs
+ * @param {string[]} names @param {Pick<import("./decode.js").Run, "columns">[]} runs
  * @returns {Map<string, string[]>}
  */
 export function byUnit(names, runs) {
@@ -42,7 +42,7 @@ export function unitOf(name, runs) {
 
 /**
  * Names of all signals: those that do not only place bodies come first.
- * @param {import("./decode.js").Run[]} runs
+ * @param {Pick<import("./decode.js").Run, "scene" | "columns">[]} runs
  * @returns {string[]}
  */
 export function signalNames(runs) {

@@ -1,5 +1,5 @@
 // The panel of settings: forces, stress, ghosts, colours of the page, and what there is to say of the runs.
-import { element } from "./elements.js";
+import { el } from "../common/dom.js";
 
 /** The panel. */
 export class Settings {
@@ -8,7 +8,7 @@ export class Settings {
     this.player = player;
     /** Shows a value that was set elsewhere, by its name. */
     this.shown = {};
-    this.panel = element("div", { class: "ali3-panel", hidden: true });
+    this.panel = el("div.ali3-panel", { hidden: true });
     parent.append(this.panel);
     this.#fill();
   }
@@ -28,15 +28,15 @@ export class Settings {
     const { look } = player;
     const rows = [];
     const check = (text, value, change) => {
-      const box = element("input", { type: "checkbox", onchange: () => change(box.checked) });
+      const box = el("input", { type: "checkbox", onchange: () => change(box.checked) });
       box.checked = value;
-      rows.push(element("label", { class: "ali3-wide" }, [box, ` ${text}`]));
+      rows.push(el("label.ali3-wide", {}, box, ` ${text}`));
       return (now) => (box.checked = now === true || now?.length > 0);
     };
     // A factor from 1/range to range, in equal steps of its logarithm.
     const factor = (text, key, low, high) => {
-      const shown = element("output");
-      const range = element("input", { type: "range", min: Math.log10(low), max: Math.log10(high), step: 0.05, "aria-label": text });
+      const shown = el("output");
+      const range = el("input", { type: "range", min: Math.log10(low), max: Math.log10(high), step: 0.05, "aria-label": text });
       this.shown[key] = (value) => {
         shown.textContent = `${Number(value.toPrecision(3))}×`;
         range.value = String(Math.log10(Math.max(value, low)));
@@ -46,7 +46,7 @@ export class Settings {
         const value = Number((10 ** Number(range.value)).toPrecision(3));
         player.set({ [key]: value });
       });
-      rows.push(element("span", { text }), range, shown);
+      rows.push(el("span", {}, text), range, shown);
       return (value) => player.set({ [key]: value });
     };
     if (player.has.arrows) {
@@ -57,15 +57,15 @@ export class Settings {
     if (player.has.deformation) {
       const deform = factor("deformation", "deformation", 1, 1000);
       const fit = () => deform(player.view.fittingDeformation);
-      rows.push(element("span"), element("button", { text: "make it visible", onclick: fit }), element("span"));
+      rows.push(el("span"), el("button", { onclick: fit }, "make it visible"), el("span"));
     }
     for (const ghost of player.ghosts) check(`ghost: ${ghost.name}`, true, (on) => player.showGhost(ghost, on));
     this.shown.loop = check("begin again at the end (l)", player.clock.loop, (loop) => player.loop(loop));
-    const theme = element("select", { onchange: () => player.theme(theme.value) });
-    theme.append(...["auto", "light", "dark"].map((name) => element("option", { value: name, text: name })));
+    const theme = el("select", { onchange: () => player.theme(theme.value) });
+    theme.append(...["auto", "light", "dark"].map((name) => el("option", { value: name }, name)));
     theme.value = player.themeName;
-    rows.push(element("span", { text: "colours of the page" }), theme, element("span"));
-    const copied = element("span");
+    rows.push(el("span", {}, "colours of the page"), theme, el("span"));
+    const copied = el("span");
     const copy = async () => {
       player.remember();
       try {
@@ -76,10 +76,10 @@ export class Settings {
       }
     };
     if (/^(https?|file):$/.test(location.protocol)) {
-      rows.push(element("span", { text: "link to this time" }), element("button", { text: "copy", onclick: copy }), copied);
+      rows.push(el("span", {}, "link to this time"), el("button", { onclick: copy }, "copy"), copied);
     }
-    for (const note of player.notes) rows.push(element("p", { text: note }));
-    rows.push(element("p", { text: "Keys: space, left and right (with shift: ten steps), Home, End, up and down for the speed." }));
+    for (const note of player.notes) rows.push(el("p", {}, note));
+    rows.push(el("p", {}, "Keys: space, left and right (with shift: ten steps), Home, End, up and down for the speed."));
     this.panel.replaceChildren(...rows);
   }
 }

@@ -1,6 +1,6 @@
 // What colours, arrows and grid mean: small tables over the picture.
 import { gradient } from "../looks/colour_map.js";
-import { el } from "../live/dom.js";
+import { el } from "../common/dom.js";
 import { parted, worded } from "./forces.js";
 
 const BOX = "background:#ffffffd9;border-radius:4px;padding:5px 8px;font-variant-numeric:tabular-nums";

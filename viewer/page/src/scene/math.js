@@ -54,7 +54,7 @@ export const transpose = (R) => [R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5],
 /** Rotation whose columns are three vectors. @returns {Rotation} */
 export const fromColumns = (x, y, z) => [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]];
 
-/** Rotation of a quaternion (w, x, y, z) of any length; null for one of length zero. @returns {Rotation | null} */
+/** Rotation of a quaternion (w, x, y, z) of any length; null for one of length zero. @param {number[]} quaternion @returns {Rotation | null} */
 export function fromQuaternion([w, x, y, z]) {
   const n = w * w + x * x + y * y + z * z;
   if (!(n > 0) || !Number.isFinite(n)) return null;

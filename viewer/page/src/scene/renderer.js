@@ -1,5 +1,6 @@
 // The WebGL context: made, lost, given back; a sentence where there is none.
 import * as THREE from "three";
+import { el } from "../common/dom.js";
 
 const NO_WEBGL =
   "This browser gives no WebGL, so nothing can be drawn here; plots still work. " +
@@ -14,18 +15,19 @@ export function drawsBySoftware(gl) {
 
 /**
  * @param {HTMLElement} container
- * @param {{antialias?: boolean, keep?: boolean}} options keep: the picture can be read after it is drawn
+ * @param {{label: string, antialias?: boolean, keep?: boolean}} options label: what the picture is, for who does not see
+ *   it; keep: the picture can be read after it is drawn
  * @returns {{renderer?: THREE.WebGLRenderer, software?: boolean, problem?: string}}
  */
-export function makeRenderer(container, { antialias, keep = false }) {
-  const canvas = document.createElement("canvas");
-  canvas.style.cssText = "display:block;width:100%;height:100%;outline:none;touch-action:none";
+export function makeRenderer(container, { label, antialias, keep = false }) {
+  const style = "display:block;width:100%;height:100%;outline:none;touch-action:none";
+  const canvas = el("canvas", { role: "img", "aria-label": label, style });
   // The context is asked for here: three.js writes an error to the console where there is none.
   /** @type {WebGL2RenderingContext | null} */
   let gl;
   let software = false;
   try {
-    const probe = document.createElement("canvas").getContext("webgl2");
+    const probe = el("canvas").getContext("webgl2");
     if (probe === null) return { problem: NO_WEBGL };
     software = drawsBySoftware(probe);
     probe.getExtension("WEBGL_lose_context")?.loseContext();

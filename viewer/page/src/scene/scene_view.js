@@ -47,6 +47,7 @@ export class SceneView {
       return;
     }
     const { renderer, software, problem } = makeRenderer(container, {
+      label: `drawing of ${scene.name ?? "a scene"}`,
       antialias: options.antialias ?? (options.quality === "high" || scene.planar ? true : undefined),
       keep: options.keep,
     });

@@ -1,5 +1,5 @@
 // The panel of the host's devices: their axes as bars, what each drives, calibration, force.
-import { el, short } from "../live/dom.js";
+import { button, el, short } from "../common/dom.js";
 import { section } from "../live/panel.js";
 import { styled } from "../styles.js";
 import style from "./calibration.css";
@@ -221,12 +221,6 @@ class DevicePart {
     test.disabled = !device.force;
     return [el("div.a3-device-settings", {}, ...lines.flat()), el("label.a3-control", {}, inverted, "force inverted"), told, test, words];
   }
-}
-
-function button(data, text, act) {
-  const made = el("button", { type: "button", data }, text);
-  made.addEventListener("click", act);
-  return made;
 }
 
 /** A bar that moves, with marks. */

@@ -1,5 +1,5 @@
 // The instruments of the driver: speed, gear, revolutions, pedals, steering.
-import { el, write } from "../live/dom.js";
+import { el, write } from "../common/dom.js";
 import { RPM, TURNS, gearWords } from "../live/hud.js";
 import { Gauge } from "./gauges.js";
 

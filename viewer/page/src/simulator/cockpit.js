@@ -1,5 +1,5 @@
 // Everything that one car's page shows and takes: picture, instruments, controls, hands.
-import { el } from "../live/dom.js";
+import { el } from "../common/dom.js";
 import { Hands } from "../live/hands.js";
 import { levers } from "../live/touch.js";
 import { SceneView } from "../scene/scene_view.js";
@@ -9,7 +9,7 @@ import { readByHost } from "./device_words.js";
 import { Effects } from "./effects.js";
 import { Beat } from "./frames.js";
 import { Help } from "./help.js";
-import { Keys } from "./keys.js";
+import { simulatorKeys } from "./keys.js";
 import { WorldMap, WorldPlan } from "./map.js";
 import { Notices } from "./notices.js";
 import { Numbers } from "./numbers.js";
@@ -196,10 +196,7 @@ export class Cockpit {
   _listen() {
     this._listeners = new AbortController();
     const { signal } = this._listeners;
-    this.keys = new Keys(this.hands, this.act, () => this._speed ?? 0);
-    const key = (event) => this.keys.take(event);
-    window.addEventListener("keydown", key, { signal });
-    window.addEventListener("keyup", key, { signal });
+    simulatorKeys(this.hands, this.act, () => this._speed ?? 0, signal);
     const once = () => !this._touchedOnce && (this._touchedOnce = true) && this.effects.start();
     for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, once, { signal });
     for (const event of ["pointerdown", "pointermove", "wheel"]) {

@@ -1,5 +1,5 @@
 // What one can do with the run: pause, step, slow motion, rewind, set upright, begin anew, go to a place.
-import { button, el, select, write } from "../live/dom.js";
+import { button, el, select, write } from "../common/dom.js";
 
 /** Simulated seconds per second of the clock. */
 const SPEEDS = [[1, "real time"], [0.5, "slow × 1/2"], [0.25, "slow × 1/4"], [0.1, "slow × 1/10"]]; // prettier-ignore
@@ -12,27 +12,27 @@ export class Controls {
    * @param {{cameras: string[], places: {name: string, text?: string}[]}} has
    */
   constructor(act, { cameras, places }) {
-    this._run = button("run", "Pause", "pause or run (P)", act.toggle);
+    this._run = button("run", "Pause", act.toggle, "pause or run (P)");
     this._speed = select("speed choice", "slow motion (L)", SPEEDS, (value) => act.speed(Number(value)), 1);
-    this._back = button("rewind", `${REWINDS[0]} s back`, `rewind ${REWINDS[0]} s (Backspace), ${REWINDS[1]} s (Shift+Backspace)`, () => act.rewind(REWINDS[0]));
+    this._back = button("rewind", `${REWINDS[0]} s back`, () => act.rewind(REWINDS[0]), `rewind ${REWINDS[0]} s (Backspace), ${REWINDS[1]} s (Shift+Backspace)`);
     this._saved = el("input", { type: "range", min: 0, max: 30, step: 0.1, value: 0, data: "saved", title: "what is saved: choose how far to rewind" });
     this._far = el("output", { data: "rewind by" });
     this._saved.addEventListener("input", () => this._showFar());
     this._saved.addEventListener("change", () => this._rewind(act));
     this._camera = select("camera", "camera (C, 1 to 5)", cameras.map((name) => [name, name]), act.camera); // prettier-ignore
     this._quality = select("quality", "how finely the picture is drawn", ["auto", "high", "low"].map((q) => [q, `quality ${q}`]), act.quality); // prettier-ignore
-    this._sound = button("mute", "Sound on", "sound (M)", act.mute);
+    this._sound = button("mute", "Sound on", act.mute, "sound (M)");
     const spots = places.map(({ name }) => [name, name.replaceAll("_", " ")]);
     this._place = select("place", "begin at a place of the world", [["", "places …"], ...spots], (name) => this._go(act, name));
     this._place.hidden = places.length === 0;
     this.element = el(
       "div.a3-controls",
       { data: "controls" },
-      el("div", {}, this._run, button("step", "Step", "one communication step (.)", act.step), this._speed),
-      el("div", {}, this._back, this._saved, this._far, button("upright", "Upright", "set the car on its wheels (U)", act.upright)),
-      el("div", {}, button("reset", "Reset", "begin anew (Home)", act.reset), this._place),
-      el("div", {}, this._camera, this._quality, this._sound, button("panels", "Panels", "devices, report, picture (G)", act.panels)),
-      button("help", "?", "keys (H)", act.help),
+      el("div", {}, this._run, button("step", "Step", act.step, "one communication step (.)"), this._speed),
+      el("div", {}, this._back, this._saved, this._far, button("upright", "Upright", act.upright, "set the car on its wheels (U)")),
+      el("div", {}, button("reset", "Reset", act.reset, "begin anew (Home)"), this._place),
+      el("div", {}, this._camera, this._quality, this._sound, button("panels", "Panels", act.panels, "devices, report, picture (G)")),
+      button("help", "?", act.help, "keys (H)"),
     );
   }
 

@@ -1,5 +1,5 @@
 // Bars of the head-up display: pedals, steering, revolutions, time of a step.
-import { el, write } from "../live/dom.js";
+import { el, write } from "../common/dom.js";
 
 /** A bar from 0 to 1, across or upright, or from -1 to 1 from its middle. */
 export class Gauge {

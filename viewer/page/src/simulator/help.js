@@ -1,5 +1,5 @@
 // The keys, over the picture.
-import { el } from "../live/dom.js";
+import { el } from "../common/dom.js";
 
 const KEYS = [
   ["← → or A D", "steer"],

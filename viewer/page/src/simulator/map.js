@@ -1,5 +1,5 @@
 // The world from above: its ground, scenery and places, the car and where it has been.
-import { el } from "../live/dom.js";
+import { el } from "../common/dom.js";
 import { Surfaces } from "./surfaces.js";
 
 /** Metres between points of the trail, and how many are kept. */
@@ -124,7 +124,7 @@ export class WorldMap {
     this.plan = plan;
     this._whole = whole;
     this.zoom = 1;
-    this._canvas = el("canvas");
+    this._canvas = el("canvas", { role: "img", "aria-label": "map" });
     this.element = el(whole ? "div.a3-map" : "div.a3-inset", { data: whole ? "map" : "map inset" }, this._canvas);
     this._canvas.addEventListener("wheel", (event) => this._zoom(event), { passive: false });
     if (go) this._canvas.addEventListener("click", (event) => this._click(event, go));

@@ -1,5 +1,5 @@
 // What there is to say: states that hold, over the picture, and events, which fade.
-import { el, write } from "../live/dom.js";
+import { el, write } from "../common/dom.js";
 
 /** Events on the screen, and for how long, s. */
 const [MOST, LASTS] = [4, 7];

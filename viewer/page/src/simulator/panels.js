@@ -1,5 +1,5 @@
 // The panels at the side: devices, the gamepad of the browser, the report, the picture, the recording.
-import { el } from "../live/dom.js";
+import { el } from "../common/dom.js";
 import { gamepadPanel, picturePanel, section } from "../live/panel.js";
 import { CalibrationPanel } from "./calibration.js";
 import { Report } from "./report.js";

@@ -1,5 +1,5 @@
 // The times of all steps of the run: a histogram and its figures.
-import { button, el, short, svg } from "../live/dom.js";
+import { button, el, short, svg } from "../common/dom.js";
 
 const [WIDTH, HEIGHT, FOOT] = [300, 120, 16];
 /** Bars of a decade. */
@@ -54,7 +54,7 @@ export class Report {
   /** @param {() => void} ask - For a new one. */
   constructor(ask) {
     this._body = el("div", { data: "report" }, el("p.a3-hint", {}, "The times of all steps so far: press the button."));
-    this.element = el("div", {}, button("ask report", "Report now", "times of the steps of this run", ask), this._body);
+    this.element = el("div", {}, button("ask report", "Report now", ask, "times of the steps of this run"), this._body);
   }
 
   /** @param {Data} report - Of the program, times in s. */

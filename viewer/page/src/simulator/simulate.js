@@ -1,5 +1,5 @@
 // The page of the driving simulator: the car is driven by a program elsewhere, seen and steered here.
-import { el } from "../live/dom.js";
+import { el } from "../common/dom.js";
 import { styled } from "../styles.js";
 import { Cockpit } from "./cockpit.js";
 import { Frames } from "./frames.js";

@@ -1,5 +1,5 @@
 // How the simulation keeps its time: the step against its deadline, simulated over wall time, frames of the page.
-import { el, short, write } from "../live/dom.js";
+import { el, short, write } from "../common/dom.js";
 import { paceWords } from "../live/hud.js";
 import { Gauge } from "./gauges.js";
 

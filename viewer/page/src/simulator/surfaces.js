@@ -1,4 +1,5 @@
 // What the ground of a world is made of at a place, and how it looks from above.
+import { el } from "../common/dom.js";
 import { floats } from "../scene/data.js";
 import { SurfaceRaster } from "../looks/heights.js";
 import { wetness } from "../looks/roads.js";
@@ -81,7 +82,7 @@ const MOST = 1400;
 function painted(grid, colour) {
   const [n, m] = grid.shape;
   const every = Math.max(1, Math.ceil(Math.max(n, m) / MOST));
-  const image = document.createElement("canvas");
+  const image = el("canvas");
   [image.width, image.height] = [Math.ceil(n / every), Math.ceil(m / every)];
   const context = image.getContext("2d");
   const pixels = context.createImageData(image.width, image.height);

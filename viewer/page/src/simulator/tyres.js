@@ -1,5 +1,5 @@
 // The four tyres from above: load as the size of a circle, forces in the plane as an arrow, use of friction as colour.
-import { svg } from "../live/dom.js";
+import { svg } from "../common/dom.js";
 
 /** Half the side of the drawing, and radius of a circle at the mean load of a wheel at rest, in its units. */
 const [HALF, RADIUS] = [50, 13];

@@ -1,5 +1,6 @@
 // Signs with words: all words of a world in one picture.
 import * as THREE from "three";
+import { el } from "../../common/dom.js";
 
 /** Pixels of the board of one text. */
 const [WIDE, HIGH] = [256, 128];
@@ -30,7 +31,7 @@ export function lines(text) {
 
 /** @param {string[]} texts each once @returns {THREE.CanvasTexture} */
 export function signTexture(texts) {
-  const canvas = document.createElement("canvas");
+  const canvas = el("canvas");
   canvas.width = COLUMNS * WIDE;
   canvas.height = Math.ceil(texts.length / COLUMNS) * HIGH;
   const pen = canvas.getContext("2d");

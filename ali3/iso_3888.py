@@ -1,0 +1,70 @@
+"""The tracks of ISO 3888: lanes that hosts drive through and judge, and beside which worlds draw cones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import Literal
+
+Track = Literal["ISO 3888-1", "ISO 3888-2"]
+
+_SECTIONS: dict[Track, tuple[float, ...]] = {
+    "ISO 3888-1": (15.0, 30.0, 25.0, 25.0, 30.0),
+    "ISO 3888-2": (12.0, 13.5, 11.0, 12.5, 12.0),
+}
+"""Lengths, m: a lane, the way to the next one, and so on."""
+
+
+@dataclass(frozen=True)
+class Gate:
+    """A lane with straight edges along x.
+
+    Parameters
+    ----------
+    x_start, x_end, y_right, y_left : float
+        m.
+    """
+
+    x_start: float
+    x_end: float
+    y_right: float
+    y_left: float
+
+    @property
+    def centre(self) -> float:
+        """Middle of the lane, m."""
+        return 0.5 * (self.y_right + self.y_left)
+
+
+def lanes(track: Track, vehicle_width: float, x_start: float = 0.0) -> tuple[Gate, ...]:
+    """The three lanes of a track; x runs along the middle of the first one.
+
+    Parameters
+    ----------
+    track : {"ISO 3888-1", "ISO 3888-2"}
+    vehicle_width : float
+        Without mirrors, m.
+    x_start : float
+        Where the first lane begins, m.
+
+    Returns
+    -------
+    tuple of Gate
+
+    Notes
+    -----
+    Lanes of ISO 3888-1 are 1.1, 1.2 and 1.3 times as wide as the vehicle and 0.25 m more; the second one is taken 3.5 m
+    to the left from middle to middle. Those of ISO 3888-2 are 1.1 widths and 0.25 m, the width and 1 m, and 1.3 widths
+    and 0.25 m but at least 3 m wide; the second one begins 1 m to the left of the first one, and the right edges of the
+    first and the last one are in one line. From public summaries of the standards, not from their text.
+    """
+    ends = [x_start + end for end in accumulate((0.0, *_SECTIONS[track]))]
+    first = 0.5 * (1.1 * vehicle_width + 0.25)
+    if track == "ISO 3888-1":
+        second, third = (0.5 * (factor * vehicle_width + 0.25) for factor in (1.2, 1.3))
+        edges = ((-first, first), (3.5 - second, 3.5 + second), (-third, third))
+    else:
+        beside = first + 1.0
+        last = max(1.3 * vehicle_width + 0.25, 3.0)
+        edges = ((-first, first), (beside, beside + vehicle_width + 1.0), (-first, last - first))
+    return tuple(Gate(ends[2 * k], ends[2 * k + 1], right, left) for k, (right, left) in enumerate(edges))

@@ -1,0 +1,158 @@
+"""Options that several commands have: each has one name, one form and one meaning in all of them."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ali3.decimal_number import number
+from ali3.running import WRONG_USE
+from ali3.words import brief
+
+
+class Option(NamedTuple):
+    """What an option is wherever it stands.
+
+    Parameters
+    ----------
+    form : str
+        Of its value in the help; empty for one without a value.
+    text : str
+        Help, without the default.
+    type : callable
+        Makes the value of the text.
+    short : tuple of str
+        Further names.
+    """
+
+    form: str
+    text: str
+    type: Callable[[str], Any] = str
+    short: tuple[str, ...] = ()
+
+
+def folder(text: str) -> Path:
+    """A folder to be written to; `argparse.ArgumentTypeError` for a name that has the suffix of a file."""
+    path = Path(text)
+    if path.suffix.lower() in _SUFFIXES:
+        raise argparse.ArgumentTypeError(f"{text} is the name of a file; --out names the folder of what is written")
+    return path
+
+
+def count(text: str) -> int:
+    """A whole number of at least 1."""
+    if not re.fullmatch(r"[0-9]{1,9}", text, re.ASCII) or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{brief(text)} is given; it must be a whole number of at least 1")
+    return int(text)
+
+
+def name_and_text(text: str) -> tuple[str, str]:
+    """``NAME=VALUE``, whose value the FMU's variable reads."""
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip():
+        shown = repr(text if len(text) <= 40 else text[:37] + "...")
+        raise argparse.ArgumentTypeError(f"{shown} is not of the form NAME=VALUE")
+    return name.strip(), value
+
+
+def assignment(text: str) -> tuple[str, float]:
+    """``NAME=VALUE`` with a number."""
+    name, value = name_and_text(text)
+    return name, number(value)
+
+
+_SUFFIXES = (".html", ".htm", ".csv", ".json", ".ssv", ".fmu", ".so", ".dll", ".dylib", ".wasm")
+
+SHARED: dict[str, Option] = {
+    "--out": Option("DIR", "folder of what is written", folder),
+    "--json": Option("FILE", "write all numbers there too", Path),
+    "--list": Option("", "list what there is to choose from, and stop"),
+    "--no-open": Option("", "do not open a browser"),
+    "--show-parameters": Option("", "print the parameters too"),
+    "--jobs": Option("N", "processes at a time", count),
+    "--fidelity": Option("N", "how much of the model is computed, where there is a choice", number),
+    "--step": Option("H", "communication step, s", number),
+    "--stop-time": Option("T", "how long a run is, s", number),
+    "--from": Option("T", "use what was recorded from this time on, s", number),
+    "--to": Option("T", "use what was recorded up to this time, s", number),
+    "--seed": Option("S", "a driver without sense moves the inputs, as this whole number says", int),
+    "--manoeuvre": Option(
+        "NAME|FILE",
+        "what the inputs do: the name of a manoeuvre, its TOML file, a CSV table over time, or the folder of a "
+        "recording",
+        str,
+        ("-m", "--input"),
+    ),
+    "--parameters": Option("SSV", "parameter set (SSV file) that is set before the start; repeatable", Path),
+    "--set": Option(
+        "NAME=VALUE",
+        "value of a parameter or input at the start, in the unit of the FMU; wins over --parameters; repeatable",
+        name_and_text,
+    ),
+    "--aliases": Option(
+        "FILE",
+        "our names for the variables of an FMU that has others: a TOML file, or chrono, carmaker, carsim, osi or "
+        "vehicle_interfaces, which come with the package",
+        Path,
+    ),
+    "--road": Option(
+        "FILE",
+        "road under a car: a road file, the name of one in the FMU (plane.road, kerb.road, rough.road, split.road, "
+        "washboard.road), or what 'ali3 road' makes one of",
+    ),
+    "--world": Option("NAME|FILE", "a world, by its name or the file of its description"),
+}
+
+
+def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", **more: Any) -> None:
+    """Add an option of `SHARED`.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser or group
+    name : str
+        Key of `SHARED`.
+    usual : str
+        What happens without it, for the help.
+    more
+        For ``add_argument``: ``default``, ``action``, ``dest``.
+    """
+    option = SHARED[name]
+    words = option.text + (f"; default: {usual}" if usual else "")
+    if option.form:
+        more |= {"metavar": option.form, "type": option.type}
+    else:
+        more["action"] = "store_true"
+    if more.get("action") == "append":
+        more.setdefault("default", [])
+        words = words if option.text.endswith("repeatable") else words + "; repeatable"
+    parser.add_argument(name, *option.short, help=words, **more)
+
+
+def add_old_names(parser: argparse.ArgumentParser, names: Mapping[str, str]) -> None:
+    """Let options of before end the command with one sentence.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+    names : mapping of str to str
+        What stands in place of the old name, by old name.
+    """
+    for old, new in names.items():
+        parser.add_argument(old, nargs="?", action=_Renamed, const=new, help=argparse.SUPPRESS)
+
+
+class _Renamed(argparse.Action):
+    """An option that has another name now."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: str | Sequence[Any] | None,
+        option_string: str | None = None,
+    ) -> None:
+        parser.exit(WRONG_USE, f"error: {option_string} is now {self.const}; {parser.prog} --help describes it.\n")

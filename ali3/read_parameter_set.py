@@ -1,0 +1,128 @@
+"""Reads parameter sets, checked by the XML schema of the standard."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable
+from typing import Any
+
+from ali3.parameter_set import Entry, ParameterSet, ParameterSetError, UnitDefinition
+from ali3.reading import read_bytes
+
+LARGEST = 10_000_000
+"""Bytes that a file may have."""
+
+_KINDS = {"Float64": "Real", "Float32": "Real"} | {
+    f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)
+}
+
+_SCHEMAS = {"1": "ssv", "2": "ssv2"}
+
+
+def read_parameter_set(file: str | os.PathLike[str]) -> ParameterSet:
+    """Read an SSV file of SSP 1.0 or 2.0, checked against the standard's XML schema.
+
+    Parameters
+    ----------
+    file : path
+
+    Returns
+    -------
+    ParameterSet
+        Entries in the order of the file. Types of SSP 2.0 are given as those of 1.0.
+
+    Raises
+    ------
+    ParameterSetError
+        It is no such file; a name occurs twice; a value is a list.
+    FileError
+        It cannot be read.
+    """
+    from pyssp_standard.ssv import SSVElem
+
+    root = _parsed(file)
+    schema = _schema(root, file)
+    if not schema.validate(root):
+        problem = schema.error_log[0]
+        raise ParameterSetError(f"{file}, line {problem.line}: {_words(problem.message)}.")
+    content = SSVElem.from_xml(root)
+    elements = root.iterfind("ssv:Parameters/ssv:Parameter", SSVElem.namespaces)
+    entries = [
+        _entry(parameter["name"], parameter["type_name"], element, f"{file}, line {element.sourceline}")
+        for parameter, element in zip(content.parameters, elements, strict=True)
+    ]
+    _check_once((e.name for e in entries), f"{file}: the parameter", "a set gives each one once")
+    units = list(root.iterfind("ssv:Units/ssc:Unit", SSVElem.namespaces))
+    _check_once((u.get("name") for u in units), f"{file}: the unit", "a file defines each one once")
+    definitions = {u.name: UnitDefinition.of(u.base_unit.to_dict()) for u in content.units or ()}
+    for name, unit in definitions.items():
+        if not (unit.factor > 0.0 and abs(unit.factor) + abs(unit.offset) < float("inf")):
+            raise ParameterSetError(
+                f"{file}: the unit '{name}' has the factor {unit.factor:g} and the offset {unit.offset:g}; a factor is "
+                "positive, both are finite."
+            )
+
+    return ParameterSet(content.name, entries, definitions, root.get("fileversion", ""))
+
+
+def _parsed(file: str | os.PathLike[str]) -> Any:
+    """The root of the document; entities, which a parameter set has no use for, are refused."""
+    from lxml import etree
+
+    data = read_bytes(file, LARGEST, name=f"The parameter set {file}")
+    try:
+        # the library takes a comment for an element
+        parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
+        root = etree.fromstring(data, parser)
+    except etree.XMLSyntaxError as error:
+        raise ParameterSetError(f"{file} is no XML document: {_words(error.msg or 'it is empty')}.") from None
+    if root.getroottree().docinfo.doctype:
+        raise ParameterSetError(f"{file} has a document type declaration; a parameter set has none.")
+    return root
+
+
+def _schema(root: Any, file: object) -> Any:
+    """The schema of the version that the document says it is of."""
+    from lxml import etree
+    from pyssp_standard.standard import ModelicaStandard
+
+    if root.tag != f"{{{ModelicaStandard.namespaces['ssv']}}}ParameterSet":
+        what = etree.QName(root).localname
+        raise ParameterSetError(
+            f"{file} is no SSV file: its root is '{what}' where ParameterSet of the SSP standard must be."
+        )
+    form = root.get("version", "")
+    if form[:1] not in _SCHEMAS:
+        raise ParameterSetError(f"{file} is of SSP '{form}'; 1.0 and 2.0 can be read.")
+    return etree.XMLSchema(file=str(ModelicaStandard.schemas[_SCHEMAS[form[:1]]]))
+
+
+def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
+    """An entry from its element; the library does not know the types of SSP 2.0."""
+    typed = element[0]
+    value = typed.get("value")
+    if value is None:
+        inner = [v.get("value") for v in typed.iterfind("{*}Value")]
+        if len(inner) != 1:
+            raise ParameterSetError(f"{where}: '{name}' has {len(inner)} values; one is needed.")
+        value = inner[0]
+    kind = _KINDS.get(kind, kind)
+    if kind in ("Real", "Integer", "Boolean") and len(value.split()) != 1:
+        raise ParameterSetError(f"{where}: '{name}' has {len(value.split())} values; one is needed.")
+    if kind not in ("String", "Enumeration"):
+        value = value.strip()
+    return Entry(name, kind, value, typed.get("unit"), element.get("description", ""))
+
+
+def _check_once(names: Iterable[str], what: str, rule: str) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise ParameterSetError(f"{what} '{name}' occurs twice; {rule}.")
+        seen.add(name)
+
+
+def _words(message: str) -> str:
+    """A message of the schema without namespaces, as the rest of a sentence."""
+    return " ".join(re.sub(r"\{[^{}]*\}", "", message).split()).rstrip(".")

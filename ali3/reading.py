@@ -1,0 +1,210 @@
+"""Reads files that others wrote: regular ones of a limited size, each fault one sentence that names the file.
+
+A pipe or a device would be waited for or read without end, and lists that are nested deep, very long numbers and keys
+of very many parts stop the parsers or the programs behind them.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+import stat
+import tomllib
+from collections import Counter
+from operator import itemgetter
+from pathlib import Path
+from typing import Any, NoReturn
+
+from ali3.errors import FileError
+from ali3.files import reason
+from ali3.words import brief, one_line, place_words
+
+Error = type[Exception]
+
+LARGEST_TOML = 1_000_000
+"""Bytes; the parser takes a second for them."""
+LARGEST_TEXT = 10_000_000
+LARGEST_JSON = 100_000_000
+LARGEST_STATE = 100_000_000
+"""Of the saved state of an FMU."""
+DEEPEST = 100
+MOST_ENTRIES = 3_000_000
+LARGEST_WHOLE = 2**63 - 1
+"""As TOML has it."""
+_MOST_DOTS = 200  # of a key: the time of the parser grows with their square
+
+
+def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> Path:
+    """Refuse what is no regular file, or too large, before it is opened.
+
+    Parameters
+    ----------
+    file : path
+    largest : int
+        Bytes.
+    error : type of exception
+        What is raised, with one sentence.
+    name : str
+        How the sentence calls the file; by default its path.
+    """
+    name = name or str(file)
+    try:
+        found = Path(file).stat()
+    except FileNotFoundError:
+        raise error(f"{name} cannot be read: there is no such file.") from None
+    except OSError as fault:
+        raise error(f"{name} cannot be read: {reason(fault)}.") from None
+    except ValueError as fault:
+        raise error(f"{brief(name)} is no name of a file: {fault}.") from None
+    if not stat.S_ISREG(found.st_mode):
+        kind = "a folder" if stat.S_ISDIR(found.st_mode) else "a pipe or device"
+        raise error(f"{name} is {kind}; it must be a file.")
+    if found.st_size > largest:
+        raise error(f"{name} has {found.st_size} bytes; it must have at most {largest}.")
+    return Path(file)
+
+
+def read_bytes(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> bytes:
+    """Content of a file; see `check_file`."""
+    path, name = check_file(file, largest, error, name), name or str(file)
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(largest + 1)  # files of the system have more than they say
+    except OSError as fault:
+        raise error(f"{name} cannot be read: {reason(fault)}.") from None
+    if len(data) > largest:
+        raise error(f"{name} has more than {largest} bytes.")
+    return data
+
+
+def read_text(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> str:
+    """Text of a file in UTF-8, without a byte order mark; see `check_file`."""
+    return _text(read_bytes(file, largest, error, name), error, name or str(file))
+
+
+def read_toml(
+    file: str | os.PathLike[str], error: Error = FileError, name: str = "", largest: int = LARGEST_TOML
+) -> dict[str, Any]:
+    """Tables of a TOML file; see `check_file` and `toml_of`."""
+    return toml_of(read_bytes(file, largest, error, name), error, name or str(file))
+
+
+def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
+    """Tables of the content of a TOML file: numbers are finite, whole ones have 64 bits.
+
+    Parameters
+    ----------
+    data : bytes
+        At most `LARGEST_TOML`.
+    error : type of exception
+        What is raised, with one sentence.
+    name : str
+        How the sentence calls the file.
+    """
+    text = _text(data, error, name)
+    bare = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'|#[^\n]*", "", text)  # without texts and comments
+    if any(part.count(".") > _MOST_DOTS for part in re.split(r"[,=\[\]{}\n]", bare)):
+        raise error(f"{name} is no TOML file that can be read: a key has more than {_MOST_DOTS} parts.")
+    try:
+        content = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as fault:
+        raise error(f"{name} is no TOML file: {one_line(str(fault)).rstrip('.')}.") from None
+    except ValueError:  # of `int`, which has a limit of its own
+        raise error(f"{name} is no TOML file that can be read: a whole number has more than 19 digits.") from None
+    except RecursionError:
+        _too_deep(error, name)
+    _check(content, error, name, finite=True)
+    return content
+
+
+def read_json(
+    file: str | os.PathLike[str],
+    error: Error = FileError,
+    name: str = "",
+    largest: int = LARGEST_JSON,
+    finite: bool = True,
+) -> Any:
+    """Content of a JSON file; see `check_file` and `json_of`."""
+    return json_of(read_bytes(file, largest, error, name), error, name or str(file), finite)
+
+
+def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
+    """Content of the bytes of a JSON file: whole numbers have 64 bits, no key stands twice in a table.
+
+    Parameters
+    ----------
+    data : bytes
+        Of any size.
+    error : type of exception
+        What is raised, with one sentence.
+    name : str
+        How the sentence calls the file.
+    finite : bool
+        Whether NaN and Infinity are refused; Python writes them, though they are no JSON.
+    """
+    if data.count(b",") + data.count(b"[") + data.count(b"{") > MOST_ENTRIES:
+        raise error(f"{name} has more than {MOST_ENTRIES} entries.")
+    if not data.strip():
+        raise error(f"{name} is empty; it must be a JSON file.")
+    try:
+        content = json.loads(_text(data, error, name), object_pairs_hook=_table)
+    except _TwiceError as fault:
+        raise error(f"{name} has the key {brief(str(fault))} twice in a table.") from None
+    except json.JSONDecodeError as fault:
+        raise error(f"{name} is no JSON file: {one_line(str(fault))}.") from None
+    except ValueError:
+        raise error(f"{name} is no JSON file that can be read: a whole number has more than 19 digits.") from None
+    except RecursionError:
+        _too_deep(error, name)
+    _check(content, error, name, finite)
+    return content
+
+
+class _TwiceError(Exception):
+    """A key that stands twice."""
+
+
+def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    made = dict(pairs)
+    if len(made) < len(pairs):
+        raise _TwiceError(max(Counter(key for key, _ in pairs).items(), key=itemgetter(1))[0])
+    return made
+
+
+def _text(data: bytes, error: Error, name: str) -> str:
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        raise error(f"{name} is no text in UTF-8: byte {fault.start} is not.") from None
+
+
+def _too_deep(error: Error, name: str) -> NoReturn:
+    raise error(f"{name} cannot be read: its lists or tables are nested more than {DEEPEST} deep.")
+
+
+def _check(content: Any, error: Error, name: str, finite: bool) -> None:
+    """Refuse what the programs behind a parser cannot take."""
+    waiting: list[tuple[Any, tuple[Any, ...], int]] = [([content], (), 0)]
+    while waiting:
+        held, place, depth = waiting.pop()
+        if depth > DEEPEST:
+            _too_deep(error, name)
+        for key, value in held.items() if isinstance(held, dict) else enumerate(held):
+            if isinstance(value, (dict, list)):
+                waiting.append((value, (place, key), depth + 1))
+            elif isinstance(value, int):
+                if abs(value) > LARGEST_WHOLE:
+                    raise error(f"{name}: {_words((place, key))} is a whole number of more than 19 digits.")
+            elif finite and isinstance(value, float) and not math.isfinite(value):
+                raise error(f"{name}: {_words((place, key))} is {value}; it must be a finite number.")
+
+
+def _words(place: tuple[Any, ...]) -> str:
+    """A place from the links of `_check`."""
+    parts: list[int | str] = []
+    while place:
+        place, key = place
+        parts.append(key)
+    return one_line(place_words(parts[-2::-1])) or "the content"  # without the list around it

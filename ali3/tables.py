@@ -1,0 +1,232 @@
+"""Reads tables of text (CSV) that others wrote: what a line, a cell and a number is, is said here once."""
+
+from __future__ import annotations
+
+import csv
+import math
+import os
+import re
+from array import array
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.errors import FileError
+from ali3.files import reason
+from ali3.reading import Error, check_file
+from ali3.words import brief
+
+LARGEST = 4_000_000_000
+"""Bytes of a table that is read as a stream."""
+HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
+"""A name with its unit, such as ``speed [m/s]``."""
+_MARKS = (";", "\t", ",")
+_LONGEST_LINE = 10_000_000  # characters
+_LONGEST_CELL = 1000
+
+
+class Row(NamedTuple):
+    """A line of a table.
+
+    Parameters
+    ----------
+    line : int
+        Number of the line in the file, from 1.
+    cells : list of str
+        Without the blanks around them.
+    """
+
+    line: int
+    cells: list[str]
+
+
+class TextTable:
+    """A table of text, read once from its beginning.
+
+    Empty lines and lines that begin with ``#`` are left out. Cells are divided by semicolons, tabs or commas, whichever
+    the first line has; behind semicolons a comma may be the decimal mark. A cell in quotation marks may hold
+    the mark, not the end of a line. All lines have as many cells as the first.
+
+    Parameters
+    ----------
+    file : path
+        A regular file in UTF-8.
+    error : type of exception
+        What is raised, with one sentence that names file and line.
+    name : str
+        How the sentence calls the file; by default its path.
+    headed : bool, optional
+        Whether the first line has names; None: unless it begins with a number.
+    units : bool
+        Whether names may have units, as `HEADING`.
+    whole : bool
+        Whether a last line without an end is left out: a program that was killed has cut it.
+    largest : int
+        Bytes.
+
+    Attributes
+    ----------
+    names : list of str
+        Of the columns; empty without a heading.
+    units : dict of str to str
+        By name, where the heading has them.
+    comments : list of (int, str)
+        Lines that begin with ``#``, as far as the table has been read, with their numbers.
+    decimal : str
+        What else than a point may be the decimal mark: "," or nothing.
+    """
+
+    def __init__(
+        self,
+        file: str | os.PathLike[str],
+        error: Error = FileError,
+        name: str = "",
+        headed: bool | None = True,
+        units: bool = False,
+        whole: bool = False,
+        largest: int = LARGEST,
+    ) -> None:
+        self.name, self.error = name or str(file), error
+        self.comments: list[tuple[int, str]] = []
+        self.names: list[str] = []
+        self.units: dict[str, str] = {}
+        path = check_file(file, largest, error, self.name)
+        self._lines = self._read(path, whole)
+        self._first = next(self._lines, None)
+        if self._first is None:
+            raise error(f"{self.name} holds no values; it needs a heading and at least one row.")
+        bare = re.sub(r'"[^"]*"', "", self._first[1])  # a name in quotation marks may have any mark
+        mark = next((mark for mark in _MARKS if mark in bare), None)
+        self._mark = mark if mark is not None or headed is not False else " "
+        self.decimal = "," if self._mark == ";" else ""
+        cells = self._cells(*self._first)
+        self.width = len(cells)
+        if headed or (headed is None and not is_number(cells[0], self.decimal)):
+            self._first = None
+            self._take_names(cells, units)
+
+    def rows(self, every: int = 1) -> Iterator[Row]:
+        """Lines below the heading, or every so many of them."""
+        lines = self._lines if self._first is None else self._with_first()
+        for k, (line, text) in enumerate(lines):
+            if k % every == 0:
+                cells = self._cells(line, text)
+                if len(cells) != self.width:
+                    what = "heading" if self.names else "first line"
+                    raise self.error(
+                        f"{self.name}, line {line}: {len(cells)} values where the {what} has {self.width} columns."
+                    )
+                yield Row(line, cells)
+
+    def numbers(self, row: Row, finite: bool = True, first: int = 0) -> list[float]:
+        """Cells of a line as numbers.
+
+        Parameters
+        ----------
+        row : Row
+        finite : bool
+            Whether ``nan`` and ``inf`` are refused.
+        first : int
+            Column that they begin with; those before it are text.
+        """
+        cells = row.cells[first:]
+        if self.decimal:
+            cells = [cell.replace(",", ".") for cell in cells]
+        text = "".join(cells)
+        try:
+            found = list(map(float, cells))
+        except ValueError:
+            found = []
+        # `float` takes 1_0 and digits of other scripts too.
+        if found and text.isascii() and "_" not in text and (not finite or all(map(math.isfinite, found))):
+            return found
+        k = next(k for k, cell in enumerate(row.cells) if k >= first and not is_number(cell, self.decimal, finite))
+        what = f", column {brief(self.names[k])}" if self.names else ""
+        word = "finite number" if is_number(row.cells[k], self.decimal, finite=False) else "number"
+        raise self.error(f"{self.name}, line {row.line}{what}: {brief(row.cells[k])} is not a {word}.")
+
+    def values(self, every: int = 1, finite: bool = True, least: int = 1) -> NDArray[np.float64]:
+        """Numbers of all lines, or of every so many, of shape (n, columns); at least so many lines."""
+        held = array("d")
+        for row in self.rows(every):
+            held.extend(self.numbers(row, finite))
+        if len(held) < least * self.width:
+            raise self.error(f"{self.name} holds no values; it needs a heading and at least one row.")
+        return np.array(held).reshape(-1, self.width)
+
+    def _with_first(self) -> Iterator[tuple[int, str]]:
+        assert self._first is not None
+        yield self._first
+        yield from self._lines
+
+    def _read(self, path: Path, whole: bool) -> Iterator[tuple[int, str]]:
+        line = 0
+        try:
+            with path.open(encoding="utf-8-sig") as stream:
+                while text := stream.readline(_LONGEST_LINE + 1):
+                    line += 1
+                    if len(text) > _LONGEST_LINE:
+                        raise self.error(f"{self.name}, line {line} has more than {_LONGEST_LINE} characters.")
+                    if "\0" in text:
+                        raise self.error(f"{self.name} is no text: there is a zero byte in line {line}.")
+                    bare = text.strip()
+                    if bare.startswith("#"):
+                        self.comments.append((line, bare))
+                    elif bare and (text.endswith("\n") or not whole):
+                        yield line, text.rstrip("\r\n")
+        except UnicodeDecodeError:
+            raise self.error(f"{self.name} is no text in UTF-8, from about line {line + 1} on.") from None
+        except OSError as fault:
+            if isinstance(fault, self.error):
+                raise
+            raise self.error(f"{self.name} cannot be read: {reason(fault)}.") from None
+
+    def _cells(self, line: int, text: str) -> list[str]:
+        if self._mark == " ":
+            return text.split()
+        try:
+            return cells_of(text, self._mark or ",")
+        except ValueError as fault:
+            raise self.error(f"{self.name}, line {line}: {fault}.") from None
+
+    def _take_names(self, cells: list[str], units: bool) -> None:
+        for cell in cells:
+            match = HEADING.fullmatch(cell) if units else None
+            name = match["name"] if match else cell
+            if name in self.names:
+                raise self.error(f"{self.name} has the column {brief(name)} twice.")
+            self.names.append(name)
+            if match:
+                self.units[name] = match["unit"]
+
+
+def cells_of(line: str, mark: str) -> list[str]:
+    """Cells of a line without the blanks around them; `ValueError` with what is wrong, as the rest of a sentence."""
+    if '"' in line:
+        try:
+            cells = next(csv.reader([line], delimiter=mark, skipinitialspace=True, strict=True), [])
+        except csv.Error as fault:
+            raise ValueError(f"this is no line of a CSV file: {fault}") from None
+    else:
+        cells = line.split(mark)
+    if len(line) > _LONGEST_CELL and (longest := max(map(len, cells))) > _LONGEST_CELL:
+        raise ValueError(f"a cell has {longest} characters; a number or a name has at most {_LONGEST_CELL}")
+    return [cell.strip() for cell in cells]
+
+
+def number_of(cell: str, decimal: str = "") -> float:
+    """A cell as a number, with a decimal comma if `decimal` is one; `ValueError` if it is none."""
+    if not cell.isascii() or "_" in cell:  # which `float` takes
+        raise ValueError
+    return float(cell.replace(",", ".") if decimal else cell)
+
+
+def is_number(cell: str, decimal: str = "", finite: bool = True) -> bool:
+    """Whether a cell is a decimal number; see `number_of`."""
+    try:
+        return math.isfinite(number_of(cell, decimal)) or not finite
+    except ValueError:
+        return False

@@ -1,0 +1,250 @@
+"""Key paths of a typed file, seen in its types: which table stands where, and what a key must be."""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from annotated_types import Ge, Gt, Le, Lt
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+Table = type[BaseModel]
+NOTHING = type(None)
+
+
+def keys_of(table: Table) -> dict[str, FieldInfo]:
+    """Fields of a table by their keys in the file."""
+    return {field.alias or name: field for name, field in table.model_fields.items()}
+
+
+def annotation_of(field: FieldInfo) -> Any:
+    """Type of a field with what is annotated to it.
+
+    Parameters
+    ----------
+    field : FieldInfo
+        Of a table.
+    """
+    told = [*field.metadata, *([field] if field.title else [])]
+    return Annotated[(field.annotation, *told)] if told else field.annotation
+
+
+def templates(annotation: Any) -> list[Table]:
+    """Tables that may stand at a key; several where templates are chosen by `kind`."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    if get_origin(annotation) in (Annotated, Union, types.UnionType):
+        return [t for inner in get_args(annotation) for t in templates(inner)]
+    return []
+
+
+def by_name(annotation: Any) -> Any | None:
+    """What stands under each name of a table whose keys are names that the user chooses, None where it is no such."""
+    found = _dict_of(annotation)
+    return None if found is None else found[1]
+
+
+def key_of(annotation: Any) -> Any:
+    """Type of the names that the user chooses; see `by_name`."""
+    found = _dict_of(annotation)
+    return str if found is None else found[0]
+
+
+def _dict_of(annotation: Any) -> tuple[Any, ...] | None:
+    if get_origin(annotation) is dict:
+        return get_args(annotation)
+    if get_origin(annotation) in (Annotated, Union, types.UnionType):
+        return next((found for inner in get_args(annotation) if (found := _dict_of(inner)) is not None), None)
+    return None
+
+
+def kinds_of(table: Table) -> tuple[str, ...]:
+    """Values of `kind` that name a template; empty where it has none.
+
+    Parameters
+    ----------
+    table : type of BaseModel
+        The template.
+    """
+    return get_args(table.model_fields["kind"].annotation) if "kind" in table.model_fields else ()
+
+
+def annotation_at(top: Any, path: Sequence[str], data: Any) -> Any | None:
+    """Type of what stands at a key path, None where the types have nothing there.
+
+    Parameters
+    ----------
+    top : type
+        The whole file: a model, or several of which the key ``kind`` chooses one.
+    path : sequence of str
+        Keys from the top.
+    data : mapping
+        The file's content, which says the kinds of templates.
+    """
+    annotation: Any = top
+    for key in path:
+        inner = by_name(annotation)
+        if inner is not None:
+            annotation, data = inner, item_of(data, key)
+            continue
+        table = chosen(annotation, data)
+        if table is not None:
+            field = keys_of(table).get(key)
+            if field is None:
+                return None
+            annotation = annotation_of(field)
+        else:
+            annotation = _element(annotation, key)
+            if annotation is None:
+                return None
+        data = item_of(data, key)
+    return annotation
+
+
+def chosen(annotation: Any, data: Any) -> Table | None:
+    """The table among those of a type that the data name by `kind`.
+
+    Parameters
+    ----------
+    data : object
+        What the file has there.
+    """
+    found = templates(annotation)
+    if len(found) == 1:
+        return found[0]
+    kind = data.get("kind") if isinstance(data, Mapping) else None
+    return next((table for table in found if kind in kinds_of(table)), None)
+
+
+def table_at(top: Any, path: Sequence[str], data: Any) -> Table | None:
+    """Table at a key path, None where there is none.
+
+    Parameters
+    ----------
+    top : type
+        The whole file: a model, or several of which the key ``kind`` chooses one.
+    path : sequence of str
+        Keys from the top.
+    data : mapping
+        The file's content, which says the kinds of templates.
+    """
+    here = data
+    for key in path:
+        here = item_of(here, key)
+    return chosen(annotation_at(top, path, data), here)
+
+
+def all_keys(table: Table, path: str = "") -> Iterator[str]:
+    """Key paths of a table and all in it, of all templates.
+
+    Parameters
+    ----------
+    path : str
+        Where it stands.
+    """
+    for key, field in keys_of(table).items():
+        place = f"{path}.{key}" if path else key
+        yield place
+        inner = by_name(field.annotation)
+        within = field.annotation if inner is None else inner
+        for below in templates(_element(within, "0") or within):
+            yield from all_keys(below, place if inner is None else f"{place}.NAME")
+
+
+def title_of(annotation: Any) -> str:
+    """What the title of a field says that a value must be; empty without one."""
+    return next((f.title for f in _metadata(annotation) if isinstance(f, FieldInfo) and f.title), "")
+
+
+def holds_keys(top: Any, path: Sequence[str], data: Any) -> bool:
+    """Whether a table, or one whose keys the user chooses, is to stand at a key path."""
+    annotation = annotation_at(top, path, data)
+    return bool(templates(annotation)) or by_name(annotation) is not None
+
+
+def words(annotation: Any) -> str:
+    """What a value of a type is, in words.
+
+    Parameters
+    ----------
+    annotation : type
+        With what is annotated to it.
+    """
+    title = title_of(annotation)
+    if title:
+        return title
+    if templates(annotation) or by_name(annotation) is not None:
+        return "a table"
+    told = next((item.range for item in _metadata(annotation) if hasattr(item, "range")), None)
+    if told is not None:  # a physical quantity
+        return f"a number, {told}"
+    origin, inner = get_origin(annotation), get_args(annotation)
+    if origin is Annotated:
+        limits = [item for item in inner[1:] if not isinstance(item, FieldInfo)]
+        limits += [m for item in inner[1:] if isinstance(item, FieldInfo) for m in item.metadata]
+        return words(inner[0]) + _limit_words(limits)
+    if origin in (Union, types.UnionType):
+        return " or ".join(dict.fromkeys(words(item) for item in inner if item is not NOTHING))
+    if origin is Literal:
+        return " or ".join(map(repr, inner))
+    if origin in (tuple, list):
+        return _list_words((*inner, Ellipsis) if origin is list else inner)
+    return {str: "text", int: "a whole number", float: "a number", bool: "true or false"}.get(annotation, "a value")
+
+
+def _limit_words(limits: Sequence[Any]) -> str:
+    """The ends of a range."""
+    names = {"ge": "from", "gt": "above", "le": "up to", "lt": "below"}
+    ends = {name: getattr(item, name) for item in limits for name in names if isinstance(item, Ge | Gt | Le | Lt)
+            and hasattr(item, name)}  # fmt: skip
+    shown = {name: f"{end:.12g}" if isinstance(end, float) else str(end) for name, end in ends.items()}
+    if shown.keys() == {"ge", "le"}:
+        return f" from {shown['ge']} to {shown['le']}"
+    return "".join(f" {words} {shown[name]}" for name, words in names.items() if name in shown)
+
+
+def _list_words(inner: tuple[Any, ...]) -> str:
+    if inner[-1] is not Ellipsis and any(item != inner[0] for item in inner):
+        return f"a list of {' and '.join(words(item) for item in inner)}"
+    each = words(inner[0])
+    first, _, rest = each.partition(" of ")
+    plural = {"a list": "lists", "text": "texts", "a table": "tables"}.get(first, first.replace("a number", "numbers"))
+    plural += f" of {rest}" if rest else ""
+    if inner[-1] is Ellipsis:
+        return f"a list of {plural}"
+    return f"a list of {len(inner)} {plural}"
+
+
+def _metadata(annotation: Any) -> tuple[Any, ...]:
+    return getattr(annotation, "__metadata__", ())
+
+
+def item_of(data: Any, key: str) -> Any:
+    """What stands under a key of a table or at a place of a list; None where nothing does.
+
+    Parameters
+    ----------
+    data : object
+        Table or list.
+    key : str
+        Key, or place from 0.
+    """
+    if isinstance(data, Mapping):
+        return data.get(key)
+    if isinstance(data, (list, tuple)) and key.isdigit() and int(key) < len(data):
+        return data[int(key)]
+    return None
+
+
+def _element(annotation: Any, key: str) -> Any | None:
+    """Type of an element of a list."""
+    origin, inner = get_origin(annotation), get_args(annotation)
+    if origin is list and key.isdigit():
+        return inner[0]
+    if origin is tuple and key.isdigit():
+        return inner[0] if inner[-1] is Ellipsis else inner[int(key)] if int(key) < len(inner) else None
+    if origin in (Annotated, Union, types.UnionType):
+        return next((found for item in inner if (found := _element(item, key)) is not None), None)
+    return None

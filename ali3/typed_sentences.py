@@ -1,0 +1,225 @@
+"""From what the types of a file refuse to sentences: key path, value, and what would be right."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from pydantic import ValidationError
+
+from ali3.typed_paths import (
+    all_keys,
+    annotation_at,
+    holds_keys,
+    item_of,
+    key_of,
+    keys_of,
+    kinds_of,
+    table_at,
+    templates,
+    title_of,
+    words,
+)
+from ali3.words import one_line, value_words
+
+CLOSE = 0.6  # of difflib: spellings that may be meant
+ELSEWHERE = 3  # places of a key that a sentence names
+UNKNOWN, MISSING = "extra_forbidden", "missing"
+Loc = Sequence["int | str"]
+
+
+NOTHING: Mapping[str, str] = {}
+
+
+def dotted(path: Sequence[str]) -> str:
+    """A key path as in TOML: keys that are not bare in quotation marks, places in lists from 0."""
+    return ".".join(part if part.replace("-", "_").isidentifier() or part.isdigit() else f"'{part}'" for part in path)
+
+
+class Sentences:
+    """Says what is wrong with the content of a file.
+
+    Parameters
+    ----------
+    top : type
+        The whole file: a model, or several of which the key ``kind`` chooses one.
+    data : mapping
+        Its content.
+    forms : mapping of str to str
+        Patterns of texts in words.
+    names : str
+        What a name that the user chooses is, in words.
+    place : callable
+        Gives the words for a key path, whose parts are keys, and places in lists from 0 as text.
+    """
+
+    def __init__(
+        self,
+        top: Any,
+        data: Mapping[str, Any],
+        forms: Mapping[str, str] = NOTHING,
+        names: str = "text",
+        place: Callable[[Sequence[str]], str] = dotted,
+    ) -> None:
+        self.top, self.data, self.forms, self.names = top, data, forms, names
+        self._words_of = place
+
+    def place(self, path: Sequence[str]) -> str:
+        """Where something stands."""
+        return self._words_of(path) or "the file"
+
+    def of(self, error: ValidationError) -> list[str]:
+        """A sentence for each fault; a key that is misspelt is not missing besides.
+
+        Parameters
+        ----------
+        error : ValidationError
+            Of the content.
+        """
+        items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
+        missing = [self._path(item["loc"]) for item in items if item["type"] == MISSING]
+        found, meant = [], []
+        for item in items:
+            if item["type"] == UNKNOWN:
+                path = self._path(item["loc"])
+                near = None if self.place(path) in self._places(path) else self._near(path, _in_table(missing, path))
+                meant += [[*path[:-1], near]] if near else []
+                found.append(self._unknown(path, near))
+            elif item["type"] != MISSING or self._path(item["loc"]) not in meant:
+                found.append(self._sentence(item))
+        gone = [self._missing(path) for path in meant]
+        return [one_line(sentence) for sentence in dict.fromkeys(found) if sentence not in gone]
+
+    def _sentence(self, item: Any) -> str:
+        kind, loc = item["type"], item["loc"]
+        path = self._path(loc)
+        if loc and loc[-1] == "[key]":
+            right = words(key_of(annotation_at(self.top, path[:-1], self.data)))
+            right = self.names if right == "text" else right
+            return f"{self.place(path[:-1])} has the name {value_words(path[-1])}; a name is {right}."
+        if kind == MISSING and isinstance(loc[-1], str):
+            return self._missing(path)
+        if kind == "value_error":  # of a rule between several keys
+            return f"{self.place(path)}: {item['ctx']['error']}." if path else f"{item['ctx']['error']}."
+        if kind in ("union_tag_invalid", "union_tag_not_found"):
+            tables = templates(annotation_at(self.top, path, self.data))
+            known = ", ".join(repr(name) for table in tables for name in kinds_of(table))
+            if kind == "union_tag_not_found":
+                return f"{self.place([*path, 'kind'])} is missing; it must be one of {known}."
+            return f"{self.place([*path, 'kind'])} is {value_words(_tag(item))}; it must be one of {known}."
+        if kind == "quantity":
+            return f"{self._coordinate(path)} is {value_words(item['input'])}; it must be {item['ctx']['range']}."
+        if kind == MISSING:  # an element of a list that is too short
+            path = path[:-1]
+        if kind == "string_pattern_mismatch":
+            return f"{self.place(path)} is {value_words(item['input'])}; it must be {self._form(item)}."
+        annotation = annotation_at(self.top, path, self.data)
+        value: Any = self.data
+        for key in path:
+            value = item_of(value, key)
+        right = "right" if annotation is None else words(annotation)
+        limits = "" if title_of(annotation) else _limits(item)
+        return f"{self._coordinate(path)} is {value_words(value)}; it must be {right}{limits}."
+
+    def _form(self, item: Any) -> str:
+        """What a text with a pattern must be."""
+        pattern = item["ctx"]["pattern"]
+        annotation = annotation_at(self.top, self._path(item["loc"]), self.data)
+        return self.forms.get(pattern) or title_of(annotation) or f"text of the form {pattern}"
+
+    def _missing(self, path: Sequence[str]) -> str:
+        table = table_at(self.top, path[:-1], self.data)
+        if table is None:
+            return f"{self.place(path)} is missing."
+        text = (keys_of(table)[path[-1]].description or "").rstrip(".").replace("\n", " ")
+        right = words(annotation_at(self.top, path, self.data))
+        meaning = f": {text[:1].lower()}{text[1:]}" if text else ""
+        return f"{self.place(path)} is missing; it must be {right}{meaning}."
+
+    def _unknown(self, path: Sequence[str], near: str | None) -> str:
+        if near is not None:
+            return f"{self.place(path)} is not known; did you mean '{near}'?"
+        places = self._places(path)
+        if places and self.place(path) not in places:
+            more = f" and {len(places) - ELSEWHERE} more" if len(places) > ELSEWHERE else ""
+            return f"{self.place(path)} is not known; '{path[-1]}' stands at {', '.join(places[:ELSEWHERE])}{more}."
+        table = table_at(self.top, path[:-1], self.data)
+        known = ", ".join(keys_of(table)) if table else "none"
+        why = f"belongs to another kind than {value_words(self._kind(path))}" if places else "is not known"
+        return f"{self.place(path)} {why}; the keys of {self.place(path[:-1])} are {known}."
+
+    def _places(self, path: Sequence[str]) -> list[str]:
+        """Where a key of that name stands, in all templates."""
+        keys = (key for table in templates(self.top) for key in all_keys(table))
+        return list(dict.fromkeys(key for key in keys if key.split(".")[-1] == path[-1]))
+
+    def _kind(self, path: Sequence[str]) -> Any:
+        """Kind of the innermost template that a key is in."""
+        here: Any = self.data
+        kind = None
+        for part in path[:-1]:
+            here = item_of(here, part)
+            kind = here.get("kind", kind) if isinstance(here, Mapping) else kind
+        return kind
+
+    def _near(self, path: Sequence[str], missing: Sequence[str]) -> str | None:
+        """The key that is meant, first among those that are missing."""
+        table = table_at(self.top, path[:-1], self.data)
+        known = list(keys_of(table)) if table else []
+        spelt = {key.lower(): key for key in reversed([*missing, *known])}
+        for keys in ([k for k in spelt if spelt[k] in missing], list(spelt)):
+            near = difflib.get_close_matches(path[-1].lower(), keys, 1, CLOSE)
+            if near:
+                return spelt[near[0]]
+        return None
+
+    def _path(self, loc: Loc) -> list[str]:
+        """Key path of an error, without the names of templates and types that stand in it."""
+        path: list[str] = []
+        here: Any = self.data
+        template: Any = None  # the table whose template stood in the path last
+        for part in loc:
+            if isinstance(here, Mapping) and part == here.get("kind") and here is not template:
+                template = here  # a table may have a key of the same name as its template
+            elif isinstance(here, Mapping) and part in here:
+                path.append(str(part))
+                here = here[part]
+            elif isinstance(here, (list, tuple)) and isinstance(part, int):
+                path.append(str(part))
+                here = here[part] if part < len(here) else None
+            elif part != "[key]" and isinstance(here, Mapping) and holds_keys(self.top, path, self.data):
+                path.append(str(part))
+                here = None
+        return path
+
+    def _coordinate(self, path: Sequence[str]) -> str:
+        """A key path; the coordinates of a point with their axes."""
+        if path and path[-1].isdigit() and int(path[-1]) < 3:
+            whole = annotation_at(self.top, path[:-1], self.data)
+            if whole is not None and words(whole).startswith("a list of 3 numbers, between -"):
+                return f"{self.place(path)} ({'xyz'[int(path[-1])]})"
+        return self.place(path)
+
+
+def _in_table(paths: Sequence[Sequence[str]], path: Sequence[str]) -> list[str]:
+    """Keys of those paths that lie in the same table as a path."""
+    return [other[-1] for other in paths if other[:-1] == path[:-1]]
+
+
+def _tag(item: Any) -> Any:
+    """What stands as the kind of a template."""
+    given = item["input"]
+    return given.get("kind") if isinstance(given, Mapping) else item["ctx"]["tag"]
+
+
+def _limits(item: Any) -> str:
+    """What is asked of a text or a list besides its type."""
+    context = item.get("ctx", {})
+    if item["type"] == "string_too_long":
+        return f" of at most {context['max_length']} characters"
+    if item["type"] in ("string_too_short", "too_short"):
+        return f", at least {context['min_length']}" if context.get("min_length", 1) > 1 else ", not empty"
+    if item["type"] == "too_long" and "max_length" in context:
+        return f", {context['max_length']} at most"
+    return ""

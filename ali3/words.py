@@ -1,0 +1,54 @@
+"""Values and sentences as a message shows them: in one line, and cut where they are long."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Iterable, Mapping
+
+VALUE, SENTENCE = 60, 400
+"""Characters of a value in a sentence, and of a sentence with texts of a file in it."""
+
+
+def brief(value: object) -> str:
+    """A value in a sentence: text in quotes, control characters escaped, and the beginning of what is long."""
+    if isinstance(value, str):
+        value = value[: VALUE + 1]  # the rest of a large text need not be escaped
+    elif isinstance(value, int) and value.bit_length() > 64:
+        return "a whole number of more than 19 digits"  # Python refuses to write a very long one
+    text = repr(value)
+    return text if len(text) <= VALUE else f"{text[:VALUE]}..."
+
+
+def value_words(value: object) -> str:
+    """A value of a file in a sentence: tables and lists of lists not at all, for they may be deep."""
+    if isinstance(value, Mapping):
+        return "a table"
+    if isinstance(value, (list, tuple)):
+        if any(isinstance(item, (list, tuple, Mapping)) for item in value):
+            return f"a list of {len(value)} lists or tables"
+        return brief(list(value))
+    if isinstance(value, (datetime.date, datetime.time)):
+        return f"a date or time, {value.isoformat()}"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "null" if value is None else brief(value)
+
+
+def one_line(sentence: str) -> str:
+    """A sentence whose names and values, which may be any text, neither break the line nor make it endless."""
+    if len(sentence) > SENTENCE:
+        sentence = f"{sentence[: SENTENCE // 2]} ... {sentence[-SENTENCE // 2 :]}"
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in sentence)
+
+
+def place_words(path: Iterable[int | str]) -> str:
+    """Keys and places from 0 in lists as a path, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
+    text = ""
+    for part in path:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        elif part.replace("-", "_").isidentifier():
+            text += f".{part}" if text else part
+        else:
+            text += f"[{brief(part)}]"
+    return text

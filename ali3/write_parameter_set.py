@@ -1,0 +1,71 @@
+"""Writes parameter sets, by `pyssp_standard`."""
+
+from __future__ import annotations
+
+import os
+from importlib.metadata import version
+
+from ali3.errors import UserError
+from ali3.files import whole_file
+from ali3.parameter_set import ParameterSet
+from ali3.read_parameter_set import read_parameter_set
+
+
+def write_parameter_set(parameters: ParameterSet, file: str | os.PathLike[str], as_built: bool) -> None:
+    """Write an SSV file of SSP 1.0, which readers of 2.0 take too.
+
+    Parameters
+    ----------
+    parameters : ParameterSet
+        Its version is not written.
+    file : path
+        An older one is replaced when the new one is whole. The same content gives the same bytes.
+    as_built : bool
+        Whether the values are those of the FMU; the file then carries their hash, by which `is_as_built` knows it.
+
+    Raises
+    ------
+    FileError
+        It cannot be written.
+    """
+    from lxml import etree
+    from pyssp_standard.common_content_ssc import TopLevelMetaData
+    from pyssp_standard.ssv import Parameter, ParameterType, SSVElem
+    from pyssp_standard.unit import BaseUnit, Unit
+
+    content = SSVElem(name=parameters.name)
+    for entry in parameters.entries:
+        attributes = {"value": entry.value} | ({} if entry.unit is None else {"unit": entry.unit})
+        content.parameters.append(
+            Parameter(name=entry.name, type_name=entry.kind, type_value=ParameterType(entry.kind, attributes))
+        )
+        # the library keeps what it knows of a kind and gives None to the rest
+        known = content.parameters[-1]["type_value"].parameter
+        content.parameters[-1]["type_value"].parameter = {k: v for k, v in known.items() if v is not None}
+    for name, unit in parameters.units.items():
+        numbers = {"factor": unit.factor} | ({"offset": unit.offset} if unit.offset else {})
+        content.units.add_unit(Unit(name, BaseUnit(dict(unit.exponents) | numbers)))
+    root = content.to_xml()
+    head = TopLevelMetaData(generationTool=f"ALi3 {version('ali3')}", generationDateAndTime="")
+    head.fileversion = parameters.digest if as_built else ""
+    head.update_root(root)
+    for element, entry in zip(root.iter("{*}Parameter"), parameters.entries, strict=True):
+        if entry.description:
+            element.set("description", entry.description)
+    data = etree.tostring(root, pretty_print=True, encoding="UTF-8", xml_declaration=True)
+    with whole_file(file) as made:
+        made.write_bytes(data)
+
+
+def is_as_built(file: str | os.PathLike[str]) -> bool:
+    """Whether a file holds the values that a build has written; False for one that a person has changed.
+
+    Parameters
+    ----------
+    file : path
+    """
+    try:
+        parameters = read_parameter_set(file)
+    except UserError:
+        return False
+    return parameters.version == parameters.digest

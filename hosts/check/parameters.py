@@ -1,0 +1,91 @@
+"""The parameters of an FMU, printed or written as a set: ``ali3 check FMU --show-parameters``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hosts.common.options import Wishes
+
+if TYPE_CHECKING:
+    from hosts.fmu.settings import Settings
+    from hosts.fmu.variables import Variables
+
+
+def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, show: bool = False) -> int:
+    """Print the parameters of an FMU of FMI 2.0 or 3.0, or what is other in a set, and write them.
+
+    Parameters
+    ----------
+    fmu : Path
+    given : Wishes
+        What is set in it before.
+    out : Path, optional
+        Parameter set that is written.
+    diff : Path, optional
+        Parameter set of which only what is other is printed.
+    show : bool
+        Whether the table is printed when a set is written too.
+
+    Returns
+    -------
+    int
+        Exit code.
+    """
+    from ali3.files import check_writable
+    from ali3.write_parameter_set import write_parameter_set
+    from hosts.fmu.fmu import described
+    from hosts.fmu.settings import Settings, settings_of
+    from hosts.fmu.variables import Variables
+
+    if out is not None:
+        check_writable(out)
+    description = described(fmu)
+    variables = Variables(description)
+    settings = settings_of(variables, given)
+    if diff is not None:
+        other = Settings(variables)
+        other.add_set(diff)
+        rows = _differences(variables, settings, other)
+        _print_rows(rows)
+        if not rows:
+            print(f"{diff} sets nothing to another value than {fmu} has.")
+    elif out is None or show:
+        _print_table(variables, settings)
+    else:
+        _print_rows(settings.rows())
+    if out is not None:
+        found = variables.parameter_set(description.modelName, settings.start)
+        write_parameter_set(found, out, as_built=not settings.changes)
+        print(f"written: {out}, {len(found.entries)} parameters")
+    return 0
+
+
+def _print_table(variables: Variables, settings: Settings) -> None:
+    rows = [("name", "value", "unit", "range", "", "description")]
+    for v in variables.parameters:
+        value = settings.start.get(v.name, v.start)
+        unit = "" if v.unit == "1" or v.kind != "Real" else v.unit
+        bounds = v.range.removesuffix(f" {unit}") if unit else v.range
+        rows.append((v.name, v.text(value), unit, bounds, v.variability, v.description))
+    _print_rows(settings.rows())
+    _print_rows(rows)
+
+
+def _differences(variables: Variables, settings: Settings, other: Settings) -> list[tuple[str, str]]:
+    mine, theirs = settings.start, other.start
+    rows = []
+    for name in variables.names:
+        v = variables[name]
+        before, after = mine.get(name, v.start), theirs.get(name, mine.get(name, v.start))
+        if before != after:
+            rows.append((name, f"{v.text(before)} -> {v.with_unit(after)}"))
+    return rows
+
+
+def _print_rows(rows: Sequence[Sequence[str]]) -> None:
+    """Columns side by side."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        print("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip())

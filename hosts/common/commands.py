@@ -1,0 +1,54 @@
+"""Other commands of ali3, which hosts run in a process of their own: they know what hosts do not."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+
+from ali3.running import module_command
+from ali3.signals import how_ended
+from hosts.common.errors import HostError
+
+_ERROR = "error: "
+
+
+def run_module(module: str, *arguments: str, hear: Callable[[str], None] = lambda line: None) -> str:
+    """Run the command of a module to its end.
+
+    Parameters
+    ----------
+    module : str
+    arguments : str
+    hear : callable
+        Hears each line of its standard error at once.
+
+    Returns
+    -------
+    str
+        Its standard error. What it prints is left out.
+
+    Raises
+    ------
+    HostError
+        It did not succeed; with its words, or how its process ended.
+    """
+    lines: list[str] = []
+    with subprocess.Popen(
+        module_command(module, *arguments),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        encoding="utf-8",
+        errors="replace",
+    ) as process:
+        assert process.stderr is not None
+        for line in process.stderr:
+            lines.append(line)
+            hear(line.strip())
+    said = "".join(lines)
+    if process.returncode != 0:
+        last = said.strip().splitlines()[-1:]
+        if last and last[0].startswith(_ERROR):
+            raise HostError(last[0].removeprefix(_ERROR))
+        raise HostError(f"The process of {module} {how_ended(process.returncode, said)}.")
+    return said

@@ -1,0 +1,207 @@
+"""Manoeuvres as files: one in TOML with all that belongs to it, or a plain CSV file."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import textwrap
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.decimal_number import parse_number
+from ali3.files import write_text
+from ali3.reading import LARGEST_TEXT, read_toml
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre_table import read_state, read_table, text_of, write_state
+from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
+
+SUFFIXES = (".toml", ".csv", ".ini")
+"""Of files that hold manoeuvres; ``.ini`` is of earlier versions."""
+_KEYS = ("stop_time", "held", "start", "driver", "inputs", "state")
+_WIDTH = 116
+
+
+def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
+    """Read a manoeuvre by name or path.
+
+    Parameters
+    ----------
+    manoeuvre : str
+        Name of a manoeuvre of the host, or a file in TOML or CSV; see `read_table`. A TOML file has ``stop_time`` in s,
+        ``[start]`` values, settings of a ``[driver]``, ``[inputs]`` with a list of numbers for ``time`` and each input,
+        ``held``, a list of those that keep a value up to the next time, and a ``[state]`` of the FMU to begin with:
+        ``file`` beside it, ``time``.
+
+    Returns
+    -------
+    Manoeuvre
+
+    Raises
+    ------
+    HostError
+        With the line or key and the reason.
+    """
+    path = Path(manoeuvre)
+    if path.suffix not in SUFFIXES:
+        if manoeuvre not in manoeuvre_names():
+            names = ", ".join(manoeuvre_names())
+            raise HostError(f"There is no manoeuvre '{manoeuvre}'. Give a TOML or CSV file or one of: {names}.")
+        path = next(p for p in (FOLDER / f"{manoeuvre}{suffix}" for suffix in SUFFIXES) if p.is_file())
+    if path.suffix == ".toml":
+        made = _read_toml(path)
+    elif path.with_suffix(".ini").is_file():
+        from hosts.driving.old_manoeuvre import read_old_manoeuvre
+
+        made = read_old_manoeuvre(path)
+    else:
+        if not path.is_file():
+            raise HostError(f"There is no file {path}.")
+        made = read_table(path)
+    if not made.stop_time > 0.0:
+        raise HostError(f"{path} does not say how long it lasts; give a later time in the table or a stop_time.")
+    return made
+
+
+def _read_toml(path: Path) -> Manoeuvre:
+    content = read_toml(path, HostError, largest=LARGEST_TEXT)
+    unknown = next((key for key in content if key not in _KEYS), None)
+    if unknown is not None:
+        raise HostError(f"{path} has '{unknown}'; known are {', '.join(_KEYS)}.")
+    time, inputs = _inputs(_table(content, "inputs", path), path)
+    start = _table(content, "start", path)
+    for name, value in start.items():
+        _check(value, f"{path}, start value '{name}'")
+    driver = _table(content, "driver", path)
+    for name, value in driver.items():
+        _check(value, f"{path}, driver: {name}")
+    stop_time = float(time[-1]) if len(time) else math.nan
+    if "stop_time" in content:
+        stop_time = _number(content["stop_time"], f"{path}: stop_time")
+        if stop_time <= 0.0:
+            raise HostError(f"{path}: stop_time is {stop_time:g} s; it must be positive.")
+    words = {name: value if isinstance(value, str) else text_of(value) for name, value in driver.items()}
+    state = _state(_table(content, "state", path), path)
+    held = content.get("held", [])
+    if not isinstance(held, list) or any(not isinstance(name, str) or name not in inputs for name in held):
+        raise HostError(f"{path}: held must be a list of names of [inputs].")
+    return Manoeuvre(path.stem, time, inputs, stop_time, start, words, *state, frozenset(held))
+
+
+def _table(content: Mapping[str, Any], key: str, path: Path) -> dict[str, Any]:
+    """A table by whole names: ``initial.speed = 1`` is a table ``initial`` for TOML."""
+    table = content.get(key, {})
+    if not isinstance(table, dict):
+        raise HostError(f"{path}: {key} must be a table, [{key}].")
+    return dict(_whole(table))
+
+
+def _whole(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    for key, value in table.items():
+        if isinstance(value, dict):
+            yield from ((f"{key}.{rest}", inner) for rest, inner in _whole(value))
+        else:
+            yield key, value
+
+
+def _inputs(table: Mapping[str, Any], path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
+    if not table:
+        return np.zeros(0), {}
+    if "time" not in table or len(table) < 2:
+        raise HostError(f"{path}: [inputs] has {', '.join(table)}; it must have time and inputs.")
+    columns = {}
+    for name, values in table.items():
+        if not isinstance(values, list) or not values:
+            raise HostError(f"{path}, inputs: '{name}' must be a list of numbers.")
+        columns[name] = np.array([_number(value, f"{path}, inputs: '{name}'") for value in values])
+    for name, column in columns.items():
+        if len(column) != len(columns["time"]):
+            raise HostError(f"{path}, inputs: '{name}' has {len(column)} values where time has {len(columns['time'])}.")
+    time = columns.pop("time")
+    back = np.flatnonzero(np.diff(time) < 0.0)
+    if len(back):
+        raise HostError(f"{path}, inputs: time goes back from {time[back[0]]:g} s to {time[back[0] + 1]:g} s.")
+    return time, columns
+
+
+def _number(value: Any, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise HostError(f"{where}: {json.dumps(value, default=str)[:40]} is not a number.")
+    return float(value)
+
+
+def _check(value: Any, where: str) -> None:
+    if not isinstance(value, (bool, int, float, str)):
+        raise HostError(f"{where}: it must be a number, true, false or a text.")
+
+
+def _state(table: Mapping[str, Any], path: Path) -> tuple[bytes | None, float]:
+    if not table:
+        return None, 0.0
+    if set(table) != {"file", "time"} or not isinstance(table["file"], str):
+        raise HostError(f"{path}: [state] must have the name of a file and a time.")
+    return read_state(path.parent / table["file"], str(path)), _number(table["time"], f"{path}, time of the state")
+
+
+def write_manoeuvre(manoeuvre: Manoeuvre, file: Path, comment: str = "") -> None:
+    """Write a manoeuvre as a TOML file, as `read_manoeuvre` reads it.
+
+    Parameters
+    ----------
+    manoeuvre : Manoeuvre
+    file : Path
+        The state goes beside it, with the suffix ``.state``.
+    comment : str
+        A line at the begin.
+    """
+    lines = [f"# {comment}"] if comment else []
+    lines.append(f"stop_time = {manoeuvre.stop_time!r}")
+    if manoeuvre.held:
+        lines.append(f"held = {json.dumps(sorted(manoeuvre.held))}")
+    columns = {"time": manoeuvre.time, **manoeuvre.inputs} if manoeuvre.inputs else {}
+    tables: dict[str, Mapping[str, Any]] = {
+        "start": {name: _toml(value) for name, value in manoeuvre.start.items()},
+        "driver": {name: _setting(text) for name, text in manoeuvre.driver.items()},
+        "state": {},
+        "inputs": {name: _list(values) for name, values in columns.items()},
+    }
+    if manoeuvre.state is not None:
+        beside = write_state(manoeuvre.state, file)
+        tables["state"] = {"file": _toml(beside.name), "time": repr(manoeuvre.state_time)}
+    for title, table in tables.items():
+        if table:
+            lines += ["", f"[{title}]", *(f"{_key(name)} = {text}" for name, text in table.items())]
+    write_text(file, "\n".join(lines) + "\n")
+
+
+def _key(name: str) -> str:
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name, re.ASCII) else _toml(name)
+
+
+def _toml(value: Value) -> str:
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else text_of(value)
+
+
+def _short(value: float) -> str:
+    """The number in few digits where that is the same; TOML has no whole number -0."""
+    short = f"{value:g}"
+    return short if float(short) == value and short != "-0" else repr(value)
+
+
+def _setting(text: str) -> str:
+    """Of the driver: a number where it is one."""
+    try:
+        return repr(parse_number(text))
+    except ValueError:
+        return _toml(text)
+
+
+def _list(values: NDArray[np.float64]) -> str:
+    text = ", ".join(map(_short, values.tolist()))
+    return f"[{text}]" if len(text) < _WIDTH else f"[\n{textwrap.indent(textwrap.fill(text, _WIDTH), '  ')},\n]"

@@ -1,0 +1,204 @@
+"""Manoeuvres as plain CSV files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ali3.decimal_number import parse_number
+from ali3.files import whole_file, write_text
+from ali3.reading import LARGEST_STATE, read_bytes, read_json
+from ali3.tables import TextTable
+from ali3.words import brief
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value, parse_value
+from hosts.driving.manoeuvre import Manoeuvre
+
+
+def read_table(path: Path) -> Manoeuvre:
+    """Read a CSV file of inputs over time in FMPy's format: ``"time"``, then names of inputs.
+
+    Lines that begin with ``#`` may say more: ``# start: NAME=VALUE, ...`` gives start values, ``# state: FILE at TIME``
+    names a saved state of the FMU, beside the table, to begin with. Behind a table that a page has recorded stands a
+    line ``# outputs from: NAME``: that column and those after it are what came out, and are not read; its inputs were
+    held. A line ``# held: NAME, NAME`` names inputs that keep the value of a row up to the next one; the others go
+    straight, and a time that stands twice is a jump. A table that a run has written is read with the record beside it.
+
+    Parameters
+    ----------
+    path : Path
+
+    Raises
+    ------
+    HostError
+        With the line and the reason.
+    """
+    table = TextTable(path, HostError)
+    names = table.names
+    if names[0] != "time" or len(names) < 2:
+        raise HostError(f'{path}: the heading is {brief(", ".join(names))}; it must be "time" and the names of inputs.')
+    rows: list[list[float]] = []
+    for row in table.rows():
+        rows.append(table.numbers(row))
+        if len(rows) > 1 and rows[-1][0] < rows[-2][0]:
+            raise HostError(f"{path}, line {row.line}: time goes back from {rows[-2][0]:g} s to {rows[-1][0]:g} s.")
+    if not rows:
+        raise HostError(f"{path} holds no values; it needs a heading and at least one row.")
+    record = _record_of(path)
+    recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
+    for number, comment in table.comments:
+        key, _, rest = comment.lstrip("# ").partition(":")
+        where = f"{path}, line {number}"
+        if key.strip() == "start":
+            start |= _assignments(rest.split(","), where)
+        elif key.strip() == "state":
+            name, at, instant = rest.rpartition(" at ")
+            if not at:
+                raise HostError(f"{where}: {brief(rest.strip())} is not of the form FILE at TIME.")
+            state = read_state(path.parent / name.strip(), where), number_of(instant, f"{where}, time of the state")
+        elif key.strip() == "outputs from":
+            recorded = rest.strip()
+        elif key.strip() == "held":
+            held = {name.strip() for name in rest.split(",")}
+    if recorded and recorded not in names[1:]:
+        raise HostError(f"{path}: there is no column {brief(recorded)}, with which outputs would begin.")
+    inputs = names[1 : names.index(recorded)] if recorded else names[1:]
+    for k, (t, *before) in sorted(record.jumps.items(), reverse=True):
+        if not 0 <= k < len(rows) or rows[k][0] != t or len(before) != len(inputs):
+            raise HostError(
+                f"{path} is not the table that {path.with_suffix('.json').name} beside it was written with: an input "
+                f"jumps in row {k} at {t:g} s. Give the table another name, or its columns of inputs alone."
+            )
+        rows.insert(k, [t, *before, *rows[k][len(before) + 1 :]])
+    values = np.array(rows)
+    columns = {name: values[:, k] for k, name in enumerate(inputs, start=1)}
+    kept = frozenset(inputs if held is None and recorded else held or ())
+    if not kept <= set(inputs):
+        raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is said to be held and is no input of the table.")
+    start = {name: value for name, value in start.items() if name not in columns}
+    return Manoeuvre(path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept, record.step)
+
+
+@dataclass(frozen=True)
+class _Record:
+    """What the record beside a table says that is the result of a run: its first output, start values, held inputs, by
+    rows the time and the inputs before a jump, the state that it began with and its time, and the step in s.
+    """
+
+    outputs_from: str = ""
+    start: Mapping[str, Value] = field(default_factory=dict)
+    held: set[str] | None = None
+    jumps: Mapping[int, list[float]] = field(default_factory=dict)
+    state: tuple[bytes | None, float] = (None, 0.0)
+    step: float | None = None
+
+
+def _record_of(path: Path) -> _Record:
+    file = path.with_suffix(".json")
+    try:
+        record = read_json(file, HostError, finite=False) if file.is_file() else None
+    except HostError:
+        return _Record()  # of another kind: what is in the table then says what it is
+    if not isinstance(record, dict) or "outputs_from" not in record:
+        return _Record()
+    try:
+        first, start, held, state, step = (record[key] for key in ("outputs_from", "start", "held", "state", "step_s"))
+        jumps = {int(k): [float(x) for x in values] for k, values in record["jumps"].items()}
+        texts = [first, *held] if isinstance(held, list) else [None]
+        if any(not isinstance(text, str) for text in texts) or not all(jumps.values()) or not float(step) > 0.0:
+            raise ValueError
+        if any(not isinstance(value, (bool, int, float, str)) for value in start.values()):
+            raise ValueError
+        saved = (None, 0.0) if state is None else (read_state(path.parent / state["file"], str(file)), state["time"])
+        return _Record(first, start, set(held), jumps, (saved[0], float(saved[1])), float(step))
+    except (AttributeError, KeyError, TypeError, ValueError):
+        raise HostError(f"{file} is no whole record of the run whose result is {path.name}; run it again.") from None
+
+
+def read_state(file: Path, where: str) -> bytes:
+    """The saved state of an FMU.
+
+    Parameters
+    ----------
+    file : Path
+    where : str
+        The place that names it, for messages.
+
+    Raises
+    ------
+    HostError
+        It cannot be read.
+    """
+    return read_bytes(file, LARGEST_STATE, HostError, f"{where}: the state {file}")
+
+
+def _assignments(parts: Iterable[str], where: str) -> dict[str, Value]:
+    result: dict[str, Value] = {}
+    for part in parts:
+        name, equals, value = part.partition("=")
+        if not equals:
+            raise HostError(f"{where}: {brief(part.strip())} is not of the form name=value.")
+        result[name.strip()] = value_of(value, f"{where}, start value '{name.strip()}'")
+    return result
+
+
+def number_of(text: str, where: str) -> float:
+    """The number of a text; `HostError` with the place where there is none."""
+    try:
+        return parse_number(text)
+    except ValueError as error:
+        raise HostError(f"{where}: {error}.") from None
+
+
+def value_of(text: str, where: str) -> Value:
+    """The value of a text, see `parse_value`; `HostError` with the place where there is none."""
+    try:
+        return parse_value(text)
+    except ValueError as error:
+        raise HostError(f"{where}: {error}.") from None
+
+
+def write_table(manoeuvre: Manoeuvre, file: Path) -> list[Path]:
+    """Write inputs, start values and state as `read_table` reads them.
+
+    Parameters
+    ----------
+    manoeuvre : Manoeuvre
+    file : Path
+        The state goes beside it, with the suffix ``.state``.
+
+    Returns
+    -------
+    list of Path
+        What was written.
+    """
+    files = [file]
+    lines = [f"# start: {name}={text_of(value)}" for name, value in manoeuvre.start.items()]
+    if manoeuvre.state is not None:
+        files.append(write_state(manoeuvre.state, file))
+        lines.append(f"# state: {files[-1].name} at {manoeuvre.state_time!r}")
+    if manoeuvre.held:
+        lines.append(f"# held: {', '.join(sorted(manoeuvre.held))}")
+    lines.append(",".join(f'"{name}"' for name in ("time", *manoeuvre.inputs)))
+    table = np.column_stack([manoeuvre.time, *manoeuvre.inputs.values()])
+    lines += [",".join(map(repr, row)) for row in table.tolist()]
+    write_text(file, "\n".join(lines) + "\n")
+    return files
+
+
+def write_state(state: bytes, file: Path) -> Path:
+    """Write a saved state beside a file; its place."""
+    beside = file.with_suffix(".state")
+    with whole_file(beside) as made:
+        made.write_bytes(state)
+    return beside
+
+
+def text_of(value: Value) -> str:
+    """A value as `value_of` reads it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f'"{value}"' if isinstance(value, str) else repr(value)

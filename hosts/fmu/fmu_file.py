@@ -1,0 +1,68 @@
+"""Which FMU a command takes: a file, or that of a car, which is built for this machine when it is needed and kept."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from hosts.fmu.car import is_car
+
+DIST = Path("dist", "PrototypeCar.fmu")
+CAR = "prototype"
+"""What is taken where nothing is named: `DIST` if it is there, else this car."""
+
+
+@dataclass(frozen=True)
+class FoundFmu:
+    """An FMU and where it comes from.
+
+    Parameters
+    ----------
+    path : Path
+    built : float
+        Seconds that its build took; 0: it was there.
+    """
+
+    path: Path
+    built: float = 0.0
+
+
+def find_fmu(given: Path | None, tell: Callable[[str], None], poses: str | None = None) -> FoundFmu:
+    """The FMU that a command takes.
+
+    Parameters
+    ----------
+    given : Path, optional
+        Of the command line: an FMU; or a car by its name, its folder or its file.
+    tell : callable
+        Takes the sentences that are said while a car is built.
+    poses : str, optional
+        Of a car, as ``ali3 build --poses`` takes them.
+
+    Raises
+    ------
+    HostError
+        The car cannot be built; with the words of the build.
+    """
+    if given is None and DIST.is_file():
+        return FoundFmu(DIST)
+    if given is not None and not is_car(given):
+        return FoundFmu(given)
+    from hosts.fmu.built_fmu import fmu_of_car
+
+    begin = time.monotonic()
+    built: list[str] = []
+
+    def said(line: str) -> None:
+        built.append(line)
+        tell(line)
+
+    path = fmu_of_car(CAR if given is None else str(given), said, poses)
+    return FoundFmu(path, time.monotonic() - begin if built else 0.0)
+
+
+def fmu_file(given: Path | None) -> Path:
+    """`find_fmu` for a command that prints what is said."""
+    return find_fmu(given, lambda line: print(line, flush=True)).path

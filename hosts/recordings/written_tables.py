@@ -1,0 +1,111 @@
+"""Tables of a recording that grow while a program runs and stay readable if it is killed.
+
+Parquet has its directory at the end of a file, so an unfinished file cannot be read: rows are written as small whole
+files, which are joined at the end. A CSV file grows by lines; a last one that is cut off is left out.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import IO, Protocol
+
+import numpy as np
+
+from ali3.files import make_folder, whole_file
+from hosts.recordings.tables import KEYS, PARTS, TABLE, Rows, joined, parquet_blocks
+
+_ROW_GROUP = 8192
+
+
+class Table(Protocol):
+    """A table that grows."""
+
+    def write(self, rows: Rows) -> None:
+        """Add rows, which are then safe from the end of the program."""
+
+    def close(self, progress: Callable[[float], None]) -> None:
+        """Finish the table; `progress` hears the share that is done."""
+
+
+class ParquetTable:
+    """A table in Parquet, of doubles but for `KEYS`.
+
+    Parameters
+    ----------
+    folder : Path
+    names : sequence of str
+    units : mapping of str to str
+        They stand in the file as metadata of the columns.
+    """
+
+    suffix = ".parquet"
+
+    def __init__(self, folder: Path, names: Sequence[str], units: Mapping[str, str]) -> None:
+        import pyarrow as pa
+
+        kinds = (pa.float64(), pa.int64(), pa.int64())
+        keys = [pa.field(name, kind) for name, kind in zip(KEYS, kinds, strict=True)]
+        values = [pa.field(name, pa.float64(), metadata={"unit": units.get(name, "1")}) for name in names]
+        self._schema = pa.schema(keys + values)
+        self._folder, self._parts = folder, make_folder(folder / PARTS)
+        self._count = 0
+
+    def write(self, rows: Rows) -> None:
+        self._count += 1
+        with whole_file(self._parts / f"{self._count:06d}{self.suffix}") as made:
+            self._write([rows], made)
+
+    def close(self, progress: Callable[[float], None]) -> None:
+        def blocks() -> Iterator[Rows]:
+            """The rows of several parts at a time: groups of rows that are read at once should not be small."""
+            held: list[Rows] = []
+            for k, part in enumerate(sorted(self._parts.glob(f"*{self.suffix}")), start=1):
+                held += parquet_blocks(part)
+                if sum(map(len, held)) >= _ROW_GROUP:
+                    yield joined(held, 0)
+                    held = []
+                progress(k / self._count)
+            if held:
+                yield joined(held, 0)
+
+        with whole_file(self._folder / f"{TABLE}{self.suffix}") as made:
+            self._write(blocks(), made)
+        shutil.rmtree(self._parts, ignore_errors=True)
+
+    def _write(self, blocks: Iterator[Rows] | Sequence[Rows], file: Path) -> None:
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        # Measured numbers do not repeat: a dictionary of them is larger than they are.
+        with pq.ParquetWriter(file, self._schema, compression="zstd", use_dictionary=False) as writer:
+            for rows in blocks:
+                columns = [rows.time, rows.steps, rows.epoch, *np.ascontiguousarray(rows.values.T)]
+                writer.write_table(pa.Table.from_arrays([pa.array(c) for c in columns], schema=self._schema))
+
+
+class CsvTable:
+    """A table as text, with every number to the last bit.
+
+    Parameters
+    ----------
+    folder : Path
+    names : sequence of str
+    units : mapping of str to str
+        Not written: the recording's description has them.
+    """
+
+    suffix = ".csv"
+
+    def __init__(self, folder: Path, names: Sequence[str], units: Mapping[str, str]) -> None:
+        self._file: IO[str] = (folder / f"{TABLE}{self.suffix}").open("x", encoding="utf-8", newline="\n")
+        self._file.write(",".join(f'"{name}"' for name in (*KEYS, *names)) + "\n")
+
+    def write(self, rows: Rows) -> None:
+        for time, count, epoch, values in zip(*(column.tolist() for column in rows), strict=True):
+            self._file.write(f"{time!r},{count},{epoch}," + ",".join(map(repr, values)) + "\n")
+        self._file.flush()
+
+    def close(self, progress: Callable[[float], None]) -> None:
+        self._file.close()

@@ -1,0 +1,111 @@
+"""Runs an FMU, or drives a car through a manoeuvre: ``ali3 run [FMU|CAR] [--manoeuvre NAME|FILE] [--stop-time T]``.
+
+Without a manoeuvre inputs keep their start values. The folder gets a table (CSV), a picture (PNG) and a record of what
+was run (JSON).
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from ali3.options import add_option, assignment
+from ali3.running import run_command
+from hosts.common.errors import HostError
+from hosts.common.options import add_fmu, add_setting_options, wishes
+from hosts.driving.manoeuvres import manoeuvre_names
+from hosts.fmu.car import is_car
+
+
+def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.run.command") -> int:
+    """Run the command, which the user typed as `prog`; 0 if every step was accepted."""
+    parser = argparse.ArgumentParser(
+        prog=prog,
+        description=__doc__,
+        epilog=f"manoeuvres: {', '.join(manoeuvre_names())}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add_fmu(parser, "?", "dist/PrototypeCar.fmu, else prototype")
+    add_option(parser, "--manoeuvre", "none, inputs keep their start values")
+    parser.add_argument(
+        "--driver",
+        action="append",
+        default=[],
+        type=assignment,
+        metavar="NAME=VALUE",
+        help="a setting of the manoeuvre's driver, such as wheelbase=2.6 where the FMU does not tell it; repeatable",
+    )
+    parser.add_argument(
+        "--kerb",
+        action="store_true",
+        help="the paper's kerb test: 15 s of the scene kerb_test, and a picture of the moments of the frame",
+    )
+    add_option(parser, "--stop-time", "that of the manoeuvre, else that of the FMU")
+    add_option(parser, "--step", "that of the FMU; of the kerb test 0.01")
+    add_option(parser, "--fidelity", "that of the FMU")
+    add_setting_options(parser)
+    add_option(parser, "--road")
+    add_option(parser, "--out", "out", default=Path("out"))
+    options = parser.parse_args(arguments)
+    return run_command(lambda: _kerb(options) if options.kerb else _run(options))
+
+
+def _kerb(options: argparse.Namespace) -> int:
+    from hosts.run.kerb import kerb_test
+
+    for name in ("manoeuvre", "stop_time", "road", "driver"):
+        if getattr(options, name) not in (None, []):
+            raise HostError(f"--{name.replace('_', '-')} does not go with --kerb, which says what is driven.")
+    if options.fmu is not None and is_car(options.fmu):
+        raise HostError(
+            f"--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car {options.fmu} down a kerb."
+        )
+    return kerb_test(options.fmu, options.fidelity, options.step, options.out, wishes(options))
+
+
+def _run(options: argparse.Namespace) -> int:
+    from hosts.driving.co_simulation import check_columns, communication_step, driver_of, run_with_bar
+    from hosts.driving.manoeuvre import with_names_of
+    from hosts.driving.manoeuvre_settings import set_in
+    from hosts.fmu.fmu import Fmu
+    from hosts.fmu.fmu_file import fmu_file
+    from hosts.recordings.load_manoeuvre import manoeuvre_of
+    from hosts.run.result_files import print_result, result_paths, write_csv, write_record
+    from hosts.run.result_plots import plot_page
+    from hosts.run.run_summary import energy_balance, summary
+
+    path, known = fmu_file(options.fmu), dict(options.driver)
+    with Fmu(path) as fmu:
+        manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
+        if known and not manoeuvre.driver:
+            raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
+        manoeuvre = replace(manoeuvre, driver=dict(manoeuvre.driver) | {k: repr(v) for k, v in known.items()})
+        manoeuvre = with_names_of(manoeuvre, fmu.variables)
+        check_columns(fmu, manoeuvre)
+        driver = driver_of(fmu, manoeuvre)
+        manoeuvre, settings = set_in(fmu, manoeuvre, wishes(options), options.fidelity)
+        still = options.manoeuvre is None
+        stem = path.stem if still else f"{_words(path.stem)}_{manoeuvre.name}"
+        table, picture, record = result_paths(options.out, stem)
+        step = communication_step(fmu, manoeuvre, options.step)
+        result = run_with_bar(fmu, manoeuvre, step, driver)
+    course = driver.course if driver is not None else None
+    outline = (driver.settings.vehicle_length, driver.settings.vehicle_width) if driver is not None else (0.0, 0.0)
+    rows = summary(result, step, course, outline)
+    write_csv(result, table)
+    write_record(fmu, manoeuvre, step, settings, result, record)
+    title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
+    plot_page(result, picture, title, rows, course)
+    return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
+
+
+def _words(name: str) -> str:
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

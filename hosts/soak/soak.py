@@ -1,0 +1,131 @@
+"""Drives a car for hours by itself: the work of ``ali3 check FMU --soak``.
+
+A drive is a seed: runs of 15 to 60 s from starts by chance, up to 40 m/s and 100 km away, with jumps, sudden turns,
+roll-overs, resets and rewinds, all in one process. The same seed gives the same drive. Every step is checked.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ali3.files import check_writable, make_folder, write_text
+from hosts.common.errors import HostError
+from hosts.common.options import wishes
+from hosts.fmu.fmu_file import fmu_file
+
+if TYPE_CHECKING:
+    from hosts.fmu.fmu import Fmu
+    from hosts.soak.drive import Outcome, Task
+    from hosts.soak.grounds import Ground
+
+SEEDS = 10
+SEED = 1
+SECONDS = 1000.0
+STEP = 0.002
+OUT = Path("out", "soak")
+_FIDELITIES = (0, 2)
+
+
+def soak(options: argparse.Namespace, prog: str) -> int:
+    """Do the drives that the options of the command say.
+
+    Parameters
+    ----------
+    options : argparse.Namespace
+    prog : str
+        How the user typed the command.
+
+    Returns
+    -------
+    int
+        Exit code: 1 if something failed.
+    """
+    from hosts.fmu.fmu import Fmu
+    from hosts.fmu.settings import settings_of
+    from hosts.soak.drive import Outcome, Task
+    from hosts.soak.table import is_good, print_outcomes
+
+    seconds = SECONDS if options.stop_time is None else options.stop_time
+    step = STEP if options.step is None else options.step
+    if not 0.0 < seconds < math.inf or not 0.0 < step < math.inf:
+        raise HostError(f"A drive of {seconds:g} s in steps of {step:g} s; both must be positive and finite.")
+    odd = next((n for n in options.fidelity if not float(n).is_integer()), None)
+    if odd is not None:
+        raise HostError(f"--fidelity is {odd:g}; it must be a whole number.")
+    if options.json is not None:
+        check_writable(options.json)
+    path, out = fmu_file(options.fmu), make_folder(options.out or OUT)
+    with Fmu(path) as fmu:
+        start = settings_of(fmu.table, wishes(options)).start
+        fidelities = _fidelities(fmu, [int(n) for n in options.fidelity])
+        roads = "road.file" in fmu.variables and "road.file" not in start
+    records = [ground.record for ground in _grounds(out, options.world)] if roads else []
+    seed = SEED if options.seed is None else options.seed
+    tasks = [
+        Task(str(path), seed + k // len(fidelities), fidelity, seconds, step, start, records, str(out.absolute()))
+        for k in range(options.drives or SEEDS * len(fidelities))
+        for fidelity in (fidelities[k % len(fidelities)],)
+    ]
+    outcomes = [Outcome(task.seed, task.fidelity) for task in tasks]
+    try:
+        _drive_all(tasks, outcomes, options.jobs or os.cpu_count() or 1)
+    finally:  # after Ctrl-C too, of what is done
+        print_outcomes(tasks, outcomes, f"{prog} --soak")
+        if options.json is not None:
+            record = {"tasks": [asdict(task) for task in tasks], "outcomes": [asdict(outcome) for outcome in outcomes]}
+            write_text(options.json, json.dumps(record, indent=1) + "\n")
+            print(f"written: {options.json}", flush=True)
+    return 0 if all(map(is_good, outcomes)) else 1
+
+
+def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> None:
+    """Drive all tasks under a progress bar, each in a process; of one that is not done its outcome has the seconds."""
+    from tqdm import tqdm
+
+    from ali3.isolated import Lost, done_by
+    from hosts.soak.drive import Failure, drive
+
+    form = "{desc}: {percentage:3.0f} % {bar} {n_fmt} of {total_fmt} s, {elapsed} so far, {remaining} to go"
+    total = math.ceil(sum(task.seconds for task in tasks))
+    # none where there is no terminal
+    with tqdm(total=total, desc="soak", bar_format=form, disable=None) as bar:
+
+        def progress(place: int, seconds: float) -> None:
+            outcomes[place].simulated = min(seconds, tasks[place].seconds)
+            bar.update(min(int(sum(outcome.simulated for outcome in outcomes)), total) - bar.n)
+
+        with closing(done_by(drive, tasks, jobs, progress)) as done:
+            for place, outcome in done:
+                if isinstance(outcome, Lost):
+                    seconds, words = outcomes[place].simulated, f"The process of the drive {outcome.how}."
+                    outcomes[place].failures.append(Failure("crash", words, -1, seconds, ""))
+                else:
+                    outcomes[place] = outcome
+                progress(place, outcomes[place].simulated)
+
+
+def _fidelities(fmu: Fmu, asked: Sequence[int]) -> list[int | None]:
+    if "fidelity" not in fmu.variables:
+        if asked:
+            raise HostError(f"{fmu.path} has no choice of fidelity.")
+        return [None]
+    for fidelity in asked:
+        fmu.table["fidelity"].check(fidelity, "--fidelity")
+    return list(asked or _FIDELITIES)
+
+
+def _grounds(out: Path, worlds: Sequence[str]) -> list[Ground]:
+    from hosts.soak.grounds import IN_THE_FMU, jump_ground, world_ground
+
+    folder = out / "roads"
+    jumps = [jump_ground(folder), jump_ground(folder, (1e5, -1e5))]
+    named = [world_ground(name, folder / f"world_{k}") for k, name in enumerate(worlds)]
+    return [*2 * jumps, *2 * named, *IN_THE_FMU]

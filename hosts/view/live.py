@@ -1,0 +1,201 @@
+"""A page that runs FMUs: the work of ``ali3 view --live``."""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from threading import Timer
+from typing import TYPE_CHECKING, Any
+
+from hosts.common.commands import run_module
+from hosts.common.errors import HostError
+from hosts.common.options import Wishes, wishes
+from hosts.common.road import PARAMETER as ROAD
+from hosts.fmu.fmu_file import fmu_file
+from hosts.recordings.recorded_drive import is_recording
+from hosts.view.open_page import open_page
+
+if TYPE_CHECKING:
+    from hosts.common.numbers import Value
+    from hosts.driving.manoeuvre import Manoeuvre
+    from hosts.fmu.variables import Variable
+    from hosts.view.page_parts import FmuParts
+    from viewer.recording import Recording
+
+_PATIENCE = 2.0
+_MOST_PICTURES = 4
+
+
+def live(options: argparse.Namespace) -> int:
+    """Write one HTML file that runs FMUs of this program in any browser, and open it; gives the exit code."""
+    with tempfile.TemporaryDirectory() as folder:
+        given = wishes(argparse.Namespace(**{**vars(options), "out": Path(folder)}))
+        return _written(options, given)
+
+
+def _written(options: argparse.Namespace, given: Wishes) -> int:
+    from ali3.files import check_writable, whole_file
+    from hosts.view.page_parts import fmu_parts
+    from hosts.view.page_text import Page
+
+    if len(options.what) > _MOST_PICTURES:
+        raise HostError(f"{len(options.what)} pictures are too many for a page; it shows at most {_MOST_PICTURES}.")
+    results = [path for path in options.what if path.suffix.lower() in (".csv", ".json") or is_recording(path)]
+    paths = [fmu_file(path) for path in options.what if path not in results]
+    if not paths:
+        raise HostError(f"{results[0]} is a result; --live needs an FMU, which the page runs.")
+    name = "_".join(dict.fromkeys(path.stem for path in paths))
+    file = (options.out or Path("out")) / f"{name}_live.html"
+    road = next((text for name, text in reversed(given.values) if name == ROAD), "")
+    fmus = [fmu_parts(path, road) for path in paths]
+    check_writable(file)
+    names = _names(fmus, options.name)
+    manoeuvre = _manoeuvre(fmus, options.manoeuvre)
+    start = {**({} if manoeuvre is None else manoeuvre.start), **_start(fmus, given)}
+    if fmus[0].own_road is not None:
+        start[ROAD] = fmus[0].own_road.name
+    wanted = {"name": name, **_page_options(fmus, options), "start": start}
+    recordings = _beside(results, fmus[0])
+    ends = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]
+    with_binaries = [with_binary(fmu) for fmu in fmus]
+    with told_when_long("making the page"):
+        page = Page(with_binaries, names, wanted, manoeuvre, recordings, ends)
+        text = page.text(options.title if options.title is not None else ", ".join(names))
+    with whole_file(file) as made:
+        made.write_text(text, encoding="utf-8", newline="\n")
+    for fmu in fmus:
+        for item in fmu.scene.get("missing", []):
+            print(f"{fmu.name}: {item['name']} is not drawn: {item['why'].rstrip('.')}.")
+    print(f"{file}: {file.stat().st_size / 1e6:.1f} MB; it opens from disk in a browser and needs nothing else")
+    if not options.no_open:
+        open_page(file)
+    return 0
+
+
+def _manoeuvre(fmus: Sequence[FmuParts], given: str | None) -> Manoeuvre | None:
+    """Inputs over time, checked."""
+    if given is None:
+        return None
+    from hosts.driving.manoeuvre import with_names_of
+    from hosts.recordings.load_manoeuvre import load_manoeuvre
+    from hosts.view.page_text import script_of
+
+    names = [name for fmu in fmus for name in fmu.variables.names]
+    manoeuvre = with_names_of(load_manoeuvre(given), names)
+    script_of(manoeuvre)
+    known = [v.name for fmu in fmus for v in map(fmu.variables.__getitem__, fmu.variables.names) if _held(v)]
+    unknown = next((name for name in manoeuvre.inputs if name not in known), None)
+    if unknown is not None:
+        raise HostError(
+            f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is no input and no tunable parameter of "
+            f"{' or '.join(fmu.path.name for fmu in fmus)}."
+        )
+    return manoeuvre
+
+
+def _held(variable: Variable) -> bool:
+    return variable.causality == "input" or variable.variability == "tunable"
+
+
+def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
+    """Results that are drawn beside the first FMU, with its drawing where they have none."""
+    if not results:
+        return []
+    from hosts.view.view_sources import RunWishes, recordings_of
+
+    recordings, told = recordings_of(results, fmu.path, RunWishes(None, None, None, Wishes([], [])))
+    for line in told:
+        print(line)
+    undrawn = next((r.name for r in recordings if r.scene is None), None)
+    if undrawn is not None:
+        raise HostError(f"The result {undrawn} cannot be drawn with {fmu.path.name}.")
+    return recordings
+
+
+def _names(fmus: Sequence[FmuParts], given: Sequence[str]) -> list[str]:
+    if len(given) > len(fmus):
+        raise HostError(f"--name is given {len(given)} times for {len(fmus)} FMUs; give it once for each.")
+    titles = [*given, *(fmu.name for fmu in fmus[len(given) :])]
+    for k, title in enumerate(titles):
+        if title in titles[:k]:
+            titles[k] = f"{title} {titles[: k + 1].count(title)}"
+    return titles
+
+
+def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict[str, Any]:
+    """What the page starts with, checked."""
+    found: dict[str, Any] = {"run": not options.paused}
+    if options.step is not None:
+        if not 0.0 < options.step <= 1.0:
+            raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
+        found["step"] = options.step
+    known = {name for fmu in fmus for name in fmu.variables.names}
+    shown = {n for fmu in fmus for n in known if _plottable(fmu, n)}
+    for name in options.plot:
+        if name not in shown:
+            raise HostError(f"--plot: {name!r} is no input or output of {' or '.join(f.name for f in fmus)}.")
+    if options.plot:
+        found["plots"] = list(options.plot)
+    return found
+
+
+def _plottable(fmu: FmuParts, name: str) -> bool:
+    return name in fmu.variables.names and fmu.variables[name].causality in ("input", "output")
+
+
+def _start(fmus: Sequence[FmuParts], wanted: Wishes) -> dict[str, Value]:
+    """Start values that the first FMU must have; the others take those that they have too."""
+    from hosts.fmu.settings import Settings
+
+    settings = Settings(fmus[0].variables)
+    for file in wanted.sets:
+        settings.add_set(file)
+    settings.add_texts(wanted.values, "--set")
+    start = settings.start
+    for fmu in fmus[1:]:
+        for name in start:
+            if name in fmu.variables.names:
+                variable = fmu.variables.settable(name, "--set")
+                variable.check(start[name], f"--set for {fmu.path.name}")
+    return start
+
+
+def with_binary(fmu: FmuParts) -> FmuParts:
+    """The FMU itself if it has a binary in WebAssembly, else one with it, compiled from its own sources.
+
+    Raises
+    ------
+    HostError
+        It cannot be compiled here; with the command that builds one that has it.
+    """
+    from hosts.view.page_parts import PLATFORM, build_line, fmu_parts
+
+    if fmu.wasm is not None:
+        return fmu
+    with tempfile.TemporaryDirectory() as folder, told_when_long(f"compiling {fmu.path.name} for WebAssembly"):
+        arguments = ("build", "--fmu", str(fmu.path.absolute()), "--platforms", PLATFORM, "--out", folder)
+        try:
+            run_module("ali3", *arguments)
+            return replace(fmu, wasm=fmu_parts(Path(folder, fmu.path.name)).wasm)
+        except HostError as error:
+            why = str(error).rstrip(".")
+    raise HostError(
+        f"{fmu.path} has no binary in WebAssembly, and none could be added ({why}); build it with "
+        f"{build_line(fmu.path)}"
+    )
+
+
+@contextmanager
+def told_when_long(what: str) -> Iterator[None]:
+    """A context that prints a line if its work takes longer than two seconds."""
+    timer = Timer(_PATIENCE, lambda: print(f"{what} ...", flush=True))
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()

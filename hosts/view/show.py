@@ -1,0 +1,132 @@
+"""Results and runs in a page, as pictures, films and animations: the work of ``ali3 view`` without ``--live``."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ali3.files import check_writable
+from hosts.common.errors import HostError
+from hosts.common.options import wishes
+from hosts.fmu.car import is_car
+from hosts.fmu.fmu_file import fmu_file
+from hosts.view.open_page import open_page
+
+if TYPE_CHECKING:
+    from viewer.recording import Recording
+
+_PLOTTED = 3  # signals of a result that is not drawn
+
+
+def show(options: argparse.Namespace) -> int:
+    """Write what is asked for and open the page; gives the exit code."""
+    from hosts.view.view_sources import RunWishes, recordings_of
+
+    page = _page(options)
+    options.what = [fmu_file(path) if is_car(path) else path for path in options.what]
+    for file in (page, options.png, options.mp4, options.gltf):
+        if file is not None:
+            check_writable(file)
+    folder = page.parent if page is not None else Path("out")
+    given = wishes(argparse.Namespace(**{**vars(options), "out": folder}))
+    run = RunWishes(options.manoeuvre, options.stop_time, options.step, given)
+    recordings, told = recordings_of(options.what, options.geometry, run)
+    for line in told:
+        print(line)
+    if options.begin is not None or options.end is not None:
+        begin = -math.inf if options.begin is None else options.begin
+        end = math.inf if options.end is None else options.end
+        recordings = [recording.between(begin, end) for recording in recordings]
+    known = dict.fromkeys(name for recording in recordings for name in recording.columns)
+    unknown = next((name for name in options.plot if name not in known), None)
+    if unknown is not None:
+        raise HostError(f"There is no signal {unknown!r} to be plotted; the result has {_some(list(known), unknown)}.")
+    written: list[object] = list(_exports(recordings, options))
+    if page is not None:
+        written.append(_write_page(page, recordings, options))
+    print(f"written: {', '.join(map(str, written))}")
+    if page is not None and not options.no_open:
+        open_page(page)
+    return 0
+
+
+def _page(options: argparse.Namespace) -> Path | None:
+    """Where the page goes; none where only other files were asked for."""
+    if options.out is None and (options.png, options.mp4, options.gltf) != (None, None, None):
+        return None
+    first = options.what[0]
+    folder = options.out or (Path("out") if first.suffix.lower() == ".fmu" or is_car(first) else first.parent)
+    driven = "" if options.manoeuvre is None else f"_{Path(options.manoeuvre).stem}"
+    return Path(folder, f"{first.stem}{driven}{'_compared' if len(options.what) > 1 else ''}.html")
+
+
+def _look(options: argparse.Namespace) -> dict[str, Any]:
+    """How things are drawn."""
+    factor = {} if options.deformation is None else {"deformation": options.deformation}
+    return {"arrows": options.arrows} | factor
+
+
+def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict[str, Any]:
+    """Options of the player."""
+    start = _look(options)
+    plots = list(options.plot)
+    if not plots and all(recording.scene is None for recording in recordings):
+        plots = list(recordings[0].columns)[:_PLOTTED]
+    if plots:
+        start["plots"] = plots
+    if options.camera is not None:
+        start["camera"] = options.camera
+    if options.at is not None:
+        start["time"] = options.at
+    return start
+
+
+def _write_page(page: Path, recordings: Sequence[Recording], options: argparse.Namespace) -> str:
+    from viewer.page_file import write_page
+
+    made = write_page(page, recordings, options=_start(recordings, options), most=options.most)
+    for note in made.notes:
+        print(note)
+    return f"{made.path} ({1e-6 * made.size:.2g} MB)"
+
+
+def _exports(recordings: Sequence[Recording], options: argparse.Namespace) -> Iterator[Path]:
+    """Write the pictures, films and animations that were asked for, and print what there is to say of them."""
+    start = _look(options)
+    size = (options.size[0], options.size[1])
+    notes: list[str] = []
+    if options.gltf is not None:
+        from viewer.gltf import write_gltf
+
+        made = write_gltf(options.gltf, recordings[0])
+        notes += made.notes
+        notes.append(
+            f"{made.path}: {1e-6 * made.size:.2g} MB, {made.times} times; between them a point is up to "
+            f"{made.position_error:.2g} mm and an orientation {made.angle_error:.2g} degrees off."
+        )
+        yield options.gltf
+    if options.png is not None:
+        from viewer.pictures import write_picture
+
+        time = options.at if options.at is not None else float(recordings[0].t[0])
+        notes += write_picture(options.png, recordings, time, size, options.camera, start)
+        yield options.png
+    if options.mp4 is not None:
+        from viewer.video import write_mp4
+
+        notes += write_mp4(options.mp4, recordings, size=size, camera=options.camera, options=start).notes
+        yield options.mp4
+    for note in dict.fromkeys(notes):
+        print(note)
+
+
+def _some(names: list[str], word: str) -> str:
+    """A few of many names, those that are alike first."""
+    import difflib
+
+    near = difflib.get_close_matches(word, names, 5, 0.4)
+    shown = near or names[:5]
+    return ", ".join(shown) + (f" and {len(names) - len(shown)} more" if len(names) > len(shown) else "")

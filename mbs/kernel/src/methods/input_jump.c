@@ -1,0 +1,87 @@
+/* Accelerations and multipliers at the start of a step where inputs jump: the trapezoidal rule takes its forces from
+ * them, and those of before the jump would make every force late by half a step. A guide that follows an input needs
+ * nothing: its rate is continuous, and the mean force of a row comes from the end of the step. */
+#include <string.h>
+
+#include "../algebra/fronts.h"
+#include "../elements/forces.h"
+#include "../flexible/flexible_body.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "../start/index_one.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+#include "input_jump.h"
+
+/* Forces at in->now with given inputs. */
+static void forces(ali3_instance *in, const double *input, double *Q) {
+  const ali3_vectors *v = &in->now;
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = v->y,
+                                .Q = Q,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
+  in->force_input = input;
+  ali3_forces(in, &call);
+  in->force_input = in->input;
+}
+
+static void add(double *to, const double *change, int32_t n) {
+  for (int32_t i = 0; i < n; i++) to[i] += change[i];
+}
+
+/* in->x and in->lam: by how much accelerations and multipliers at in->now change when inputs do; nothing is solved where
+ * no force changes, then *jumps is false. `force` gets the watched forces before, in->watched has those behind.
+ * M x + Phi_q' lam = change of Q, Phi_q x = 0 by the penalty; modes of flexible bodies that the step h does not resolve
+ * follow as slowly as the trapezoidal rule lets them, by the weights of its tangent: else they would ring. */
+ali3_status ali3_input_change(ali3_instance *in, double h, const double *before, const double *behind, double *force,
+                              bool *jumps) {
+  const ali3_system *S = in->system;
+  const ali3_vectors *v = &in->now;
+  const int32_t nq = S->size.nq;
+  forces(in, before, in->x);
+  for (int32_t i = 0; i < S->n_work_force; i++) force[i] = in->watched[S->n_work + i];
+  forces(in, behind, in->Q);
+  *jumps = memcmp(in->x, in->Q, (size_t)nq * sizeof(double)) != 0;
+  if (!*jumps) return ALI3_OK;
+  for (int32_t i = 0; i < nq; i++) in->x[i] = in->Q[i] - in->x[i];
+  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_rows_square(in, in->J, ALI3_INDEX_ONE_PENALTY, in->F);
+  if (S->n_flexible > 0) ali3_flexible_tangent(in, 1.0, 0.5 * h, 0.25 * h * h, in->F);
+  const ali3_status status = ali3_factorise(in, in->F);
+  if (status != ALI3_OK) return status;
+  ali3_solve(in, in->F, in->x);
+  ali3_rows_times(S, in->J, in->x, in->lam);
+  for (int32_t k = 0; k < S->size.nc; k++) in->lam[k] *= ALI3_INDEX_ONE_PENALTY;
+  return ALI3_OK;
+}
+
+/* Before a step h: in->now goes to what comes behind a jump, past accelerations and multipliers with it, so that they
+ * predict the next ones. */
+ali3_status ali3_input_jump(ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  ali3_vectors *v = &in->now;
+  double *before = in->direction.step_force, *watched = v->watched + S->n_work;
+  bool jumps;
+  if (!ali3_inputs_jump(in)) return ALI3_OK;
+  ali3_back_up(in);
+  const ali3_status status = ali3_input_change(in, h, v->used, in->input_begin, before, &jumps);
+  if (status != ALI3_OK) return status;
+  /* By their change: Newton's loop balanced forces of elements with states half a step before these. */
+  for (int32_t i = 0; i < S->n_work_force; i++) watched[i] += in->watched[S->n_work + i] - before[i];
+  memcpy(v->used, in->input_begin, (size_t)S->size.nu * sizeof(double));
+  if (!jumps) return ALI3_OK;
+  add(v->qdd, in->x, nq);
+  add(v->lam, in->lam, nc);
+  if (v->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_GENERALISED_ALPHA) add(v->own, in->x, nq);
+  for (int k = 0; k < ALI3_PAST; k++) {
+    add(v->past_a + (int64_t)k * nq, in->x, nq);
+    add(v->past_lam + (int64_t)k * nc, in->lam, nc);
+  }
+  return ALI3_OK;
+}

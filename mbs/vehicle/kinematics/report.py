@@ -1,0 +1,89 @@
+"""Draws the wheel travel and steer curves of a car: the work of ``ali3 car CAR --kinematics``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+from ali3.errors import UserError
+from ali3.running import told_warnings
+
+LEAST_RANGE = 1e-3  # m: who gives metres finds less
+TRAVEL = (-80.0, 80.0)  # mm
+POINTS = 81
+
+
+def report(options: argparse.Namespace) -> int:
+    """Print what the axles are as drawn, and write page and tables; gives the exit code, 1 where a curve has notes."""
+    import matplotlib  # noqa: F401  # missing, it is told before the work
+
+    from ali3.files import check_writable, write_text
+    from mbs.common.progress import progress_for
+    from mbs.vehicle.car_file import load
+    from mbs.vehicle.kinematics.car_kinematics import MOTIONS, checked_travel, kinematics
+    from mbs.vehicle.kinematics.compliance import compliance, fidelity_of
+    from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
+    from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
+    from mbs.vehicle.kinematics.page import page
+    from mbs.vehicle.kinematics.table import rows, text
+
+    travel = TRAVEL if options.travel is None else options.travel
+    low, high = checked_travel(tuple(1e-3 * v for v in travel))
+    if high - low < LEAST_RANGE:
+        raise UserError(
+            f"--travel goes from {travel[0]:g} to {travel[1]:g} mm; it is in mm and must span "
+            f"{1e3 * LEAST_RANGE:g} mm or more."
+        )
+    with told_warnings():
+        car = load(options.car)
+    asked = options.fidelity
+    fidelity = fidelity_of(car, int(asked) if asked is not None and asked == asked // 1 else asked)
+    folder = options.out or Path("out", "kinematics", car.name)
+    names = [f"{axle}_{motion}.csv" for axle in ("front", "rear") for motion in MOTIONS]
+    for file in (folder / "kinematics.html", *(folder / n for n in names), *([options.json] if options.json else [])):
+        check_writable(file)
+    with progress_for(None) as bar:
+        found = kinematics(car, (low, high), POINTS if options.points is None else options.points, bar.update)
+    gives = compliance(car, fidelity)
+    print(text([*rows(found), *compliance_rows(gives)]))
+    for note in filter(None, (*found.notes, gives.sentence)):
+        print(f"note: {note}", file=sys.stderr)
+    for curve in found.curves.values():
+        write_curve(curve, folder / curve_file(curve))
+    write_text(folder / "kinematics.html", page(found, gives))
+    if options.json:
+        write_text(options.json, json.dumps(_content(found, gives), indent=1) + "\n")
+    print(f"\n{folder / 'kinematics.html'} and {len(found.curves)} CSV files beside it", flush=True)
+    return 1 if any(curve.notes for curve in found.curves.values()) else 0
+
+
+def _content(found: Any, gives: Any) -> dict[str, Any]:
+    """What is written as JSON: SI units, null for what is not a number."""
+    return {
+        "car": found.car,
+        "notes": list(found.notes),
+        "drawn": {axle: {n: _finite(v) for n, v in found.drawn(axle).items()} for axle in ("front", "rear")},
+        "compliance": {
+            "fidelity": gives.fidelity.value,
+            "freedoms": gives.freedoms,
+            "sentence": gives.sentence,
+            "values": gives.values,
+        },
+        "curves": [
+            {
+                "axle": curve.axle,
+                "motion": curve.motion,
+                "units": curve.units,
+                "columns": {name: [_finite(v) for v in values.tolist()] for name, values in curve.columns.items()},
+            }
+            for curve in found.curves.values()
+        ],
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -1,0 +1,108 @@
+"""Worlds to drive in: the work of ``ali3 road --world NAME|FILE --out DIR``.
+
+The folder gets NAME.road, what wheels feel, and NAME.json, what is drawn and where a car may start.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from ali3.errors import UserError
+from ali3.reading import read_json
+
+WORLDS = Path(__file__).parent
+ROADS = Path(__file__).parents[1] / "roads" / "files"
+
+
+def shipped_worlds() -> list[str]:
+    """Names of the worlds and roads of the package."""
+    return [path.stem for path in sorted(WORLDS.glob("*.toml"))] + [path.stem for path in sorted(ROADS.glob("*.road"))]
+
+
+def world(given: str, out: Path, picture: Path | None) -> int:
+    """Put the files of a world into a folder; gives the exit code.
+
+    Parameters
+    ----------
+    given : str
+        Name of the package, or a file.
+    out : Path
+        Folder.
+    picture : Path, optional
+        PNG file of its map.
+
+    Raises
+    ------
+    UserError
+        It is no world.
+    """
+    from mbs.worlds.stored import add_file, key_of, world_files
+
+    begin = time.perf_counter()
+    file = _file(given)
+    name = file.stem
+    files = [file]
+    if file.suffix.lower() == ".toml":
+        from mbs.worlds.world_file import named_files
+
+        name, others = named_files(file)
+        files += others
+    key = key_of(files)
+    made, kept = world_files(key, lambda folder: _make(file, name, folder), out)
+    if picture is not None:
+        add_file(key, f"{name}.png", lambda target: _draw(out / f"{name}.json", target), picture)
+        made.append(picture)
+    for path in made:
+        print(f"written: {path} ({path.stat().st_size / 1e6:.3g} MB)")
+    print(f"{'kept from before' if kept else 'made'}: {time.perf_counter() - begin:.2f} s")
+    return 0
+
+
+def _file(given: str) -> Path:
+    """The file that a name or path means."""
+    path = Path(given)
+    if path.is_file():
+        if path.suffix.lower() not in (".toml", ".road"):
+            raise UserError(f"{given} is no world; a .toml of a world or a .road file is one.")
+        return path
+    for place in (WORLDS / f"{given}.toml", ROADS / f"{given.removesuffix('.road')}.road"):
+        if place.is_file() and Path(given).name == given:
+            return place
+    raise UserError(f"There is no world '{given}' and no such file; worlds are {', '.join(shipped_worlds())}.")
+
+
+def _make(file: Path, name: str, folder: Path) -> None:
+    from mbs.worlds.make_world import make_world
+
+    record: dict[str, Any] = make_world(file, name, folder / f"{name}.road", _Line(name))
+    (folder / f"{name}.json").write_text(
+        json.dumps(record, allow_nan=False, separators=(",", ":"), ensure_ascii=False), encoding="utf-8"
+    )
+
+
+def _draw(record: Path, target: Path) -> None:
+    from mbs.worlds.map_picture import draw_map
+
+    draw_map(read_json(record), target)
+
+
+class _Line:
+    """A line that says what is done, on a terminal over and over, else once a part."""
+
+    def __init__(self, name: str) -> None:
+        self.name, self.said, self.part = name, 0.0, ""
+
+    def __call__(self, part: str, share: float) -> None:
+        now = time.perf_counter()
+        if sys.stderr.isatty():
+            if now - self.said > 0.2 or share >= 1.0:
+                self.said = now
+                end = "\n" if share >= 1.0 else ""
+                print(f"\r{self.name}: {part} {100.0 * share:3.0f} %", end=end, file=sys.stderr, flush=True)
+        elif part != self.part:
+            self.part = part
+            print(f"{self.name}: {part} ...", file=sys.stderr, flush=True)

@@ -1,0 +1,293 @@
+"""Whatever a stranger puts in the place of a file, its reader ends soon and says what is wrong in one sentence."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import socket
+import warnings
+import zipfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ali3.read_parameter_set import read_parameter_set
+from hosts.compare.log_aliases import Form, read_log_aliases
+from hosts.compare.log_file import read_log
+from hosts.driving.manoeuvre_file import read_manoeuvre
+from hosts.fmu.aliases.content import read_content
+from hosts.fmu.geometry import RESOURCE, scene_of
+from hosts.recordings.recorded_drive import read_recording
+from hosts.simulator.devices.mapping_files import MappingFiles
+from hosts.study.folder import read_record
+from hosts.study.measures.user_function import read_user_function
+from hosts.study.points import table_points
+from hosts.study.study_file import read_study_file
+from hosts.view.recorded import read_table as read_result
+from hosts.view.view_sources import _record as read_result_record
+from mbs.flexible.external_model import read_matrix, read_model
+from mbs.results.trajectory import Trajectory
+from mbs.roads.description import described_road
+from mbs.roads.grid_files import read_grid
+from mbs.roads.road_file import RoadFile
+from mbs.system.system import System
+from mbs.vehicle.car_file import load
+from mbs.vehicle.kinematics.curve_files import read_curve
+from mbs.vehicle.table import read_table as read_car_table
+from mbs.worlds.course_file import read_course
+from mbs.worlds.make_world import read_world
+from viewer.mesh_file import read_mesh
+from viewer.scene import read_scene
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="pipes, devices and alarms are those of POSIX")
+
+LONGEST = 900  # characters of a sentence
+SOON = 30  # s, after which a reader counts as one that does not end
+DEEP, DIGITS, LARGE = 3000, "9" * 5000, "x" * 100_000
+TOML = {
+    "deep lists": "[" * DEEP + "]" * DEEP,
+    "lists 150 deep": "[" * 150 + "]" * 150,
+    "deep tables": "{a=" * DEEP + "1" + "}" * DEEP,
+    "a key of many parts": "{" + "a." * 50_000 + "a = 1}",
+    "5000 digits": DIGITS,
+    "5000 digits of base 16": "0x" + "f" * 5000,
+    "20 digits": "1" + "0" * 19,
+    "no number": "nan",
+    "infinite": "-inf",
+    "a date": "1979-05-27",
+    "a large text": f'"{LARGE}"',
+    "a large key": f"{{ {LARGE} = 1 }}",
+    "a large list": f"[{'1, ' * 50_000}]",
+    "nothing": "",
+}
+JSON = {
+    "deep lists": "[" * DEEP + "]" * DEEP,
+    "lists 150 deep": "[" * 150 + "]" * 150,
+    "deep tables": '{"a":' * DEEP + "1" + "}" * DEEP,
+    "5000 digits": DIGITS,
+    "20 digits": "1" + "0" * 19,
+    "too large": "[1e999]",
+    "a large text": f'"{LARGE}"',
+    "a large key": f'{{"{LARGE}": 1}}',
+    "a key twice": '{"a": 1, "a": 2}',
+    "nothing": "",
+}
+CELLS = {
+    "5000 digits": DIGITS,
+    "a large text": LARGE,
+    "no number": "nan",
+    "underscores": "1_0",
+    "an open quotation": '"1',
+    "one more": "1,1",
+    "nothing": "",
+}
+KINDS: dict[str, tuple[str, dict[str, str], str, Callable[[Path], Any]]] = {
+    # kind: file, what stands for @ in it, a good one, its reader
+    "car": ("car.toml", TOML, "schema = @\nname = 'x'\n", lambda path: load(path)),
+    "alias file": ("a.toml", TOML, "steering = @\n", read_content),
+    "alias file of a log": ("a.toml", TOML, "[signals]\nsteering = @\n", read_log_aliases),
+    "study": ("s.toml", TOML, "car = 'prototype'\nstep = @\n[[manoeuvres]]\nstop_time = 1.0\n", read_study_file),
+    "road in words": ("r.toml", TOML, "kind = 'plane'\nheight = @\n", described_road),
+    "world": ("w.toml", TOML, "kind = 'world'\nname = 'w'\nbounds = @\n", read_world),
+    "device": (
+        "d.toml",
+        TOML,
+        "format = 'ALi3 device'\nversion = @\n",
+        lambda path: MappingFiles(path.parent).read("d"),
+    ),
+    "scene": ("s.json", JSON, '{"format": "ALi3 scene", "version": @}', read_scene),
+    "record of a study": ("study.json", JSON, '{"name": @}', lambda path: read_record(path.parent)),
+    "record of a result": ("r.json", JSON, '{"fmu": "a.fmu", "set": @}', read_result_record),
+    "recording": ("recording.json", JSON, '{"format": "ALi3 recording", "version": @}', read_recording),
+    "events of a recording": ("events.jsonl", JSON, '{"kind": @}\n', lambda path: _rows(path)),
+    "rows of a recording": (
+        "inputs_outputs.csv",
+        CELLS,
+        "time,count,epoch,u\n0,0,0,@\n",
+        lambda path: _rows(path),
+    ),
+    "rows in Parquet": ("inputs_outputs.parquet", {}, "PAR1", lambda path: _rows(path)),
+    "manoeuvre": ("m.csv", CELLS, "time,steering\n0,0\n1,@\n", lambda path: read_manoeuvre(str(path))),
+    "settings of a manoeuvre": ("m.ini", CELLS, "[run]\nstop_time = @\n", lambda path: read_manoeuvre(str(path))),
+    "result": ("r.csv", CELLS, "time,u\n0,0\n1,@\n", read_result),
+    "log": ("l.csv", CELLS, "time;u\n0;1\n1;2\n2;@\n", lambda path: read_log(path, Form()).numbers("u")),
+    "log in Parquet": ("l.parquet", {}, "PAR1", lambda path: read_log(path, Form())),
+    "points of a study": ("p.csv", CELLS, "mass\n1\n@\n", lambda path: table_points(path, _variable, {})),
+    "trajectory": ("t.csv", CELLS, "time [s],u [m]\n0,@\n", Trajectory.from_csv),
+    "curve of an axle": ("front_parallel.csv", CELLS, "toe_angle_left [rad]\n@\n", read_curve),
+    "table of a car": ("t.csv", CELLS, "joint,x\nA,@\n", lambda path: _car_table(path)),
+    "course": ("c.csv", CELLS, "x,y\n0,0\n1,@\n", read_course),
+    "grid": ("g.csv", CELLS, "0,0\n1,@\n", lambda path: read_grid(path, None, "heights")),
+    "grid of NumPy": ("g.npy", {}, "\x93NUMPY", lambda path: read_grid(path, None, "heights")),
+    "grid of a picture": ("g.png", {}, "PNG", lambda path: read_grid(path, (0.0, 1.0), "heights")),
+    "nodes": ("n.csv", CELLS, "name,x,y,z\nA,0,0,@\n", lambda path: read_model(path, path, path)),
+    "matrix": ("k.mtx", {}, "%%MatrixMarket", read_matrix),
+    "matrix of SciPy": ("k.npz", {}, "PK", read_matrix),
+    "road": ("r.road", {}, "ALI3ROAD", lambda path: RoadFile(path).read()),
+    "System": ("s.ali3", {}, "ALI3SYS", System.load),
+    "mesh": ("m.stl", {}, "solid", read_mesh),
+    "parameter set": ("p.ssv", {}, "<?xml version='1.0'?>", read_parameter_set),
+    "function": ("f.py", {}, "def f(", lambda path: read_user_function(path, "f")),
+}
+_ANYTHING = "too large", "a large text", "a large key"
+READ = {  # what is a file of the kind all the same
+    "alias file": ("empty", "a large text"),
+    "alias file of a log": ("empty", "a large text"),
+    "device": ("missing",),
+    "record of a study": ("missing", *_ANYTHING),
+    "record of a result": ("too large",),
+    # A last line without an end is left out, and an event may be anything.
+    "events of a recording": (*("missing", "empty", "zeros", "no UTF-8", "one line", "cut", "nothing"), *_ANYTHING),
+    "rows of a recording": ("no number",),
+    "result": ("no number",),
+    "log": ("no number", "one more", "nothing"),  # gaps of a logger, and the decimal comma
+    "points of a study": ("nothing",),
+    "trajectory": ("no number",),
+    "curve of an axle": ("no number", "nothing"),
+}
+MANY = ("car",)
+"""Kinds of which all faults are told, a line each."""
+
+
+def _rows(path: Path) -> list[Any]:
+    """Reads a recording of which one file is the stranger's."""
+    good = {
+        "recording.json": '{"format": "ALi3 recording", "version": 1, "fmu": "a.fmu", "guid": "", "inputs": 1, '
+        '"step": 0.01, "start": {}, "columns": ["u"], "units": {}, "closed": true}',
+        "inputs_outputs.csv": "time,count,epoch,u\n0,0,0,1\n",
+    }
+    if path.suffix == ".parquet":
+        del good["inputs_outputs.csv"]
+    for name, text in good.items():
+        if name != path.name:
+            (path.parent / name).write_text(text)
+    return list(read_recording(path.parent).blocks())
+
+
+def _device(path: Path) -> Any:
+    return MappingFiles(path.parent).read(path.stem)
+
+
+def _car_table(path: Path) -> list[float]:
+    return [row.number("x", -9.0, 9.0, "m") for row in read_car_table(path.parent, path.name, "frame.joints", ("x",))]
+
+
+def _variable(name: str, where: str) -> Any:
+    from ali3.decimal_number import parse_number
+    from hosts.common.errors import HostError
+
+    class Mass:
+        kind, unit = "Real", "kg"
+
+        def read(self, text: str, where: str) -> float:
+            try:
+                return parse_number(text)
+            except ValueError as error:
+                raise HostError(f"{where}: {error}.") from None
+
+    if name != "mass":
+        raise HostError(f"{where}: there is no {name[:60]!r}.")
+    made = Mass()
+    made.name = name  # type: ignore[attr-defined]
+    return made
+
+
+def _places() -> dict[str, Callable[[Path, bytes], Any]]:
+    """What may lie in a file's place, whatever its kind."""
+
+    def a_socket(path: Path, _: bytes) -> None:
+        with socket.socket(socket.AF_UNIX) as held:
+            here = Path.cwd()
+            os.chdir(path.parent)  # the name of a socket is short
+            held.bind(path.name)
+            os.chdir(here)
+
+    noise = random.Random(1).randbytes(5000)
+    return {
+        "missing": lambda path, _: None,
+        "a folder": lambda path, _: path.mkdir(),
+        "a pipe": lambda path, _: os.mkfifo(path),
+        "a socket": a_socket,
+        "/dev/zero": lambda path, _: path.symlink_to("/dev/zero"),
+        "/dev/tty": lambda path, _: path.symlink_to("/dev/tty"),
+        "empty": lambda path, _: path.write_bytes(b""),
+        "bytes": lambda path, _: path.write_bytes(noise),
+        "zeros": lambda path, _: path.write_bytes(b"\0" * 5000),
+        "UTF-16": lambda path, good: path.write_bytes(good.decode("latin-1").encode("utf-16")),
+        "no UTF-8": lambda path, good: path.write_bytes(good + b"\xff\xfe"),
+        "one line": lambda path, _: path.write_bytes(b"a" * 11_000_000),
+        "cut": lambda path, good: path.write_bytes(good[: len(good) // 2]),
+    }
+
+
+class _Late(BaseException):
+    """A reader has not ended; no reader takes it for an error of its file."""
+
+
+@contextmanager
+def _soon() -> Iterator[None]:
+    def late(*_: object) -> None:
+        raise _Late(f"it does not end within {SOON} s")
+
+    before = signal.signal(signal.SIGALRM, late)
+    signal.alarm(SOON)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def _fault(read: Callable[[Path], Any], path: Path, may_be_read: bool, many: bool = False) -> str:
+    """What is wrong with how a reader refuses a file; empty where nothing is."""
+    try:
+        with _soon(), warnings.catch_warnings():
+            warnings.simplefilter("error")
+            read(path)
+    except _Late as error:
+        return str(error)
+    except RecursionError:
+        return "RecursionError"
+    except Exception as error:
+        text, where = str(error), type(error).__module__.split(".")[0]
+        if where not in ("ali3", "hosts", "mbs", "viewer"):
+            return f"{type(error).__name__}: {text[:150]!r}"
+        if path.name not in text and path.stem not in text:
+            return f"the file is not named: {text[:200]!r}"
+        lines = text.split("\n") if many else [text]
+        if any(len(line) > LONGEST or "\n" in line or not line.endswith((".", "?", ".)")) for line in lines):
+            return f"no sentence, {len(text)} characters: {text[:200]!r}"
+        return ""
+    return "" if may_be_read else "it is read"
+
+
+def test_what_a_stranger_gives_is_refused_in_one_sentence(tmp_path: Path) -> None:
+    """All readers, and all that may lie in the place of their files."""
+    faults, count = [], 0
+    for kind, (name, values, template, read) in KINDS.items():
+        good = template.replace("@", "1").encode("latin-1")
+        cases = {place: (put, good) for place, put in _places().items()}
+        cases |= {value: (Path.write_bytes, template.replace("@", text).encode()) for value, text in values.items()}
+        for case, (put, content) in cases.items():
+            folder = tmp_path / f"{count}"
+            folder.mkdir()
+            count += 1
+            put(folder / name, content)
+            fault = _fault(read, folder / name, case in READ.get(kind, ()), kind in MANY)
+            faults += [f"{kind}, {case}: {fault}"] if fault else []
+    assert not faults, f"{len(faults)} of {count}:\n" + "\n".join(faults)
+
+
+def test_a_drawing_in_an_fmu_is_refused_in_one_sentence(tmp_path: Path) -> None:
+    faults = []
+    for case, text in JSON.items():
+        file = tmp_path / f"{case.replace(' ', '_')}.fmu"
+        with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr(RESOURCE, '{"format": "ALi3 scene", "version": 1, "frames": @}'.replace("@", text))
+        fault = _fault(scene_of, file, may_be_read=False)
+        faults += [f"{case}: {fault}"] if fault else []
+    assert not faults, "\n".join(faults)

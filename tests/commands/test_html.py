@@ -1,0 +1,40 @@
+"""Reports have one frame and one style sheet, and texts in them stay texts."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import html5lib
+
+from ali3 import html
+
+ROOT = Path(__file__).parents[2]
+FRAME = re.compile(r"<!doctype|<style|<body|\bfont-family:|max-width: \d+em", re.IGNORECASE)
+
+
+def test_a_table_has_its_texts() -> None:
+    page = html.report("<b>", html.table(("a", "<b>"), [("heading",), ("row", "<i>&")], 'x"'), ".own { color: red }")
+    assert page.count("<style>") == 1
+    assert ".own { color: red }</style>" in page
+    tree = html5lib.parse(page, namespaceHTMLElements=False)
+    assert tree.findtext("head/title") == "<b>"
+    found = [[(cell.tag, cell.get("scope"), cell.text) for cell in row] for row in tree.iter("tr")]
+    assert found == [
+        [("th", "col", "a"), ("th", "col", "<b>")],
+        [("th", "colgroup", "heading")],
+        [("th", "row", "row"), ("td", None, "<i>&")],
+    ]
+
+
+def test_a_picture_is_in_the_page() -> None:
+    tree = html5lib.parse(html.report("", html.picture(b"\x89PNG", 'a "b"')), namespaceHTMLElements=False)
+    (image,) = tree.iter("img")
+    assert (image.get("alt"), image.get("src")) == ('a "b"', "data:image/png;base64,iVBORw==")
+
+
+def test_no_other_room_has_a_frame_or_style_sheet_of_its_own() -> None:
+    known = {"ali3/html.py", "viewer/notebook.py", "fmu_src/description/documentation.py"}
+    files = [f for room in ("ali3", "mbs", "fmu_src", "hosts") for f in (ROOT / room).rglob("*.py")]
+    found = {f.relative_to(ROOT).as_posix() for f in files if FRAME.search(f.read_text(encoding="utf-8"))}
+    assert found <= known, found - known

@@ -1,0 +1,91 @@
+"""A table of text: what a line, a cell and a number is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ali3.errors import TableError
+from ali3.tables import TextTable, cells_of, is_number
+
+
+def table(folder: Path, text: str | bytes, **options: bool) -> TextTable:
+    file = folder / "t.csv"
+    file.write_bytes(text.encode() if isinstance(text, str) else text)
+    return TextTable(file, TableError, **options)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "time [s],u [m/s]\n0,1.5\n-2e-3,.25\n",
+        "\ufefftime [s];u [m/s]\r\n0;1,5\r\n-2e-3;,25\r\n",
+        "# of a logger\n\n time [s] \tu [m/s]\n0\t1.5\n # between\n-0.002\t+0.25",
+        '"time [s]","u [m/s]"\n"0", "1.5"\n-0.002,0.25\n\n',
+    ],
+)
+def test_forms_of_one_table(tmp_path: Path, text: str) -> None:
+    found = table(tmp_path, text, units=True)
+    assert (found.names, found.units) == (["time", "u"], {"time": "s", "u": "m/s"})
+    assert np.array_equal(found.values(), [[0.0, 1.5], [-0.002, 0.25]])
+
+
+def test_a_cell_may_hold_the_mark_and_a_name_keeps_its_brackets(tmp_path: Path) -> None:
+    found = table(tmp_path, 'time [s],"wheel[1], load [N]"\n0,1\n')
+    assert found.names == ["time [s]", "wheel[1], load [N]"]
+    assert not found.units
+    assert table(tmp_path, 'a,"b;c"\n1,2\n').names == ["a", "b;c"]
+    assert table(tmp_path, "a\n1\n", units=True).units == {}
+
+
+def test_every_so_many_lines_and_one_that_is_cut(tmp_path: Path) -> None:
+    text = "n\n" + "".join(f"{k}\n" for k in range(10)) + "99"
+    assert table(tmp_path, text).values()[-1] == 99.0
+    assert table(tmp_path, text, whole=True).values()[-1] == 9.0
+    assert table(tmp_path, text).values(every=4).ravel().tolist() == [0.0, 4.0, 8.0]
+
+
+def test_comments_have_their_lines(tmp_path: Path) -> None:
+    found = table(tmp_path, "# start: a=1\nt\n0\n  # end\n")
+    assert found.comments == [(1, "# start: a=1")]
+    assert [row.line for row in found.rows()] == [3]
+    assert found.comments == [(1, "# start: a=1"), (4, "# end")]
+
+
+def test_a_table_without_names(tmp_path: Path) -> None:
+    assert table(tmp_path, "0 1\n2 3\n", headed=False).values().tolist() == [[0.0, 1.0], [2.0, 3.0]]
+    assert table(tmp_path, "0,1\n2,3\n", headed=None).names == []
+    assert table(tmp_path, "x,y\n2,3\n", headed=None).names == ["x", "y"]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "t.csv holds no values; it needs a heading and at least one row."),
+        ("a\n", "t.csv holds no values; it needs a heading and at least one row."),
+        ("a,a\n1,1\n", "t.csv has the column 'a' twice."),
+        ("a,b\n\n1\n", "t.csv, line 3: 1 values where the heading has 2 columns."),
+        ("a,b\n1,2 m\n", "t.csv, line 2, column 'b': '2 m' is not a number."),
+        ("a,b\n1,-inf\n", "t.csv, line 2, column 'b': '-inf' is not a finite number."),
+        ("a,b\n1,1e999\n", "t.csv, line 2, column 'b': '1e999' is not a finite number."),
+        ("a;b\n1;1.234,5\n", "t.csv, line 2, column 'b': '1.234,5' is not a number."),
+        ("a\tb\n1\t1,5\n", "t.csv, line 2, column 'b': '1,5' is not a number."),
+        ('a,b\n1,"2\n', "t.csv, line 2: this is no line of a CSV file: unexpected end of data."),
+        (f"a\n{1001 * '1'}\n", "t.csv, line 2: a cell has 1001 characters; a number or a name has at most 1000."),
+        (b"a\n1\0\n", "t.csv is no text: there is a zero byte in line 2."),
+        (b"a\n\xff\n", "t.csv is no text in UTF-8, from about line 1 on."),
+    ],
+)
+def test_what_is_no_table(tmp_path: Path, text: str | bytes, words: str) -> None:
+    with pytest.raises(TableError) as told:
+        table(tmp_path, text).values()
+    assert str(told.value) == f"{tmp_path}/{words}"
+
+
+def test_numbers_are_those_of_decimal_digits() -> None:
+    assert [is_number(c) for c in ("1", "-.5e3", "1_0", "\uff11", "0x1", "", "nan", "1,5")] == [True] * 2 + [False] * 6
+    assert is_number("1,5", decimal=",")
+    assert is_number("nan", finite=False)
+    assert cells_of(' a ,"b ""c"", d", e\t', ",") == ["a", 'b "c", d', "e"]

@@ -1,0 +1,76 @@
+"""A number of an element is declared once: its record, its names for parameters and their checks follow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import pytest
+
+from mbs import ModelError
+from mbs.common.checks import not_negative, positive
+from mbs.elements import AutomaticDrive, EndStops, KerbRoad, PlaneRoad, SpringDamper
+from mbs.elements.reals import NotNegative, Pair, Real, declared, reals_of
+from mbs.elements.record import ElementRecord, columns
+from tests.elements.harness import vectors
+from tests.elements.test_arguments import USES
+
+
+@dataclass(frozen=True)
+class Clutch:
+    torque: NotNegative
+    name: str = "clutch"
+    widths: Annotated[Pair, Real(positive, ("inner", "outer"), "two widths")] = (1.0, 2.0)
+
+
+def test_names_values_and_checks_follow_from_the_fields():
+    reals = reals_of(Clutch(3.0), "the clutch")
+    assert columns(reals, 7.0) == (
+        (3.0, 1.0, 2.0, 7.0),
+        ("torque", "widths_inner", "widths_outer"),
+        (not_negative, positive, positive),
+    )
+    assert list(reals_of(Clutch(3.0), "the clutch", ("widths", "torque"))) == ["widths_inner", "widths_outer", "torque"]
+
+
+@pytest.mark.parametrize(
+    ("clutch", "sentence"),
+    [
+        (Clutch(-1.0), "The torque of the clutch is -1; it must not be negative"),
+        (Clutch(1.0, widths=(1.0, 0.0)), "The two widths of the clutch is 0; it must be greater than zero"),
+        (Clutch(1.0, widths=(1.0,)), "The two widths of the clutch has shape"),  # type: ignore[arg-type]
+    ],
+)
+def test_a_wrong_number_is_named(clutch: Clutch, sentence: str):
+    with pytest.raises(ModelError, match=sentence):
+        reals_of(clutch, "the clutch")
+
+
+@pytest.mark.parametrize("name", USES)
+def test_every_declared_number_of_an_element_is_one_of_its_record(name: str):
+    thing, use = USES[name]
+    record = use(thing)
+    if not isinstance(record, ElementRecord) or isinstance(thing, EndStops):
+        return
+    found = dict(zip(record.real_names, zip(record.real, record.real_checks, strict=False), strict=True))
+    for key, real in declared(type(thing)).items():
+        if isinstance(thing, AutomaticDrive) and key in ("reverse_ratio", "engage_speed", "engage_time"):
+            continue  # of a drive with a selector
+        values = getattr(thing, key) if real.parts else (getattr(thing, key),)
+        names = [f"{key}_{part}" for part in real.parts] or [key]
+        assert [found[n] for n in names] == [(value, real.check) for value in values]
+
+
+def test_numbers_of_stops_are_those_of_the_spring_that_has_them():
+    stops = EndStops(0.9, 8e3, 1.1, 5e3, 0.05, 0.06, 0.01, 0.02, 1e6, 0.002, 0.3, 0.4)
+    record = SpringDamper(1.0, stops=stops).record("s", vectors(3)[0])
+    found = dict(zip(record.real_names, record.real, strict=True))
+    assert {key: found[key] for key in declared(EndStops)} == {key: getattr(stops, key) for key in declared(EndStops)}
+
+
+def test_names_of_roads_are_those_of_the_kernel():
+    assert PlaneRoad.real_names == ("height", "grade_x", "grade_y", "friction", "friction_factor")
+    assert PlaneRoad().real == (0.0, 0.0, 0.0, 0.9, 1.0)
+    kerb = KerbRoad(1.0, 0.1, upper="after")
+    assert kerb.real_names == ("position", "lower_height", "step", "side", "friction", "friction_factor")
+    assert kerb.real == (1.0, 0.0, 0.1, -1.0, 0.9, 1.0)

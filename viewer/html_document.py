@@ -1,0 +1,75 @@
+"""One HTML file with the script of the viewer and data."""
+
+from __future__ import annotations
+
+import json
+
+from ali3 import html
+from viewer.bundle import bundle
+from viewer.errors import ViewerError
+
+# FMUs are WebAssembly and run in a worker that is made from the script of the page.
+_SOURCES = {"script-src": "'wasm-unsafe-eval'", "worker-src": "blob:"}
+
+_STYLE = "html,body{margin:0;height:100%;overflow:hidden;font:14px/1.4 system-ui,sans-serif}#view{height:100%}"
+
+
+def html_document(title: str, data: object, function: str, connect: str = "") -> str:
+    """One HTML file with the script of the viewer and data, on which it calls a function.
+
+    Parameters
+    ----------
+    title : str
+        Of the page; any text.
+    data : object
+        JSON; any texts may stand in it.
+    function : str
+        Of the script, called with the element that is to be filled and the data; what it returns is
+        ``window.player``.
+    connect : str
+        Sources of a content security policy that the page may talk to; by default none.
+
+    Raises
+    ------
+    ViewerError
+        The script is not there and cannot be built.
+    """
+    # The page says what is wrong in place of a picture, for whoever opens it where it cannot run.
+    start = (
+        "(function(){var view=document.getElementById('view');"
+        "try{window.player=" + function + "(view,JSON.parse(document.getElementById('data').textContent));}"
+        "catch(error){view.textContent='This page cannot be shown: '+(error&&error.message||error);}})();"
+    )
+    body = (
+        '<div id="view"></div>\n'
+        "<noscript>This page draws with JavaScript, which is switched off in this browser.</noscript>\n"
+        f'<script type="application/json" id="data">{json_in_html(data)}</script>'
+    )
+    sources = _SOURCES | ({"connect-src": connect} if connect else {})
+    return html.page(title, body, _STYLE, scripts=(script(), start), sources=sources)
+
+
+def script() -> str:
+    """The script of the viewer, which defines ``window.ALi3Viewer``.
+
+    Raises
+    ------
+    ViewerError
+        It is not there and cannot be built.
+    """
+    try:
+        return bundle().read_text(encoding="utf-8")
+    except RuntimeError as error:
+        raise ViewerError(str(error)) from None
+
+
+def json_in_html(data: object) -> str:
+    """JSON that may stand in a script element: no text in it can end the element or begin a comment.
+
+    Parameters
+    ----------
+    data : object
+        As `json.dumps` takes it; numbers must be finite.
+    """
+    text = json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")

@@ -1,0 +1,91 @@
+// Elements of the page.
+
+/**
+ * An element.
+ * @template {string} Tag
+ * @param {Tag} tag - Name, with classes after dots.
+ * @param {Data} [set] - Properties, listeners as `onclick`; names with a hyphen and `role` become attributes, and `data`
+ *   the attribute data-a3, by which programs find it.
+ * @param {...(Node | string | number)} children
+ * @returns {ElementOf<Tag>}
+ */
+export function el(tag, set = {}, ...children) {
+  const [name, ...classes] = tag.split(".");
+  const element = /** @type {ElementOf<Tag>} */ (document.createElement(name));
+  if (classes.length) element.className = classes.join(" ");
+  for (const [key, value] of Object.entries(set)) {
+    if (key === "data") element.setAttribute("data-a3", value);
+    else if (key === "role" || key.includes("-")) element.setAttribute(key, value);
+    else element[key] = value;
+  }
+  element.append(.../** @type {(Node | string)[]} */ (children));
+  return element;
+}
+
+/**
+ * A button that gives the focus back where it was clicked, so that the keys go on driving.
+ * @param {string} data - See `el`.
+ * @param {string} text
+ * @param {() => void} work
+ * @param {string} [title]
+ */
+export function button(data, text, work, title = "") {
+  const onclick = () => {
+    work();
+    if (!made.matches(":focus-visible")) made.blur();
+  };
+  const made = el("button", { type: "button", title, data, onclick }, text);
+  return made;
+}
+
+/**
+ * A choice that gives the focus back.
+ * @param {string} data
+ * @param {string} title
+ * @param {(string | number)[][]} options - Values and their words.
+ * @param {(value: string) => void} work
+ * @param {string | number} [value] - Chosen at first.
+ */
+export function select(data, title, options, work, value) {
+  const made = el("select", { title, data }, ...options.map(([v, words]) => el("option", { value: v }, words)));
+  if (value !== undefined) made.value = String(value);
+  made.addEventListener("change", () => {
+    work(made.value);
+    made.blur();
+  });
+  return made;
+}
+
+/** Write a text, where it is another one. @param {HTMLElement} element @param {string} text */
+export function write(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/** An element of a drawing. @param {string} tag @param {Object<string, string | number>} [set] @param {...Node} children */
+export function svg(tag, set = {}, ...children) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(set)) element.setAttribute(name, String(value));
+  element.append(...children);
+  return element;
+}
+
+const ICONS = {
+  play: "M3 1l10 6-10 6z",
+  pause: "M2 1h4v12H2zM8 1h4v12H8z",
+  back: "M1 1h2.5v12H1zM13 1v12L4.5 7z",
+  forward: "M10.5 1H13v12h-2.5zM1 1l8.5 6L1 13z",
+  full: "M1 1h5v2H3v3H1zM8 1h5v5h-2V3H8zM1 8h2v3h3v2H1zM11 8h2v5H8v-2h3z",
+};
+
+/** @param {keyof typeof ICONS} name */
+export function icon(name) {
+  return svg("svg", { viewBox: "0 0 14 14", "aria-hidden": "true" }, svg("path", { d: ICONS[name] }));
+}
+
+/** A number for a person: four digits. */
+export function short(value) {
+  if (!Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  return size >= 1e5 || size < 1e-3 ? value.toExponential(2) : String(Number(value.toPrecision(4)));
+}

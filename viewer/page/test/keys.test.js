@@ -1,0 +1,62 @@
+// Which keys belong to the page, and which to the element that has the focus.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { keys, needed } from "../src/common/keys.js";
+
+const KEYS = ["a", "A", " ", "Enter", "ArrowLeft", "Home", "5"];
+const input = (type) => ({ tagName: "INPUT", type });
+const taken = (element, byKeyboard) => KEYS.filter((key) => needed(element, key, byKeyboard));
+
+test("an element keeps the keys that it needs, a clicked one leaves them to the page", () => {
+  for (const writing of [input("text"), input("search"), input("number"), { tagName: "SELECT" }, { tagName: "TEXTAREA" }, { tagName: "DIV", isContentEditable: true }]) {
+    for (const byKeyboard of [false, true]) assert.deepEqual(taken(writing, byKeyboard), KEYS);
+  }
+  for (const pressed of [input("checkbox"), { tagName: "BUTTON" }, { tagName: "SUMMARY" }, { tagName: "A" }]) {
+    assert.deepEqual(taken(pressed, true), [" ", "Enter"]);
+    assert.deepEqual(taken(pressed, false), []);
+  }
+  assert.deepEqual(taken(input("range"), true), ["ArrowLeft", "Home"]);
+  assert.deepEqual(taken(input("range"), false), []);
+  assert.deepEqual(taken({ tagName: "CANVAS" }, true), []);
+});
+
+/** A page of which keys are pressed, with what was done. */
+function listening(first) {
+  const listeners = {};
+  globalThis.window = /** @type {any} */ ({ addEventListener: (name, listener) => (listeners[name] = listener) });
+  const done = [];
+  const act = (name) => () => done.push(name);
+  keys({ acts: { a: act("a"), Digit1: act("one"), ArrowLeft: act("left"), " ": act("space") }, first, signal: new AbortController().signal });
+  const press = (key, code, more = {}) => {
+    let prevented = false;
+    const target = { tagName: "DIV", matches: () => true };
+    listeners[more.type ?? "keydown"]({ type: "keydown", key, code, target, preventDefault: () => (prevented = true), ...more });
+    return prevented;
+  };
+  return { done, press, listeners };
+}
+
+test("letters are the same with caps lock, and a key that is held repeats arrows only", () => {
+  const { done, press } = listening();
+  assert.equal(press("a", "KeyQ"), true);
+  press("A", "KeyQ");
+  press("&", "Digit1");
+  press("ArrowLeft", "ArrowLeft", { repeat: true });
+  press("a", "KeyQ", { repeat: true });
+  assert.equal(press("a", "KeyQ", { ctrlKey: true }), false);
+  assert.equal(press("x", "KeyX"), false);
+  press("a", "KeyQ", { type: "keyup" });
+  assert.deepEqual(done, ["a", "a", "one", "left"]);
+});
+
+test("driving comes first, and a key is let go whatever has the focus", () => {
+  const seen = [];
+  const { done, press, listeners } = listening(({ code, type }) => code === "Space" && seen.push(type) > 0);
+  press(" ", "Space");
+  listeners.focusin({ target: { matches: () => true } });
+  const button = { tagName: "BUTTON" };
+  assert.equal(press(" ", "Space", { target: button }), false); // it presses the button
+  assert.equal(press(" ", "Space", { target: button, type: "keyup" }), false);
+  assert.deepEqual(seen, ["keydown", "keyup"]);
+  assert.deepEqual(done, []);
+});
