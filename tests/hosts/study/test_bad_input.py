@@ -66,7 +66,7 @@ def test_what_the_command_line_asks(
     assert capsys.readouterr().err == f"error: {tmp_path}/none.toml cannot be read: there is no such file.\n"
     assert main([str(tmp_path)]) == 2
     assert capsys.readouterr().err == f"error: {tmp_path} is a folder; a study is a TOML file.\n"
-    for option, words in (("--jobs", "a whole number of at least 1"), ("--workers", "error: --workers is now --jobs; ")):
+    for option, words in (("--jobs", "a whole number of at least 1"), ("--workers", "--workers is now --jobs; ")):
         with pytest.raises(SystemExit) as end:
             main([str(tmp_path), option, "0"])
         assert end.value.code == 2
