@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ali3.decimal_number import number
+from ali3.decimal_number import number, short
 from ali3.running import WRONG_USE
 from ali3.words import brief
 
@@ -53,8 +53,7 @@ def name_and_text(text: str) -> tuple[str, str]:
     """``NAME=VALUE``, whose value the FMU's variable reads."""
     name, equals, value = text.partition("=")
     if not equals or not name.strip():
-        shown = repr(text if len(text) <= 40 else text[:37] + "...")
-        raise argparse.ArgumentTypeError(f"{shown} is not of the form NAME=VALUE")
+        raise argparse.ArgumentTypeError(f"{short(text)} is not of the form NAME=VALUE")
     return name.strip(), value
 
 
@@ -143,6 +142,24 @@ def add_old_names(parser: argparse.ArgumentParser, names: Mapping[str, str]) -> 
     """
     for old, new in names.items():
         parser.add_argument(old, nargs="?", action=_Renamed, const=new, help=argparse.SUPPRESS)
+
+
+def first_given(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> str | None:
+    """The first of these arguments that differs from its default, as the user writes it; None without one.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+    options : argparse.Namespace
+        What the user gave.
+    names : sequence of str
+        Of attributes of `options`.
+    """
+    for name in names:
+        if getattr(options, name) != parser.get_default(name):
+            action = next(action for action in parser._actions if action.dest == name)
+            return action.option_strings[0] if action.option_strings else name.upper()
+    return None
 
 
 class _Renamed(argparse.Action):

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.decimal_number import number
-from ali3.options import add_old_names, add_option
+from ali3.options import add_old_names, add_option, first_given
 from ali3.running import run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_setting_options
@@ -22,7 +22,6 @@ _OF_SHOWN = (
     *("geometry", "begin", "end", "most", "camera", "at", "arrows", "deformation", "png", "mp4", "gltf", "size"),
     "stop_time",
 )
-_WRITTEN = {"begin": "from", "end": "to"}
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.view.command") -> int:
@@ -76,10 +75,9 @@ def _parser(prog: str) -> argparse.ArgumentParser:
 
 def _view(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     foreign = _OF_SHOWN if options.live else _OF_LIVE
-    given = next((name for name in foreign if getattr(options, name) != parser.get_default(name)), None)
+    given = first_given(parser, options, foreign)
     if given is not None:
-        name = f"--{_WRITTEN.get(given, given).replace('_', '-')}"
-        raise HostError(f"{name} {'does not go with' if options.live else 'goes with'} --live.")
+        raise HostError(f"{given} {'does not go with' if options.live else 'goes with'} --live.")
     if options.live:
         from hosts.view.live import live
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ali3.errors import UserError
 from ali3.extras import command_needs
-from ali3.options import add_old_names, add_option
+from ali3.options import add_old_names, add_option, first_given
 from ali3.running import run_command
 
 _OF_KINEMATICS = ("travel", "fidelity", "points", "out", "json")
@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
         parser.error("a CAR is needed, or --list")
     if options.kinematics and not options.list:
         return _kinematics(options)
-    return run_command(lambda: _run(options), (ValueError,))
+    return run_command(lambda: _run(options, parser), (ValueError,))
 
 
 def _kinematics(options: argparse.Namespace) -> int:
@@ -64,12 +64,12 @@ def _kinematics(options: argparse.Namespace) -> int:
     return run_command(work, (ModelError,))
 
 
-def _run(options: argparse.Namespace) -> int:
+def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from mbs.vehicle.car_file import car_names, load
 
-    given = next((name for name in _OF_KINEMATICS if getattr(options, name) is not None), None)
+    given = first_given(parser, options, _OF_KINEMATICS)
     if given is not None:
-        raise UserError(f"--{given} goes with --kinematics.")
+        raise UserError(f"{given} goes with --kinematics.")
     if options.list:
         width = max(map(len, car_names()))
         for name in car_names():

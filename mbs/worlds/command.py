@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.errors import UserError
-from ali3.options import add_option
+from ali3.options import add_option, first_given
 from ali3.running import run_command
 from mbs.worlds.world import shipped_worlds, world
 
@@ -62,7 +62,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.worl
     add_option(parser, "--world", "none, the road of INPUT")
     add_option(parser, "--out", "out/worlds")
     options = parser.parse_args(arguments)
-    return run_command(lambda: _work(options), (ValueError,))
+    return run_command(lambda: _work(options, parser), (ValueError,))
 
 
 def _number(text: str) -> float:
@@ -72,7 +72,7 @@ def _number(text: str) -> float:
     return value
 
 
-def _work(options: argparse.Namespace) -> int:
+def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     if options.world is None:
         from mbs.worlds.road import make_road
 
@@ -81,8 +81,7 @@ def _work(options: argparse.Namespace) -> int:
         if options.out is not None:
             raise UserError("--out is the folder of a --world; a road file is named as OUTPUT.road.")
         return make_road(options)
-    given = next((name for name in _OF_ROADS if getattr(options, name) is not None), None)
+    given = first_given(parser, options, _OF_ROADS)
     if given is not None:
-        name = given.upper() if given in ("input", "output") else f"--{given.replace('_', '-')}"
-        raise UserError(f"{name} is of a road; with --world leave it out.")
+        raise UserError(f"{given} is of a road; with --world leave it out.")
     return world(options.world, options.out or Path("out", "worlds"), options.picture)
