@@ -24,6 +24,7 @@ from benchmarks.car.step_costs import drive, summary
 from benchmarks.car.step_replay import REPEATS, Replay
 from benchmarks.car.wild_ground import write_ground
 from benchmarks.shared.command import parser_of, save_chart, save_rows
+from benchmarks.shared.instructions import counter
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from fmu_src.build.build import build_fmu
@@ -100,7 +101,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             save_chart(limited_fall.chart(_falls(fmu)), options.fall)
     print_table(rows, COLUMNS)
     print(f"\n{WORDS}")
-    if replay.valgrind is None:
+    if counter() is None:
         print("valgrind is not installed: instructions were not counted")
     save_rows(options.json, describe("real_time", seconds=options.seconds, seed=options.seed), rows)
     if options.chart is not None:

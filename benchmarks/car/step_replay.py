@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-import shutil
 import subprocess
 import sys
 import zipfile
@@ -13,12 +11,12 @@ import fmpy
 import numpy as np
 
 from benchmarks.car.step_costs import Costs, Worst
+from benchmarks.shared.instructions import instructions
 from fmu_src.native.sources import HERE as FMI_HEADERS
 from mbs.kernel import build
 
 SOURCE = Path(__file__).parent / "c" / "replay_fmu.c"
 REPEATS = 50
-_COLLECTED = re.compile(r"Collected : (\d+)")
 
 
 class Replay:
@@ -47,7 +45,6 @@ class Replay:
         )
         library = folder / "binaries" / fmpy.platform / name
         self._command = [str(self.program), str(library), folder.joinpath("resources").as_uri(), description.guid]
-        self.valgrind = shutil.which("valgrind")
 
     def _arguments(self, worst: Worst, kinds: str, step: float, repeats: int) -> list[str]:
         state, inputs = self.folder / "worst.state", self.folder / "worst.inputs"
@@ -64,19 +61,12 @@ class Replay:
 
     def instructions(self, worst: Worst, kinds: str, step: float) -> int | None:
         """Instructions of the step, counted by valgrind; None where it is not installed."""
-        if self.valgrind is None:
-            return None
+        whole = instructions(self._arguments(worst, kinds, step, 1), "fmi2DoStep")
+        if whole is None or worst.steps == 1:
+            return whole
         shorter = Worst(worst.cost, worst.iterations, worst.stretch, worst.steps - 1)
-        return self._counted(worst, kinds, step) - (self._counted(shorter, kinds, step) if shorter.steps else 0)
-
-    def _counted(self, worst: Worst, kinds: str, step: float) -> int:
-        """Instructions of all steps of a stretch together."""
-        counter = [str(self.valgrind), "--tool=callgrind", "--toggle-collect=fmi2DoStep"]
-        command = [*counter, "--callgrind-out-file=/dev/null", *self._arguments(worst, kinds, step, 1)]
-        found = _COLLECTED.search(subprocess.run(command, capture_output=True, text=True, check=True).stderr)
-        if found is None:
-            raise RuntimeError(f"{self.valgrind} did not say how many instructions it has counted.")
-        return int(found[1])
+        before = instructions(self._arguments(shorter, kinds, step, 1), "fmi2DoStep")
+        return None if before is None else whole - before
 
     def measure(self, costs: Costs, step: float) -> dict[str, float | int | None]:
         """The worst of the kept steps: least time, us, of the slowest; instructions of that with most iterations."""

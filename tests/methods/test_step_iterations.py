@@ -69,7 +69,7 @@ def test_no_step_makes_more_iterations_and_none_fails(rough, limit):
 
 @pytest.mark.parametrize("limit", [1, 3, 5])
 def test_the_work_of_a_step_is_bounded(rough, limit):
-    """Factorizations are iterations, and solves are those and the sweeps of the two projections."""
+    """Factorizations are at most iterations, and solves are those and the sweeps of the two projections."""
     instance = started(rough, step_iterations=limit)
     names = ("iterations", "factorizations", "solves")
     before, most = instance.report(), dict.fromkeys(names, 0)
@@ -77,7 +77,7 @@ def test_the_work_of_a_step_is_bounded(rough, limit):
         instance.run(H, 1)
         after = instance.report()
         made = {name: after[name] - before[name] for name in names}
-        assert made["factorizations"] == made["iterations"] <= limit
+        assert made["factorizations"] <= made["iterations"] <= limit
         assert made["solves"] <= limit + 2 * SWEEPS
         most = {name: max(most[name], made[name]) for name in names}
         before = after

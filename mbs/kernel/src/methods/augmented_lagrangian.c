@@ -28,6 +28,26 @@ enum { MAX_SWEEPS = 3 };
 /* Relative violations at which projections end: velocities at round-off; accelerations only steer the next
  * prediction. */
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
+/* A tangent serves the next iteration too where rows are open by so little, m or so, and the last one left at most so much
+ * of the residual. */
+static const double KEPT_VIOLATION = 1e-8, KEPT_RESIDUAL = 0.3;
+
+/* Forces of the present iterate. */
+static void forces(ali3_instance *in, double h, bool tangent) {
+  ali3_vectors *to = &in->next;
+  const ali3_force_call call = {.q = to->q,
+                                .qd = to->qd,
+                                .y_old = in->now.y,
+                                .h = h,
+                                .wC = in->rule.wC,
+                                .wK = in->rule.c,
+                                .tangent = tangent,
+                                .Q = in->Q,
+                                .y_new = to->y,
+                                .out = to->out,
+                                .potential = to->potential};
+  ali3_forces(in, &call);
+}
 
 /* Positions, rates, rows, forces and residual r = M (D - d0) + c (Phi_q' lam - Q) of (20) for the present D and lam. */
 static void evaluate(ali3_instance *in, double h, bool tangent) {
@@ -42,18 +62,7 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
   }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_velocity_values(in, in->J, to->qd, rate, in->Phi);
-  const ali3_force_call call = {.q = to->q,
-                                .qd = to->qd,
-                                .y_old = in->now.y,
-                                .h = h,
-                                .wC = in->rule.wC,
-                                .wK = c,
-                                .tangent = tangent,
-                                .Q = in->Q,
-                                .y_new = to->y,
-                                .out = to->out,
-                                .potential = to->potential};
-  ali3_forces(in, &call);
+  forces(in, h, tangent);
   ali3_mass_times(in, in->w, in->r);
   for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
 }
@@ -65,25 +74,35 @@ static bool judge(ali3_instance *in) {
   return ali3_judge(in, in->x);
 }
 
-/* One Newton correction (21) with the tangent (23) and the multiplier update. */
-static ali3_status correct(ali3_instance *in, double alpha, int32_t iteration) {
+/* The tangent (23) of the present iterate, factorised. */
+static ali3_status tangent(ali3_instance *in, double alpha) {
+  const ali3_system *S = in->system;
+  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_rows_square(in, in->J, in->rule.c * alpha, in->F);
+  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, in->rule.c, in->F);
+  ali3_forces_tangent(in, in->F);
+  double *J = in->J;
+  in->J = in->J_tangent;
+  in->J_tangent = J;
+  return ali3_factorise(in, in->F);
+}
+
+/* One Newton correction (21) and the multiplier update. A `kept` tangent is that of an earlier iterate; in->x then has
+ * the judged residual. The Phi_q that the penalty multiplies is always that of the tangent: the penalty would amplify
+ * what a later one has outside its range. */
+static ali3_status correct(ali3_instance *in, double alpha, int32_t iteration, bool kept) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c;
   double *lam = in->next.lam;
-  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
-  ali3_rows_square(in, in->J, c * alpha, in->F);
-  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, lam, c, in->F);
-  ali3_forces_tangent(in, in->F);
-  const ali3_status status = ali3_factorise(in, in->F);
-  if (status != ALI3_OK) return status;
-  for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + alpha * in->Phi[k];
-  ali3_rows_transposed(S, in->J, in->mu, in->x);
-  for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + c * in->x[i]);
+  const double *balance = kept ? in->x : in->r;
+  for (int32_t k = 0; k < nc; k++) in->mu[k] = (kept ? 0.0 : lam[k]) + alpha * in->Phi[k];
+  ali3_rows_transposed(S, in->J_tangent, in->mu, in->w);
+  for (int32_t i = 0; i < nq; i++) in->x[i] = -(balance[i] + c * in->w[i]);
   ali3_solve(in, in->F, in->x);
   if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
-    ali3_rows_times(S, in->J, in->x, in->gamma);
+    ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
     for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
     ali3_accelerate(in, iteration);
     for (int32_t k = 0; k < nc; k++) lam[k] += in->lam[k];
@@ -106,23 +125,28 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t mad
   const ali3_settings *settings = &in->settings;
   const bool limited = settings->step_iterations > 0;
   const int32_t most = limited ? settings->step_iterations - made : settings->max_iterations;
+  const bool rigid =
+      in->system->n_flexible == 0; /* forces again are cheaper there than tangents that nothing asks for */
+  bool kept = false;
+  double before = HUGE_VAL;
   evaluate(in, h, true);
   in->report.last_iterations = 0;
   while (in->report.last_iterations < most) {
-    const ali3_status status = correct(in, alpha, in->report.last_iterations);
+    ali3_status status = kept ? ALI3_OK : tangent(in, alpha);
+    if (status == ALI3_OK) status = correct(in, alpha, in->report.last_iterations, kept);
     if (status != ALI3_OK) return ali3_newton_ended(in, status);
     in->report.iterations++;
     in->report.last_iterations++;
     if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
-    double *J = in->J;
-    in->J = in->J_tangent;
-    in->J_tangent = J;
-    evaluate(in, h, true);
+    evaluate(in, h, !rigid);
     if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
       for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
     if (!judge(in)) return ALI3_NOT_FINITE;
     if (in->report.residual <= settings->tolerance_r && ali3_closed(in->system, in->Phi, settings->tolerance_phi))
       return ALI3_OK;
+    kept = in->report.violation <= KEPT_VIOLATION && in->report.residual <= KEPT_RESIDUAL * before;
+    before = in->report.residual;
+    if (rigid && !kept) forces(in, h, true);
   }
   return limited && most > 0 ? capped(in) : ALI3_NOT_CONVERGED;
 }

@@ -1,0 +1,159 @@
+"""What a step costs, in numbers that no load disturbs: ``python -m benchmarks.instructions [--against FILE]``.
+
+Of each scene a C program repeats the first steps in the kernel: Newton iterations, factorizations and solves a step,
+and instructions where valgrind is installed. The table of the project is `benchmarks/data/instructions.json`, written
+with ``--json``; with ``--against`` the command ends with 1 if a scene takes over 3 % more than in that table.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ali3.running import run_command
+from benchmarks.car import manoeuvres
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.instructions import instructions
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from hosts.driving.manoeuvre import Manoeuvre
+from mbs import Settings, Simulation, System, compile
+from mbs.kernel import build
+from mbs.scenes import bricard, double_four_bar, flyball, kerb_test, prototype_car, spatial_chain
+
+SOURCE = Path(__file__).parent / "shared" / "c" / "run_system.c"
+TABLE = Path(__file__).parent / "data" / "instructions.json"
+COLUMNS = {
+    "scene": "",
+    "step_ms": "g",
+    "steps": "d",
+    "iterations": ".3f",
+    "factorizations": ".3f",
+    "solves": ".3f",
+    "instructions": ",d",
+}
+MOST = 1.03
+"""Ratio to the table from which on a step is dearer."""
+
+
+class Scene(NamedTuple):
+    """What is counted: the first `steps` of `step` seconds."""
+
+    name: str
+    step: float
+    steps: int
+    system: Callable[[], System]
+    manoeuvre: str = ""
+
+
+def _flexible() -> System:
+    return compile(prototype_car.build(fidelity=3))
+
+
+def _car() -> System:
+    return manoeuvres.system_of("slalom")
+
+
+SCENES = (
+    Scene("double four-bar", 0.03, 330, lambda: compile(double_four_bar.build())),
+    Scene("40 windows", 0.01, 200, lambda: compile(double_four_bar.build(windows=40))),
+    Scene("Bricard's mechanism", 0.01, 300, lambda: compile(bricard.build())),
+    Scene("flyball governor", 0.01, 300, lambda: compile(flyball.build())),
+    Scene("spatial chain", 0.01, 200, lambda: compile(spatial_chain.build())),
+    Scene("lane change", 0.01, 500, _car, "double_lane_change_replay"),
+    Scene("lane change", 0.002, 500, _car, "double_lane_change_replay"),
+    Scene("slalom", 0.005, 500, _car, "slalom"),
+    Scene("launch and brake", 0.01, 500, _car, "launch_and_brake"),
+    Scene("full lock", 0.01, 500, _car, "full_lock"),
+    Scene("drop", 0.002, 500, _car, "drop"),
+    Scene("slalom, flexible frame", 0.005, 100, _flexible, "slalom"),
+    Scene("drop, flexible frame", 0.002, 200, _flexible, "drop"),
+    Scene("kerb test, flexible frame", 0.01, 100, lambda: compile(kerb_test.build(3))),
+)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; 1 if a step is dearer than in the table."""
+    parser = parser_of("instructions", __doc__)
+    parser.add_argument("--against", type=Path, metavar="FILE", help="table that steps are compared with")
+    options = parser.parse_args(arguments)
+
+    def work() -> int:
+        with tempfile.TemporaryDirectory() as folder:
+            program = Path(folder) / "run_system"
+            include = (build.HERE / "include",)
+            target, what = build.host_target(), "the program that repeats steps"
+            build.compile_c([SOURCE, *build.sources()], target, program, include=include, what=what, shared=False)
+            rows = [measure(scene, program, Path(folder)) for scene in watched(SCENES)]
+        print_table(rows, COLUMNS)
+        save_rows(options.json, describe("instructions", Settings()), rows)
+        dearer = [] if options.against is None else compared(rows, json.loads(options.against.read_text("utf-8")))
+        for line in dearer:
+            print(line)
+        return bool(dearer)
+
+    return run_command(work, (RuntimeError,))
+
+
+def measure(scene: Scene, program: Path, folder: Path) -> dict[str, Any]:
+    """A row of the table."""
+    system = scene.system()
+    files = [folder / name for name in ("system", "state", "inputs")]
+    if scene.manoeuvre:
+        manoeuvre = manoeuvres.load(scene.manoeuvre)
+        parameters, pose = manoeuvres.start_of(manoeuvre, system)
+        inputs = input_rows(manoeuvre, system, scene.step * np.arange(scene.steps + 1))
+        names = [entry["name"] for entry in system.meta["inputs"]]
+        start = Simulation(system, inputs=dict(zip(names, inputs[0], strict=True)), parameters=parameters, pose=pose)
+    else:
+        inputs, start = np.empty((1, 0)), Simulation(system)
+    contents = (system.to_bytes(drawing=False), start.save(), inputs[1:].astype("<f8").tobytes())
+    for file, data in zip(files, contents, strict=True):
+        file.write_bytes(data)
+    still = [str(program), *map(str, files), repr(scene.step), "0"]
+    command = [*still[:-1], str(scene.steps)]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    status, *counts = map(int, said.split())
+    if status != 0:
+        raise RuntimeError(f"A step of the scene {scene.name!r} was refused (status {status}).")
+    whole, before = instructions(command), instructions(still)
+    row: dict[str, Any] = {"scene": scene.name, "step_ms": 1e3 * scene.step, "steps": scene.steps}
+    row |= {k: n / scene.steps for k, n in zip(("iterations", "factorizations", "solves"), counts, strict=True)}
+    found = None if whole is None or before is None else round((whole - before) / scene.steps)
+    return row | {"instructions": found}
+
+
+def input_rows(manoeuvre: Manoeuvre, system: System, times: np.ndarray) -> np.ndarray:
+    """Values of all inputs of a System at these times, a row each."""
+    signals = manoeuvres.inputs_of(manoeuvre, system)
+    columns = []
+    for entry in system.meta["inputs"]:
+        signal = signals.get(entry["name"], entry["start"])
+        columns.append(np.interp(times, *signal) if isinstance(signal, tuple) else np.full(len(times), signal))
+    return np.array(columns, float).T
+
+
+def compared(rows: Sequence[dict[str, Any]], table: dict[str, Any]) -> list[str]:
+    """A sentence for each scene that takes over 3 % more than in a table; factorizations count without valgrind."""
+    stored = {(row["scene"], row["step_ms"]): row for row in table["rows"]}
+    lines = []
+    for row in rows:
+        before = stored.get((row["scene"], row["step_ms"]))
+        if before is None:
+            continue
+        what = "instructions" if row["instructions"] and before["instructions"] else "factorizations"
+        ratio = row[what] / before[what]
+        if ratio > MOST:
+            lines.append(f"{row['scene']}, {row['step_ms']:g} ms: {what} {100.0 * (ratio - 1.0):.1f} % more a step.")
+    return lines
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,43 @@
+/* Continues a saved state of a System, with rows of inputs or none, and says what it took.
+ *   run_system SYSTEM STATE INPUTS STEP STEPS
+ * INPUTS holds the values at the end of each step as doubles, a row a step; an empty file leaves the inputs as they are.
+ * Prints the status and the iterations, factorizations and solves of these steps. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "ali3.h"
+
+static void *contents(const char *name, size_t *size) {
+  FILE *file = fopen(name, "rb");
+  if (file == NULL || fseek(file, 0, SEEK_END) != 0) return NULL;
+  *size = (size_t)ftell(file);
+  rewind(file);
+  void *bytes = malloc(*size + 1);
+  if (bytes == NULL || fread(bytes, 1, *size, file) != *size) return NULL;
+  fclose(file);
+  return bytes;
+}
+
+int main(int count, char **words) {
+  if (count != 6) return 2;
+  size_t system_size, state_size, input_size;
+  void *bytes = contents(words[1], &system_size), *state = contents(words[2], &state_size);
+  double *inputs = contents(words[3], &input_size);
+  if (bytes == NULL || state == NULL || inputs == NULL) return 3;
+  char message[256];
+  ali3_system *system;
+  ali3_instance *in;
+  ali3_report before, after;
+  int64_t done;
+  if (ali3_system_load(bytes, system_size, &system, message, sizeof message) != ALI3_OK) return 4;
+  if (ali3_instance_new(system, &in) != ALI3_OK) return 5;
+  if (ali3_state_restore(in, state, state_size) != ALI3_OK) return 6;
+  ali3_report_get(in, &before);
+  const ali3_status status =
+      ali3_run(in, atof(words[4]), atoll(words[5]), input_size > 0 ? inputs : NULL, 1, NULL, NULL, &done);
+  ali3_report_get(in, &after);
+  printf("%d %" PRId64 " %" PRId64 " %" PRId64 "\n", (int)status, after.iterations - before.iterations,
+         after.factorizations - before.factorizations, after.solves - before.solves);
+  return 0;
+}
