@@ -48,7 +48,7 @@ class PlaneRoad(_NamedNumbers):
     grade_y: Number = 0.0
     """Slope dz/dy, a ratio."""
     friction: NotNegative = 0.9
-    """Coefficient of friction, the largest longitudinal force over load of a tyre on it, at the tyre's nominal load."""
+    """Coefficient of friction; a tyre has the forces of its curves times it over its own `reference_friction`."""
     friction_factor: NotNegative = 1.0
     """Multiplies the friction, also that of a road file in place of this road."""
     type: ClassVar[RoadType] = RoadType.PLANE

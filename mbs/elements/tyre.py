@@ -29,8 +29,7 @@ class TyreCurve:
     slope: AtTwoLoads
     """Initial slope dF/ds, N."""
     max_force: AtTwoLoads
-    """Largest force, N, on a road of the friction at which the curves hold (`Tyre.curve_friction`); on another road it
-    is scaled to its friction."""
+    """Largest force, N, on a road of the tyre's `reference_friction`; on another road times its friction over that."""
     max_slip: AtTwoLoads
     """Slip where it is reached, a ratio."""
     slide_force: AtTwoLoads
@@ -70,24 +69,16 @@ class Tyre:
     """Longitudinal and lateral, N s/m."""
     nominal_load: Positive
     """N."""
+    reference_friction: Positive
+    """Coefficient of friction of the road on which the curves hold."""
     bottoming_stiffness: NotNegative = 0.0
     """Of the rim, N/m."""
-    reference_friction: float | None = None
-    """Coefficient of friction of the road at which the curves hold. By default the largest longitudinal force over the
-    load at the nominal load, so that the friction of a road is the coefficient this tyre reaches there."""
     max_load_factor: Positive = 3.5
     """The curves are clamped at this multiple of the nominal load."""
     rolling_resistance: NotNegative = 0.0
     """Coefficient of rolling resistance."""
     friction_factor: NotNegative = 1.0
     """Multiplies the friction of the road."""
-
-    @property
-    def curve_friction(self) -> float:
-        """Friction of the road at which the curves hold."""
-        if self.reference_friction is not None:
-            return self.reference_friction
-        return self.longitudinal.max_force[0] / self.nominal_load
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
         """The force element.
@@ -150,7 +141,7 @@ class Tyre:
     def _reals(self, what: str) -> Reals:
         """In the order of `mbs/kernel/src/elements/tyre.c`."""
         first = ("radius", "bottoming_radius", "stiffness", "damping", "bottoming_stiffness", "nominal_load")
-        reals = reals_of(self, what, first)
+        reals = reals_of(self, what, (*first, "reference_friction", "max_load_factor"))
         for direction in ("longitudinal", "lateral"):
             instance_of(TyreCurve, getattr(self, direction), f"The {direction} of {what}", "a TyreCurve")
         curves = {
@@ -158,8 +149,7 @@ class Tyre:
             for direction in ("longitudinal", "lateral")
             for name, real in reals_of(getattr(self, direction), f"the {direction} curve of {what}").items()
         }
-        reals["reference_friction"] = (positive(self.curve_friction, f"The reference friction of {what}"), positive)
-        reals |= reals_of(self, what, ("max_load_factor",)) | curves
+        reals |= curves
         return reals | {name: real for name, real in reals_of(self, what).items() if name not in reals}
 
     def _check_curves(self, what: str) -> None:

@@ -49,7 +49,7 @@ from mbs.vehicle.outputs import (
     work_outputs,
 )
 from mbs.vehicle.road import level_within, tell_steep_face
-from mbs.vehicle.schema_version import check_version
+from mbs.vehicle.schema_version import of_this_version
 from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
@@ -158,7 +158,8 @@ class Car(CarContent):
         axles = {"front": self.front, "rear": self.rear}
         self.aerodynamics.build(b, self.vehicle.reference_point, axles)
         b.parameters(self.order)
-        self.road.parameters(m, road, b.road, self.front.tyre.nominal_load)
+        frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in axles.items())
+        self.road.parameters(m, road, b.road, ", ".join(frictions))
         self._outputs(b, steered, spins, fidelity)
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
@@ -294,7 +295,7 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
     CarFileError
         It does not describe a car.
     """
-    check_version(data, what)
+    data, converted = of_this_version(data, what)
     try:
         car = Car.model_validate(data)
     except ValidationError as error:
@@ -323,7 +324,7 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
         raise CarFileError(_told(what, faults))
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
-        for sentence in (*misfit, *car_oddities(car, rest)):
+        for sentence in (*converted, *misfit, *car_oddities(car, rest)):
             warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=3)
     return car
 

@@ -44,7 +44,7 @@ class Vehicle(Section):
 class CarContent(Section):
     """The tables of a car file, typed."""
 
-    schema_version: Annotated[Literal[1], Field(alias="schema")]
+    schema_version: Annotated[Literal[2], Field(alias="schema")]
     """Version of the form of this file."""
     name: CarName
     """Name of the car, for files: lower-case letters, digits and underscores."""

@@ -26,7 +26,7 @@ class RoadSection(Section):
     """Road under the car."""
 
     friction: RoadFriction
-    """Largest longitudinal tyre force over load at the tyre's nominal load."""
+    """Friction of the road: the forces of each tyre are those of its curves times it over `reference_friction`."""
     friction_factor: Factor = 1.0
     """Multiplies it, and the frictions of a road from a file."""
 
@@ -34,7 +34,7 @@ class RoadSection(Section):
         """Level ground with a kerb."""
         return KerbRoad(FAR_AWAY, KERB_HEIGHT, -KERB_HEIGHT, "before", self.friction, self.friction_factor)
 
-    def parameters(self, m: Model, road: Road | RoadFile | None, ground: int, nominal_load: float) -> None:
+    def parameters(self, m: Model, road: Road | RoadFile | None, ground: int, hold_at: str) -> None:
         """What a user may set of the road.
 
         Parameters
@@ -43,8 +43,8 @@ class RoadSection(Section):
             The car.
         road : Road, RoadFile or None
             Under it; None: `default`.
-        nominal_load : float
-            Of the tyres, N, for the description.
+        hold_at : str
+            The frictions at which the curves of the tyres hold, for the description.
         """
         own = self.default() if road is None else road.road if isinstance(road, RoadFile) else road
         target = ("road", ground)
@@ -53,7 +53,7 @@ class RoadSection(Section):
                 "road.friction",
                 own.friction,
                 *_range(self, "friction"),
-                f"friction coefficient: largest longitudinal tyre force over load at {nominal_load:g} N; {BUILT_IN}",
+                f"friction of the road; the curves of the tyres hold at {hold_at}; {BUILT_IN}",
                 targets=[(target, "friction", 1.0)],
             )
         if road is None:

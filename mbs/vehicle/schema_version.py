@@ -1,4 +1,4 @@
-"""Version of the form of a car file, written as ``schema = 1`` in its first lines."""
+"""Version of the form of a car file, written as ``schema = 2`` in its first lines."""
 
 from __future__ import annotations
 
@@ -7,24 +7,31 @@ from typing import Any
 
 from mbs.common.checks import shown
 from mbs.vehicle.errors import CarFileError
+from mbs.vehicle.older_files import from_first
 
-SCHEMA = 1
-"""Version that this release reads and writes. Where it rises, the changes stand in docs/your_own_car.md; a conversion
-of older content, if one is worth it, belongs before the check below."""
+SCHEMA = 2
+"""Version that this release writes; it reads schema 1 too."""
 
 
-def check_version(data: Mapping[str, Any], what: str) -> None:
-    """Refuse content of another version before its keys are looked at.
+def of_this_version(data: Mapping[str, Any], what: str) -> tuple[Mapping[str, Any], list[str]]:
+    """Content in the form of this release, before its keys are looked at.
 
     Parameters
     ----------
     data : mapping
         Content of the file.
 
+    Returns
+    -------
+    mapping
+        The content, converted if it was older.
+    list of str
+        A sentence that says what was written in, or none.
+
     Raises
     ------
     CarFileError
-        It is of another version, or says none.
+        It is of a version that is not read, or says none.
     """
     if "schema" not in data:
         raise CarFileError(f"{what}: schema is missing; a car file says schema = {SCHEMA} above its first table.")
@@ -32,13 +39,17 @@ def check_version(data: Mapping[str, Any], what: str) -> None:
     if not isinstance(version, int) or isinstance(version, bool):
         value = "a table or list" if isinstance(version, (Mapping, list, tuple)) else shown(version)
         raise CarFileError(f"{what}: schema is {value}; it must be the whole number {SCHEMA}.")
-    if version < SCHEMA:
-        raise CarFileError(
-            f"{what}: schema is {version}, an older form; this release reads {SCHEMA}. Change what "
-            f"docs/your_own_car.md lists under 'Older files', then write schema = {SCHEMA}."
-        )
+    if version < 1:
+        raise CarFileError(f"{what}: schema is {version}; this release reads {SCHEMA} and 1, the first form.")
     if version > SCHEMA:
         value = str(version) if version < 10**9 else "a larger number"
         raise CarFileError(
             f"{what}: schema is {value}, a newer form; this release reads {SCHEMA}. Update ALi3 to read this file."
         )
+    if version == SCHEMA:
+        return data, []
+    data, written = from_first(data)
+    return data, [
+        f"schema is 1, an older form, read as schema = {SCHEMA} with {', '.join(written) or 'nothing else'}; write "
+        "that in, and the file reads without this sentence."
+    ]

@@ -52,7 +52,7 @@ def summary(car: Car) -> str:
 
 
 def grip_row(car: Car, axle: str) -> tuple[str, str]:
-    """Friction coefficients that the tyres of an axle reach on the car's road, and the factor on the file's forces.
+    """Coefficients that the tyres of an axle reach on the car's road, and the factor on the forces of the file.
 
     Parameters
     ----------
@@ -60,16 +60,15 @@ def grip_row(car: Car, axle: str) -> tuple[str, str]:
         Which.
     """
     tyre = (car.front if axle == "front" else car.rear).tyre
-    friction = car.road.friction * car.road.friction_factor * tyre.grip
-    scale = friction / tyre.friction
+    scale = car.road.friction * car.road.friction_factor * tyre.grip / tyre.reference_friction
     longitudinal, lateral = (
         scale * curve.max_force[0] / tyre.nominal_load for curve in (tyre.longitudinal, tyre.lateral)
     )
     return (
         f"{axle} grip",
         f"{longitudinal:.4g} longitudinal, {lateral:.4g} lateral: largest force over a load of {tyre.nominal_load:g} "
-        f"N; forces and slips of the file times {scale:.4g}, to make the longitudinal one "
-        f"{car.road.key('friction')} x {car.road.key('friction_factor')} x {tyre.key('grip')}",
+        f"N; forces and slips of the file times {scale:.4g}, which is {car.road.key('friction')} x "
+        f"{car.road.key('friction_factor')} x {tyre.key('grip')} / {tyre.key('reference_friction')}",
     )
 
 

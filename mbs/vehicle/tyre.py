@@ -13,6 +13,7 @@ from mbs.vehicle.quantities import (
     Force,
     Length,
     Ratio,
+    ReferenceFriction,
     RollingResistance,
     Slip,
     SlopeForce,
@@ -29,7 +30,7 @@ class Curve(Section):
     slope: tuple[SlopeForce, SlopeForce]
     """Initial slope, force per slip."""
     max_force: tuple[Force, Force]
-    """Largest force; on the road it is scaled to the friction of that."""
+    """Largest force on a road of the reference friction; on another it goes with the friction."""
     max_slip: tuple[Slip, Slip]
     """Slip where it is reached."""
     slide_force: tuple[Force, Force]
@@ -61,10 +62,11 @@ class Curve(Section):
 class TMeasy(Section):
     """Tyre after W. Hirschberg, G. Rill, H. Weinfurter, Vehicle System Dynamics 45(S1), 2007, 101-119.
 
-    The road sets the grip: forces and slips of the curves are scaled so that the largest longitudinal force over the
-    load, at the nominal load, is the friction of the road times `grip`. A common factor on the forces of both
-    directions changes next to nothing; what the file sets is the lateral force over the longitudinal one, sliding over
-    maximum, and how both fall with the load. `ali3 car` and `ali3 build` print the grip of each axle.
+    The curves hold on a road of the friction `reference_friction`. On a road of another friction, largest and sliding
+    forces and the slips where they are reached are those of the file times r, the friction of the road times `grip`
+    over `reference_friction`; initial slopes stay. So the forces of the file set the grip. `ali3 car` and `ali3 build`
+    print the coefficients that each axle reaches on the car's road. With the largest longitudinal force over the
+    nominal load as reference friction, the friction of a road is the coefficient that the tyre reaches on it.
     """
 
     kind: Literal["tmeasy"]
@@ -95,6 +97,8 @@ class TMeasy(Section):
     """Longitudinal and lateral damping of the carcass."""
     nominal_load: Force
     """Load at which the first number of each pair holds."""
+    reference_friction: ReferenceFriction
+    """Friction of the road on which the curves hold."""
     max_load_factor: Ratio
     """Multiple of the nominal load at which the curves are clamped."""
     rolling_resistance: RollingResistance
@@ -117,8 +121,3 @@ class TMeasy(Section):
         for name in ("longitudinal", "lateral"):
             values[name] = TyreCurve(**dict(getattr(self, name)))
         return Tyre(**values, friction_factor=self.grip)
-
-    @property
-    def friction(self) -> float:
-        """Friction of the road at which the curves hold: on any other, forces and slips are scaled to that road's."""
-        return self.longitudinal.max_force[0] / self.nominal_load

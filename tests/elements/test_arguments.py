@@ -61,6 +61,7 @@ TYRE = Tyre(
     carcass_stiffness=(1e5, 1e5),
     carcass_damping=(100.0, 100.0),
     nominal_load=1500.0,
+    reference_friction=1.0,
 )
 
 USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {

@@ -67,7 +67,7 @@ def tyre(first: tuple[float, float], second: tuple[float, float]) -> harness.Res
 
 
 def test_a_wheel_grips_by_the_mean_of_the_frictions_weighted_with_their_loads() -> None:
-    mu, heights = TYRE.curve_friction, (0.005, 0.015)
+    mu, heights = TYRE.reference_friction, (0.005, 0.015)
     rough, icy = (heights[0], mu), (heights[1], 0.2 * mu)
     loads = [tyre((h, mu), (AWAY, mu)).out["vertical_force"] for h in heights]
     mean = (loads[0] * mu + loads[1] * 0.2 * mu) / sum(loads)

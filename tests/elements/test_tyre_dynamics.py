@@ -181,7 +181,8 @@ def test_friction_bound_holds_in_violent_transients() -> None:
                 assert r.out["longitudinal_force"] == r.out["lateral_force"] == 0.0
                 continue
             Fx, Fy = r.out["longitudinal_force"], r.out["lateral_force"]
-            alone = [tmeasy.direction(TYRE, name, load, TYRE.curve_friction) for name in ("longitudinal", "lateral")]
+            mu = TYRE.reference_friction
+            alone = [tmeasy.direction(TYRE, name, load, mu) for name in ("longitudinal", "lateral")]
             use = np.hypot(Fx, Fy) / tmeasy.largest(*alone, np.arctan2(Fy, Fx))
             worst, limited = max(worst, use), limited + (use > 0.9999)
     assert worst < 1.0 + 1e-9

@@ -53,7 +53,7 @@ SLIPS = (-1.5, -0.4, -0.16, -0.08, -0.02, -0.001, 0.0, 0.001, 0.05, 0.12, 0.2, 0
 @pytest.mark.parametrize("ratio", FRICTIONS)
 @pytest.mark.parametrize("load", [200.0, 1267.3, 1661.0, 3000.0, 5000.0])
 def test_steady_forces_and_moment_are_those_of_the_publication(load: float, ratio: float, speed: float) -> None:
-    friction = ratio * TYRE.curve_friction
+    friction = ratio * TYRE.reference_friction
     element = tyre_element(road=PlaneRoad(friction=friction))
     moving = speed / (speed + 1e-5)  # TMeasy's fictitious speed in the denominator of the slips
     scale = np.array([load, load, 0.05 * load])
@@ -72,7 +72,7 @@ def test_pure_longitudinal_force_has_no_offset_of_slip() -> None:
     for speed in (1.0, 2.0, 10.0, 40.0):
         assert abs(steady(1500.0, 0.0, 0.0, speed=speed).out["longitudinal_force"]) < 1e-6
         x = steady(1500.0, 0.01, 0.0, speed=speed).out["longitudinal_force"]
-        wanted = tmeasy.forces(TYRE, 1500.0, TYRE.curve_friction, -0.01 * speed / (speed + 1e-5), 0.0)[0]
+        wanted = tmeasy.forces(TYRE, 1500.0, TYRE.reference_friction, -0.01 * speed / (speed + 1e-5), 0.0)[0]
         assert x == pytest.approx(wanted, rel=1e-7)
 
 
@@ -84,7 +84,7 @@ def test_initial_slopes_at_the_static_loads_of_the_car(load: float, lateral: flo
 
 
 def test_friction_scales_forces_and_slips_but_not_the_initial_slope() -> None:
-    low = tyre_element(road=PlaneRoad(friction=0.5 * TYRE.curve_friction))
+    low = tyre_element(road=PlaneRoad(friction=0.5 * TYRE.reference_friction))
     tuned = tyre_element(replace(TYRE, friction_factor=0.5))
     for slip in (0.03, 0.1, 0.3):
         full = steady(1500.0, 0.0, 2.0 * slip).out["lateral_force"]
@@ -96,7 +96,8 @@ def test_friction_scales_forces_and_slips_but_not_the_initial_slope() -> None:
 
 def test_combined_slip_stays_below_the_largest_force_of_its_direction_and_opposes_the_slip() -> None:
     load, reached = 1500.0, 0.0
-    x_alone, y_alone = (tmeasy.direction(TYRE, name, load, TYRE.curve_friction) for name in ("longitudinal", "lateral"))
+    mu = TYRE.reference_friction
+    x_alone, y_alone = (tmeasy.direction(TYRE, name, load, mu) for name in ("longitudinal", "lateral"))
     for angle in np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False):
         for s in (0.02, 0.1, 0.15, 0.3, 1.0):
             r = steady(load, s * np.cos(angle), s * np.sin(angle)).out
@@ -123,15 +124,15 @@ def test_locked_wheel_slides_with_the_sliding_force_at_any_speed() -> None:
 def test_aligning_moment_turns_towards_the_direction_of_travel_and_fades_with_slip() -> None:
     contact_length = 2.0 * np.sqrt(R * 1500.0 / TYRE.stiffness)
 
-    def trail(slip: float, friction: float = TYRE.curve_friction) -> float:
+    def trail(slip: float, friction: float = TYRE.reference_friction) -> float:
         out = steady(1500.0, 0.0, slip, tyre_element(road=PlaneRoad(friction=friction))).out
         return -out["aligning_moment"] / out["lateral_force"] / contact_length
 
     assert trail(1e-4) == pytest.approx(0.178, rel=1e-3)
     small = steady(1500.0, 0.0, 0.01).out
     assert small["aligning_moment"] * small["slip_angle"] > 0.0
-    for friction in (0.5 * TYRE.curve_friction, TYRE.curve_friction):  # the slips of the trail grow with friction
-        r = friction / TYRE.curve_friction
+    for r in (0.5, 1.0):  # the slips of the trail grow with friction
+        friction = r * TYRE.reference_friction
         assert trail(0.16337 * r - 1e-4, friction) > 0.0 > trail(0.16337 * r + 1e-4, friction)
         assert trail(0.3 * r, friction) < -1e-3
         assert abs(trail(0.9653 * r, friction)) < 1e-9
@@ -182,14 +183,13 @@ def test_friction_of_the_road_is_the_coefficient_the_tyre_reaches(friction: floa
     """At the nominal load; more below it and less above it by the curves' dependence on load."""
     element = tyre_element(replace(TYRE, rolling_resistance=0.0), PlaneRoad(friction=friction))
     for load, share in ((1500.0, 1.0), (500.0, 1.0235), (3000.0, 0.9649)):
-        slips = np.linspace(0.5, 1.5, 41) * 0.13913 * friction / TYRE.curve_friction
+        slips = np.linspace(0.5, 1.5, 41) * 0.13913 * friction / TYRE.reference_friction
         reached = max(-steady(load, s, 0.0, element).out["longitudinal_force"] for s in slips) / load
         assert reached == pytest.approx(share * friction, rel=1e-4)
 
 
 def test_a_reference_friction_of_ones_own_scales_the_curves() -> None:
     tyre = replace(TYRE, reference_friction=0.8)
-    assert tyre.curve_friction == 0.8
     for slip in (0.05, 0.3):
         own = steady(1500.0, slip, 0.0, tyre_element(tyre, PlaneRoad(friction=0.8))).out["longitudinal_force"]
         assert own == pytest.approx(steady(1500.0, slip, 0.0).out["longitudinal_force"], rel=1e-12)
@@ -285,7 +285,7 @@ def test_slip_tangent_is_the_derivative_made_symmetric_and_safe(sx: float, sy: f
     """By the velocities of the wheel centre only the slip changes. The tangent is the symmetric part of the derivative,
     no eigenvalue of what it exceeds the safe share of the secant by being negative."""
     element = tyre_element(
-        replace(TYRE, rolling_resistance=0.0, trail=(0.0, 0.0)), PlaneRoad(friction=ratio * TYRE.curve_friction)
+        replace(TYRE, rolling_resistance=0.0, trail=(0.0, 0.0)), PlaneRoad(friction=ratio * TYRE.reference_friction)
     )
     load, h = 1500.0, 0.005
     omega = SPEED / ((2.0 * R + height(load)) / 3.0)

@@ -35,10 +35,15 @@ def linear(pair: tuple[float, float], q: float) -> float:
     return pair[0] + (pair[1] - pair[0]) * (q - 1.0)
 
 
+def scale(tyre: Tyre, friction: float) -> float:
+    """mu_L/mu_0."""
+    return friction * tyre.friction_factor / tyre.reference_friction
+
+
 def direction(tyre: Tyre, name: str, load: float, friction: float) -> Direction:
     """Parameters at a load; friction scales forces and slips by mu_L/mu_0 and leaves the initial slope alone."""
     c = getattr(tyre, name)
-    q, r = min(load / tyre.nominal_load, tyre.max_load_factor), friction * tyre.friction_factor / tyre.curve_friction
+    q, r = min(load / tyre.nominal_load, tyre.max_load_factor), scale(tyre, friction)
     return Direction(
         quadratic(c.slope, q),
         r * quadratic(c.max_force, q),
@@ -81,7 +86,7 @@ def forces(tyre: Tyre, load: float, friction: float, sx: float, sy: float) -> tu
 
 def offset(tyre: Tyre, load: float, friction: float, sy: float) -> float:
     """Dynamic tyre offset over the length of the contact, n/L."""
-    q, r = min(load / tyre.nominal_load, tyre.max_load_factor), friction * tyre.friction_factor / tyre.curve_friction
+    q, r = min(load / tyre.nominal_load, tyre.max_load_factor), scale(tyre, friction)
     n0, s0, sE = linear(tyre.trail, q), r * linear(tyre.trail_zero, q), r * linear(tyre.trail_end, q)
     s, w = abs(sy), s0 / sE
     if s <= s0:

@@ -23,6 +23,7 @@ TYRE = Tyre(
     carcass_stiffness=(150000.0, 80000.0),
     carcass_damping=(500.0, 500.0),
     nominal_load=1500.0,
+    reference_friction=1694.0 / 1500.0,
     rolling_resistance=0.015,
 )
 
@@ -31,7 +32,7 @@ def tyre_element(tyre: Tyre = TYRE, road: Road | None = None) -> Element:
     """The tyre on a road; without one on a level plane with the friction at which its curves hold."""
     centre, axis, spin = vectors(3, 3, 1)
     record = tyre.record("tyre", centre, axis, spin[0], 0)
-    return Element(record, PlaneRoad(friction=tyre.curve_friction) if road is None else road)
+    return Element(record, PlaneRoad(friction=tyre.reference_friction) if road is None else road)
 
 
 def upright(height: float, x: float = 0.0) -> np.ndarray:

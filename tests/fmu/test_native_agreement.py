@@ -162,7 +162,7 @@ def test_old_names_say_what_to_use_instead(cars: tuple[mbs.System, dict[str, Pat
             assert "use inclination" in known[f"wheel_{wheel}.camber"].description
             assert "ISO 8855" in known[f"wheel_{wheel}.inclination"].description
         assert float(known["road.friction"].start) == 1.2705
-        assert "largest longitudinal tyre force over load" in known["road.friction"].description
+        assert "the curves of the tyres hold at 1.129 (front), 1.129 (rear)" in known["road.friction"].description
     driven = host(cars[1]["native"]).start({"initial.speed": SPEED})
     driven.set("steering", 0.2)
     driven.run(100, STEP)

@@ -34,6 +34,7 @@ def quarter_car(road):
         carcass_stiffness=(200000.0, 150000.0),
         carcass_damping=(800.0, 700.0),
         nominal_load=3000.0,
+        reference_friction=1.0,
         friction_factor=0.0,
     )
     m = mbs.Model("quarter car", gravity=(0.0, 0.0, -G))

@@ -102,7 +102,7 @@ def test_the_friction_a_user_reads_is_that_of_the_tyre():
     parameter = next(p for p in car().meta["parameters"] if p["name"] == "road.friction")
     largest = TYRES["front"].longitudinal.max_force[0] / TYRES["front"].nominal_load
     assert parameter["value"] == pytest.approx(1.125 * largest)  # a dry road, a little better than that of the curves
-    assert "largest longitudinal tyre force over load at 1500 N" in parameter["description"]
+    assert "the curves of the tyres hold at 1.129 (front), 1.129 (rear)" in parameter["description"]
 
 
 def test_inclination_counts_from_the_road_and_camber_from_the_vehicle():

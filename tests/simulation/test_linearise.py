@@ -113,6 +113,7 @@ class TestTyre:
             carcass_stiffness=self.carcass_stiffness,
             carcass_damping=self.carcass_damping,
             nominal_load=3000.0,
+            reference_friction=2500.0 / 3000.0,
         )
         centre = (0.0, 0.0, 0.3 - self.mass * 9.81 / self.stiffness)
         m = Model("wheel", dimension=3, gravity=(0.0, 0.0, -9.81))

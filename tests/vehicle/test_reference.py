@@ -98,7 +98,7 @@ def test_two_validators_accept_the_cars_of_the_package(name):
         ("front.spring.stifness", 1.0),
         ("front.wheel.centre", [0.0, 0.67]),
         ("front.suspension.kind", "five_link"),
-        ("schema", 2),
+        ("schema", 3),
         ("front.tyre.grip", 0.001),
         ("chassis.accelerometers", {"a b": [0.0, 0.0, 0.2]}),
     ],
