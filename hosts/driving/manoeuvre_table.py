@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from hosts.common.numbers import Value, parse_value
 from hosts.driving.manoeuvre import Manoeuvre
 
 
-def read_table(path: Path) -> Manoeuvre:
+def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     """Read a CSV file of inputs over time in FMPy's format: ``"time"``, then names of inputs.
 
     Lines that begin with ``#`` may say more: ``# start: NAME=VALUE, ...`` gives start values, ``# state: FILE at TIME``
@@ -30,6 +30,8 @@ def read_table(path: Path) -> Manoeuvre:
     Parameters
     ----------
     path : Path
+    known : collection of str, optional
+        Inputs that there are; columns of other names are not read. By default all columns are inputs.
 
     Raises
     ------
@@ -74,12 +76,14 @@ def read_table(path: Path) -> Manoeuvre:
             )
         rows.insert(k, [t, *before, *rows[k][len(before) + 1 :]])
     values = np.array(rows)
-    columns = {name: values[:, k] for k, name in enumerate(inputs, start=1)}
+    columns = {name: values[:, k] for k, name in enumerate(inputs, start=1) if known is None or name in known}
     kept = frozenset(inputs if held is None and recorded else held or ())
     if not kept <= set(inputs):
         raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is said to be held and is no input of the table.")
     start = {name: value for name, value in start.items() if name not in columns}
-    return Manoeuvre(path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept, record.step)
+    return Manoeuvre(
+        path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept & set(columns), record.step
+    )
 
 
 @dataclass(frozen=True)

@@ -45,6 +45,11 @@ def described(path: Path) -> ModelDescription:
     HostError
         It is no FMU that can be read.
     """
+    return _read(path)[0]
+
+
+def _read(path: Path) -> tuple[ModelDescription, dict[str, Place]]:
+    """The description of an FMU with its scalars as variables, and their places; errors as of `described`."""
     if not path.is_file():
         if path.is_dir():
             raise HostError(f"{path} is a folder; an FMU is a file.")
@@ -52,11 +57,6 @@ def described(path: Path) -> ModelDescription:
         raise HostError(f"There is no file {path}.{hint}")
     if not zipfile.is_zipfile(path):
         raise HostError(f"{path} is not an FMU (not a zip archive).")
-    return _read(path)[0]
-
-
-def _read(path: Path) -> tuple[ModelDescription, dict[str, Place]]:
-    """The description of an FMU with its scalars as variables, and their places."""
     try:
         description = read_model_description(str(path))
         arrays = any(v.dimensions for v in description.modelVariables)
