@@ -25,7 +25,6 @@ from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.native.platforms import able_platforms
 from fmu_src.native.reference import ReferenceRun, reference_run
-from fmu_src.variables.arrays import array_names
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import check_fidelities, variable_table, with_uncomputed
 from mbs.common.checks import instance_of
@@ -209,8 +208,7 @@ class FmuBuilder:
         Path
             The file.
         """
-        names = array_names(self._contents.table) if kind == "fmi3" else {}
-        drawn = geometry_file(self._scene, names) if self._scene is not None else b""
+        drawn = geometry_file(self._scene) if self._scene is not None else b""
         contents = replace(self._contents, model_name=fmu_name(self._name, kind), geometry=drawn)
         if kind == "python":
             from fmu_src.python_slave.package import pack_python  # PythonFMU is needed for this kind only

@@ -21,6 +21,9 @@ from fmu_src.description.probe import Dependencies
 from fmu_src.variables.arrays import Array, references
 from fmu_src.variables.variables import Variable
 
+ELEMENTS = "org.ali3.elements"
+"""Type of the annotation of an array that holds the names its elements have in the other kinds, with blanks between."""
+
 
 def model_description_fmi3(
     head: Description, table: Sequence[Variable], arrays: Sequence[Array], reach: Dependencies
@@ -77,7 +80,7 @@ def model_description_fmi3(
     for place, (reference, array) in enumerate(zip(numbers, arrays, strict=True)):
         if place == time:
             _time(variables, time)
-        _variable(variables, reference, array, types)
+        _variable(variables, reference, array, [table[k].name for k in array.items], types)
     if time == len(arrays):
         _time(variables, time)
     for reference, text in enumerate(head.texts, start=len(arrays) + 1):
@@ -143,7 +146,13 @@ def _time(parent: ElementTree.Element, reference: int) -> None:
     )
 
 
-def _variable(parent: ElementTree.Element, reference: int, array: Array, types: dict[str, dict[str, str]]) -> None:
+def _variable(
+    parent: ElementTree.Element,
+    reference: int,
+    array: Array,
+    elements: Sequence[str],
+    types: dict[str, dict[str, str]],
+) -> None:
     v = array.of
     attributes = {"name": array.name, "valueReference": str(reference)}
     if array.description:
@@ -154,8 +163,10 @@ def _variable(parent: ElementTree.Element, reference: int, array: Array, types: 
         attributes["initial"] = "exact"
     attributes |= variable_attributes(v)
     element = ElementTree.SubElement(parent, "Int32" if v.whole else "Float64", attributes)
-    if len(array.items) > 1:
-        ElementTree.SubElement(element, "Dimension", start=str(len(array.items)))
+    if len(elements) > 1:
+        notes = ElementTree.SubElement(element, "Annotations")
+        ElementTree.SubElement(notes, "Annotation", type=ELEMENTS).text = " ".join(elements)
+        ElementTree.SubElement(element, "Dimension", start=str(len(elements)))
 
 
 def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Dependencies, texts: tuple[int, int]) -> None:

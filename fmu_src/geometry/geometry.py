@@ -15,8 +15,6 @@ from mbs.kernel.header import ElementType
 from viewer.scene_columns import columns_of
 from viewer.scene_parts import frames_of
 
-COLUMNS = ("position", "quaternion", "angle", "way", "value", "vector", "tyre", "amplitudes", "computed")
-"""Keys of frames, arrows and flexible parts that name variables."""
 FRAME_TUBE = "frame tube"
 """Name of shapes that a flexible part draws too."""
 
@@ -76,17 +74,6 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
     }
 
 
-def _renamed(part: Mapping[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
-    """A frame, arrow or flexible part with other names of its variables."""
-
-    def new(value: Any) -> Any:
-        if isinstance(value, dict):
-            return {key: new(item) for key, item in value.items()}
-        return names.get(value, value) if isinstance(value, str) else [new(item) for item in value]
-
-    return {key: new(value) if key in COLUMNS else value for key, value in part.items()}
-
-
 def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Tubes of a flexible part whose amplitudes are no outputs."""
     frame, nodes = part["frame"], part["nodes"]
@@ -116,18 +103,6 @@ def lost_frames(system: mbs.System) -> list[str]:
     return [frame for frame in bound.frames | bound.lost if frame in drawn and (frame in bound.lost or frame in stiff)]
 
 
-def geometry_file(scene: Mapping[str, Any], names: Mapping[str, str] | None = None) -> bytes:
-    """The scene as it lies in the FMU.
-
-    Parameters
-    ----------
-    scene : mapping
-        From `geometry`.
-    names : mapping of str to str, optional
-        Other names of variables: those of elements of arrays, which FMI 3.0 has.
-    """
-    if names:
-        moving = {key: [_renamed(part, names) for part in scene[key]] for key in ("flexible", "arrows")}
-        frames = {name: _renamed(frame, names) for name, frame in scene["frames"].items()}
-        scene = dict(scene) | moving | {"frames": frames}
+def geometry_file(scene: Mapping[str, Any]) -> bytes:
+    """The scene of `geometry` as it lies in the FMU."""
     return json.dumps(scene, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()

@@ -78,17 +78,6 @@ def scalars(table: Sequence[Variable]) -> tuple[Array, ...]:
     return tuple(Array(v.name, (i,), v, v.description) for i, v in enumerate(table))
 
 
-def array_names(table: Sequence[Variable]) -> dict[str, str]:
-    """Names of the variables that are elements of arrays, ``chassis.x`` -> ``chassis.position[1]``.
-
-    Parameters
-    ----------
-    table : sequence of Variable
-    """
-    groups = [group for group in arrays(table) if len(group.items) > 1]
-    return {table[i].name: f"{group.name}[{k}]" for group in groups for k, i in enumerate(group.items, start=1)}
-
-
 def references(groups: Sequence[Array]) -> tuple[list[int], int]:
     """Value references of the variables of FMI 3.0, in order, and that of time.
 

@@ -48,11 +48,11 @@ def states(subject: Subject) -> Finding:
     half = max(1, subject.steps // 2)
     instance = Instance(subject).start()
     instance.run(half)
-    data = instance.state()
+    data = instance.state_bytes()
     first = instance.run(half, half)
-    instance.restore(data)
+    instance.restore_bytes(data)
     other = Instance(subject)
-    other.restore(data)
+    other.restore_bytes(data)
     if instance.run(half, half) != first or other.run(half, half) != first:
         return Finding("states", "bad", "a restored state goes on differently")
     taken = 0
@@ -60,7 +60,7 @@ def states(subject: Subject) -> Finding:
         altered = bytearray(data)
         altered[len(data) * k // 16] ^= 0x10
         try:
-            other.restore(bytes(altered))
+            other.restore_bytes(bytes(altered))
             taken += 1
         except Exception:
             continue
@@ -87,7 +87,7 @@ def refusals(subject: Subject) -> Finding:
     expect("a step before initialisation", early, lambda: early.slave.doStep(0.0, subject.step))
     if subject.inputs:
         driven = Instance(subject).start()
-        expect("NaN for an input", driven, lambda: driven.set(subject.inputs[0], math.nan))
+        expect("NaN for an input", driven, lambda: driven.set_input(subject.inputs[0], math.nan))
     unknown = Instance(subject).start()
     getter = unknown.slave.getFloat64 if unknown.three else unknown.slave.getReal
     expect("an unknown value reference", unknown, lambda: getter([4_000_000_000]))

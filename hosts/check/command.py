@@ -1,6 +1,7 @@
 """Checks a co-simulation FMU (FMI 2.0 or 3.0) and prints a verdict: ``ali3 check FMU|CAR``.
 
-In place of that: its parameters (--show-parameters), or hours of driving by chance (--soak).
+In place of that: its parameters (--show-parameters), its results against a table (--reference), or hours of driving by
+chance (--soak).
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from ali3.extras import command_needs
 from ali3.isolated import Isolated, Lost
-from ali3.options import add_old_names, add_option, count
+from ali3.options import add_old_names, add_option, assignment, count
 from ali3.running import run_command
 from hosts.check.all_checks import check
 from hosts.common.errors import HostError
@@ -32,7 +33,9 @@ _WIDTH = 22
 _MOST_STEPS = 100_000
 _STEPS = 50
 _OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
-_OF_SOAK = ("drives", "seed", "stop_time", "fidelity", "step", "world", "jobs", "out", "json")
+_OF_SOAK = ("drives", "seed", "stop_time", "world", "jobs", "out", "json")
+_OF_REFERENCE = ("manoeuvre", "bound")
+_OF_BOTH = ("fidelity", "step")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.check.command") -> int:
@@ -61,6 +64,22 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         metavar="SSV",
         help="print only where this set has other values than the FMU or what is set",
     )
+    reference = parser.add_argument_group(
+        "against a reference, in place of the check",
+        "Columns of the table that are inputs drive the FMU, straight between the rows; those that are outputs are "
+        "compared. A result of 'ali3 run' is such a table.",
+    )
+    reference.add_argument("--reference", type=Path, metavar="CSV", help="compare results with this table")
+    add_option(reference, "--manoeuvre", "the columns of the table")
+    reference.add_argument(
+        "--bound",
+        action="append",
+        default=[],
+        type=assignment,
+        metavar="NAME=SHARE",
+        help="largest error of a signal over its range in the table; * and ? in NAME stand for any letters; default: "
+        "*=0.01; repeatable",
+    )
     soak = parser.add_argument_group(
         "drives by chance, in place of the check",
         "A drive is a seed: runs of 15 to 60 s from starts by chance, up to 40 m/s and 100 km away, with jumps, sudden "
@@ -70,8 +89,8 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     soak.add_argument("--drives", type=count, metavar="N", help="how many; default: 10 seeds of every fidelity")
     add_option(soak, "--seed", "1; further drives have the following ones")
     add_option(soak, "--stop-time", "1000")
-    add_option(soak, "--fidelity", "0 and 2", action="append")
-    add_option(soak, "--step", "0.002")
+    add_option(soak, "--fidelity", "0 and 2; with --reference that of the FMU", action="append")
+    add_option(soak, "--step", "0.002; with --reference that of the FMU, or what divides its times")
     add_option(soak, "--world", "roads with ramps, and those in the FMU", action="append")
     add_option(soak, "--jobs", "as the computer has cores")
     add_option(soak, "--out", "out/soak")
@@ -88,13 +107,15 @@ def _steps(text: str) -> int:
 
 
 def _work(options: argparse.Namespace, prog: str) -> int:
-    given = [f"--{name.replace('_', '-')}" for name in _OF_SOAK if getattr(options, name) not in (None, [])]
-    if given and not options.soak:
-        raise HostError(f"{given[0]} goes with --soak.")
-    table = [f"--{name.replace('_', '-')}" for name in _OF_PARAMETERS if getattr(options, name) not in (None, False)]
-    if options.soak and table:
-        raise HostError(f"{table[0]} does not go with --soak.")
-    if options.steps is not None and (options.soak or table):
+    reference = options.reference is not None
+    _goes_with(options, _OF_SOAK, options.soak, "--soak")
+    _goes_with(options, _OF_REFERENCE, reference, "--reference")
+    _goes_with(options, _OF_BOTH, options.soak or reference, "--soak or --reference")
+    table = _given(options, _OF_PARAMETERS)
+    others = [*table, *(["--reference"] if reference else []), *(["--soak"] if options.soak else [])]
+    if (options.soak or reference) and len(others) > 1:
+        raise HostError(f"{others[0]} does not go with {others[-1]}.")
+    if options.steps is not None and others:
         raise HostError("--steps is of the check alone.")
     if options.soak:
         command_needs("simulator")
@@ -106,7 +127,26 @@ def _work(options: argparse.Namespace, prog: str) -> int:
         from hosts.check.parameters import parameters
 
         return parameters(fmu, wishes(options), options.save_parameters, options.diff, options.show_parameters)
+    if reference:
+        from hosts.check.reference import check_reference
+
+        if len(options.fidelity) > 1:
+            raise HostError("--fidelity is given twice; a reference is of one.")
+        fidelity = options.fidelity[0] if options.fidelity else None
+        return check_reference(
+            fmu, options.reference, options.manoeuvre, options.step, fidelity, wishes(options), options.bound
+        )
     return _outside(fmu, _STEPS if options.steps is None else options.steps, wishes(options))
+
+
+def _given(options: argparse.Namespace, names: Sequence[str]) -> list[str]:
+    return [f"--{name.replace('_', '-')}" for name in names if getattr(options, name) not in (None, [], False)]
+
+
+def _goes_with(options: argparse.Namespace, names: Sequence[str], there: bool, what: str) -> None:
+    given = _given(options, names)
+    if given and not there:
+        raise HostError(f"{given[0]} goes with {what}.")
 
 
 def _settings(fmu: Path, given: Wishes) -> Settings:

@@ -6,16 +6,15 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
-from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.files import reason
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.fmu import instance
+from hosts.fmu.scalars import Place
 
 
 @dataclass(frozen=True)
@@ -84,62 +83,34 @@ class Subject:
 
 _REAL = ("Real", "Float64")
 _WHOLE = ("Integer", "Int32")
-# Calls of FMI 2.0 and 3.0 that set a variable of a type.
-_SETTERS = {
-    **dict.fromkeys(_REAL, ("setReal", "setFloat64")),
-    **dict.fromkeys(_WHOLE, ("setInteger", "setInt32")),
-    "Enumeration": ("setInteger", "setInt64"),
-    "Boolean": ("setBoolean", "setBoolean"),
-    "String": ("setString", "setString"),
-}
 
 
 def _count(variable: ScalarVariable) -> int:
-    return math.prod(int(dimension.start) for dimension in variable.dimensions)
+    return math.prod(variable.shape or ())
 
 
-class Instance:
-    """One instance of either version of FMI with the same calls."""
+class Instance(instance.Instance):
+    """One instance of the FMU under check, with the values of all its outputs."""
 
     def __init__(
         self, subject: Subject, token: str | None = None, name: str = "check", resources: str | None = None
     ) -> None:
         self.subject = subject
         self.messages: list[str] = []
-        self.three = subject.three
-        arguments: dict[str, Any] = {
-            "guid": token or subject.description.guid,
-            "unzipDirectory": str(subject.folder),
-            "modelIdentifier": subject.description.coSimulation.modelIdentifier,
-            "instanceName": name,
-        }
-        self.slave = FMU3Slave(**arguments) if self.three else FMU2Slave(**arguments)
-        if self.three:
-            self.slave.instantiate(logMessage=lambda *a: self.messages.append(a[-1].decode("utf-8", "replace")))
-        else:
-            self._callbacks = fmi2CallbackFunctions()
-            self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
-            self._callbacks.freeMemory = defaultCallbacks.freeMemory
-            self._callbacks.logger = fmi2CallbackLoggerTYPE(
-                lambda e, n, s, c, text: self.messages.append(text.decode("utf-8", "replace"))
-            )
-            if resources is not None:
-                take = self.slave.fmi2Instantiate
-                self.slave.fmi2Instantiate = lambda *a: take(*a[:3], resources.encode(), *a[4:])
-            self.slave.instantiate(callbacks=self._callbacks)
+        super().__init__(
+            subject.description,
+            subject.folder,
+            name,
+            lambda status, category, text: self.messages.append(text),
+            token,
+            resources,
+        )
 
     def start(self, start_time: float = 0.0, stop_time: float | None = None) -> Instance:
         """Set what is to be set and leave initialisation."""
-        for variable in self.subject.description.modelVariables:
-            if variable.name in self.subject.start:
-                call = _SETTERS[variable.type][self.three]
-                getattr(self.slave, call)([variable.valueReference], [self.subject.start[variable.name]])
-        if self.three:
-            self.slave.enterInitializationMode(startTime=start_time, stopTime=stop_time)
-        else:
-            self.slave.setupExperiment(startTime=start_time, stopTime=stop_time)
-            self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
+        variables = {v.name: v for v in self.subject.description.modelVariables}
+        start = {Place(variables[n].valueReference, variables[n].type): x for n, x in self.subject.start.items()}
+        self.initialise(start, start_time, stop_time)
         return self
 
     def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
@@ -155,22 +126,9 @@ class Instance:
                 values += getattr(self.slave, two)(references)
         return values
 
-    def set(self, variable: ScalarVariable, value: float) -> None:
-        """Set one real variable."""
-        (self.slave.setFloat64 if self.three else self.slave.setReal)([variable.valueReference], [value])
-
-    def state(self) -> bytes:
-        """The serialised state."""
-        if self.three:
-            return bytes(self.slave.serializeFMUState(self.slave.getFMUState()))
-        return bytes(self.slave.serializeFMUstate(self.slave.getFMUstate()))
-
-    def restore(self, data: bytes) -> None:
-        """Set a serialised state."""
-        if self.three:
-            self.slave.setFMUState(self.slave.deserializeFMUState(data))
-        else:
-            self.slave.setFMUstate(self.slave.deSerializeFMUstate(data))
+    def set_input(self, variable: ScalarVariable, value: float) -> None:
+        """Set one real input."""
+        self.set({Place(variable.valueReference, variable.type): value})
 
     def run(self, steps: int, begin: int = 0) -> list[list[float]]:
         """Outputs after each step."""

@@ -202,7 +202,7 @@ def refused_steps(subject: Subject) -> Finding:
     instance = Instance(subject).start()
     for k in range(_TRIES):
         for v in subject.inputs:
-            instance.set(v, float(v.max if v.max is not None else _STRONG))
+            instance.set_input(v, float(v.max if v.max is not None else _STRONG))
         time, step = k * _COARSE * subject.step, _COARSE * subject.step
         statuses = [_step_status(instance, time, step)]
         if statuses[0] != _DISCARD:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,19 +18,25 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value, parse_value
 from hosts.driving.manoeuvre import Manoeuvre
 
+# What a page says of a table whose oldest rows it has forgotten.
+_CUT = re.compile("the first .* s are not in this table")
 
-def read_table(path: Path) -> Manoeuvre:
+
+def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     """Read a CSV file of inputs over time in FMPy's format: ``"time"``, then names of inputs.
 
     Lines that begin with ``#`` may say more: ``# start: NAME=VALUE, ...`` gives start values, ``# state: FILE at TIME``
     names a saved state of the FMU, beside the table, to begin with. Behind a table that a page has recorded stands a
     line ``# outputs from: NAME``: that column and those after it are what came out, and are not read; its inputs were
     held. A line ``# held: NAME, NAME`` names inputs that keep the value of a row up to the next one; the others go
-    straight, and a time that stands twice is a jump. A table that a run has written is read with the record beside it.
+    straight, and a time that stands twice is a jump. ``# step: H`` is the communication step that it was recorded with. A
+    table that a run has written is read with the record beside it.
 
     Parameters
     ----------
     path : Path
+    known : collection of str, optional
+        Inputs that there are; columns of other names are not read. By default all columns are inputs.
 
     Raises
     ------
@@ -49,6 +56,7 @@ def read_table(path: Path) -> Manoeuvre:
         raise HostError(f"{path} holds no values; it needs a heading and at least one row.")
     record = _record_of(path)
     recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
+    step = record.step
     for number, comment in table.comments:
         key, _, rest = comment.lstrip("# ").partition(":")
         where = f"{path}, line {number}"
@@ -59,6 +67,12 @@ def read_table(path: Path) -> Manoeuvre:
             if not at:
                 raise HostError(f"{where}: {brief(rest.strip())} is not of the form FILE at TIME.")
             state = read_state(path.parent / name.strip(), where), number_of(instant, f"{where}, time of the state")
+        elif key.strip() == "step":
+            step = number_of(rest, f"{where}, communication step")
+            if not step > 0.0:
+                raise HostError(f"{where}: the communication step is {step:g} s; it must be positive.")
+        elif _CUT.fullmatch(key.strip()):
+            raise HostError(f"{where}: {key.strip()}, so that the run cannot be repeated; record a shorter one.")
         elif key.strip() == "outputs from":
             recorded = rest.strip()
         elif key.strip() == "held":
@@ -74,12 +88,14 @@ def read_table(path: Path) -> Manoeuvre:
             )
         rows.insert(k, [t, *before, *rows[k][len(before) + 1 :]])
     values = np.array(rows)
-    columns = {name: values[:, k] for k, name in enumerate(inputs, start=1)}
+    columns = {name: values[:, k] for k, name in enumerate(inputs, start=1) if known is None or name in known}
     kept = frozenset(inputs if held is None and recorded else held or ())
     if not kept <= set(inputs):
         raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is said to be held and is no input of the table.")
     start = {name: value for name, value in start.items() if name not in columns}
-    return Manoeuvre(path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept, record.step)
+    return Manoeuvre(
+        path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept & set(columns), step
+    )
 
 
 @dataclass(frozen=True)
@@ -180,6 +196,8 @@ def write_table(manoeuvre: Manoeuvre, file: Path) -> list[Path]:
     if manoeuvre.state is not None:
         files.append(write_state(manoeuvre.state, file))
         lines.append(f"# state: {files[-1].name} at {manoeuvre.state_time!r}")
+    if manoeuvre.step is not None:
+        lines.append(f"# step: {manoeuvre.step!r}")
     if manoeuvre.held:
         lines.append(f"# held: {', '.join(sorted(manoeuvre.held))}")
     lines.append(",".join(f'"{name}"' for name in ("time", *manoeuvre.inputs)))

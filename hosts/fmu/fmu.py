@@ -8,25 +8,13 @@ import sys
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from ctypes import c_double, c_int32, c_uint32
 from pathlib import Path
 from types import TracebackType
-from typing import TypeAlias
 
 import numpy as np
 from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import (
-    FMU2Slave,
-    defaultCallbacks,
-    fmi2CallbackFunctions,
-    fmi2CallbackLoggerTYPE,
-    fmi2ComponentEnvironment,
-    fmi2FMUstate,
-    fmi2Integer,
-    fmi2Real,
-    fmi2Status,
-    fmi2ValueReference,
-)
 from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
@@ -34,12 +22,11 @@ from ali3.files import reason
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.fmu.instance import Instance, State
+from hosts.fmu.scalars import Place, element_names, scalars
 from hosts.fmu.variables import Variables
 
-_NOT_COMPUTED = b"logNotComputed"
-
-State: TypeAlias = "fmi2FMUstate"
-"""A state that an FMU has saved, in its memory."""
+_NOT_COMPUTED = "logNotComputed"
 
 
 class StepRefusedError(Exception):
@@ -58,6 +45,11 @@ def described(path: Path) -> ModelDescription:
     HostError
         It is no FMU that can be read.
     """
+    return _read(path)[0]
+
+
+def _read(path: Path) -> tuple[ModelDescription, dict[str, Place]]:
+    """The description of an FMU with its scalars as variables, and their places; errors as of `described`."""
     if not path.is_file():
         if path.is_dir():
             raise HostError(f"{path} is a folder; an FMU is a file.")
@@ -66,15 +58,18 @@ def described(path: Path) -> ModelDescription:
     if not zipfile.is_zipfile(path):
         raise HostError(f"{path} is not an FMU (not a zip archive).")
     try:
-        return read_model_description(str(path))
+        description = read_model_description(str(path))
+        arrays = any(v.dimensions for v in description.modelVariables)
+        description.modelVariables, places = scalars(description, element_names(path) if arrays else {})
     except ModuleNotFoundError:
         raise
     except Exception as error:
         raise HostError(f"{path} is not an FMU that can be read: {error}") from None
+    return description, places
 
 
 class Fmu:
-    """One instance of a co-simulation FMU (FMI 2.0), ready to be initialised.
+    """One instance of a co-simulation FMU (FMI 2.0 or 3.0), ready to be initialised.
 
     Parameters
     ----------
@@ -84,7 +79,7 @@ class Fmu:
     Attributes
     ----------
     variables : dict of str to ScalarVariable
-        By name, in the order of the model description.
+        Scalars by name, in the order of the model description; types are those of FMI 2.0.
     table : Variables
         The same as a person sets them.
     messages : list of str
@@ -92,10 +87,12 @@ class Fmu:
     """
 
     def __init__(self, path: Path) -> None:
-        description = described(path)
-        if description.fmiVersion != "2.0" or description.coSimulation is None:
+        description, self._places = _read(path)
+        if description.coSimulation is None or description.fmiVersion[0] not in "23":
+            kind = "" if description.coSimulation is not None else " for model exchange"
             raise HostError(
-                f"{path} is an FMU of FMI {description.fmiVersion}; this host drives FMI 2.0 co-simulation."
+                f"{path} is an FMU of FMI {description.fmiVersion}{kind}; this host drives co-simulation of "
+                "FMI 2.0 and 3.0."
             )
         self.path = path
         self.description = description
@@ -103,20 +100,10 @@ class Fmu:
         self.table = Variables(description)
         self.messages: list[str] = []
         self._folder = Path(tempfile.mkdtemp(prefix="fmu_"))
-        self._callbacks = fmi2CallbackFunctions()
-        self._logger = fmi2CallbackLoggerTYPE(self._log)
-        self._callbacks.logger = self._logger
-        self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
-        self._callbacks.freeMemory = defaultCallbacks.freeMemory
         try:
             extract(str(path), unzipdir=str(self._folder))
-            self._slave = FMU2Slave(
-                guid=description.guid,
-                unzipDirectory=str(self._folder),
-                modelIdentifier=description.coSimulation.modelIdentifier,
-                instanceName=path.stem,
-            )
-            self._slave.instantiate(callbacks=self._callbacks)
+            self._instance = Instance(description, self._folder, path.stem, self._log)
+            self._slave = self._instance.slave
         except BaseException as error:
             shutil.rmtree(self._folder, ignore_errors=True)
             if not isinstance(error, Exception):
@@ -143,9 +130,9 @@ class Fmu:
         """Names of the real and whole parameters that may be set between steps."""
         return [n for n in self.names("parameter") if self.variables[n].variability == "tunable"]
 
-    def references(self, names: Iterable[str]) -> list[int]:
-        """Value references of variables."""
-        return [self.variables[n].valueReference for n in names]
+    def places(self, names: Iterable[str]) -> list[Place]:
+        """Where the values of scalars stand."""
+        return [self._places[n] for n in names]
 
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
         """Set start values and leave initialisation mode."""
@@ -154,27 +141,16 @@ class Fmu:
             if name not in settable:
                 near = ", ".join(sorted(settable)) or "none"
                 raise HostError(f"The FMU has no parameter or input '{name}'; it has: {near}.")
+        values = {self._places[name]: self._fitting(name, value) for name, value in start.items()}
         try:
-            self._slave.setupExperiment(startTime=start_time)
-            self._set(start)
-            self._slave.enterInitializationMode()
-            self._slave.exitInitializationMode()
+            self._instance.initialise(values, start_time)
         except FMICallException as error:
             raise HostError(f"The FMU could not be initialised: {self._last_message() or error}") from None
 
-    def _set(self, values: Mapping[str, Value]) -> None:
-        for kinds, call, kind in (
-            (("Real",), self._slave.setReal, float),
-            (("Integer", "Enumeration"), self._slave.setInteger, int),
-            (("Boolean",), self._slave.setBoolean, bool),
-            (("String",), self._slave.setString, str),
-        ):
-            found = {n: x for n, x in values.items() if self.variables[n].type in kinds}
-            for name, value in found.items():
-                if kind is int and not isinstance(value, str):
-                    self._whole(name, value)
-            if found:
-                call(self.references(found), [kind(x) for x in found.values()])
+    def _fitting(self, name: str, value: Value) -> Value:
+        if isinstance(value, str) or self.variables[name].type not in ("Integer", "Enumeration"):
+            return value
+        return self._whole(name, value)
 
     @staticmethod
     def _whole(name: str, value: float) -> int:
@@ -184,26 +160,19 @@ class Fmu:
 
     def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
         """A function that sets variables; the references of real and whole ones are prepared once."""
-        slave, kinds = self._slave, [self.variables[n].type for n in names]
-        real, whole = ([k for k, kind in enumerate(kinds) if kind == wanted] for wanted in ("Real", "Integer"))
-        others = [k for k, kind in enumerate(kinds) if kind not in ("Real", "Integer")]
-        reals, buffer = (
-            (fmi2ValueReference * len(real))(*self.references(names[k] for k in real)),
-            (fmi2Real * len(real))(),
-        )
-        wholes = (fmi2ValueReference * len(whole))(*self.references(names[k] for k in whole))
-        counts = (fmi2Integer * len(whole))()
+        kinds = [self.variables[n].type for n in names]
+        numbers = [k for k, kind in enumerate(kinds) if kind in ("Real", "Integer")]
+        whole = [k for k in numbers if kinds[k] == "Integer"]
+        others = [k for k in range(len(kinds)) if k not in numbers]
+        set_numbers = self._instance.setter(self.places(names[k] for k in numbers))
 
         def set_values(values: Sequence[float]) -> None:
+            for k in whole:
+                self._whole(names[k], values[k])
             try:
-                if real:
-                    buffer[:] = values if len(real) == len(kinds) else [values[k] for k in real]
-                    slave.fmi2SetReal(slave.component, reals, len(real), buffer)
-                if whole:
-                    counts[:] = [self._whole(names[k], values[k]) for k in whole]
-                    slave.fmi2SetInteger(slave.component, wholes, len(whole), counts)
+                set_numbers([values[k] for k in numbers] if others else values)
                 if others:
-                    self._set({names[k]: values[k] for k in others})
+                    self._instance.set({self._places[names[k]]: self._fitting(names[k], values[k]) for k in others})
             except FMICallException as error:
                 raise HostError(f"An input was refused: {self._last_message() or error}") from None
 
@@ -217,11 +186,11 @@ class Fmu:
     def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
         """A function that sets first derivatives by the time of real inputs, for the next step only."""
         slave, count = self._slave, len(names)
-        references, orders = (fmi2ValueReference * count)(*self.references(names)), (fmi2Integer * count)(*count * [1])
-        buffer = (fmi2Real * count)()
+        references = (c_uint32 * count)(*(place.reference for place in self.places(names)))
+        orders, buffer = (c_int32 * count)(*count * [1]), (c_double * count)()
 
         def set_slopes(slopes: Sequence[float]) -> None:
-            buffer[:] = slopes
+            buffer[:] = list(slopes)
             try:
                 slave.fmi2SetRealInputDerivatives(slave.component, references, count, orders, buffer)
             except FMICallException as error:
@@ -242,30 +211,16 @@ class Fmu:
 
     def reader(self, names: Sequence[str]) -> Callable[[NDArray[np.float64]], None]:
         """A function that writes the values of real and whole variables into an array; references are prepared once."""
-        slave, kinds = self._slave, [self.variables[n].type for n in names]
-        real, whole = ([k for k, kind in enumerate(kinds) if (kind == "Integer") == w] for w in (False, True))
-        reals = (fmi2ValueReference * len(real))(*self.references(names[k] for k in real))
-        wholes = (fmi2ValueReference * len(whole))(*self.references(names[k] for k in whole))
-        buffer, counts = (fmi2Real * len(real))(), (fmi2Integer * len(whole))()
-        values = np.ctypeslib.as_array(buffer)
-        places = np.array(real) if whole else slice(None)
-
-        def read_values(into: NDArray[np.float64]) -> None:
-            if real:
-                slave.fmi2GetReal(slave.component, reals, len(reals), buffer)
-                into[places] = values
-            if whole:
-                slave.fmi2GetInteger(slave.component, wholes, len(wholes), counts)
-                into[whole] = counts
-
-        return read_values
+        return self._instance.reader(self.places(names))
 
     def step(self, time: float, step: float) -> None:
         """One communication step; `StepRefusedError` if the FMU refuses it."""
         try:
-            self._slave.doStep(time, step)
+            ends = self._instance.step(time, step)
         except FMICallException as error:
             raise StepRefusedError(self._last_message() or str(error)) from None
+        if ends:
+            raise StepRefusedError("The FMU asks to end.")
 
     def reset(self) -> None:
         """Back to before `initialise`, which then gives a new start."""
@@ -278,44 +233,36 @@ class Fmu:
         """The state now, to be given back by `free`; `HostError` if the FMU cannot save it."""
         self._check_states(self._can("canGetAndSetFMUstate"), "save its state")
         try:
-            return self._slave.getFMUstate()
+            return self._instance.state()
         except FMICallException as error:
             raise HostError(f"The FMU could not save its state: {self._last_message() or error}") from None
 
     def restore(self, state: State) -> None:
         """Go on from a state of `state`, which stays valid."""
         try:
-            self._slave.setFMUstate(state)
+            self._instance.restore(state)
         except FMICallException as error:
             raise HostError(f"The FMU could not restore a state: {self._last_message() or error}") from None
 
     def free(self, state: State) -> None:
         """Free the memory of a state."""
-        self._slave.freeFMUstate(state)
+        self._instance.free_state(state)
 
     def state_bytes(self) -> bytes:
         """The state now as bytes, for a file or another process; `HostError` if the FMU cannot give it."""
         self._check_states(self._can("canSerializeFMUstate"), "write its state")
-        state = self.state()
         try:
-            content: bytes = self._slave.serializeFMUstate(state)
+            return self._instance.state_bytes()
         except FMICallException as error:
             raise HostError(f"The FMU could not write its state: {self._last_message() or error}") from None
-        finally:
-            self.free(state)
-        return content
 
     def restore_bytes(self, content: bytes) -> None:
         """Go on from a state of `state_bytes`; `HostError` if it is of another build or damaged."""
         self._check_states(self._can("canSerializeFMUstate"), "read a state")
         try:
-            state = self._slave.deSerializeFMUstate(content)
+            self._instance.restore_bytes(content)
         except FMICallException as error:
             raise HostError(f"The FMU refused a saved state: {self._last_message() or error}") from None
-        try:
-            self.restore(state)
-        finally:
-            self.free(state)
 
     def _can(self, flag: str) -> bool:
         return bool(getattr(self.description.coSimulation, flag, False))
@@ -336,13 +283,6 @@ class Fmu:
     def _last_message(self) -> str:
         return self.messages[-1] if self.messages else ""
 
-    def _log(
-        self,
-        environment: fmi2ComponentEnvironment,
-        name: bytes,
-        status: fmi2Status,
-        category: bytes,
-        message: bytes,
-    ) -> None:
+    def _log(self, status: int, category: str, message: str) -> None:
         if status > 0 and message and category != _NOT_COMPUTED:
-            self.messages.append(message.decode("utf-8", "replace"))
+            self.messages.append(message)

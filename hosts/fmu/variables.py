@@ -15,10 +15,8 @@ from ali3.parameter_set import Entry, ParameterSet, UnitDefinition, range_words,
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.fmu.scalars import KINDS
 
-_KINDS = {"Float64": "Real", "Float32": "Real"} | {
-    f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)
-}
 _WORDS = {"true": True, "1": True, "false": False, "0": False}
 _ROLES = {
     "output": "an output",
@@ -298,7 +296,7 @@ def _variable(v: ScalarVariable, units: dict[str | None, Any]) -> Variable:
         value = getattr(v, name)
         return getattr(declared, name) if value is None and declared is not None else value
 
-    kind = _KINDS.get(v.type, v.type)
+    kind = KINDS.get(v.type, v.type)
     unit = attribute("unit")
     known = units.get(unit)
     base = known.baseUnit if known is not None else None

@@ -123,7 +123,15 @@ def manoeuvre_of(drive: RecordedDrive, last: LastDrive, first: int, stop: int, s
     begin = 0.0 if state is None else float(last.time[first])
     name = drive.folder.resolve().name
     return Manoeuvre(
-        name, time[kept], columns, float(time[-1]), start, state=state, state_time=begin, held=frozenset(columns)
+        name,
+        time[kept],
+        columns,
+        float(time[-1]),
+        start,
+        state=state,
+        state_time=begin,
+        held=frozenset(columns),
+        step=drive.step,
     )
 
 

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
-from hosts.fmu.fmu import Fmu, State, StepRefusedError
+from hosts.fmu.fmu import Fmu, StepRefusedError
+from hosts.fmu.instance import State
 from hosts.recordings.format import REFUSED
 from hosts.recordings.recorded_drive import RecordedDrive, RowKey
 from hosts.recordings.tables import Rows

@@ -11,7 +11,6 @@ from typing import Any
 from fmpy.model_description import ModelDescription
 
 from ali3.files import check_writable, make_folder
-from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes
@@ -167,11 +166,11 @@ def _names(variables: Variables, aliases: Aliases, causality: str) -> tuple[str,
 
 
 def _check_kind(path: Path, description: ModelDescription) -> None:
-    if description.fmiVersion != "2.0" or description.coSimulation is None:
+    if description.coSimulation is None or description.fmiVersion[0] not in "23":
         kind = "" if description.coSimulation is not None else " for model exchange"
         raise HostError(
-            f"{path} is an FMU of FMI {description.fmiVersion}{kind}; the simulator drives FMI 2.0 co-simulation, the "
-            f"kind native of {command_name('build')}."
+            f"{path} is an FMU of FMI {description.fmiVersion}{kind}; the simulator drives co-simulation of FMI "
+            "2.0 and 3.0."
         )
 
 

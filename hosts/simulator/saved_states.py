@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.fmu.fmu import State
+from hosts.fmu.instance import State
 
 SECONDS, EVERY = 30.0, 0.5
 # New starts save a state each; more than these shorten what can be rewound in place of filling the memory.

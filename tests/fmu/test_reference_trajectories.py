@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import functools
+import importlib.util
+import subprocess
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -13,15 +15,22 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from benchmarks.car import accuracy, manoeuvres, statics, trajectories
+from benchmarks.car import accuracy, fidelity_runs, manoeuvres, statics, trajectories
 from fmu_src.build.build import build_fmu
+from hosts.common.numbers import Value
+from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.wild_driver import WildDriver, wild_start
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.scalars import element_names
+from hosts.measures.low_pass import low_pass
+from mbs import Pose, Simulation
+from mbs.vehicle.environment import GRAVITY
+from tests.fmu.native import compile_host, guid_of, unpack
 
 Columns: TypeAlias = Mapping[str, NDArray[np.float64]]
 
 H = 0.01  # s, communication and inner step
-NAMES = tuple(n for n in manoeuvres.NAMES if n not in manoeuvres.OTHER_ROAD)
 SIGNALS = {
     "place": trajectories.POSITION,
     "yaw": ("chassis.yaw",),
@@ -44,6 +53,7 @@ BOUNDS = {
     "double_lane_change_replay": (3e-6, 0.001),
     "full_lock": (2e-4, 0.015),
     "kerb_lock_brake": (8e-4, 0.33),
+    "brake_on_slope": (2e-5, 0.01),
 }
 # The same for held inputs against the kernel with inputs that are late by half a communication step, of the manoeuvres
 # whose inputs change.
@@ -55,7 +65,11 @@ LEFT = {
     "double_lane_change_replay": (4e-6, 0.001),
     "full_lock": (7e-4, 0.015),
     "kerb_lock_brake": (7e-4, 0.5),
+    "brake_on_slope": (2e-5, 0.02),
 }
+# Of those whose inputs do not change, which every host can give at the start.
+CONSTANT = ("drop", "kerb_drop")
+Road: TypeAlias = Callable[[str], Path]
 
 
 def errors(found: Columns, reference: Columns, length: float) -> dict[str, float]:
@@ -74,21 +88,21 @@ def errors(found: Columns, reference: Columns, length: float) -> dict[str, float
 
 
 @pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """The prototype car as an FMU of a kind, built once."""
+def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, str], Path]:
+    """The prototype car as an FMU of a kind, on its own road or that of the manoeuvre of this name, built once."""
 
-    def build(kind: str) -> Path:
-        system, folder = manoeuvres.system_of("drop"), tmp_path_factory.mktemp(kind)
+    def build(kind: str, road: str) -> Path:
+        system, folder = manoeuvres.system_of(road or "drop"), tmp_path_factory.mktemp(kind)
         return build_fmu(system, "prototype_car", folder, [fmpy.platform], kind=kind)
 
     return functools.cache(build)
 
 
 @pytest.fixture
-def car(request: pytest.FixtureRequest, built: Callable[[str], Path], need: Callable[[str], None]) -> Path:
-    """The FMU of the kind that a test names."""
+def car(request: pytest.FixtureRequest, built: Callable[[str, str], Path], need: Callable[[str], None]) -> Road:
+    """The FMU of the kind that a test names, for a manoeuvre."""
     need(request.param)
-    return built(request.param)
+    return lambda name: built(request.param, name if name in manoeuvres.OTHER_ROAD else "")
 
 
 def held(fmu: Path, name: str) -> Columns:
@@ -98,15 +112,17 @@ def held(fmu: Path, name: str) -> Columns:
         list(zip(manoeuvre.time, *manoeuvre.inputs.values(), strict=True)),
         [(n, np.double) for n in ("time", *manoeuvre.inputs)],
     )
+    places = {e: (array, k) for array, elements in element_names(fmu).items() for k, e in enumerate(elements)}
     rows = fmpy.simulate_fmu(
         str(fmu),
         stop_time=manoeuvre.stop_time,
         output_interval=H,
         start_values=accuracy.start_of_fmu(name) | {"step_size": H},
         input=signals,
-        output=list(trajectories.SENSORS),
+        output=list(dict.fromkeys(places.get(n, (n, 0))[0] for n in trajectories.SENSORS)),
     )
-    return sampled(rows, name)
+    columns = {n: rows[n] for n in trajectories.SENSORS if n not in places}
+    return sampled(columns | {e: rows[a][:, k] for e, (a, k) in places.items() if a in rows.dtype.names}, name)
 
 
 def sampled(rows: Columns, name: str) -> Columns:
@@ -135,22 +151,22 @@ def of_kinds(*kinds: str) -> pytest.MarkDecorator:
 
 
 @of_kinds("native", "python")
-def test_with_input_derivatives_an_fmu_is_as_accurate_as_the_kernel(car: Path) -> None:
+def test_with_input_derivatives_an_fmu_is_as_accurate_as_the_kernel(car: Road) -> None:
     wrong = []
-    for name in NAMES:
+    for name in manoeuvres.NAMES:
         _, reference, length = trajectories.read(name)
-        found = errors(accuracy.run_of_fmu(car, name, H, follow=True), reference, length)
+        found = errors(accuracy.run_of_fmu(car(name), name, H, follow=True), reference, length)
         wrong += beyond(name, found, BOUNDS[name])
     assert not wrong, "\n".join(wrong)
 
 
 @of_kinds("native")
-def test_with_input_derivatives_errors_fall_with_the_square_of_the_step(car: Path) -> None:
+def test_with_input_derivatives_errors_fall_with_the_square_of_the_step(car: Road) -> None:
     wrong = []
     for name in ("slalom", "steady_cornering", "double_lane_change_replay"):
         _, reference, length = trajectories.read(name)
         coarse, fine = (
-            errors(accuracy.run_of_fmu(car, name, h, follow=True), reference, length)["wheel load"]
+            errors(accuracy.run_of_fmu(car(name), name, h, follow=True), reference, length)["wheel load"]
             for h in (H, 0.25 * H)
         )
         order = float(np.log2(coarse / fine)) / 2.0
@@ -166,21 +182,21 @@ def lagging() -> dict[str, Columns]:
 
 
 @pytest.mark.filterwarnings("ignore:missing input")
-@of_kinds("native", "fmi3_scalar", "python")
-def test_held_inputs_are_late_by_half_a_communication_step(car: Path, lagging: dict[str, Columns]) -> None:
+@of_kinds("native", "fmi3", "fmi3_scalar", "python")
+def test_held_inputs_are_late_by_half_a_communication_step(car: Road, lagging: dict[str, Columns]) -> None:
     """Against the reference an FMU errs by that lag; against the kernel with that lag it errs much less."""
     wrong = []
     for name, expected in lagging.items():
         _, reference, length = trajectories.read(name)
-        found, lag = held(car, name), errors(expected, reference, length)
+        found, lag = held(car(name), name), errors(expected, reference, length)
         wrong += beyond(f"{name}, all", errors(found, reference, length), (1.3 * lag["place"], 1.3 * max(lag.values())))
         wrong += beyond(f"{name}, left", errors(found, expected, length), LEFT[name])
     assert not wrong, "\n".join(wrong)
 
 
 @of_kinds("native")
-def test_wheel_loads_at_rest_are_those_of_the_lever_rule(car: Path) -> None:
-    with Fmu(car) as fmu:
+def test_wheel_loads_at_rest_are_those_of_the_lever_rule(car: Road) -> None:
+    with Fmu(car("drop")) as fmu:
         fmu.initialise({"brake": 1.0})
         get = fmu.getter(trajectories.LOADS)
         begin = get()
@@ -193,10 +209,10 @@ def test_wheel_loads_at_rest_are_those_of_the_lever_rule(car: Path) -> None:
 
 
 @of_kinds("native")
-def test_a_steady_turn_is_a_circle_with_its_centripetal_acceleration(car: Path) -> None:
+def test_a_steady_turn_is_a_circle_with_its_centripetal_acceleration(car: Road) -> None:
     """The circle through the last places; speed, yaw rate and lateral acceleration are outputs of their own."""
     names = ("chassis.x", "chassis.y", "speed", "chassis.wz", "chassis.ay")
-    rows = accuracy.run_of_fmu(car, "steady_cornering", H, follow=False)
+    rows = accuracy.run_of_fmu(car("steady_cornering"), "steady_cornering", H, follow=False)
     x, y, speed, rate, lateral = (np.asarray(rows[n])[-60:] for n in names)
     unit = np.column_stack([x, y, np.ones_like(x)])
     (a, b, c), *_ = np.linalg.lstsq(unit, x**2 + y**2, rcond=None)
@@ -204,3 +220,122 @@ def test_a_steady_turn_is_a_circle_with_its_centripetal_acceleration(car: Path) 
     assert np.ptp(x) > 5.0
     assert speed / rate == pytest.approx(radius, rel=1e-2)
     assert lateral == pytest.approx(speed**2 / radius, rel=1e-2)
+
+
+@of_kinds("native")
+def test_in_the_air_behind_a_kerb_the_centre_of_mass_falls(car: Road) -> None:
+    """A parabola: the second difference of the energy of gravity is that of the weight, without the drag of the air."""
+    start: dict[str, Value] = {
+        "initial.speed": 20.0,
+        "road.kerb_x": 7.5,
+        "road.kerb_height": 0.5,
+        "aerodynamics.drag_area": 0.0,
+    }
+    with Fmu(car("drop")) as fmu:
+        rows = run(fmu, Manoeuvre("flight", np.zeros(0), {}, 1.0, start | {"step_size": 0.2 * H}), 0.2 * H)
+    air = np.flatnonzero(np.all([rows[n] == 0.0 for n in trajectories.LOADS], axis=0))
+    assert np.ptp(air) + 1 == len(air) > 50
+    fall = np.diff(rows["energy.gravity"][air], 2) / (0.2 * H) ** 2
+    assert fall == pytest.approx(np.full(len(fall), -2.0 * sum(statics.wheel_loads()) * GRAVITY), rel=1e-4)
+
+
+@pytest.mark.slow
+@of_kinds("native", "fmi3", "python")
+@pytest.mark.parametrize("seed", [1, 4, 5])
+def test_a_wild_drive_is_that_of_the_kernel_with_small_steps(car: Road, seed: int) -> None:
+    start = {n: x for n, x in wild_start(seed).items() if n not in ("initial.x", "initial.y")}
+    with Fmu(car("drop")) as fmu:
+        inputs = fmu.names("input")
+        wild = Manoeuvre("wild", np.zeros(0), {}, 4.0, start | {"step_size": 0.2 * H})
+        rows = run(fmu, wild, H, WildDriver(seed, inputs))
+    pose = Pose(**{n.removeprefix(manoeuvres.INITIAL): float(x) for n, x in start.items()})
+    kernel = Simulation(manoeuvres.system_of("drop"), pose=pose)
+    found = []
+    for row in rows.values[:, [rows.names.index(n) for n in inputs]].tolist():
+        sensors = kernel.sensors
+        found.append([sensors[n] for n in trajectories.SENSORS])
+        for name, value in zip(inputs, row, strict=True):
+            kernel.set_input(name, value)
+        kernel.step(0.05 * H, 20)
+    reference = dict(zip(trajectories.SENSORS, np.array(found).T, strict=True))
+    length = float(np.linalg.norm(np.diff([reference[n] for n in trajectories.POSITION], axis=1), axis=0).sum())
+    wrong = beyond(f"seed {seed}", errors({n: rows[n] for n in reference}, reference, length), (1e-3, 0.03))
+    assert not wrong, "\n".join(wrong)
+
+
+def test_moments_and_stresses_of_the_kerb_in_every_kind(kerb_fmus: Path) -> None:
+    """15 s with the frame in quasi-static equilibrium, against 106 modes; the same bits in all kinds."""
+    stresses = tuple(n.replace("bending_moment", "stress") for n in fidelity_runs.MOMENTS)
+    names = (*fidelity_runs.POSITION, *fidelity_runs.LOADS, *fidelity_runs.MOMENTS, *stresses)
+    rows = {}
+    for file in sorted(kerb_fmus.glob("*.fmu")):
+        manoeuvre = Manoeuvre("kerb", np.zeros(0), {}, 15.0, {"fidelity": 1, "step_size": H})
+        with Fmu(file) as fmu:
+            rows[file.stem] = run(fmu, manoeuvre, H)
+    found = {n: rows["native"][n] for n in names}
+    assert all(np.array_equal(found[n], other[n]) for other in rows.values() for n in names)
+    reference = fidelity_runs.read_reference("kerb_test")
+    for n, low in ((n, low_pass(found[n], H, fidelity_runs.FREQUENCY)) for n in fidelity_runs.MOMENTS):
+        found[fidelity_runs.FILTERED + n] = low
+    error = fidelity_runs.errors(found, reference)
+    assert error["moment"] < 0.05
+    assert error["wheel_load"] < 0.1
+    assert error["motion"] < 2e-3
+    outer, wall = 0.04, 0.002  # m, of the tubes with gauges
+    for moment, stress in zip(fidelity_runs.MOMENTS, stresses, strict=True):
+        across = outer / (np.pi / 64.0 * (outer**4 - (outer - 2.0 * wall) ** 4))  # between upper and lower fibre
+        assert found[stress] == pytest.approx(across * found[moment], rel=1e-9)
+
+
+@of_kinds("native")
+def test_a_host_in_c_and_libcosim_run_the_references_of_constant_inputs(car: Road, tmp_path: Path) -> None:
+    fmu, folder = car("drop"), unpack(car("drop"), tmp_path / "fmu")
+    library = next((folder / "binaries" / fmpy.platform).iterdir())
+    host = [str(compile_host(tmp_path)), str(library), (folder / "resources").as_uri(), guid_of(folder)]
+    references = {v.name: v.valueReference for v in fmpy.read_model_description(str(fmu)).modelVariables}
+    span = [references[n] for n in trajectories.SENSORS]
+    wrong = []
+    for name in CONSTANT:
+        _, reference, length = trajectories.read(name)
+        manoeuvre = manoeuvres.load(name)
+        start = {**accuracy.start_of_fmu(name), **manoeuvre.at(0.0), "step_size": H}
+        steps = round(manoeuvre.stop_time / H)
+        given = [part for n, x in start.items() for part in ("--set", f"{n}={x}")]
+        limits = [steps, H, min(span), max(span), *given]
+        done = subprocess.run([*host, *map(str, limits)], capture_output=True, text=True, check=True)
+        printed = np.array([[float.fromhex(x) for x in line.split()] for line in done.stdout.splitlines()])
+        ran = {n: printed[:, 1 + references[n] - min(span)] for n in trajectories.SENSORS}
+        through = {"C": ran, "libcosim": in_libcosim(fmu, start, steps)}
+        every = round(manoeuvres.sampling(name) / H)
+        for which, columns in through.items():
+            sampled_columns = {n: x[every - 1 :: every] for n, x in columns.items()}
+            behind = {n: x[1:] for n, x in reference.items()}
+            wrong += beyond(f"{which}, {name}", errors(sampled_columns, behind, length), BOUNDS[name])
+    assert not wrong, "\n".join(wrong)
+
+
+def in_libcosim(fmu: Path, start: Mapping[str, object], steps: int) -> Columns:
+    """Signals behind each step; nothing where libcosim is not installed."""
+    if importlib.util.find_spec("libcosimpy") is None:
+        return {}
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimObserver import CosimObserver
+    from libcosimpy.CosimSlave import CosimLocalSlave
+
+    variables = {v.name: v for v in fmpy.read_model_description(str(fmu)).modelVariables}
+    execution = CosimExecution.from_step_size(round(1e9 * H))
+    index = execution.add_local_slave(CosimLocalSlave(str(fmu), "car"))
+    for name, value in start.items():
+        variable = variables[name]
+        if variable.type == "Real":
+            execution.real_initial_value(index, variable.valueReference, float(str(value)))
+        else:
+            execution.integer_initial_value(index, variable.valueReference, int(float(str(value))))
+    observer = CosimObserver.create_last_value()
+    execution.add_observer(observer)
+    numbers = [variables[n].valueReference for n in trajectories.SENSORS]
+    found = []
+    for _ in range(steps):
+        assert execution.step(1)
+        found.append(list(observer.last_real_values(index, numbers)))
+    return dict(zip(trajectories.SENSORS, np.array(found).T, strict=True))

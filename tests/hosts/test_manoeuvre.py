@@ -12,6 +12,7 @@ from fmpy.util import read_csv
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_file import read_manoeuvre, write_manoeuvre
+from hosts.driving.manoeuvre_table import write_table
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
@@ -48,6 +49,19 @@ def test_held_inputs_keep_the_value_of_a_row_up_to_the_next(tmp_path: Path) -> N
     assert recorded.held == {"steering"}
     with pytest.raises(HostError, match="'brake' is said to be held and is no input of the table"):
         load_manoeuvre(written(tmp_path, "# held: brake\n" + GOOD))
+
+
+def test_a_table_names_its_step_and_one_without_its_beginning_is_refused(tmp_path: Path) -> None:
+    """As a page writes them; what is written is read again."""
+    head = "# outputs from: throttle\n# step: 0.02\n"
+    assert load_manoeuvre(written(tmp_path, head + GOOD)).step == 0.02
+    assert load_manoeuvre(written(tmp_path, GOOD)).step is None
+    files = write_table(load_manoeuvre(written(tmp_path, head + GOOD)), tmp_path / "again.csv")
+    assert load_manoeuvre(str(files[0])).step == 0.02
+    with pytest.raises(HostError, match="the communication step is 0 s; it must be positive"):
+        load_manoeuvre(written(tmp_path, "# step: 0\n" + GOOD))
+    with pytest.raises(HostError, match="the first 3.5 s are not in this table, so that the run cannot be repeated"):
+        load_manoeuvre(written(tmp_path, head + "# the first 3.5 s are not in this table\n" + GOOD))
 
 
 def test_a_step_is_not_missed_for_rounding(tmp_path: Path) -> None:

@@ -120,16 +120,16 @@ def columns(text: str) -> dict[str, np.ndarray[Any, Any]]:
     return dict(zip(rows[0], np.array(rows[1:], dtype=float).T, strict=True))
 
 
-def replayed(fmu: Path, table: str, folder: Path, *more: str) -> dict[str, np.ndarray[Any, Any]]:
+def replayed(fmu: Path, table: str, folder: Path) -> dict[str, np.ndarray[Any, Any]]:
     """What the native FMU gives for the inputs of a table that a page has written."""
     file = folder / "recorded.csv"
     file.write_text(table, encoding="utf-8")
-    assert run([str(fmu), "--input", str(file), "--out", str(folder / "replay"), *more]) == 0
+    assert run([str(fmu), "--input", str(file), "--out", str(folder / "replay")]) == 0
     return columns(next((folder / "replay").glob("*_recorded.csv")).read_text(encoding="utf-8"))
 
 
-def assert_same_bits(fmu: Path, table: str, folder: Path, *more: str) -> None:
-    seen, native = columns(table), replayed(fmu, table, folder, *more)
+def assert_same_bits(fmu: Path, table: str, folder: Path) -> None:
+    seen, native = columns(table), replayed(fmu, table, folder)
     with Fmu(fmu) as read:
         outputs = read.names("output")
     assert len(seen["time"]) == len(native["time"])
@@ -248,7 +248,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     opened.ask("player.advance(30)")
     table = opened.ask("player.csv()")
     assert columns(table)["spring.stiffness"].tolist() == [5.0] * 30 + [20.0] * 31
-    assert_same_bits(reach, table, tmp_path, "--step", "0.01")
+    assert_same_bits(reach, table, tmp_path)
     field = opened.page.locator('[data-a3="control spring.free_length"] [data-a3="number"]')
     field.fill("0.3")
     opened.page.keyboard.press("Tab")
@@ -256,7 +256,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     assert "began anew with spring.free_length = 0.3" in opened.text("banner")
     opened.ask("player.advance(20)")
     assert "spring.free_length=0.3" in opened.ask("player.csv()")
-    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path, "--step", "0.01")
+    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
 
     opened.ask("player.set('pull', 5)")
     opened.ask("player.advance(300)")
@@ -265,7 +265,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     assert "refused" in told
     assert "step_size" in told
     at = opened.ask("player.time")
-    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path, "--step", "0.01")
+    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
     opened.page.locator('[data-a3="go back"]').click()
     opened.until("player.time === 0")
     assert at > 0.2
@@ -336,13 +336,13 @@ def test_a_table_moves_inputs_until_a_hand_does_and_a_result_goes_along(
     beside = opened.ask("player.stage.lookup(player.stage.parts[1], null, player.time)('bob.x')")
     # A page holds the value of its table over each step, half a step late; the command follows the line.
     assert opened.get("bob.x")[0] == pytest.approx(beside, abs=5e-4)
-    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path, "--step", "0.01")
+    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
     assert columns(opened.ask("player.csv()"))["pull"][[0, 25, 50]].tolist() == [0.1, 0.2, 0.2]
     opened.ask("player.set('pull', 0.4)")
     opened.ask("player.advance(60)")
     assert opened.get("pull_used") == [0.4]
     assert "The recording ends at 1 s." in opened.page.locator('[data-a3="notice"]').nth(1).inner_text()
-    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path, "--step", "0.01")
+    assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
     opened.ask("player.reset()")
     assert opened.get("pull") == [0.1]
     assert not opened.page.locator('[data-a3="notice"]').nth(1).is_visible()
@@ -422,7 +422,7 @@ def test_the_puma_is_moved_by_its_torques(mechanisms: dict[str, Path], chromium:
     opened.page.keyboard.press("Tab")
     opened.ask("player.advance(100)")
     assert opened.get("angle_2")[0] > before + 0.01
-    assert_same_bits(fmu, opened.ask("player.csv()"), tmp_path, "--step", "0.002")
+    assert_same_bits(fmu, opened.ask("player.csv()"), tmp_path)
     assert opened.wrong == []
     opened.close()
 

@@ -229,6 +229,7 @@ def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Pat
     for source in (out, folder):
         made = load_manoeuvre(str(source))
         assert made.stop_time == pytest.approx(0.55)
+        assert made.step == STEP
         assert made.start == {"initial.speed": 6.0, "initial.x": 12.5, "initial.yaw": 0.1}
     from hosts.driving.co_simulation import run
 

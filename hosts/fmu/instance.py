@@ -1,0 +1,203 @@
+"""One instance of a co-simulation FMU behind the same calls for FMI 2.0 and 3.0."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi3 import FMU3Slave
+from fmpy.model_description import ModelDescription
+from numpy.typing import NDArray
+
+from hosts.common.numbers import Value
+from hosts.fmu.scalars import Place
+
+State: TypeAlias = ctypes.c_void_p
+"""A state that an FMU has saved, in its memory."""
+
+# By the version of FMI and the type of a variable: the end of the names of its functions, and the type in C.
+_NUMBERS: dict[int, dict[str, tuple[str, Any]]] = {
+    2: {
+        "Real": ("Real", ctypes.c_double),
+        **dict.fromkeys(("Integer", "Enumeration"), ("Integer", ctypes.c_int32)),
+    },
+    3: {
+        "Float64": ("Float64", ctypes.c_double),
+        "Float32": ("Float32", ctypes.c_float),
+        "Enumeration": ("Int64", ctypes.c_int64),
+        **{
+            f"{sign}Int{bits}": (f"{sign}Int{bits}", getattr(ctypes, f"c_{sign.lower()}int{bits}"))
+            for sign in ("", "U")
+            for bits in (8, 16, 32, 64)
+        },
+    },
+}
+
+
+class Instance:
+    """An instance of an FMU of FMI 2.0 or 3.0; what FMI refuses is an `FMICallException` of FMPy.
+
+    Parameters
+    ----------
+    description : ModelDescription
+    folder : Path
+        Where the FMU is unpacked.
+    name : str
+    told : callable
+        Takes status, category and text of each message.
+    token : str, optional
+        In place of that of the description.
+    resources : str, optional
+        Their location, of FMI 2.0, in place of the right one.
+
+    Attributes
+    ----------
+    three : bool
+        Whether it is FMI 3.0.
+    slave : FMU2Slave or FMU3Slave
+        Of FMPy.
+    """
+
+    def __init__(
+        self,
+        description: ModelDescription,
+        folder: Path,
+        name: str,
+        told: Callable[[int, str, str], None],
+        token: str | None = None,
+        resources: str | None = None,
+    ) -> None:
+        self.three = str(description.fmiVersion).startswith("3")
+        arguments: dict[str, Any] = {
+            "guid": token or description.guid,
+            "unzipDirectory": str(folder),
+            "modelIdentifier": description.coSimulation.modelIdentifier,
+            "instanceName": name,
+        }
+
+        def log(environment: object, *rest: Any) -> None:
+            *_, status, category, message = rest
+            told(int(status), (category or b"").decode("utf-8", "replace"), (message or b"").decode("utf-8", "replace"))
+
+        if self.three:
+            self.slave: Any = FMU3Slave(**arguments)
+            self.slave.instantiate(logMessage=log)
+            return
+        self.slave = FMU2Slave(**arguments)
+        self._callbacks = fmi2CallbackFunctions()
+        self._callbacks.logger = fmi2CallbackLoggerTYPE(log)
+        self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
+        self._callbacks.freeMemory = defaultCallbacks.freeMemory
+        if resources is not None:
+            take = self.slave.fmi2Instantiate
+            self.slave.fmi2Instantiate = lambda *a: take(*a[:3], resources.encode(), *a[4:])
+        self.slave.instantiate(callbacks=self._callbacks)
+
+    def initialise(self, start: Mapping[Place, Value], start_time: float = 0.0, stop_time: float | None = None) -> None:
+        """Set start values and leave initialisation mode."""
+        if not self.three:
+            self.slave.setupExperiment(startTime=start_time, stopTime=stop_time)
+        self.set(start)
+        if self.three:
+            self.slave.enterInitializationMode(startTime=start_time, stopTime=stop_time)
+        else:
+            self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+
+    def set(self, values: Mapping[Place, Value]) -> None:
+        """Set variables of any type."""
+        for kind in dict.fromkeys(place.type for place in values):
+            found = {place.reference: value for place, value in values.items() if place.type == kind}
+            suffix = _NUMBERS[2 + self.three].get(kind, (kind,))[0]
+            of = {"Boolean": bool, "String": str}.get(kind, float if suffix in ("Real", "Float64", "Float32") else int)
+            getattr(self.slave, f"set{suffix}")(list(found), [of(value) for value in found.values()])
+
+    def setter(self, places: Sequence[Place]) -> Callable[[Sequence[float]], None]:
+        """A function that sets numbers; references and buffers are prepared once."""
+        writes = []
+        for kind, mine in _by_type(places).items():
+            call, references, buffer = self._prepared("Set", kind, [places[k].reference for k in mine], len(mine))
+            writes.append((call, references, buffer, mine, float if kind in ("Real", "Float64", "Float32") else int))
+        slave, counts = self.slave, self._counts
+
+        def set_values(values: Sequence[float]) -> None:
+            for call, references, buffer, mine, of in writes:
+                buffer[:] = [of(values[k]) for k in mine]
+                call(slave.component, references, len(references), buffer, *counts(buffer))
+
+        return set_values
+
+    def reader(self, places: Sequence[Place]) -> Callable[[NDArray[np.float64]], None]:
+        """A function that writes numbers into an array; references and buffers are prepared once."""
+        reads = []
+        for kind, mine in _by_type(places).items():
+            sizes = {places[k].reference: places[k].size for k in mine}
+            begin = dict(zip(sizes, np.cumsum([0, *sizes.values()]).tolist(), strict=False))
+            call, references, buffer = self._prepared("Get", kind, list(sizes), sum(sizes.values()))
+            source = np.array([begin[places[k].reference] + places[k].item for k in mine])
+            reads.append((call, references, buffer, np.ctypeslib.as_array(buffer), np.array(mine), source))
+        slave, counts = self.slave, self._counts
+
+        def read_values(into: NDArray[np.float64]) -> None:
+            for call, references, buffer, values, mine, source in reads:
+                call(slave.component, references, len(references), buffer, *counts(buffer))
+                into[mine] = values[source]
+
+        return read_values
+
+    def _prepared(
+        self, verb: str, kind: str, references: Sequence[int], size: int
+    ) -> tuple[Callable[..., int], Any, Any]:
+        version = 2 + self.three
+        suffix, ctype = _NUMBERS[version][kind]
+        call = getattr(self.slave, f"fmi{version}{verb}{suffix}")
+        return call, (ctypes.c_uint32 * len(references))(*references), (ctype * size)()
+
+    def _counts(self, buffer: Sequence[float]) -> tuple[int, ...]:
+        """What FMI 3.0 wants besides: the number of values."""
+        return (len(buffer),) if self.three else ()
+
+    def step(self, time: float, length: float) -> bool:
+        """A communication step; whether the FMU then asks to end."""
+        answer = self.slave.doStep(time, length)
+        return bool(answer[1]) if self.three else False
+
+    def state(self) -> State:
+        """The state now, to be given back by `free_state`."""
+        saved: State = self.slave.getFMUState() if self.three else self.slave.getFMUstate()
+        return saved
+
+    def restore(self, state: State) -> None:
+        """Go on from a state, which stays valid."""
+        (self.slave.setFMUState if self.three else self.slave.setFMUstate)(state)
+
+    def free_state(self, state: State) -> None:
+        """Free the memory of a state."""
+        (self.slave.freeFMUState if self.three else self.slave.freeFMUstate)(state)
+
+    def state_bytes(self) -> bytes:
+        """The state now as bytes."""
+        state = self.state()
+        try:
+            return bytes((self.slave.serializeFMUState if self.three else self.slave.serializeFMUstate)(state))
+        finally:
+            self.free_state(state)
+
+    def restore_bytes(self, content: bytes) -> None:
+        """Go on from a state of `state_bytes`."""
+        state = (self.slave.deserializeFMUState if self.three else self.slave.deSerializeFMUstate)(content)
+        try:
+            self.restore(state)
+        finally:
+            self.free_state(state)
+
+
+def _by_type(places: Sequence[Place]) -> dict[str, list[int]]:
+    kinds: dict[str, list[int]] = {}
+    for k, place in enumerate(places):
+        kinds.setdefault(place.type, []).append(k)
+    return kinds

@@ -1,0 +1,90 @@
+"""Scalar variables of an FMU of FMI 2.0 or 3.0: elements of arrays by names of their own, types as in FMI 2.0."""
+
+from __future__ import annotations
+
+import copy
+import itertools
+import zipfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from fmpy.model_description import ModelDescription, ScalarVariable
+from lxml import etree
+
+ANNOTATION = "org.ali3.elements"
+"""Type of the annotation of an array that holds the names of its elements, with blanks between them."""
+
+KINDS = {"Float64": "Real", "Float32": "Real"} | {
+    f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)
+}
+"""Types of FMI 3.0 by those of FMI 2.0."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where the value of a scalar stands in an FMU.
+
+    Parameters
+    ----------
+    reference : int
+        Value reference.
+    type : str
+        Of FMI, such as ``Real`` or ``Float64``.
+    item, size : int
+        Place in the values of the variable, and how many values it has.
+    """
+
+    reference: int
+    type: str
+    item: int = 0
+    size: int = 1
+
+
+def element_names(path: Path) -> dict[str, list[str]]:
+    """Names of the elements of the arrays that say them, by the name of the array.
+
+    Parameters
+    ----------
+    path : Path
+        An FMU that can be read.
+    """
+    with zipfile.ZipFile(path) as archive:
+        root = etree.fromstring(archive.read("modelDescription.xml"))
+    found = root.iterfind(f"ModelVariables/*/Annotations/Annotation[@type='{ANNOTATION}']")
+    return {a.getparent().getparent().get("name"): (a.text or "").split() for a in found}
+
+
+def scalars(
+    description: ModelDescription, names: Mapping[str, Sequence[str]]
+) -> tuple[list[ScalarVariable], dict[str, Place]]:
+    """All variables of a description, with an output of several values in its elements, and the place of each scalar.
+
+    Parameters
+    ----------
+    description : ModelDescription
+    names : mapping of str to sequence of str
+        Of elements, see `element_names`; the others are called ``position[1]``, ``matrix[1,2]``.
+
+    Returns
+    -------
+    variables : list of ScalarVariable
+        An array that is no output stands as it is.
+    places : dict of str to Place
+    """
+    variables: list[ScalarVariable] = []
+    places: dict[str, Place] = {}
+    for v in description.modelVariables:
+        if v.dimensions and v.causality != "output":
+            variables.append(v)
+            continue
+        shape = v.shape or ()
+        counted = [v.name + f"[{','.join(map(str, k))}]" for k in itertools.product(*(range(1, n + 1) for n in shape))]
+        called = names.get(v.name, []) if shape else [v.name]
+        for item, name in enumerate(called if len(called) == (len(counted) or 1) else counted):
+            element = copy.copy(v)
+            element.name, element.type = name, KINDS.get(v.type, v.type)
+            element.dimensions, element.shape = [], ()
+            variables.append(element)
+            places[name] = Place(v.valueReference, v.type, item, len(counted) or 1)
+    return variables, places

@@ -1,0 +1,126 @@
+"""`ali3 check FMU --reference FILE`: what agrees, what does not, and tables that are no reference."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+
+import mbs
+from fmu_src.build.build import build_fmu
+from hosts.check.command import main
+from hosts.run.command import main as run_main
+from tests.hosts.scenes import tuned
+from tests.in_process import run
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_fmu(mbs.compile(tuned()), "tuned", tmp_path_factory.mktemp("fmu"), [fmpy.platform])
+
+
+@pytest.fixture
+def result(fmu: Path, tmp_path: Path) -> Path:
+    """A run with a jump and a tunable parameter that changes, and its record."""
+    table = tmp_path / "given.csv"
+    table.write_text('"time","pull","spring.damping"\n0,0,1\n0.4,30,1\n0.4,-20,5\n1,0,2\n')
+    assert run(run_main, fmu, "-m", table, "--step", 0.01, "--out", tmp_path).returncode == 0
+    return tmp_path / "tuned_given.csv"
+
+
+def changed(file: Path, change: Callable[[list[str], list[list[str]]], None]) -> Path:
+    """The table with its record, but changed."""
+    heading, *rows = csv.reader(file.read_text().splitlines())
+    change(heading, rows)
+    file.write_text("\n".join(",".join(row) for row in [heading, *rows]) + "\n")
+    return file
+
+
+def test_a_result_is_a_reference_of_its_own_fmu(fmu: Path, result: Path) -> None:
+    done = run(main, fmu, "--reference", result, "--bound", "*=1e-6")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "all within their bounds" in done.stdout
+    assert "BAD" not in done.stdout
+
+
+@pytest.mark.parametrize(("error", "bound", "code"), [(0.02, None, 1), (0.005, None, 0), (0.005, 0.001, 1)])
+def test_a_signal_beyond_its_bound_is_named(
+    error: float, bound: float | None, code: int, fmu: Path, result: Path
+) -> None:
+    def change(heading: list[str], rows: list[list[str]]) -> None:
+        k = heading.index("bob.y")
+        y = [float(row[k]) for row in rows]
+        rows[70][k] = repr(float(y[70] + error * np.ptp(y)))
+
+    table = changed(result, change)
+    bounds = ("--bound", "*=0.001", "--bound", f"bob.y={bound or 0.01}")
+    done = run(main, fmu, "--reference", table, *bounds)
+    assert done.returncode == code, done.stdout + done.stderr
+    line = next(line for line in done.stdout.splitlines() if "bob.y" in line)
+    assert line.startswith("BAD" if code else " ok")
+    assert "at" in done.stdout
+    assert ("1 beyond their bounds" in done.stdout) == bool(code)
+
+
+def test_without_a_bound_the_usual_one_is_told(fmu: Path, result: Path) -> None:
+    assert "the bound is 1 % of the range of each" in run(main, fmu, "--reference", result).stdout
+
+
+def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:
+    def change(heading: list[str], rows: list[list[str]]) -> None:
+        heading[heading.index("bob.y")] = "bob.height"
+
+    done = run(main, fmu, "--reference", changed(result, change), "--bound", "bob.x=1e-6")
+    assert done.returncode == 0
+    assert "not compared, for Tuned.fmu has no such output: bob.height" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("table", "options", "said"),
+    [
+        ('"time","pull"\n0,0\n1,1\n', (), "no column that is an output"),
+        ('"time","bob.x"\n0,0\n', (), "a reference goes on after 0 s"),
+        ('"time","bob.x"\n0,0\n0.013,0\n0.02,0\n', ("--step", 0.01), "a row at 0.013 s, which is no communication"),
+        ('"time","bob.x"\n0,0\n1,0\n', ("--bound", "bob.z=1"), "--bound bob.z:"),
+        ('"time","bob.x"\n0,0\n1,0\n', ("--show-parameters",), "--show-parameters does not go with --reference"),
+        ('"time","bob.x"\n0,0\n1,0\n', ("--soak",), "--reference does not go with --soak"),
+    ],
+)
+def test_what_is_no_reference_is_one_sentence(
+    table: str, options: tuple[object, ...], said: str, fmu: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "table.csv").write_text(table)
+    done = run(main, fmu, "--reference", tmp_path / "table.csv", *options)
+    assert done.returncode == 2
+    assert said in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_the_free_swing_is_that_of_a_pendulum_on_a_spring(fmu: Path, tmp_path: Path) -> None:
+    """A reference from elsewhere: the equation of motion in polar coordinates, by an integrator of SciPy."""
+    from scipy.integrate import solve_ivp
+
+    mass, k, c, free, g = 2.0, 100.0, 1.0, 0.8, 9.81
+
+    def rates(t: float, y: list[float]) -> list[float]:
+        r, phi, v, w = y
+        pull = 10.0 * t
+        along = pull * math.sin(phi) + mass * g * math.cos(phi) - k * (r - free) - c * v
+        across = pull * math.cos(phi) - mass * g * math.sin(phi)
+        return [v, w, r * w**2 + along / mass, (across / mass - 2.0 * v * w) / r]
+
+    t = np.linspace(0.0, 2.0, 41)
+    solver: Any = solve_ivp
+    r, phi = solver(rates, (0.0, 2.0), [1.0, 0.0, 0.0, 0.0], "DOP853", t, rtol=1e-11, atol=1e-12).y[:2]
+    columns = (t, 10.0 * t, r * np.sin(phi), -r * np.cos(phi))
+    rows = "\n".join(",".join(map(repr, row)) for row in zip(*(c.tolist() for c in columns), strict=True))
+    (tmp_path / "swing.csv").write_text(f'"time","pull","bob.x","bob.y"\n{rows}\n')
+    fine = ("--step", 0.01, "--set", "step_size=0.001", "--bound", "*=1e-5")
+    done = run(main, fmu, "--reference", tmp_path / "swing.csv", *fine)
+    assert done.returncode == 0, done.stdout + done.stderr
