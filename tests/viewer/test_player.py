@@ -75,14 +75,13 @@ class Opened:
         return round(x), round(y)
 
 
-@pytest.fixture(scope="module")
-def opened(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Opened]]:
-    """Opens recordings in pages that are closed in the end."""
+@pytest.fixture
+def opened(browser: Any, tmp_path: Path) -> Iterator[Callable[..., Opened]]:
+    """Opens recordings in pages that are closed after the test: each that is open takes time of all others."""
     pages: list[Opened] = []
-    folder = tmp_path_factory.mktemp("pages")
 
     def open_page(*recordings: Recording, hash_text: str = "", size: tuple[int, int] = SIZE, **options: Any) -> Opened:
-        file = folder / f"page {len(pages)} äö.html"
+        file = tmp_path / f"page {len(pages)} äö.html"
         write_page(file, recordings, options=options)
         pages.append(Opened(browser, file, hash_text, size))
         return pages[-1]
@@ -93,10 +92,14 @@ def opened(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[C
 
 
 @pytest.fixture(scope="module")
-def pair(opened: Callable[..., Opened]) -> Opened:
+def pair(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
     """A crank, and a faster one that ends before it as its ghost."""
     other = crank(np.linspace(0.0, 2.5, 1001), 2.5, "faster </script><b>crank")
-    return opened(crank(TIMES), other, plots=["angle", "fx"], camera="orbit")
+    file = tmp_path_factory.mktemp("pages") / "pair äö.html"
+    write_page(file, (crank(TIMES), other), options={"plots": ["angle", "fx"], "camera": "orbit"})
+    opened = Opened(browser, file)
+    yield opened
+    opened.page.close()
 
 
 def slider(t: float, speed: float = 2.0) -> float:
