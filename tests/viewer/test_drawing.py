@@ -225,15 +225,16 @@ def test_a_context_that_is_lost_is_said_and_given_back(drawn):
     assert np.abs(drawn.picture() - before).mean() < 1
 
 
+@pytest.mark.slow
 def test_a_view_that_is_disposed_leaves_nothing(drawn):
     """Browsers give about sixteen contexts: twenty views one after the other need them back."""
     board = scene(shapes=[ball()], planar=True, up=[0, 1, 0])
     left = drawn.ask(
         """scenes => {
           const element = document.getElementById('picture');
-          const left = scenes.map((scene, k) => {
+          const left = scenes.map(scene => {
             const view = new ALi3Viewer.SceneView(element, scene, {});
-            if (k < 3) view.render();
+            view.render();
             const { memory } = view.renderer.info;
             view.dispose();
             return [memory.geometries, memory.textures, view.problem, view.renderer.getContext().isContextLost()];
