@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 import sys
 import zipfile
@@ -39,8 +38,8 @@ def findings(fmu: Path) -> dict[str, str]:
 def changed(fmu: Path, copy: Path, changes: list[Change], shared: Path | None = None) -> Path:
     """A copy with texts of its files replaced; where sources are among them, its library is compiled from them.
 
-    The sources of all copies lie in turn in one folder of `shared`: the compiler knows by their place those that are
-    as before.
+    The sources of all copies lie in turn in one folder of `shared`: the compiler knows a file that it has compiled
+    by its place and time.
     """
     with zipfile.ZipFile(fmu) as source:
         files = {name: source.read(name) for name in source.namelist()}
@@ -53,12 +52,12 @@ def changed(fmu: Path, copy: Path, changes: list[Change], shared: Path | None = 
         (library,) = (name for name in files if name.startswith("binaries/"))
         made = copy.with_name(Path(library).name)
         with FileLock(f"{folder}.lock"):
-            shutil.rmtree(folder, ignore_errors=True)
-            for name, data in files.items():
-                if name.startswith("sources/"):
-                    (folder / name).parent.mkdir(parents=True, exist_ok=True)
-                    (folder / name).write_bytes(data)
-            sources = sorted((folder / "sources").rglob("*.c"))
+            texts = {folder / name: data for name, data in files.items() if name.startswith("sources/")}
+            for file, data in texts.items():
+                if not file.is_file() or file.read_bytes() != data:
+                    file.parent.mkdir(parents=True, exist_ok=True)
+                    file.write_bytes(data)
+            sources = sorted(file for file in texts if file.suffix == ".c")
             include = (folder / "sources", folder / "sources" / "kernel" / "include")
             build.compile_c(
                 sources, build.host_target(), made, include=include, defines=("ALI3_INSIDE",), what="a copy"
