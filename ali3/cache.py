@@ -7,6 +7,8 @@ import functools
 import os
 import shutil
 import tempfile
+import time
+from contextlib import suppress
 from pathlib import Path
 
 from ali3.errors import FileError
@@ -60,8 +62,8 @@ def _passing(name: str) -> Path:
     return Path(temporary.name)
 
 
-def forget_oldest(room: Path, kept: int) -> None:
-    """Remove the folders that were not used for the longest time.
+def forget_oldest(room: Path, kept: int, in_use: float = 0.0) -> None:
+    """Remove the folders that were not used for the longest time, while another program may do the same.
 
     Parameters
     ----------
@@ -69,7 +71,14 @@ def forget_oldest(room: Path, kept: int) -> None:
         Of the cache.
     kept : int
         How many stay.
+    in_use : float
+        Those that were used in so many seconds stay too, s.
     """
-    folders = (f for f in room.iterdir() if f.is_dir() and not f.name.startswith("."))
-    for folder in sorted(folders, key=lambda f: f.stat().st_mtime, reverse=True)[kept:]:
-        shutil.rmtree(folder, ignore_errors=True)
+    used: dict[Path, float] = {}
+    for folder in room.iterdir():
+        with suppress(FileNotFoundError):
+            if folder.is_dir() and not folder.name.startswith("."):
+                used[folder] = folder.stat().st_mtime
+    for folder in sorted(used, key=used.__getitem__, reverse=True)[kept:]:
+        if used[folder] <= time.time() - in_use:
+            shutil.rmtree(folder, ignore_errors=True)

@@ -8,7 +8,6 @@ for the one that is being made. Nothing that is made here goes into an FMU.
 
 from __future__ import annotations
 
-import os
 import subprocess
 import tempfile
 import threading
@@ -16,6 +15,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from ali3.cores import available_cores
 from fmu_src.native.compile import library_command
 from fmu_src.native.platforms import TARGETS
 from fmu_src.native.table import c_arrays, c_table
@@ -72,7 +72,7 @@ class _Compilers:
         self._commands, self._environment = iter(commands), environment
         self._lock, self._ended = threading.Lock(), False
         self._running: set[subprocess.Popen[bytes]] = set()
-        count = min(len(commands), os.cpu_count() or 1)
+        count = min(len(commands), available_cores())
         self._threads = [threading.Thread(target=self._work, daemon=True) for _ in range(count)]
         for thread in self._threads:
             thread.start()

@@ -7,13 +7,13 @@ run and report.html. Exit code 1: a test could not be done, or a limit is not ke
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.cores import available_cores
 from ali3.options import add_old_names, add_option, assignment
 from ali3.running import run_command
 from hosts.common.errors import HostError
@@ -63,7 +63,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
         help="setting of a test; repeatable",
     )
     add_option(parser, "--step", "that of the FMU")
-    add_option(parser, "--jobs", "as the computer has cores")
+    add_option(parser, "--jobs", "as there are cores that it may use")
     parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")
     add_option(parser, "--out", "out/catalogue", default=Path("out", "catalogue"))
     add_old_names(parser, {"--parameters": "--variant"})
@@ -112,7 +112,7 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, outcomes, settings)
     try:
-        with closing(_done(tasks, options.jobs or os.cpu_count() or 1, outcomes)) as done:
+        with closing(_done(tasks, options.jobs or available_cores(), outcomes)) as done:
             for _ in done:
                 write_measures(options.out, tests, cars, outcomes, settings)
     finally:  # after Ctrl-C too, of what is there

@@ -92,7 +92,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(soak, "--fidelity", "0 and 2; with --reference that of the FMU", action="append")
     add_option(soak, "--step", "0.002; with --reference that of the FMU, or what divides its times")
     add_option(soak, "--world", "roads with ramps, and those in the FMU", action="append")
-    add_option(soak, "--jobs", "as the computer has cores")
+    add_option(soak, "--jobs", "as there are cores that it may use")
     add_option(soak, "--out", "out/soak")
     add_option(soak, "--json")
     add_old_names(parser, {"--hours": "--drives N of --stop-time T each", "--seconds": "--stop-time"})

@@ -12,7 +12,7 @@ import ali3
 from ali3.cache import cache_folder, forget_oldest
 from ali3.commands import COMMANDS
 from ali3.errors import FileError
-from ali3.files import reason, whole_folder
+from ali3.files import locked, reason, whole_folder
 from ali3.reading import read_toml
 from hosts.common.commands import run_module
 from hosts.common.errors import HostError
@@ -20,6 +20,7 @@ from hosts.fmu.car import CAR_FILE
 
 _SUFFIXES = (".py", ".c", ".h", ".toml", ".csv", ".npz", ".json", ".road", ".xml", ".txt")
 _KEPT = 10
+_IN_USE = 86400.0  # s since an FMU was asked for, in which a command may still open it
 _LARGEST = 500_000_000  # bytes of a car's folder
 
 
@@ -53,16 +54,18 @@ def fmu_of_scene(scene: str, tell: Callable[[str], None]) -> Path:
 def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[str], None]) -> Path:
     room = cache_folder("cars")
     place = room / name
-    found = sorted(place.glob("*.fmu"))
-    if found:
-        os.utime(place)
-        return found[0]
+    with locked(room):
+        found = sorted(place.glob("*.fmu"))
+        if found:
+            os.utime(place)
+            return found[0]
     tell(f"{what[0].upper()}{what[1:]} is built for this machine, which takes half a minute ...")
     with whole_folder(place) as made:
         build_fmu(what, options, made)
         if not list(made.glob("*.fmu")):
             raise HostError(f"The FMU of {what} cannot be built: the build left no FMU.")
-    forget_oldest(room, _KEPT)
+    with locked(room):
+        forget_oldest(room, _KEPT, _IN_USE)
     return sorted(place.glob("*.fmu"))[0]
 
 

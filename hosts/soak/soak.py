@@ -9,13 +9,13 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import os
 from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.cores import available_cores
 from ali3.files import check_writable, make_folder, write_text
 from hosts.common.errors import HostError
 from hosts.common.options import wishes
@@ -76,7 +76,7 @@ def soak(options: argparse.Namespace, prog: str) -> int:
     ]
     outcomes = [Outcome(task.seed, task.fidelity) for task in tasks]
     try:
-        _drive_all(tasks, outcomes, options.jobs or os.cpu_count() or 1)
+        _drive_all(tasks, outcomes, options.jobs or available_cores())
     finally:  # after Ctrl-C too, of what is done
         print_outcomes(tasks, outcomes, f"{prog} --soak")
         if options.json is not None:

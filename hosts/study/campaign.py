@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.cores import available_cores
 from ali3.errors import FileError
 from ali3.files import locked
 from hosts.common.errors import HostError
@@ -128,8 +129,6 @@ def out_folder(out: Path | None, study: StudyFile, file: Path) -> Path:
 
 
 def _print_plan(plan: Plan, trial: Trial, folder: Path, scheduler: str | None, workers: int | None) -> None:
-    from hosts.study.cluster import available_cores
-
     points, jobs = plan.points.count, plan.work.jobs
     count = 1 if scheduler is not None else workers or available_cores()
     print(f"study       {plan.name}: {points} points x {len(jobs)} = {plan.runs} runs, into {folder}")

@@ -17,6 +17,7 @@ import dask
 from distributed import Client, KilledWorker, LocalCluster, Security
 
 from ali3.cache import cache_folder
+from ali3.cores import available_cores
 from ali3.signals import kept_from_children
 from hosts.common.errors import HostError
 from hosts.study.plan import Plan
@@ -54,14 +55,6 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
             yield client
     finally:
         shutil.rmtree(folder, ignore_errors=True)
-
-
-def available_cores() -> int:
-    """Cores that this process may use."""
-    try:
-        return len(os.sched_getaffinity(0))
-    except AttributeError:  # not on this system
-        return os.cpu_count() or 1
 
 
 def _client(address: str) -> Client:

@@ -27,7 +27,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.st
         metavar="ADDRESS",
         help="a scheduler of Dask, tls://HOST:PORT with the certificates of its configuration; default: workers here",
     )
-    add_option(parser, "--jobs", "as the computer has cores")
+    add_option(parser, "--jobs", "as there are cores that it may use")
     parser.add_argument("--dry-run", action="store_true", help="check all, print the plan and stop")
     parser.add_argument("--again", action="store_true", help="make failed runs again")
     parser.add_argument("--run", type=int, metavar="INDEX", help="print the commands that repeat a run of the results")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
+import time
+from pathlib import Path
 
 import platformdirs
 import pytest
@@ -52,3 +54,30 @@ def test_the_folders_that_were_used_last_stay(tmp_path):
     (tmp_path / ".writing-0").mkdir()  # of another program, now
     forget_oldest(tmp_path, 2)
     assert sorted(place.name for place in tmp_path.iterdir()) == [".writing-0", "2", "3"]
+
+
+def test_folders_in_use_stay_however_many_they_are(tmp_path):
+    now = time.time()
+    for k, age in enumerate((30.0, 50.0, 70.0, 90.0)):
+        (tmp_path / str(k)).mkdir()
+        os.utime(tmp_path / str(k), (now - age, now - age))
+    forget_oldest(tmp_path, 1, in_use=60.0)
+    assert sorted(place.name for place in tmp_path.iterdir()) == ["0", "1"]
+
+
+def test_a_folder_that_another_program_removes_meanwhile_is_none(tmp_path, monkeypatch):
+    for k in range(3):
+        (tmp_path / str(k)).mkdir()
+        os.utime(tmp_path / str(k), (k, k))
+    is_dir = Path.is_dir
+
+    def removed_then(path):
+        found = is_dir(path)
+        if path.name == "1":
+            path.rmdir()
+        return found
+
+    monkeypatch.setattr(Path, "is_dir", removed_then)
+    forget_oldest(tmp_path, 1)
+    monkeypatch.undo()
+    assert sorted(place.name for place in tmp_path.iterdir()) == ["2"]

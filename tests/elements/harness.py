@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements import ElementRecord, PlaneRoad, Road
+from mbs.kernel import build
 
 Array = NDArray[np.float64]
 KERNEL = Path(__file__).parents[2] / "mbs" / "kernel" / "src"
@@ -35,8 +36,9 @@ def compiled(road: Path) -> ctypes.CDLL:
     target = folder / ("elements.dll" if sys.platform == "win32" else "elements.so")
     files = [str(file) for file in (*SOURCES, road)]
     flags = ["-std=c11", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", f"-I{KERNEL}"]
-    command = [sys.executable, "-m", "ziglang", "cc", *flags, str(Path(__file__).with_name("harness.c")), *files]
-    subprocess.run([*command, "-lm", "-o", str(target)], check=True, capture_output=True, text=True)
+    command = [build.compiler(), "cc", "-target", build.host_target(), *flags]
+    command += [str(Path(__file__).with_name("harness.c")), *files, "-lm", "-o", str(target)]
+    subprocess.run(command, check=True, capture_output=True, text=True, env=build.compiler_environment())
     lib = ctypes.CDLL(str(target))
     lib.harness_evaluate.restype = ctypes.c_double
     lib.harness_check.restype = ctypes.c_char_p

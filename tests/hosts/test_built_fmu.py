@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import sys
 from pathlib import Path
@@ -49,13 +50,24 @@ def test_a_car_is_built_once_for_each_content(car: Path, tmp_path: Path) -> None
         file.write_text(file.read_text() + "\n")
         assert built_fmu.fmu_of_car(str(car), told.append) != first
     assert len(told) == 4
-    assert [f.name for f in first.parent.parent.iterdir() if f.name.startswith(".")] == []
+    assert [f.name for f in first.parent.parent.iterdir() if f.name.startswith(".writing-")] == []
 
 
 def test_another_program_builds_again(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     first = built_fmu.fmu_of_car(str(car), print)
     monkeypatch.setattr(built_fmu, "program_version", lambda: "other")
     assert built_fmu.fmu_of_car(str(car), print) != first
+
+
+def test_a_command_with_many_cars_loses_none(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(built_fmu, "_KEPT", 1)
+    made = [built_fmu.fmu_of_car(str(car), print, poses) for poses in ("1", "2", "3")]
+    assert all(fmu.is_file() for fmu in made)
+    for fmu in made:
+        os.utime(fmu.parent, (0, 0))
+    assert built_fmu.fmu_of_car(str(car), print, "1") == made[0]  # used again, and so kept
+    built_fmu.fmu_of_car(str(car), print, "4")
+    assert [fmu.is_file() for fmu in made] == [True, False, False]
 
 
 def test_other_poses_are_another_fmu(car: Path) -> None:

@@ -14,6 +14,7 @@ from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.check.command import main
 from hosts.check.instance import Instance, open_subject
+from mbs.kernel import build
 
 ROOT = Path(__file__).parents[2]
 CHECKS = 26
@@ -70,10 +71,10 @@ def test_other_files_are_errors(tmp_path: Path) -> None:
 
 def test_an_fmu_that_crashes_is_bad(fmus: dict[str, Path], tmp_path: Path) -> None:
     source = tmp_path / "crash.c"
-    source.write_text("__attribute__((constructor)) void crash(void) { *(volatile int *)0 = 1; }\n")  # as it is loaded
+    as_it_is_loaded = "__attribute__((constructor)) void crash(void) { raise(SIGSEGV); }\n"
+    source.write_text("#include <signal.h>\n" + as_it_is_loaded)
     library = tmp_path / f"crash{fmpy.sharedLibraryExtension}"
-    flags = ["-shared", "-fPIC", "-O0", "-fno-sanitize=all", "-fvisibility=default"]
-    subprocess.run([sys.executable, "-m", "ziglang", "cc", *flags, "-o", str(library), str(source)], check=True)
+    build.compile_c([source], build.host_target(), library, what="a library that crashes")
     name = fmpy.read_model_description(str(fmus["native"])).modelName
     copy = tmp_path / "crash.fmu"
     with zipfile.ZipFile(fmus["native"]) as whole, zipfile.ZipFile(copy, "w") as target:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 import sys
 import zipfile
@@ -10,6 +9,7 @@ from pathlib import Path
 
 import fmpy
 import pytest
+from filelock import FileLock
 
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
@@ -35,26 +35,34 @@ def findings(fmu: Path) -> dict[str, str]:
     return {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in lines}
 
 
-def changed(fmu: Path, copy: Path, changes: list[Change]) -> Path:
-    """A copy with texts of its files replaced; where sources are among them, its library is compiled from them."""
+def changed(fmu: Path, copy: Path, changes: list[Change], shared: Path | None = None) -> Path:
+    """A copy with texts of its files replaced; where sources are among them, its library is compiled from them.
+
+    The sources of all copies lie in turn in one folder of `shared`: the compiler knows a file that it has compiled
+    by its place and time.
+    """
     with zipfile.ZipFile(fmu) as source:
         files = {name: source.read(name) for name in source.namelist()}
     for name, old, new in changes:
         assert old.encode() in files[name], (name, old)
         files[name] = files[name].replace(old.encode(), new.encode())
     if any(name.endswith(".c") for name, _, _ in changes):
-        folder = copy.with_suffix("")
-        for name, data in files.items():
-            if name.startswith("sources/"):
-                (folder / name).parent.mkdir(parents=True, exist_ok=True)
-                (folder / name).write_bytes(data)
+        assert shared is not None
+        folder = shared / "changed_sources"
         (library,) = (name for name in files if name.startswith("binaries/"))
-        sources = sorted((folder / "sources").rglob("*.c"))
-        made = folder / Path(library).name
-        include = (folder / "sources", folder / "sources" / "kernel" / "include")
-        build.compile_c(sources, build.host_target(), made, include=include, defines=("ALI3_INSIDE",), what="a copy")
+        made = copy.with_name(Path(library).name)
+        with FileLock(f"{folder}.lock"):
+            texts = {folder / name: data for name, data in files.items() if name.startswith("sources/")}
+            for file, data in texts.items():
+                if not file.is_file() or file.read_bytes() != data:
+                    file.parent.mkdir(parents=True, exist_ok=True)
+                    file.write_bytes(data)
+            sources = sorted(file for file in texts if file.suffix == ".c")
+            include = (folder / "sources", folder / "sources" / "kernel" / "include")
+            build.compile_c(
+                sources, build.host_target(), made, include=include, defines=("ALI3_INSIDE",), what="a copy"
+            )
         files[library] = made.read_bytes()
-        shutil.rmtree(folder / "sources")
     with zipfile.ZipFile(copy, "w") as target:
         for name, data in files.items():
             target.writestr(name, data)
@@ -176,7 +184,9 @@ CALLS: list[tuple[str, str, str, Change]] = [
 
 
 @pytest.mark.parametrize(("kind", "check", "said", "change"), CALLS)
-def test_calls(fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, said: str, change: Change) -> None:
-    words = findings(changed(fmus[kind], tmp_path / "copy.fmu", [change]))[check]
+def test_calls(
+    fmus: dict[str, Path], tmp_path: Path, shared: Path, kind: str, check: str, said: str, change: Change
+) -> None:
+    words = findings(changed(fmus[kind], tmp_path / "copy.fmu", [change], shared))[check]
     assert words.startswith("BAD")
     assert said in words

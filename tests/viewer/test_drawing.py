@@ -225,6 +225,7 @@ def test_a_context_that_is_lost_is_said_and_given_back(drawn):
     assert np.abs(drawn.picture() - before).mean() < 1
 
 
+@pytest.mark.slow
 def test_a_view_that_is_disposed_leaves_nothing(drawn):
     """Browsers give about sixteen contexts: twenty views one after the other need them back."""
     board = scene(shapes=[ball()], planar=True, up=[0, 1, 0])

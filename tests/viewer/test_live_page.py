@@ -171,6 +171,7 @@ def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_t
     opened.close()
 
 
+@pytest.mark.slow
 def test_parameters_start_values_and_going_back_give_the_bits_of_a_native_run(
     car: Path, chromium: Any, tmp_path: Path
 ) -> None:
@@ -211,6 +212,7 @@ navigator.getGamepads = () => window.pads;
 """
 
 
+@pytest.mark.slow
 def test_a_gamepad_is_plugged_in_and_drives(car: Path, chromium: Any, tmp_path: Path) -> None:
     opened = Page(chromium, written([car], tmp_path), PAD)
     opened.page.locator('[data-a3="section Gamepad"] summary').click()
@@ -321,6 +323,7 @@ def test_the_command_as_a_program(reach: Path, tmp_path: Path) -> None:
     assert " MB; it opens from disk" in done.stdout
 
 
+@pytest.mark.slow
 def test_a_table_moves_inputs_until_a_hand_does_and_a_result_goes_along(
     reach: Path, chromium: Any, tmp_path: Path
 ) -> None:
@@ -427,6 +430,7 @@ def test_the_puma_is_moved_by_its_torques(mechanisms: dict[str, Path], chromium:
     opened.close()
 
 
+@pytest.mark.slow
 def test_a_road_of_the_user_is_in_the_page_and_under_the_car(car: Path, chromium: Any, tmp_path: Path) -> None:
     bumps = tmp_path / "bumps.toml"
     bumps.write_text(

@@ -56,49 +56,6 @@ def at(recording: Recording, name: str, time: float) -> float:
     return float(np.interp(time, recording.t, recording.columns[name]))
 
 
-def test_instruments_show_the_numbers_of_the_frame(program: Program, lane_change: Recording) -> None:
-    program.values = {"used.throttle": 0.25, "used.brake": 0.5, "used.selector": 1.0}
-    shown(program, 5.0, RUNNING, cost=1e-3, worst=1.5e-3, missed=7)
-    assert int(program.text("speed")) == round(3.6 * at(lane_change, "speed", 5.0))
-    assert program.text("gear") == f"gear {at(lane_change, 'gear', 5.0):.0f}"
-    rpm = 30 / np.pi * at(lane_change, "engine_speed", 5.0)
-    assert program.text("revolutions") == f"{rpm:.0f} rpm"
-    value = "name => player.cockpit.cluster._pedals.find(p => p.column === `used.${name}`).gauge.value"
-    assert program.page.evaluate(value, "throttle") == 0.25
-    assert program.page.evaluate(value, "brake") == 0.5
-    assert program.ask("player.cockpit.steps._bar.value") == pytest.approx(0.5)
-    assert "missed 7" in program.text("missed")
-    assert "1.00 ms of 2.00 ms" in program.text("step time")
-    wheels = ["FL", "FR", "RL", "RR"]
-    forces = {w: [at(lane_change, f"wheel_{w}.{c}", 5.0) for c in ("Fx", "Fy", "Fz")] for w in wheels}
-    uses = program.ask("player.cockpit.tyres.uses")
-    for w, (fx, fy, fz) in forces.items():
-        assert uses[f"wheel_{w}"] == pytest.approx(np.hypot(fx, fy) / fz, rel=0.02)
-    radii = [
-        float(r)
-        for r in program.ask("[...document.querySelectorAll('.a3-tyres circle')].map(c => c.getAttribute('r'))")
-    ]
-    loads = np.array([forces[w][2] for w in wheels])
-    assert np.array(radii) / max(radii) == pytest.approx(np.sqrt(loads / loads.max()), abs=0.01)
-
-
-def test_an_arrow_of_a_tyre_points_where_the_force_does(program: Program) -> None:
-    names = ("Fx", "Fy", "steer")
-    program.values = {f"wheel_{w}.{c}": 0.0 for w in ("FL", "FR", "RL", "RR") for c in names}
-    program.values |= {f"wheel_{w}.Fz": 2000.0 for w in ("FL", "FR", "RL", "RR")}
-    program.values |= {"wheel_FL.Fy": 1500.0, "wheel_RR.Fx": -1500.0}  # to the left; braked
-    shown(program, 1.0)
-    paths = program.ask("[...document.querySelectorAll('.a3-tyres path:last-of-type')].length && "
-                        "player.cockpit.tyres._items.map(i => i.arrow.getAttribute('d'))")  # fmt: skip
-    assert paths[1] == paths[2] == ""
-    ends = {k: [float(x) for x in paths[k].split("L")[1].split("M")[0].split()] for k in (0, 3)}
-    begins = {k: [float(x) for x in paths[k][1:].split("L")[0].split()] for k in (0, 3)}
-    assert ends[0][0] < begins[0][0] - 8
-    assert ends[0][1] == pytest.approx(begins[0][1], abs=0.11)
-    assert ends[3][1] > begins[3][1] + 8  # down is backwards
-    assert ends[3][0] == pytest.approx(begins[3][0], abs=0.11)
-
-
 def test_keys_drive_at_their_rates_and_are_let_go_with_the_focus(program: Program) -> None:
     shown(program, 0.5, RUNNING)
     keyboard = program.page.keyboard
@@ -128,41 +85,6 @@ def test_keys_drive_at_their_rates_and_are_let_go_with_the_focus(program: Progra
     keyboard.press("r")
     program.page.wait_for_timeout(50)
     assert wants()[-1]["values"]["selector"] == [-1, None]
-
-
-def test_a_key_is_let_go_also_while_another_key_is_held(program: Program) -> None:
-    shown(program, 0.5, RUNNING)
-    keyboard = program.page.keyboard
-    keyboard.down("ArrowUp")
-    keyboard.down("Control")
-    keyboard.up("ArrowUp")
-    keyboard.up("Control")
-    program.page.wait_for_timeout(50)
-    last = {name: pair for m in program.heard if m["type"] == "want" for name, pair in m["values"].items()}
-    assert last["throttle"] == [0, 5]
-
-
-def test_keys_and_buttons_are_commands(program: Program) -> None:
-    shown(program, 3.0, RUNNING, saved=12.5)
-    keyboard = program.page.keyboard
-    for key in ("p", ".", "Backspace", "Shift+Backspace", "u", "Home", "l"):
-        keyboard.press(key)
-    click = lambda what: program.page.locator(f'[data-a3="{what}"]').first.click()  # noqa: E731
-    click("rewind")
-    program.page.locator('[data-a3="saved"]').evaluate(
-        "slider => { slider.value = 7.5; for (const e of ['input', 'change']) slider.dispatchEvent(new Event(e)); }"
-    )
-    program.page.locator('[data-a3="place"]').select_option("hill_20")
-    program.page.wait_for_timeout(50)
-    names = ["pause", "step", "rewind", "rewind", "upright", "reset", "speed", "rewind", "rewind"]
-    values = [0, 1, 2, 10, 0, 0, 0.25, 2, 7.5]
-    assert program.commands() == list(zip(names, values, strict=True))
-    assert {"type": "place", "name": "hill_20"} in program.heard
-    assert program.ask("Number(document.querySelector('[data-a3=\"saved\"]').max)") == 12.5
-    keyboard.press("h")
-    assert program.page.locator('[data-a3="help list"]').is_visible()
-    keyboard.press("h")
-    assert not program.page.locator('[data-a3="help list"]').is_visible()
 
 
 def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> None:
@@ -204,6 +126,7 @@ def test_a_broken_wire_is_said_and_mended(program: Program) -> None:
     assert int(program.text("speed")) > 0
 
 
+@pytest.mark.slow
 def test_a_world_that_comes_with_the_second_connection_is_no_longer_missed(program: Program) -> None:
     page, words = program.page, "The drawing of the world cannot be had"
     page.route("**/world*", lambda route: route.fulfill(status=500), times=1)
@@ -217,6 +140,7 @@ def test_a_world_that_comes_with_the_second_connection_is_no_longer_missed(progr
     program.errors.clear()  # the browser tells of the answer too
 
 
+@pytest.mark.slow
 def test_the_car_is_where_its_frame_says_in_every_camera(chromium: Any, lane_change: Recording) -> None:
     """Points inside the wheels, which are magenta here."""
     scene = dict(lane_change.scene or {})
@@ -263,63 +187,6 @@ def test_the_steering_wheel_turns_before_the_driver(chromium: Any, lane_change: 
     assert marks[1][0] < marks[0][0] - 15
     assert marks[1][1] > marks[0][1] + 5  # and down
     context.close()
-
-
-def test_the_map_shows_the_car_its_trail_and_places(program: Program, lane_change: Recording) -> None:
-    program.drive(0.0, 2.0, 0.05)
-    program.page.keyboard.press("5")
-    shown(program, 3.0)
-    pixels = picture_of_simulator(program.page)
-    where = [at(lane_change, f"chassis.{c}", 3.0) for c in "xy"]
-    x, y = program.page.evaluate("point => player.cockpit.map.pixel(point)", where)
-    assert np.allclose(pixels[int(y), int(x)], [229, 53, 43], atol=30)  # the car
-    assert x > 320  # it went along x, which is to the right
-    past = [at(lane_change, f"chassis.{c}", 0.8) for c in "xy"]
-    x, y = program.page.evaluate("point => player.cockpit.map.pixel(point)", past)
-    near = pixels[int(y) - 2 : int(y) + 3, int(x) - 2 : int(x) + 3].reshape(-1, 3)
-    assert (np.abs(near - [255, 210, 63]).sum(axis=1) < 90).any()  # its trail
-    x, y = program.page.evaluate("() => player.cockpit.map.pixel([120, 80])")
-    assert np.allclose(pixels[int(y), int(x)], 255, atol=8)  # a place
-    program.page.mouse.click(x, y)
-    program.page.wait_for_timeout(50)
-    assert {"type": "place", "name": "hill_20"} in program.heard
-
-
-def test_a_rewind_is_not_driven_through(program: Program, lane_change: Recording) -> None:
-    program.drive(4.0, 5.0, 0.05)
-    program.epoch = 2
-    program.send(1.0, RUNNING)
-    wait_until(program.page, "player.frames.newest.epoch === 2")
-    times = program.ask("""() => new Promise(done => {
-      const seen = [];
-      const look = () => {
-        seen.push(player.frames.at(performance.now() / 1000).time);
-        if (seen.length < 10) requestAnimationFrame(look);
-        else done(seen);
-      };
-      requestAnimationFrame(look);
-    })""")
-    assert set(times) == {1.0}
-    assert program.ask("player.cockpit.plan.trail.points.includes(null)")
-
-
-def test_a_report_is_drawn(program: Program) -> None:
-    shown(program, 1.0)
-    program.page.keyboard.press("g")
-    program.page.wait_for_timeout(50)
-    assert {"type": "report"} in program.heard
-    assert {"type": "watch devices", "on": True} in program.heard
-    bins = [[2e-5, 3], [5e-5, 4000], [1e-4, 900], [8e-4, 12], [1.9e-3, 1], [4e-3, 2]]
-    spread = {"median": 6e-5, "p99": 2e-4, "p999": 9e-4, "largest": 4e-3, "bins": bins}
-    times = {"step": 0.002, "steps": 4918, "simulated": 9.836, "wall": 9.84, "missed": 2}
-    program.say({"type": "report", **times, "cost": spread, "lateness": spread})
-    program.page.wait_for_selector('[data-a3="histogram"] rect')
-    bars = program.ask(
-        "[...document.querySelectorAll('[data-a3=\"histogram\"] rect')].map(r => r.getAttribute('fill'))"
-    )
-    assert len(bars) == len(bins)
-    assert bars.count(bars[-1]) == 1  # the one beyond the deadline has a colour of its own
-    assert "0.06 · 0.2 · 0.9 · 4 ms" in program.text("report")
 
 
 @pytest.mark.parametrize("without", ["a drawing", "WebGL"])
@@ -373,3 +240,155 @@ def test_everything_fits_on_the_screen_and_nothing_lies_on_another(chromium: Any
             assert r1 <= l2 + 0.5 or r2 <= l1 + 0.5 or b1 <= t2 + 0.5 or b2 <= t1 + 0.5, f"{a} lies on {b}"
     assert program.errors == []
     context.close()
+
+
+@pytest.fixture(scope="class")
+def _open_page(chromium: Any, lane_change: Recording) -> Iterator[Program]:
+    context = chromium.new_context(viewport={"width": 640, "height": 360})
+    made = Program(context.new_page(), lane_change, world=WORLD)
+    made.open()
+    yield made
+    context.close()
+
+
+@pytest.fixture
+def shared(_open_page: Program) -> Iterator[Program]:
+    _open_page.heard.clear()
+    _open_page.values = {}
+    _open_page.epoch += 1
+    yield _open_page
+    assert _open_page.errors == []
+
+
+class TestOnePage:
+    """Tests that leave the page as it was share one, each with an epoch of its own; it is closed before others open."""
+
+    def test_instruments_show_the_numbers_of_the_frame(self, shared: Program, lane_change: Recording) -> None:
+        shared.values = {"used.throttle": 0.25, "used.brake": 0.5, "used.selector": 1.0}
+        shown(shared, 5.0, RUNNING, cost=1e-3, worst=1.5e-3, missed=7)
+        assert int(shared.text("speed")) == round(3.6 * at(lane_change, "speed", 5.0))
+        assert shared.text("gear") == f"gear {at(lane_change, 'gear', 5.0):.0f}"
+        rpm = 30 / np.pi * at(lane_change, "engine_speed", 5.0)
+        assert shared.text("revolutions") == f"{rpm:.0f} rpm"
+        value = "name => player.cockpit.cluster._pedals.find(p => p.column === `used.${name}`).gauge.value"
+        assert shared.page.evaluate(value, "throttle") == 0.25
+        assert shared.page.evaluate(value, "brake") == 0.5
+        assert shared.ask("player.cockpit.steps._bar.value") == pytest.approx(0.5)
+        assert "missed 7" in shared.text("missed")
+        assert "1.00 ms of 2.00 ms" in shared.text("step time")
+        wheels = ["FL", "FR", "RL", "RR"]
+        forces = {w: [at(lane_change, f"wheel_{w}.{c}", 5.0) for c in ("Fx", "Fy", "Fz")] for w in wheels}
+        uses = shared.ask("player.cockpit.tyres.uses")
+        for w, (fx, fy, fz) in forces.items():
+            assert uses[f"wheel_{w}"] == pytest.approx(np.hypot(fx, fy) / fz, rel=0.02)
+        radii = [
+            float(r)
+            for r in shared.ask("[...document.querySelectorAll('.a3-tyres circle')].map(c => c.getAttribute('r'))")
+        ]
+        loads = np.array([forces[w][2] for w in wheels])
+        assert np.array(radii) / max(radii) == pytest.approx(np.sqrt(loads / loads.max()), abs=0.01)
+
+    def test_an_arrow_of_a_tyre_points_where_the_force_does(self, shared: Program) -> None:
+        names = ("Fx", "Fy", "steer")
+        shared.values = {f"wheel_{w}.{c}": 0.0 for w in ("FL", "FR", "RL", "RR") for c in names}
+        shared.values |= {f"wheel_{w}.Fz": 2000.0 for w in ("FL", "FR", "RL", "RR")}
+        shared.values |= {"wheel_FL.Fy": 1500.0, "wheel_RR.Fx": -1500.0}  # to the left; braked
+        shown(shared, 1.0)
+        paths = shared.ask("[...document.querySelectorAll('.a3-tyres path:last-of-type')].length && "
+                            "player.cockpit.tyres._items.map(i => i.arrow.getAttribute('d'))")  # fmt: skip
+        assert paths[1] == paths[2] == ""
+        ends = {k: [float(x) for x in paths[k].split("L")[1].split("M")[0].split()] for k in (0, 3)}
+        begins = {k: [float(x) for x in paths[k][1:].split("L")[0].split()] for k in (0, 3)}
+        assert ends[0][0] < begins[0][0] - 8
+        assert ends[0][1] == pytest.approx(begins[0][1], abs=0.11)
+        assert ends[3][1] > begins[3][1] + 8  # down is backwards
+        assert ends[3][0] == pytest.approx(begins[3][0], abs=0.11)
+
+    def test_a_key_is_let_go_also_while_another_key_is_held(self, shared: Program) -> None:
+        shown(shared, 0.5, RUNNING)
+        keyboard = shared.page.keyboard
+        keyboard.down("ArrowUp")
+        keyboard.down("Control")
+        keyboard.up("ArrowUp")
+        keyboard.up("Control")
+        shared.page.wait_for_timeout(50)
+        last = {name: pair for m in shared.heard if m["type"] == "want" for name, pair in m["values"].items()}
+        assert last["throttle"] == [0, 5]
+
+    def test_keys_and_buttons_are_commands(self, shared: Program) -> None:
+        shown(shared, 3.0, RUNNING, saved=12.5)
+        keyboard = shared.page.keyboard
+        for key in ("p", ".", "Backspace", "Shift+Backspace", "u", "Home", "l"):
+            keyboard.press(key)
+        click = lambda what: shared.page.locator(f'[data-a3="{what}"]').first.click()  # noqa: E731
+        click("rewind")
+        shared.page.locator('[data-a3="saved"]').evaluate(
+            "slider => { slider.value = 7.5; for (const e of ['input', 'change']) slider.dispatchEvent(new Event(e)); }"
+        )
+        shared.page.locator('[data-a3="place"]').select_option("hill_20")
+        shared.page.wait_for_timeout(50)
+        names = ["pause", "step", "rewind", "rewind", "upright", "reset", "speed", "rewind", "rewind"]
+        values = [0, 1, 2, 10, 0, 0, 0.25, 2, 7.5]
+        assert shared.commands() == list(zip(names, values, strict=True))
+        assert {"type": "place", "name": "hill_20"} in shared.heard
+        assert shared.ask("Number(document.querySelector('[data-a3=\"saved\"]').max)") == 12.5
+        keyboard.press("h")
+        assert shared.page.locator('[data-a3="help list"]').is_visible()
+        keyboard.press("h")
+        assert not shared.page.locator('[data-a3="help list"]').is_visible()
+
+    def test_the_map_shows_the_car_its_trail_and_places(self, shared: Program, lane_change: Recording) -> None:
+        shared.drive(0.0, 2.0, 0.05)
+        shared.page.keyboard.press("5")
+        shown(shared, 3.0)
+        pixels = picture_of_simulator(shared.page)
+        where = [at(lane_change, f"chassis.{c}", 3.0) for c in "xy"]
+        x, y = shared.page.evaluate("point => player.cockpit.map.pixel(point)", where)
+        assert np.allclose(pixels[int(y), int(x)], [229, 53, 43], atol=30)  # the car
+        assert x > 320  # it went along x, which is to the right
+        past = [at(lane_change, f"chassis.{c}", 0.8) for c in "xy"]
+        x, y = shared.page.evaluate("point => player.cockpit.map.pixel(point)", past)
+        near = pixels[int(y) - 2 : int(y) + 3, int(x) - 2 : int(x) + 3].reshape(-1, 3)
+        assert (np.abs(near - [255, 210, 63]).sum(axis=1) < 90).any()  # its trail
+        x, y = shared.page.evaluate("() => player.cockpit.map.pixel([120, 80])")
+        assert np.allclose(pixels[int(y), int(x)], 255, atol=8)  # a place
+        shared.page.mouse.click(x, y)
+        shared.page.wait_for_timeout(50)
+        assert {"type": "place", "name": "hill_20"} in shared.heard
+        shared.page.keyboard.press("1")
+
+    def test_a_rewind_is_not_driven_through(self, shared: Program, lane_change: Recording) -> None:
+        shared.drive(4.0, 5.0, 0.05)
+        shared.epoch += 1
+        shared.send(1.0, RUNNING)
+        wait_until(shared.page, "epoch => player.frames.newest.epoch === epoch", arg=shared.epoch)
+        times = shared.ask("""() => new Promise(done => {
+          const seen = [];
+          const look = () => {
+            seen.push(player.frames.at(performance.now() / 1000).time);
+            if (seen.length < 10) requestAnimationFrame(look);
+            else done(seen);
+          };
+          requestAnimationFrame(look);
+        })""")
+        assert set(times) == {1.0}
+        assert shared.ask("player.cockpit.plan.trail.points.includes(null)")
+
+    def test_a_report_is_drawn(self, shared: Program) -> None:
+        shown(shared, 1.0)
+        shared.page.keyboard.press("g")
+        shared.page.wait_for_timeout(50)
+        assert {"type": "report"} in shared.heard
+        assert {"type": "watch devices", "on": True} in shared.heard
+        bins = [[2e-5, 3], [5e-5, 4000], [1e-4, 900], [8e-4, 12], [1.9e-3, 1], [4e-3, 2]]
+        spread = {"median": 6e-5, "p99": 2e-4, "p999": 9e-4, "largest": 4e-3, "bins": bins}
+        times = {"step": 0.002, "steps": 4918, "simulated": 9.836, "wall": 9.84, "missed": 2}
+        shared.say({"type": "report", **times, "cost": spread, "lateness": spread})
+        shared.page.wait_for_selector('[data-a3="histogram"] rect')
+        bars = shared.ask(
+            "[...document.querySelectorAll('[data-a3=\"histogram\"] rect')].map(r => r.getAttribute('fill'))"
+        )
+        assert len(bars) == len(bins)
+        assert bars.count(bars[-1]) == 1  # the one beyond the deadline has a colour of its own
+        assert "0.06 · 0.2 · 0.9 · 4 ms" in shared.text("report")
+        shared.page.keyboard.press("g")

@@ -327,7 +327,7 @@ def test_files_that_are_no_fmu_and_an_fmu_of_fmi_3(told, tmp_path):
 
 def test_without_an_fmu_one_is_built_and_kept(fmus, told, tmp_path, monkeypatch):
     """The build itself is tested elsewhere; here it takes an FMU that is there."""
-    monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(built_fmu, "cache_folder", lambda *parts: tmp_path.joinpath("cache", *parts))
     monkeypatch.chdir(tmp_path)
     built = []
 

@@ -7,7 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
@@ -278,47 +277,45 @@ def test_whole_inputs_are_repeated(fmus: dict[str, Path], tmp_path: Path) -> Non
 
 
 WRITER = """
-import sys, time
+import sys
 from pathlib import Path
 from hosts.recordings.recording import Recorder
 recorder = Recorder(Path(sys.argv[1]), ["u", "y"], {}, dict(
     fmu="car.fmu", guid="g", inputs=1, step=0.002, start={}), sys.argv[2])
 recorder._describe()
+recorder.event(0.0, "told", "begun", epoch=0)
+told = False
 for k in range(10**9):
     recorder.row(k, 0.002 * k, 0, [0.5, k * 1.0])
-    if k % 100 == 0:
-        time.sleep(0.01)
-    if k == 100:
-        recorder.event(0.2, "told", "begun", epoch=0)
-        print("begun", flush=True)
+    if recorder._written >= 4000 and not told:
+        told = True
+        print(recorder._written, flush=True)
 """
 
 
 @TABLES
-@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="it has no SIGKILL")
 def test_a_killed_program_leaves_its_recording(tmp_path: Path, table: str) -> None:
-    """At most the last seconds are lost, some 10 000 rows a second."""
+    """What was written when it was killed, in the middle of whatever it did, is there."""
     folder = tmp_path / "drive"
     program = subprocess.Popen(
         [sys.executable, "-c", WRITER, str(folder), table], stdout=subprocess.PIPE, cwd=Path(__file__).parents[3]
     )
     assert program.stdout is not None
-    assert program.stdout.readline() == b"begun\n"
-    time.sleep(3.0)
+    written = int(program.stdout.readline())
     os.kill(program.pid, signal.SIGKILL)
     program.wait()
     program.stdout.close()
     drive = read_recording(folder)
     assert drive.notes == [f"{folder} was not closed: what was driven in its last seconds may be lost."]
     rows = drive.rows()
-    assert len(rows) > 2000
+    assert len(rows) >= written >= 4000
     assert rows.values[:, 1].tolist() == list(range(len(rows)))
     assert rows.steps.tolist() == list(range(len(rows)))
     assert drive.events[0]["text"] == "begun"
     if table == "csv":  # the last line is cut off in the middle
         file = folder / "inputs_outputs.csv"
-        file.write_bytes(file.read_bytes()[:-3])
+        file.write_bytes(file.read_bytes().rpartition(b"\n")[0][:-3])
         assert len(drive.rows()) == len(rows) - 1
 
 

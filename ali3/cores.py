@@ -1,0 +1,13 @@
+"""How many processes are worth running at a time."""
+
+from __future__ import annotations
+
+import os
+
+
+def available_cores() -> int:
+    """Cores that this process may use: fewer than the computer has in a container or under ``taskset``."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # not on this system
+        return os.cpu_count() or 1
