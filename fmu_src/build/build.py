@@ -29,6 +29,7 @@ from fmu_src.variables.arrays import array_names
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import check_fidelities, variable_table, with_uncomputed
 from mbs.common.checks import instance_of
+from mbs.compiler.ports import following
 
 Say = Callable[[str], None]
 _PATIENCE = 2.0
@@ -149,7 +150,8 @@ class FmuBuilder:
         origin: Mapping[str, bytes] | None = None,
     ) -> None:
         offered = systems_by_number(system)
-        systems, fidelity = tuple(offered.values()), default_fidelity(fidelity, len(offered))
+        systems, followers = following(list(offered.values()))
+        fidelity = default_fidelity(fidelity, len(offered))
         metas = [s.meta for s in systems]
         check_fidelities(metas)
         meta = metas[fidelity]
@@ -170,7 +172,8 @@ class FmuBuilder:
         version = importlib.metadata.version("ali3")
         scene = geometry(systems[fidelity], table, fmu_name(name), description)
         self._contents = NativeContents(
-            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights, origin or {}
+            *("", description, version, systems, with_nominal(table, reach), reach, fidelity, followers, *rights),
+            origin or {},
         )
         self._scene = scene
         self._libraries: dict[tuple[str, str], bytes] = {}

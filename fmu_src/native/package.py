@@ -44,6 +44,8 @@ class NativeContents:
         What reaches which outputs.
     fidelity : int
         The default one.
+    followers : sequence of int
+        Per System the number of the one that computes what it leaves out; -1: none.
     author, copyright, licence : str
         Of the model, for its description; empty: the solver's.
     origin : mapping of str to bytes
@@ -59,6 +61,7 @@ class NativeContents:
     table: Sequence[Variable]
     reach: Dependencies
     fidelity: int = 0
+    followers: Sequence[int] = (-1,)
     author: str = ""
     copyright: str = ""
     licence: str = ""
@@ -102,6 +105,10 @@ class NativeContents:
         """Variables that are text."""
         return text_table(self.system.meta, self.table)
 
+    def table_c(self, identity: str, token: str) -> str:
+        """The table of the shell in C, with 32 hexadecimal digits and the GUID or instantiation token."""
+        return c_table(self.table, self.names, identity, token, self.texts, self.followers)
+
     @property
     def resources(self) -> dict[str, bytes]:
         """Systems and roads as they lie in the FMU, and what they were made from."""
@@ -130,7 +137,7 @@ class NativeContents:
     def identity(self, face: str) -> tuple[str, str]:
         """Hash of the content, and the GUID made from it."""
         return identity_of(
-            packed_sources(face, c_table(self.table, self.names, "0" * 32, "", self.texts)) | self.resources,
+            packed_sources(face, self.table_c("0" * 32, "")) | self.resources,
             [
                 *(self.model_name, self.description, self.version, self.stop_time, table_records(self.table)),
                 *(self.author, self.copyright, self.licence),

@@ -44,7 +44,8 @@ slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, c
   const ali3_status status = ali3_sensor_rates(s->fidelity.kernel, s->sensors, s->known);
   if (status != ALI3_OK) return slave_say(s, SLAVE_ERROR, "No output rates: %s.", ali3_status_text(status));
   for (size_t i = 0; i < n; i++)
-    if (t->variable[reference[i]].source != SLAVE_SENSOR || !s->known[t->variable[reference[i]].index])
+    if (t->variable[reference[i]].source != SLAVE_SENSOR || !s->known[t->variable[reference[i]].index] ||
+        slave_left_out(s, &t->variable[reference[i]]))
       return slave_say(s, SLAVE_ERROR,
                        "The rate of '%s' is not known: it depends on forces or accelerations. Positions, angles and "
                        "velocities have rates.",

@@ -105,6 +105,7 @@ void slave_free(slave *s) {
   void (*const release)(void *) = s->memory.release;
   if (s->value != NULL) release(s->value);
   slave_fidelity_free(s, &s->fidelity);
+  slave_fidelity_free(s, &s->follower);
   if (s->resources != NULL) release(s->resources);
   if (s->name != NULL) release(s->name);
   release(s);
