@@ -87,6 +87,12 @@ typedef struct { /* a step that was refused and what the host did since: nothing
   double time, step;
 } slave_refusal;
 
+typedef struct { /* the last good communication step, whose start is the snapshot of the kernel */
+  int64_t n;   /* inner steps; 0: there is none */
+  double h;    /* s */
+  bool sloped; /* along derivatives of the inputs, which are kept */
+} slave_made;
+
 typedef struct { /* a System of the FMU at work */
   size_t number;
   ali3_system *system;
@@ -104,9 +110,11 @@ struct slave {
   slave_fidelity fidelity, follower; /* the second is loaded when it is first needed */
   slave_call_state calls;
   slave_refusal refusal;
+  slave_made made;
   slave_status last_step; /* what the last step was answered with */
   double *value;          /* per variable; the outputs are filled when they are asked for */
   double *slope;          /* per variable and order: derivatives of the inputs from the communication point on */
+  double *made_slope;     /* those of the last communication step */
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
   unsigned char *clamped; /* per known variable: said once */
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
@@ -181,6 +189,10 @@ slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, cons
 
 /* step.c */
 slave_status slave_step(slave *s, double time, double step);
+void slave_add_slopes(const double *slope, double elapsed, double *input);
+
+/* replay.c */
+slave_status slave_step_derivative(slave *s, const double *direction, bool left_out, double *out);
 
 /* refusal.c: a host that asks for a refused step again is stopped */
 slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst);

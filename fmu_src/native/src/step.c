@@ -49,19 +49,25 @@ static ali3_status apply_pending(slave *s) {
   return status;
 }
 
-/* The inputs at `elapsed` after the communication point; the kernel holds them in their ranges. */
-static void follow_slopes(const slave *s, double elapsed, double *input) {
+/* What derivatives change in the inputs (nu) at `elapsed` after the communication point. */
+void slave_add_slopes(const double *slope, double elapsed, double *input) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < t->n_known; i++) {
     if (t->variable[i].source != SLAVE_INPUT) continue;
-    const double *slope = s->slope + i * SLAVE_MOST_ORDERS;
-    double u = s->value[i], power = 1.0;
+    double *u = &input[t->variable[i].index], power = 1.0;
     for (int k = 0; k < SLAVE_MOST_ORDERS; k++) {
       power *= elapsed / (k + 1);
-      u += slope[k] * power;
+      *u += slope[i * SLAVE_MOST_ORDERS + (size_t)k] * power;
     }
-    input[t->variable[i].index] = u;
   }
+}
+
+/* The inputs at `elapsed` after the communication point; the kernel holds them in their ranges. */
+static void follow_slopes(const slave *s, double elapsed, double *input) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = 0; i < t->n_known; i++)
+    if (t->variable[i].source == SLAVE_INPUT) input[t->variable[i].index] = s->value[i];
+  slave_add_slopes(s->slope, elapsed, input);
 }
 
 /* *left: the largest residual of an inner step that ended at the limit of its iterations. */
@@ -86,7 +92,9 @@ static ali3_status advance(slave *s, int64_t n, double h, double *left) {
 /* After a step with slopes the inputs are again what the host set them to. */
 static void forget_slopes(slave *s) {
   const slave_table *t = &slave_the_table;
-  if (!any_slope(s)) return;
+  s->made.sloped = any_slope(s);
+  if (!s->made.sloped) return;
+  memcpy(s->made_slope, s->slope, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
   memset(s->slope, 0, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
   for (size_t i = 0; i < t->n_known; i++)
     if (t->variable[i].source == SLAVE_INPUT) ali3_set_input(s->fidelity.kernel, t->variable[i].index, s->value[i]);
@@ -127,6 +135,8 @@ static slave_status try_step(slave *s, double time, double step) {
   ali3_snapshot_take(s->fidelity.kernel,
                      s->fidelity.snapshot); /* inputs, parameters and inner steps go back together */
   const ali3_status status = advance(s, n, h, &left);
+  s->made.n = status == ALI3_OK ? n : 0;
+  s->made.h = h;
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);
     if (status == ALI3_ROAD_LOST) snprintf(worst, sizeof worst, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));

@@ -303,6 +303,10 @@ ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, si
 ALI3_API size_t ali3_snapshot_size(const ali3_system *s);
 ALI3_API void ali3_snapshot_take(const ali3_instance *in, void *snapshot);
 ALI3_API void ali3_snapshot_restore(ali3_instance *in, const void *snapshot);
+/* Whether one that was stored elsewhere may be restored: ALI3_OK or ALI3_BAD_STATE; the instance stays as it is. */
+ALI3_API ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot);
+/* Per force element (ne) 1 where it touches a road in the present position, else 0. */
+ALI3_API void ali3_contacts(const ali3_instance *in, unsigned char *touching);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is

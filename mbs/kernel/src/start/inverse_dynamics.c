@@ -27,7 +27,8 @@ static bool same_model(const ali3_system *ported, const ali3_system *without) {
 static void follow(const ali3_system *S, const double *from, const double *offset, double *to) {
   for (int32_t i = 0; i < S->size.nq; i++) to[i] = offset != NULL ? offset[i] : 0.0;
   for (int64_t j = 0; j + 1 < S->n_ported_ptr; j++)
-    for (int32_t k = S->ported_ptr[j]; k < S->ported_ptr[j + 1]; k++) to[S->ported_row[k]] += S->ported_val[k] * from[j];
+    for (int32_t k = S->ported_ptr[j]; k < S->ported_ptr[j + 1]; k++)
+      to[S->ported_row[k]] += S->ported_val[k] * from[j];
 }
 
 /* The state of the model without ports, but for accelerations and multipliers. */
