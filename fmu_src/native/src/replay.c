@@ -5,7 +5,7 @@
 
 #include "slave.h"
 
-static const double PART = 1e-4; /* of an input's range: the difference to each side */
+static const double PART = 3e-4; /* of an input's range: the difference to each side */
 enum { ITERATIONS = 12 }; /* of an inner step: Newton's loop converges by a factor of ten or more */
 
 typedef struct { /* in one block, but for the settings */
@@ -70,7 +70,7 @@ static ali3_status begin(slave *s, const replay *r, double part) {
   ali3_settings exact = r->settings;
   exact.step_iterations = ITERATIONS;
   exact.tolerance_r = 1e-300;
-  ali3_snapshot_restore(kernel, s->fidelity.snapshot);
+  ali3_snapshot_restore(kernel, s->fidelity.start);
   ali3_status status = ali3_set_settings(kernel, &exact);
   for (int32_t i = 0; i < z.np && status == ALI3_OK; i++) {
     double was;
@@ -123,7 +123,7 @@ static slave_status add(slave *s, const replay *r, double part, double weight, b
 static slave_status check_halvings(slave *s) {
   ali3_report start, end;
   ali3_report_get(s->fidelity.kernel, &end);
-  ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.snapshot);
+  ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.start);
   ali3_report_get(s->fidelity.kernel, &start);
   if (start.halvings == end.halvings) return SLAVE_OK;
   return slave_say(s, SLAVE_ERROR,
@@ -136,8 +136,7 @@ slave_status slave_step_derivative(slave *s, const double *direction, bool left_
   replay r;
   if (s->made.n == 0)
     return slave_say(s, SLAVE_ERROR,
-                     "There is no communication step to differentiate; after initialisation, and after a refused step, "
-                     "it takes one step.");
+                     "There is no communication step to differentiate; after initialisation it takes one step.");
   if (!allocate(s, &r)) return slave_say(s, SLAVE_ERROR, "There is not enough memory for the derivatives.");
   look(s, &r);
   aim(&r, direction);

@@ -87,7 +87,7 @@ typedef struct { /* a step that was refused and what the host did since: nothing
   double time, step;
 } slave_refusal;
 
-typedef struct { /* the last good communication step, whose start is the snapshot of the kernel */
+typedef struct { /* the last good communication step, whose start the fidelity keeps */
   int64_t n;   /* inner steps; 0: there is none */
   double h;    /* s */
   bool sloped; /* along derivatives of the inputs, which are kept */
@@ -98,6 +98,7 @@ typedef struct { /* a System of the FMU at work */
   ali3_system *system;
   ali3_instance *kernel;
   void *snapshot; /* of the kernel before the step, which may be taken back */
+  void *start;    /* the same of the last good communication step */
 } slave_fidelity;
 
 struct slave {

@@ -76,7 +76,7 @@ static void save(const slave *s, unsigned char *bytes) {
   put(&p, s->clamped, n);
   put(&p, s->text, texts_size());
   memset(p, 0, start_size(&s->fidelity));
-  if (s->made.n > 0) memcpy(p, s->fidelity.snapshot, start_size(&s->fidelity));
+  if (s->made.n > 0) memcpy(p, s->fidelity.start, start_size(&s->fidelity));
   p += start_size(&s->fidelity);
   ali3_state_save(s->fidelity.kernel, p, ali3_state_size(s->fidelity.system));
 }
@@ -152,7 +152,7 @@ static bool restore_kernel(slave *s, const header *head, const unsigned char *te
   ali3_status status = size > start ? ALI3_OK : ALI3_BAD_STATE;
   if (status == ALI3_OK && head->made_n > 0) status = ali3_snapshot_check(other.kernel, bytes);
   if (status == ALI3_OK) status = ali3_state_restore(other.kernel, bytes + start, size - start);
-  if (status == ALI3_OK) memcpy(other.snapshot, bytes, start);
+  if (status == ALI3_OK) memcpy(other.start, bytes, start);
   if (status != ALI3_OK) {
     if (!same) slave_fidelity_free(s, &other);
     slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", ali3_status_text(status));

@@ -89,12 +89,22 @@ static ali3_status advance(slave *s, int64_t n, double h, double *left) {
   return status;
 }
 
+/* What a derivative of this communication step begins with. */
+static void keep_start(slave *s, int64_t n, double h) {
+  slave_fidelity *f = &s->fidelity;
+  void *const spare = f->start;
+  f->start = f->snapshot;
+  f->snapshot = spare;
+  s->made.n = n;
+  s->made.h = h;
+  s->made.sloped = any_slope(s);
+  if (s->made.sloped) memcpy(s->made_slope, s->slope, slave_the_table.n_known * SLAVE_MOST_ORDERS * sizeof(double));
+}
+
 /* After a step with slopes the inputs are again what the host set them to. */
 static void forget_slopes(slave *s) {
   const slave_table *t = &slave_the_table;
-  s->made.sloped = any_slope(s);
   if (!s->made.sloped) return;
-  memcpy(s->made_slope, s->slope, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
   memset(s->slope, 0, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
   for (size_t i = 0; i < t->n_known; i++)
     if (t->variable[i].source == SLAVE_INPUT) ali3_set_input(s->fidelity.kernel, t->variable[i].index, s->value[i]);
@@ -135,14 +145,13 @@ static slave_status try_step(slave *s, double time, double step) {
   ali3_snapshot_take(s->fidelity.kernel,
                      s->fidelity.snapshot); /* inputs, parameters and inner steps go back together */
   const ali3_status status = advance(s, n, h, &left);
-  s->made.n = status == ALI3_OK ? n : 0;
-  s->made.h = h;
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);
     if (status == ALI3_ROAD_LOST) snprintf(worst, sizeof worst, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));
     ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.snapshot);
     return slave_refuse_step(s, status, now, step, worst);
   }
+  keep_start(s, n, h);
   forget_slopes(s);
   memset(s->pending, 0, slave_the_table.n_known);
   s->outputs_fresh = false;
