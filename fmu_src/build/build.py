@@ -24,7 +24,7 @@ from fmu_src.native.ahead import compiled_ahead
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.native.platforms import able_platforms
-from fmu_src.native.reference import ReferenceRun, reference_run
+from fmu_src.native.reference import ReferenceRun, reference_runs
 from fmu_src.variables.arrays import array_names
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import check_fidelities, variable_table, with_uncomputed
@@ -177,7 +177,7 @@ class FmuBuilder:
         )
         self._scene = scene
         self._libraries: dict[tuple[str, str], bytes] = {}
-        self._run: ReferenceRun | None = None
+        self._runs: tuple[ReferenceRun, ...] = ()
 
     @property
     def parameters(self) -> ParameterSet:
@@ -186,7 +186,7 @@ class FmuBuilder:
 
     def pieces(self, work: Mapping[str, Sequence[str]]) -> int:
         """How many pieces of work `told` is going to be asked for by `build` of these kinds for their platforms."""
-        run = self._run is None and any(kind in _FACES for kind in work)
+        run = not self._runs and any(kind in _FACES for kind in work)
         return run + sum(1 + self._libraries_to_make(kind, platforms) for kind, platforms in work.items())
 
     def _libraries_to_make(self, kind: str, platforms: Sequence[str]) -> int:
@@ -220,10 +220,10 @@ class FmuBuilder:
 
             pack_python(contents, platforms, file, self._told, self._libraries)
         else:
-            if self._run is None:
+            if not self._runs:
                 with self._told("running the default experiment"):
-                    self._run = reference_run(contents.system)
-            pack_native(contents, _FACES[kind], self._run, platforms, file, self._told, self._libraries)
+                    self._runs = reference_runs(contents.system, contents.follower)
+            pack_native(contents, _FACES[kind], self._runs, platforms, file, self._told, self._libraries)
         return file
 
 

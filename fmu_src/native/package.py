@@ -93,6 +93,12 @@ class NativeContents:
         return self.systems[self.fidelity]
 
     @property
+    def follower(self) -> mbs.System | None:
+        """The System that computes what the default one leaves out."""
+        number = self.followers[self.fidelity]
+        return self.systems[number] if number >= 0 else None
+
+    @property
     def names(self) -> dict[str, list[list[str]]]:
         """Names of the constraint rows and force elements of each System."""
         return {
@@ -176,7 +182,7 @@ class Face:
 def pack_native(
     contents: NativeContents,
     face: Face,
-    run: ReferenceRun,
+    runs: Sequence[ReferenceRun],
     platforms: Sequence[str],
     file: Path,
     told: Telling,
@@ -188,8 +194,8 @@ def pack_native(
     ----------
     contents : NativeContents
     face : Face
-    run : ReferenceRun
-        The default experiment.
+    runs : sequence of ReferenceRun
+        The default experiment, then others.
     platforms : sequence of str
         Out of `fmu_src.native.platforms.TARGETS`.
     file : Path
@@ -213,8 +219,8 @@ def pack_native(
         **contents.resources,
         "documentation/licenses/license.txt": licence("ali3"),
         "documentation/index.html": _page(contents, [*contents.origin_words, *face.words]),
-        face.picture: _picture(run),
-    } | reference_files(name, run, contents.stop_time, contents.step_size)
+        face.picture: _picture(runs[0]),
+    } | reference_files(name, runs, contents.stop_time, contents.step_size)
     with tempfile.TemporaryDirectory() as temporary:
         table = Path(temporary, "table.c")
         table.write_text(table_c, encoding="utf-8")
