@@ -24,10 +24,11 @@ from fmu_src.native.ahead import compiled_ahead
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.native.platforms import able_platforms
-from fmu_src.native.reference import ReferenceRun, reference_run
+from fmu_src.native.reference import ReferenceRun, reference_runs
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import check_fidelities, variable_table, with_uncomputed
 from mbs.common.checks import instance_of
+from mbs.compiler.ports import following
 
 Say = Callable[[str], None]
 _PATIENCE = 2.0
@@ -148,7 +149,8 @@ class FmuBuilder:
         origin: Mapping[str, bytes] | None = None,
     ) -> None:
         offered = systems_by_number(system)
-        systems, fidelity = tuple(offered.values()), default_fidelity(fidelity, len(offered))
+        systems, followers = following(list(offered.values()))
+        fidelity = default_fidelity(fidelity, len(offered))
         metas = [s.meta for s in systems]
         check_fidelities(metas)
         meta = metas[fidelity]
@@ -169,11 +171,12 @@ class FmuBuilder:
         version = importlib.metadata.version("ali3")
         scene = geometry(systems[fidelity], table, fmu_name(name), description)
         self._contents = NativeContents(
-            "", description, version, systems, with_nominal(table, reach), reach, fidelity, *rights, origin or {}
+            *("", description, version, systems, with_nominal(table, reach), reach, fidelity, followers, *rights),
+            origin or {},
         )
         self._scene = scene
         self._libraries: dict[tuple[str, str], bytes] = {}
-        self._run: ReferenceRun | None = None
+        self._runs: tuple[ReferenceRun, ...] = ()
 
     @property
     def parameters(self) -> ParameterSet:
@@ -182,7 +185,7 @@ class FmuBuilder:
 
     def pieces(self, work: Mapping[str, Sequence[str]]) -> int:
         """How many pieces of work `told` is going to be asked for by `build` of these kinds for their platforms."""
-        run = self._run is None and any(kind in _FACES for kind in work)
+        run = not self._runs and any(kind in _FACES for kind in work)
         return run + sum(1 + self._libraries_to_make(kind, platforms) for kind, platforms in work.items())
 
     def _libraries_to_make(self, kind: str, platforms: Sequence[str]) -> int:
@@ -215,10 +218,10 @@ class FmuBuilder:
 
             pack_python(contents, platforms, file, self._told, self._libraries)
         else:
-            if self._run is None:
+            if not self._runs:
                 with self._told("running the default experiment"):
-                    self._run = reference_run(contents.system)
-            pack_native(contents, _FACES[kind], self._run, platforms, file, self._told, self._libraries)
+                    self._runs = reference_runs(contents.system, contents.follower)
+            pack_native(contents, _FACES[kind], self._runs, platforms, file, self._told, self._libraries)
         return file
 
 

@@ -8,13 +8,13 @@ from fmu_src.description.description import Description, model_description
 from fmu_src.description.fmi3 import build_description, model_description_fmi3, terminals
 from fmu_src.native.package import Face, NativeContents
 from fmu_src.native.platforms import FMI3_FOLDERS, PLATFORMS, TARGETS
-from fmu_src.native.table import c_arrays, c_table
+from fmu_src.native.table import c_arrays
 from fmu_src.variables.arrays import Array, arrays, scalars
 from fmu_src.variables.variables import Variable
 
 
 def _tables_fmi2(contents: NativeContents, identity: str, guid: str) -> str:
-    return c_table(contents.table, contents.names, identity, guid, contents.texts)
+    return contents.table_c(identity, guid)
 
 
 def _documents_fmi2(head: Description, contents: NativeContents) -> dict[str, bytes]:

@@ -44,6 +44,8 @@ class NativeContents:
         What reaches which outputs.
     fidelity : int
         The default one.
+    followers : sequence of int
+        Per System the number of the one that computes what it leaves out; -1: none.
     author, copyright, licence : str
         Of the model, for its description; empty: the solver's.
     origin : mapping of str to bytes
@@ -59,6 +61,7 @@ class NativeContents:
     table: Sequence[Variable]
     reach: Dependencies
     fidelity: int = 0
+    followers: Sequence[int] = (-1,)
     author: str = ""
     copyright: str = ""
     licence: str = ""
@@ -90,6 +93,12 @@ class NativeContents:
         return self.systems[self.fidelity]
 
     @property
+    def follower(self) -> mbs.System | None:
+        """The System that computes what the default one leaves out."""
+        number = self.followers[self.fidelity]
+        return self.systems[number] if number >= 0 else None
+
+    @property
     def names(self) -> dict[str, list[list[str]]]:
         """Names of the constraint rows and force elements of each System."""
         return {
@@ -101,6 +110,10 @@ class NativeContents:
     def texts(self) -> tuple[TextVariable, ...]:
         """Variables that are text."""
         return text_table(self.system.meta, self.table)
+
+    def table_c(self, identity: str, token: str) -> str:
+        """The table of the shell in C, with 32 hexadecimal digits and the GUID or instantiation token."""
+        return c_table(self.table, self.names, identity, token, self.texts, self.followers)
 
     @property
     def resources(self) -> dict[str, bytes]:
@@ -130,7 +143,7 @@ class NativeContents:
     def identity(self, face: str) -> tuple[str, str]:
         """Hash of the content, and the GUID made from it."""
         return identity_of(
-            packed_sources(face, c_table(self.table, self.names, "0" * 32, "", self.texts)) | self.resources,
+            packed_sources(face, self.table_c("0" * 32, "")) | self.resources,
             [
                 *(self.model_name, self.description, self.version, self.stop_time, table_records(self.table)),
                 *(self.author, self.copyright, self.licence),
@@ -169,7 +182,7 @@ class Face:
 def pack_native(
     contents: NativeContents,
     face: Face,
-    run: ReferenceRun,
+    runs: Sequence[ReferenceRun],
     platforms: Sequence[str],
     file: Path,
     told: Telling,
@@ -181,8 +194,8 @@ def pack_native(
     ----------
     contents : NativeContents
     face : Face
-    run : ReferenceRun
-        The default experiment.
+    runs : sequence of ReferenceRun
+        The default experiment, then others.
     platforms : sequence of str
         Out of `fmu_src.native.platforms.TARGETS`.
     file : Path
@@ -206,8 +219,8 @@ def pack_native(
         **contents.resources,
         "documentation/licenses/license.txt": licence("ali3"),
         "documentation/index.html": _page(contents, [*contents.origin_words, *face.words]),
-        face.picture: _picture(run),
-    } | reference_files(name, run, contents.stop_time, contents.step_size)
+        face.picture: _picture(runs[0]),
+    } | reference_files(name, runs, contents.stop_time, contents.step_size)
     with tempfile.TemporaryDirectory() as temporary:
         table = Path(temporary, "table.c")
         table.write_text(table_c, encoding="utf-8")

@@ -1,8 +1,11 @@
-"""Reference results of the default experiment in the layered standard fmi-ls-ref: an importer can check itself."""
+"""Reference results in the layered standard fmi-ls-ref, with which an importer can check itself."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import contextlib
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from xml.etree import ElementTree
 
 import numpy as np
@@ -10,15 +13,18 @@ from numpy.typing import NDArray
 
 import mbs
 from fmu_src.description.description import number, to_bytes
+from mbs.kernel.binding import Instance, LoadedSystem
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 _NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
 _ROWS = 100
+_PART = 0.2
+Column = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class ReferenceRun:
-    """The default experiment: no input touched.
+    """An experiment.
 
     Parameters
     ----------
@@ -26,26 +32,38 @@ class ReferenceRun:
         Times, s.
     columns : dict of str to ndarray, shape (n,)
         Outputs by name.
+    corners : ndarray, shape (m,)
+        Times between which inputs go straight, s; empty: no input is touched.
+    inputs : dict of str to ndarray, shape (m,)
+        Their values there.
     """
 
-    t: NDArray[np.float64]
-    columns: dict[str, NDArray[np.float64]]
+    t: Column
+    columns: dict[str, Column]
+    corners: Column = field(default_factory=lambda: np.zeros(0))
+    inputs: dict[str, Column] = field(default_factory=dict)
 
 
-def reference_run(system: mbs.System) -> ReferenceRun:
-    """Run the default experiment; about a hundred rows.
+def reference_runs(system: mbs.System, follower: mbs.System | None = None) -> tuple[ReferenceRun, ...]:
+    """The default experiment without inputs and, where it runs, with each input in turn; about a hundred rows each.
+
+    An input goes a fifth of the way to the end of its range and back, and is held over each step.
+
+    Parameters
+    ----------
+    follower : mbs.System, optional
+        With ports: computes what the System leaves out (`mbs.compiler.ports`).
 
     Raises
     ------
     SimulationError
-        When it does not run; the sentence names what of the scene sets it.
+        When the default experiment does not run; the sentence names what of the scene sets it.
     """
     experiment = system.meta["experiment"]
     step = float(experiment["step_s"])
     steps = max(1, round(float(experiment["stop_time_s"]) / step))
-    every = max(1, steps // _ROWS)
     try:
-        run = mbs.simulate(system, steps * step, step, every=every, progress=False)
+        runs = [_run(system, follower, steps, step, np.zeros(0), {})]
     except mbs.SimulationError as error:
         raise mbs.SimulationError(
             f"The default experiment, {steps * step:g} s in steps of {step:g} s as `m.stop_time` and `m.step` of the "
@@ -54,17 +72,68 @@ def reference_run(system: mbs.System) -> ReferenceRun:
             error.status,
             error.trajectory,
         ) from None
-    return ReferenceRun(np.asarray(run.t), {name: np.asarray(run[name]) for name in run})
+    corners, inputs = _in_turn(system.meta["inputs"], steps * step)
+    if inputs:
+        untrusted = (mbs.SimulationError, mbs.AccuracyWarning)  # then it is no reference
+        with warnings.catch_warnings(), contextlib.suppress(*untrusted):
+            warnings.simplefilter("error", mbs.AccuracyWarning)
+            runs.append(_run(system, follower, steps, step, corners, inputs))
+    return tuple(runs)
 
 
-def reference_files(name: str, run: ReferenceRun, stop_time: float, step: float) -> dict[str, bytes]:
-    """Manifest, experiment and results.
+def _in_turn(entries: Sequence[Mapping[str, object]], stop: float) -> tuple[Column, dict[str, Column]]:
+    """Corners and values: real inputs with a range move one after the other, in the order of the table."""
+    moving = []
+    for entry in entries:
+        start, low, high = (float(entry[key]) for key in ("start", "min", "max"))  # type: ignore[arg-type]
+        far = high if high > start else low
+        if not entry.get("whole") and abs(far) < 1e300 and far != start:
+            moving.append((str(entry["name"]), start, start + _PART * (far - start)))
+    corners = np.linspace(0.0, stop, 2 * len(moving) + 1)
+    inputs = {name: np.full(len(corners), start) for name, start, _ in moving}
+    for k, (name, _, peak) in enumerate(moving):
+        inputs[name][2 * k + 1] = peak
+    return corners, inputs
+
+
+def _run(
+    system: mbs.System,
+    follower: mbs.System | None,
+    steps: int,
+    step: float,
+    corners: Column,
+    inputs: Mapping[str, Column],
+) -> ReferenceRun:
+    simulation = mbs.Simulation(system)
+    ported = None if follower is None else Instance(LoadedSystem(follower.to_bytes(drawing=False)))
+    sensors = system.meta["sensors"]
+    left_out = np.array([not entry.get("computed", True) for entry in sensors])
+    times, rows, every = [], [], max(1, steps // _ROWS)
+    for k in range(steps + 1):
+        if k % every == 0:
+            row = np.array(simulation.instance.sensors())
+            if ported is not None:
+                ported.follow(simulation.instance)
+                row = np.where(left_out, np.array(ported.sensors()), row)
+            times.append(simulation.time)
+            rows.append(row)
+        if k < steps:
+            for name, values in inputs.items():
+                simulation.set_input(name, float(np.interp(k * step, corners, values)))
+            simulation.step(step)
+    columns = {entry["name"]: column for entry, column in zip(sensors, np.array(rows).T, strict=True)}
+    return ReferenceRun(np.array(times), columns, corners, dict(inputs))
+
+
+def reference_files(name: str, runs: Sequence[ReferenceRun], stop_time: float, step: float) -> dict[str, bytes]:
+    """Manifest, experiments, their inputs and results.
 
     Parameters
     ----------
     name : str
         Of the model.
-    run : ReferenceRun
+    runs : sequence of ReferenceRun
+        As `reference_runs` gives them.
     stop_time, step : float
         Default experiment, s.
 
@@ -73,10 +142,6 @@ def reference_files(name: str, run: ReferenceRun, stop_time: float, step: float)
     dict of str to bytes
         By path in the FMU.
     """
-    result = f"{name}_out.csv"
-    head = ",".join(['"time"', *(f'"{column}"' for column in run.columns)])
-    rows = np.column_stack([run.t, *run.columns.values()])
-    text = "\n".join([head, *(",".join(number(v) for v in row) for row in rows)]) + "\n"
     ElementTree.register_namespace("fmi-ls", _NAMESPACE)
     manifest = ElementTree.Element(
         "fmiReferences",
@@ -87,24 +152,41 @@ def reference_files(name: str, run: ReferenceRun, stop_time: float, step: float)
             "in an FMU.",
         },
     )
-    for source, kind, role, words in (
-        ("experiments.xml", "application/xml", "experiment/smoke-test", "The default experiment"),
-        (result, "text/csv", "result", "Outputs of the default experiment, no input touched"),
-    ):
-        ElementTree.SubElement(manifest, "Related", source=source, type=kind, role=role, description=words)
     experiments = ElementTree.Element("Experiments")
-    experiment = ElementTree.SubElement(
-        experiments,
-        "Experiment",
-        name="default",
-        description="Default experiment, no input touched",
-        startTime="0.0",
-        stopTime=number(stop_time),
-        stepSize=number(step),
-    )
-    ElementTree.SubElement(experiment, "References", source=result)
+    files = {}
+
+    def related(source: str, kind: str, role: str, words: str) -> None:
+        ElementTree.SubElement(manifest, "Related", source=source, type=kind, role=role, description=words)
+
+    related("experiments.xml", "application/xml", "experiment/smoke-test", "The experiments")
+    for run in runs:
+        label, words = ("in_turn", "each input in turn") if run.inputs else ("default", "no input touched")
+        experiment = ElementTree.SubElement(
+            experiments,
+            "Experiment",
+            name=label,
+            description=f"Default experiment, {words}",
+            startTime="0.0",
+            stopTime=number(stop_time),
+            stepSize=number(step),
+        )
+        source = f"{name}_out.csv" if label == "default" else f"{name}_{label}_out.csv"
+        if run.inputs:
+            given = f"{name}_{label}_in.csv"
+            ElementTree.SubElement(experiment, "Stimuli", source=given)
+            related(given, "text/csv", "stimuli", "Inputs, straight between rows, held over each step")
+            files[f"{FOLDER}/{given}"] = _csv(run.corners, run.inputs)
+        ElementTree.SubElement(experiment, "References", source=source)
+        related(source, "text/csv", "result", f"Outputs of the default experiment, {words}")
+        files[f"{FOLDER}/{source}"] = _csv(run.t, run.columns)
     return {
         f"{FOLDER}/fmi-ls-manifest.xml": to_bytes(manifest),
         f"{FOLDER}/experiments.xml": to_bytes(experiments),
-        f"{FOLDER}/{result}": text.encode(),
+        **files,
     }
+
+
+def _csv(t: Column, columns: Mapping[str, Column]) -> bytes:
+    head = ",".join(['"time"', *(f'"{column}"' for column in columns)])
+    rows = np.column_stack([t, *columns.values()])
+    return ("\n".join([head, *(",".join(number(v) for v in row) for row in rows)]) + "\n").encode()

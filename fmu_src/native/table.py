@@ -29,6 +29,7 @@ def c_table(
     identity: str,
     token: str,
     texts: Sequence[TextVariable] = (),
+    followers: Sequence[int] = (-1,),
 ) -> str:
     """`table.c` of the shell.
 
@@ -44,6 +45,8 @@ def c_table(
         GUID or instantiation token.
     texts : sequence of TextVariable
         Variables that are text.
+    followers : sequence of int
+        Per System the number of the one that computes what it leaves out; -1: none.
 
     Returns
     -------
@@ -65,9 +68,10 @@ def c_table(
         '#include <math.h>\n\n#include "slave.h"\n\n'
         f"static const slave_variable variables[] = {{\n{variables}\n}};\n\n"
         f"{_texts(texts)}{_names('row', names['row'])}{_names('element', names['element'])}"
+        f"static const int32_t follower[] = {{{', '.join(map(str, followers))}}};\n\n"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
-        f"{len(table)}, {known},\n    row, first_row, element, first_element, {len(names['row'])},\n    texts, "
-        f"{len(texts)},\n}};\n"
+        f"{len(table)}, {known},\n    row, first_row, element, first_element, {len(names['row'])}, follower,\n"
+        f"    texts, {len(texts)},\n}};\n"
     )
 
 

@@ -15,7 +15,6 @@ from fmu_src.native.compile import compile_library
 from fmu_src.native.package import NativeContents, Telling, first_time
 from fmu_src.native.platforms import PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.native.sources import shell_files
-from fmu_src.native.table import c_table
 
 _HERE = Path(__file__).parent
 _PYTHONFMU = Path(pythonfmu.__file__).parent
@@ -91,7 +90,7 @@ def pack_python(
     }
     with tempfile.TemporaryDirectory() as temporary:
         table = Path(temporary, "table.c")
-        table.write_text(c_table(contents.table, contents.names, identity, guid, contents.texts), encoding="utf-8")
+        table.write_text(contents.table_c(identity, guid), encoding="utf-8")
         for platform in platforms:
             library = name + SUFFIXES[platform]
             if (name, platform) not in libraries:

@@ -89,6 +89,8 @@ FLOAT_ARRAYS = (
     "payload_mass",
     "payload_gravity",
     "tree_payload_place",
+    "ported_val",
+    "ported_const",
 )
 """Arrays of a System of type double."""
 
@@ -178,6 +180,8 @@ INTEGER_ARRAYS = (
     "payload_signal",
     "tree_payload_body",
     "guide_second",
+    "ported_ptr",
+    "ported_row",
 )
 """Arrays of a System of type int32_t."""
 
@@ -201,6 +205,10 @@ OPTIONAL_ARRAYS = (
     "tree_payload_body",
     "tree_payload_place",
     "guide_second",
+    "ported_ptr",
+    "ported_row",
+    "ported_val",
+    "ported_const",
 )
 """Those that a System need not have."""
 

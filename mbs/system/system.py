@@ -68,7 +68,7 @@ class System:
         if names | OPTIONAL != FLOATS | INTEGERS:
             wrong = sorted((names | OPTIONAL) ^ (FLOATS | INTEGERS))
             raise SystemFileError(f"The arrays of a System are incomplete or unknown: {', '.join(wrong)}.")
-        self.arrays: Mapping[str, NDArray[Any]] = _Arrays(arrays, modes)
+        self.arrays = _Arrays(arrays, modes)
         self.frames = frames
         self.drawing = drawing
         self._meta_text = json.dumps(meta, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
@@ -117,6 +117,18 @@ class System:
             raise ValueError(f"The System '{self.name}' carries no drawing; compile its model again.")
         found: dict[str, Any] = copy.deepcopy(dict(self.drawing.scene))
         return found
+
+    def with_arrays(self, arrays: Mapping[str, ArrayLike]) -> System:
+        """The same System with other values of some arrays.
+
+        Parameters
+        ----------
+        arrays : mapping of str to array_like
+            By name.
+        """
+        made = copy.copy(self)
+        made.arrays = self.arrays.changed(arrays)
+        return made
 
     def to_bytes(self, drawing: bool = True, modes: bool = True) -> bytes:
         """The System file; equal Systems give equal bytes.
@@ -238,6 +250,12 @@ class _Arrays(Mapping[str, NDArray[Any]]):
             self._arrays |= {made: _frozen(made, values) for made, values in self._modes().items()}
             self._modes = None
         return self._arrays[name]
+
+    def changed(self, arrays: Mapping[str, ArrayLike]) -> _Arrays:
+        """A copy with other values of some."""
+        made = copy.copy(self)
+        made._arrays = self._arrays | {name: _frozen(name, values) for name, values in arrays.items()}
+        return made
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._arrays)

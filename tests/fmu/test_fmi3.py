@@ -111,6 +111,7 @@ def test_states_go_back_and_through_bytes(crane3: Host3, build: Callable[..., Pa
 def test_adjoint_is_the_transposed_directional_derivative(crane3: Host3) -> None:
     crane3.start().set("torque", 5.0)
     crane3.run(10)
+    crane3.slave.doStep(10 * STEP, 5 * STEP)  # of several inner steps
     unknown = [crane3.references[n] for n in ("rod.x", "rod.ay", "rod.angle")]
     known = [crane3.references["torque"]]
     forward = np.array(crane3.slave.getDirectionalDerivative(unknown, known, [1.0], 3))

@@ -18,6 +18,11 @@ STEP, INNER = 0.1, 0.01
 # Differences of steps that end at a tolerance of 1e-10 m, over a part of the input's range.
 PART, DERIVATIVE_ERROR = 1e-3, 2e-5
 RATE_STEP, RATE_ERROR = 1e-4, 1e-3
+SEEN = {
+    "torque": ("rod.x", "rod.angle", "rod.ay"),
+    "pull": ("bob.x", "bob.vx", "pulled"),
+    "thrust": ("chassis.x", "speed"),
+}
 
 
 @pytest.fixture(params=["crane", "reach", "sled"])
@@ -156,6 +161,73 @@ def test_outputs_by_inputs_of_a_step(scene: tuple[Path, str, float, float], host
     assert np.allclose(
         derivative(driven, unknown, [driven.references[name]], [-3.0]), -3.0 * np.array(found), rtol=1e-6
     )
+
+
+@pytest.mark.parametrize("inner_steps", [1, 2, 5])
+@pytest.mark.parametrize("ramp", [0.0, 3.0])
+def test_outputs_by_inputs_of_a_communication_step(
+    scene: tuple[Path, str, float, float], host: HostMaker, inner_steps: int, ramp: float
+) -> None:
+    """All of it, held inputs or such that follow derivatives; also after the state went to another instance."""
+    fmu, name, value, size = scene
+    driven, other = host(fmu).start(), host(fmu)
+    known, step = [driven.references[name]], inner_steps * INNER
+    driven.slave.setReal(known, [value])
+    driven.run(20, INNER)
+    state, ends = driven.slave.getFMUstate(), []
+    unknown = [v.valueReference for v in driven.description.modelVariables if v.name in SEEN[name]]
+    for sign in (1.0, -1.0, 0.0):
+        driven.slave.setFMUstate(state)
+        driven.slave.setReal(known, [0.9 * value + sign * PART * size])
+        assert slope(driven, name, 1, ramp * size) == OK
+        assert driven.step(20 * INNER, step) == OK
+        ends.append(np.array(driven.slave.getReal(unknown)))
+    expected = (ends[0] - ends[1]) / (2.0 * PART * size)
+    driven.slave.setReal(known, [value])  # of the next step
+    found = derivative(driven, unknown, known, [1.0])
+    scale = np.abs(expected) + np.max(np.abs(expected)) * 1e-2
+    assert np.all(np.abs(found - expected) < DERIVATIVE_ERROR * scale)
+    assert np.min(np.abs(expected)) > 0.0
+    assert other.restore(driven.slave.serializeFMUstate(driven.slave.getFMUstate())) == OK
+    assert derivative(other, unknown, known, [1.0]) == found
+    assert other.step(20 * INNER + step, step) == driven.step(20 * INNER + step, step) == OK
+    assert other.outputs() == driven.outputs()
+
+
+def test_a_step_that_was_halved_has_no_derivative(build: Callable[..., Path], host: HostMaker) -> None:
+    driven = host(build("crank_slider", "native")).start({"torque": 4.0, "step_size": 1e-3})
+    unknown, known = [driven.references["crank.angle"]], [driven.references["torque"]]
+    refused, whole, halvings = 0, 0, 0.0
+    for k in range(1500):
+        driven.step(k * 1e-3, 1e-3)
+        before, halvings = halvings, driven.get("solver.halvings")
+        if halvings == before:
+            whole += derivative(driven, unknown, known, [1.0])[0] != 0.0
+            continue
+        end = driven.outputs()
+        assert driven.call("getDirectionalDerivative", unknown, known, [1.0]) == ERROR
+        assert "an inner step of it was halved" in driven.messages[-1]
+        assert driven.outputs() == end
+        refused += 1
+    assert refused > 10
+    assert whole > 10
+
+
+def test_a_contact_that_is_made_has_no_derivative(prototype_fmu: Path, host: HostMaker) -> None:
+    """A dropped car: derivatives in the air and on the ground, none where a wheel meets the road or leaves it."""
+    driven = host(prototype_fmu).start({"initial.z": 0.05, "initial.speed": 10.0})
+    unknown = [driven.references[n] for n in ("wheel_FL.Fz", "chassis.ay")]
+    known, touched, seen = [driven.references["steering"]], False, []
+    for k in range(40):
+        driven.step(k * 0.01, 0.01)
+        before, touched = touched, driven.get("wheel_FL.Fz") > 0.0
+        status = driven.call("getDirectionalDerivative", unknown, known, [1.0])
+        seen.append((before != touched, status))
+        if status == ERROR:
+            assert "a contact with the road was made or lost" in driven.messages[-1]
+    assert (True, OK) not in seen
+    assert (True, ERROR) in seen
+    assert seen.count((False, OK)) > 20
 
 
 def test_outputs_by_what_is_set_in_initialisation(build: Callable[..., Path], host: HostMaker) -> None:

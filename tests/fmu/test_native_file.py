@@ -8,6 +8,7 @@ import xml.etree.ElementTree as ElementTree
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import fmpy
 import numpy as np
@@ -16,9 +17,10 @@ from lxml import etree
 
 import mbs
 from fmu_src.description.description import declared_types
-from fmu_src.native.reference import reference_run
+from fmu_src.native.reference import reference_runs
 from fmu_src.variables.variables import Variable
-from mbs.scenes import cart_pole
+from mbs.compiler.ports import following
+from mbs.scenes import cart_pole, prototype_car
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
 LS_REF = "extra/org.fmi-standard.fmi-ls-ref"
@@ -53,24 +55,53 @@ def test_documents_obey_the_schemas(
     assert checker.validate(etree.parse(io.BytesIO(read(fmu, document)))), checker.error_log
 
 
+def columns_of(fmu: Path, file: str) -> Any:
+    content = io.BytesIO(read(fmu, f"{LS_REF}/{file}"))
+    return np.genfromtxt(content, delimiter=",", names=True, deletechars="", dtype=float)
+
+
 @pytest.mark.parametrize("kind", ["native", "fmi3"])
 def test_the_reference_results_repeat(build: Callable[..., Path], kind: str) -> None:
+    """To the bit, without inputs and with those of the FMU, which FMPy holds over a step."""
     fmu = build("crane", kind)
     manifest = ElementTree.fromstring(read(fmu, f"{LS_REF}/fmi-ls-manifest.xml"))
-    sources = {item.attrib["role"]: item.attrib["source"] for item in manifest}
-    experiment = ElementTree.fromstring(read(fmu, f"{LS_REF}/{sources['experiment/smoke-test']}"))[0]
-    assert experiment[0].attrib["source"] == sources["result"]
-    table = np.genfromtxt(
-        io.BytesIO(read(fmu, f"{LS_REF}/{sources['result']}")), delimiter=",", names=True, deletechars="", dtype=float
-    )
-    interval = float(experiment.attrib["stepSize"])
-    run = fmpy.simulate_fmu(
-        str(fmu), stop_time=float(experiment.attrib["stopTime"]), output_interval=interval, output=["rod.ay"]
-    )
-    every = round((table["time"][1] - table["time"][0]) / interval)
-    assert len(table) > 50
-    assert np.array_equal(table["rod.ay"], run["rod.ay"][::every])
-    assert np.ptp(table["rod.ay"]) > 1.0
+    listed = {item.attrib["source"] for item in manifest}
+    assert {f"{LS_REF}/{source}" for source in listed} <= names(fmu)
+    experiments = list(ElementTree.fromstring(read(fmu, f"{LS_REF}/experiments.xml")))
+    assert [e.attrib["name"] for e in experiments] == ["default", "in_turn"]
+    swings = []
+    for experiment in experiments:
+        files = {item.tag: item.attrib["source"] for item in experiment}
+        assert set(files.values()) <= listed
+        table, interval = columns_of(fmu, files["References"]), float(experiment.attrib["stepSize"])
+        given = columns_of(fmu, files["Stimuli"]) if "Stimuli" in files else None
+        run = fmpy.simulate_fmu(
+            str(fmu),
+            stop_time=float(experiment.attrib["stopTime"]),
+            output_interval=interval,
+            output=["rod.ay"],
+            input=given,
+            set_input_derivatives=False,
+        )
+        every = round((table["time"][1] - table["time"][0]) / interval)
+        assert len(table) > 50
+        assert np.allclose(table["rod.ay"], run["rod.ay"][::every], rtol=1e-9, atol=1e-9 * np.ptp(table["rod.ay"]))
+        assert given is not None or np.array_equal(table["rod.ay"], run["rod.ay"][::every])
+        swings.append(np.ptp(table["rod.ay"]))
+    assert swings[0] > 1.0
+    assert swings[1] != swings[0]
+
+
+def test_the_reference_results_of_a_car_have_stresses() -> None:
+    cars = [mbs.compile(prototype_car.build(fidelity=fidelity)) for fidelity in (0, 1)]
+    systems, (follower, _) = following(cars)
+    default, in_turn = reference_runs(systems[0], systems[follower])
+    for run in (default, in_turn):
+        assert np.abs(run.columns["stress.SG1"]).min() > 1e3
+        assert np.all(run.columns["stress.computed"] == 1.0)
+    assert set(in_turn.inputs) == {"steering", "throttle", "brake", "hand_brake", "steering_wheel_angle_demand"}
+    assert np.ptp(in_turn.columns["stress.SG1"]) > 20.0 * np.ptp(default.columns["stress.SG1"])
+    assert np.ptp(in_turn.columns["speed"]) > 1.0
 
 
 def test_documentation_and_picture(build: Callable[..., Path]) -> None:
@@ -116,4 +147,4 @@ def test_a_scene_whose_default_experiment_does_not_run_is_refused_with_what_sets
     with pytest.raises(
         mbs.SimulationError, match=r"10 s in steps of 0\.01 s as `m\.stop_time` and `m\.step` .* step from"
     ):
-        reference_run(mbs.compile(cart_pole.build()))
+        reference_runs(mbs.compile(cart_pole.build()))

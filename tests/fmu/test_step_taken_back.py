@@ -18,7 +18,7 @@ OK, WARNING, DISCARD, ERROR = range(4)
 BEFORE, H, PULL = 30, 0.01, 5.0
 STEP_SIZES = {"one inner step": 0.1, "several inner steps": 0.01}
 LONG = 0.096  # inner steps of another size than those before
-HEADER = 80  # bytes of a state that say who it is of and in which phase; the refusal changes the phase
+HEADER = 96  # bytes of a state that say who it is of and in which phase; the refusal changes the phase
 
 
 @pytest.fixture(params=list(STEP_SIZES))

@@ -44,7 +44,8 @@ slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, c
   const ali3_status status = ali3_sensor_rates(s->fidelity.kernel, s->sensors, s->known);
   if (status != ALI3_OK) return slave_say(s, SLAVE_ERROR, "No output rates: %s.", ali3_status_text(status));
   for (size_t i = 0; i < n; i++)
-    if (t->variable[reference[i]].source != SLAVE_SENSOR || !s->known[t->variable[reference[i]].index])
+    if (t->variable[reference[i]].source != SLAVE_SENSOR || !s->known[t->variable[reference[i]].index] ||
+        slave_left_out(s, &t->variable[reference[i]]))
       return slave_say(s, SLAVE_ERROR,
                        "The rate of '%s' is not known: it depends on forces or accelerations. Positions, angles and "
                        "velocities have rates.",
@@ -54,7 +55,7 @@ slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, c
 }
 
 /* Before the first step the outputs are those of the initial state, which is found anew on both sides. */
-static bool initial_change(slave *s, uint32_t reference, double seed, double *out) {
+static bool initial_change(slave *s, uint32_t reference, double seed, bool left_out, double *out) {
   const slave_table *t = &slave_the_table;
   const slave_variable *v = &t->variable[reference];
   const double range = v->max - v->min, value = s->value[reference];
@@ -64,26 +65,27 @@ static bool initial_change(slave *s, uint32_t reference, double seed, double *ou
   bool good = true;
   for (int side = 0; side < 2 && good; side++) {
     s->value[reference] = side == 0 ? up : down;
-    good = slave_initialise(s) && ali3_sensors(s->fidelity.kernel, s->sensors) == ALI3_OK;
+    good = slave_initialise(s) && slave_outputs(s) && (!left_out || slave_follow(s));
     const double weight = (side == 0 ? seed : -seed) / (up - down);
     for (size_t i = t->n_known; i < t->n_variables && good; i++)
-      if (t->variable[i].source == SLAVE_SENSOR) out[i] += weight * s->sensors[t->variable[i].index];
+      if (t->variable[i].source == SLAVE_SENSOR) out[i] += weight * s->value[i];
   }
   s->value[reference] = value;
   return good;
 }
 
-static slave_status initial_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, double *out) {
+static slave_status initial_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, bool left_out,
+                                       double *out) {
   bool good = true;
-  for (size_t i = 0; i < n && good; i++) good = initial_change(s, known[i], seed[i], out);
+  for (size_t i = 0; i < n && good; i++) good = initial_change(s, known[i], seed[i], left_out, out);
   /* the sensors of the state itself come back with the next initial state */
   return slave_initialise(s) && good ? SLAVE_OK : SLAVE_ERROR;
 }
 
-static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, double *out) {
+static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, bool left_out,
+                                    double *out) {
   const slave_table *t = &slave_the_table;
-  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
-  memset(s->direction, 0, (size_t)z.nu * sizeof(double));
+  memset(s->direction, 0, (size_t)ali3_system_sizes(s->fidelity.system).nu * sizeof(double));
   for (size_t i = 0; i < n; i++) {
     const slave_variable *v = &t->variable[known[i]];
     if (v->source != SLAVE_INPUT)
@@ -91,22 +93,19 @@ static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, c
                        "'%s' is no input; after initialisation outputs have derivatives by inputs only.", v->name);
     s->direction[v->index] += seed[i];
   }
-  const ali3_status status = ali3_input_derivative(s->fidelity.kernel, s->direction, s->sensors);
-  if (status != ALI3_OK)
-    return slave_say(s, SLAVE_ERROR, "The directional derivative could not be found: %s%s.", ali3_status_text(status),
-                     status == ALI3_NOT_INITIALISED ? "; after initialisation it takes one step" : "");
-  for (size_t i = t->n_known; i < t->n_variables; i++)
-    if (t->variable[i].source == SLAVE_SENSOR) out[i] = s->sensors[t->variable[i].index];
-  return SLAVE_OK;
+  return slave_step_derivative(s, s->direction, left_out, out);
 }
 
 slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unknown, const uint32_t *known,
                                size_t n_known, const double *seed, double *out) {
   const slave_table *t = &slave_the_table;
-  for (size_t i = 0; i < n_unknown; i++)
+  bool left_out = false;
+  for (size_t i = 0; i < n_unknown; i++) {
     if (!slave_is_output(unknown[i]))
       return slave_say(s, SLAVE_ERROR, "Value reference %u is no output; derivatives are those of outputs.",
                        (unsigned)unknown[i]);
+    left_out = left_out || slave_left_out(s, &t->variable[unknown[i]]);
+  }
   for (size_t i = 0; i < n_known; i++) {
     const bool none = known[i] >= t->n_known || t->variable[known[i]].source > SLAVE_POSE;
     if (none) return slave_say(s, SLAVE_ERROR, "There are no derivatives by value reference %u.", (unsigned)known[i]);
@@ -121,8 +120,8 @@ slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unkno
   if (all == NULL) return slave_say(s, SLAVE_ERROR, "There is not enough memory for the derivatives.");
   memset(all, 0, t->n_variables * sizeof *all);
   const bool initial = (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) != 0;
-  const slave_status status =
-      initial ? initial_derivative(s, known, n_known, seed, all) : step_derivative(s, known, n_known, seed, all);
+  const slave_status status = initial ? initial_derivative(s, known, n_known, seed, left_out, all)
+                                      : step_derivative(s, known, n_known, seed, left_out, all);
   for (size_t i = 0; i < n_unknown && status == SLAVE_OK; i++) out[i] = all[unknown[i]];
   s->memory.release(all);
   return status;

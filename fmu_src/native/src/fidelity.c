@@ -21,6 +21,7 @@ static bool table_fits(const ali3_system *system, size_t fidelity) {
 
 void slave_fidelity_free(const slave *s, slave_fidelity *loaded) {
   if (loaded->snapshot != NULL) s->memory.release(loaded->snapshot);
+  if (loaded->start != NULL) s->memory.release(loaded->start);
   if (loaded->kernel != NULL) ali3_instance_free(loaded->kernel);
   if (loaded->system != NULL) ali3_system_free(loaded->system);
   memset(loaded, 0, sizeof *loaded);
@@ -51,7 +52,8 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
   if (status == ALI3_OK) status = ali3_instance_new(loaded->system, &loaded->kernel);
   if (status == ALI3_OK) {
     loaded->snapshot = s->memory.allocate(1, ali3_snapshot_size(loaded->system));
-    if (loaded->snapshot == NULL) status = ALI3_NO_MEMORY;
+    loaded->start = s->memory.allocate(1, ali3_snapshot_size(loaded->system));
+    if (loaded->snapshot == NULL || loaded->start == NULL) status = ALI3_NO_MEMORY;
   }
   if (status != ALI3_OK) {
     slave_say(s, SLAVE_ERROR, "The file %s was refused: %s%s%s.", file, ali3_status_text(status),

@@ -107,6 +107,7 @@ bool slave_initialise(slave *s) {
   const ali3_status status = apply(s);
   s->calls.initialised = status == ALI3_OK;
   s->calls.capped_residual = 0.0;
+  s->made.n = 0;
   s->outputs_fresh = false;
   if (status != ALI3_OK) {
     slave_say(s, SLAVE_ERROR, "The initial state could not be found: %s.%s", ali3_status_text(status),

@@ -8,7 +8,7 @@
 static bool take_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
-  const size_t numbers = t->n_variables + t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + (size_t)z.nu;
+  const size_t numbers = t->n_variables + 2 * t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + (size_t)z.nu;
   const size_t texts = t->n_texts * sizeof *s->text;
   double *pool = s->memory.allocate(1, numbers * sizeof(double) + 2 * t->n_known + (size_t)z.ns + texts + 1);
   if (pool == NULL) {
@@ -17,7 +17,8 @@ static bool take_arrays(slave *s) {
   }
   s->value = pool;
   s->slope = s->value + t->n_variables;
-  s->sensors = s->slope + t->n_known * SLAVE_MOST_ORDERS;
+  s->made_slope = s->slope + t->n_known * SLAVE_MOST_ORDERS;
+  s->sensors = s->made_slope + t->n_known * SLAVE_MOST_ORDERS;
   s->direction = s->sensors + z.ns;
   s->pending = (unsigned char *)(s->direction + z.nu);
   s->clamped = s->pending + t->n_known;
@@ -55,11 +56,12 @@ static void start_values(slave *s) {
   const slave_call_state calls = {.phase = SLAVE_INSTANTIATED, .stop_time = HUGE_VAL};
   s->calls = calls;
   s->last_step = SLAVE_OK;
+  s->made.n = 0;
   slave_forget_refusal(s);
   s->outputs_fresh = s->uncomputed_said = false;
   memset(s->pending, 0, t->n_known);
   memset(s->clamped, 0, t->n_known);
-  memset(s->slope, 0, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
+  memset(s->slope, 0, 2 * t->n_known * SLAVE_MOST_ORDERS * sizeof(double)); /* and made_slope */
   for (size_t i = 0; i < t->n_variables; i++) {
     s->value[i] = t->variable[i].start;
     if (t->variable[i].source == SLAVE_STEP_SIZE) s->step_reference = i;
@@ -105,6 +107,7 @@ void slave_free(slave *s) {
   void (*const release)(void *) = s->memory.release;
   if (s->value != NULL) release(s->value);
   slave_fidelity_free(s, &s->fidelity);
+  slave_fidelity_free(s, &s->follower);
   if (s->resources != NULL) release(s->resources);
   if (s->name != NULL) release(s->name);
   release(s);

@@ -30,7 +30,7 @@ typedef struct {
   bool whole;             /* an integer of FMI */
   bool fixed;             /* a parameter that can be set before the first step only */
   int32_t road;           /* a parameter of the built-in form of this road, without effect on a file; -1: of none */
-  uint64_t uncomputed;    /* bits of the fidelities that do not compute it */
+  uint64_t uncomputed;    /* bits of the fidelities whose System leaves it out */
 } slave_variable;
 
 typedef struct {
@@ -49,6 +49,7 @@ typedef struct {
   const char *const *element;  /* names of the force elements of all Systems */
   const size_t *first_element; /* n_systems + 1 */
   size_t n_systems;            /* to choose from by the fidelity */
+  const int32_t *follower;     /* n_systems: the one with ports that computes what each leaves out; -1: none */
   const slave_text *text;      /* variables that are text; numbered by themselves */
   size_t n_texts;
 } slave_table;
@@ -86,11 +87,18 @@ typedef struct { /* a step that was refused and what the host did since: nothing
   double time, step;
 } slave_refusal;
 
+typedef struct { /* the last good communication step, whose start the fidelity keeps */
+  int64_t n;   /* inner steps; 0: there is none */
+  double h;    /* s */
+  bool sloped; /* along derivatives of the inputs, which are kept */
+} slave_made;
+
 typedef struct { /* a System of the FMU at work */
   size_t number;
   ali3_system *system;
   ali3_instance *kernel;
   void *snapshot; /* of the kernel before the step, which may be taken back */
+  void *start;    /* the same of the last good communication step */
 } slave_fidelity;
 
 struct slave {
@@ -100,16 +108,18 @@ struct slave {
   char *name, *resources;
   bool logging, all_categories;
   unsigned categories; /* bits, see category_of in log.c */
-  slave_fidelity fidelity;
+  slave_fidelity fidelity, follower; /* the second is loaded when it is first needed */
   slave_call_state calls;
   slave_refusal refusal;
+  slave_made made;
   slave_status last_step; /* what the last step was answered with */
   double *value;          /* per variable; the outputs are filled when they are asked for */
   double *slope;          /* per variable and order: derivatives of the inputs from the communication point on */
+  double *made_slope;     /* those of the last communication step */
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
   unsigned char *clamped; /* per known variable: said once */
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
-  bool outputs_fresh;
+  bool outputs_fresh, followed; /* followed: with what the follower computes */
   bool uncomputed_said; /* that an output was read which is not computed, once a run */
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
@@ -133,6 +143,10 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded);
 void slave_fidelity_take(slave *s, const slave_fidelity *loaded);
 void slave_fidelity_free(const slave *s, slave_fidelity *loaded);
 bool slave_fidelity_choose(slave *s);
+
+/* follower.c */
+bool slave_left_out(const slave *s, const slave_variable *v);
+bool slave_follow(slave *s);
 
 /* texts.c: n numbers of text variables, the first of which is `first`, and as many texts */
 slave_status slave_get_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char **value);
@@ -176,6 +190,10 @@ slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, cons
 
 /* step.c */
 slave_status slave_step(slave *s, double time, double step);
+void slave_add_slopes(const double *slope, double elapsed, double *input);
+
+/* replay.c */
+slave_status slave_step_derivative(slave *s, const double *direction, bool left_out, double *out);
 
 /* refusal.c: a host that asks for a refused step again is stopped */
 slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst);

@@ -1,18 +1,20 @@
-/* A state as bytes: header with magic, version, the FMU's identity, size and checksum; the slave's own numbers, then the
- * kernel's bytes. Flat, without pointers, so that it continues bit for bit anywhere. */
+/* A state as bytes: header with magic, version, the FMU's identity, size and checksum; the slave's own numbers, the start
+ * of the last communication step, of which there are derivatives, then the kernel's bytes. Flat, without pointers, so that it continues bit for bit anywhere. */
 #include <math.h>
 #include <string.h>
 
 #include "slave.h"
 
-typedef struct { /* 80 bytes without holes */
+typedef struct { /* 96 bytes without holes */
   char magic[8];
   uint32_t version, crc;
   uint64_t size;
   unsigned char identity[16];
-  uint8_t phase, initialised, step_warned, energy_warned, mode_warned, capped_warned, zero[2];
+  uint8_t phase, initialised, step_warned, energy_warned, mode_warned, capped_warned, sloped, zero;
   uint32_t fidelity, n_known; /* fidelity of the kernel's bytes; the value may be set for the next initialisation */
   double start_time, stop_time, capped_residual;
+  int64_t made_n; /* the last communication step */
+  double made_h;
 } header;
 
 struct slave_state {
@@ -22,7 +24,7 @@ struct slave_state {
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
 /* The checksum covers what follows it; it is written and read with the bytes, a state in memory needs none. */
-enum { STATE_VERSION = 5, CRC_AT = 12, CHECKED_FROM = 16 };
+enum { STATE_VERSION = 6, CRC_AT = 12, CHECKED_FROM = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
@@ -30,10 +32,14 @@ static size_t texts_size(void) { return slave_the_table.n_texts * sizeof(slave_t
 
 static size_t own_size(void) {
   const size_t n = slave_the_table.n_known;
-  return sizeof(header) + n * (1 + SLAVE_MOST_ORDERS) * sizeof(double) + 2 * n + texts_size();
+  return sizeof(header) + n * (1 + 2 * SLAVE_MOST_ORDERS) * sizeof(double) + 2 * n + texts_size();
 }
 
-static size_t whole_size(const slave *s) { return own_size() + ali3_state_size(s->fidelity.system); }
+static size_t start_size(const slave_fidelity *fidelity) { return ali3_snapshot_size(fidelity->system); }
+
+static size_t whole_size(const slave *s) {
+  return own_size() + start_size(&s->fidelity) + ali3_state_size(s->fidelity.system);
+}
 
 static void put(unsigned char **to, const void *from, size_t size) {
   memcpy(*to, from, size);
@@ -55,16 +61,23 @@ static void save(const slave *s, unsigned char *bytes) {
                  .n_known = (uint32_t)n,
                  .start_time = c->start_time,
                  .stop_time = c->stop_time,
-                 .capped_residual = c->capped_residual};
+                 .capped_residual = c->capped_residual,
+                 .sloped = (uint8_t)(s->made.n > 0 && s->made.sloped),
+                 .made_n = s->made.n,
+                 .made_h = s->made.n > 0 ? s->made.h : 0.0};
   unsigned char *p = bytes;
   memcpy(head.magic, MAGIC, sizeof MAGIC);
   memcpy(head.identity, slave_the_table.identity, sizeof head.identity);
   put(&p, &head, sizeof head);
   put(&p, s->value, n * sizeof(double));
   put(&p, s->slope, n * SLAVE_MOST_ORDERS * sizeof(double));
+  put(&p, s->made_slope, n * SLAVE_MOST_ORDERS * sizeof(double));
   put(&p, s->pending, n);
   put(&p, s->clamped, n);
   put(&p, s->text, texts_size());
+  memset(p, 0, start_size(&s->fidelity));
+  if (s->made.n > 0) memcpy(p, s->fidelity.start, start_size(&s->fidelity));
+  p += start_size(&s->fidelity);
   ali3_state_save(s->fidelity.kernel, p, ali3_state_size(s->fidelity.system));
 }
 
@@ -83,9 +96,9 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
   if (head.fidelity == s->fidelity.number && size != whole_size(s)) return "they have another size";
   if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
       head.initialised > 1 || head.step_warned > 1 || head.energy_warned > 1 || head.mode_warned > 1 ||
-      head.capped_warned > SLAVE_CAPPED_BADLY || head.zero[0] != 0 || head.zero[1] != 0 ||
-      !(fabs(head.start_time) < HUGE_VAL) || !(head.stop_time > head.start_time) || !(head.capped_residual >= 0.0) ||
-      !(head.capped_residual < HUGE_VAL))
+      head.capped_warned > SLAVE_CAPPED_BADLY || head.sloped > 1 || head.zero != 0 || head.made_n < 0 ||
+      !(head.made_h >= 0.0) || !(head.made_h < HUGE_VAL) || !(fabs(head.start_time) < HUGE_VAL) ||
+      !(head.stop_time > head.start_time) || !(head.capped_residual >= 0.0) || !(head.capped_residual < HUGE_VAL))
     return "their header is inconsistent";
   if (!head.initialised && head.phase > SLAVE_INITIALISING) return "their header is inconsistent";
   return NULL;
@@ -95,14 +108,15 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
 static const char *bad_value(const unsigned char *p) {
   const slave_table *t = &slave_the_table;
   double v;
-  for (size_t i = 0; i < t->n_known * (1 + SLAVE_MOST_ORDERS); i++) {
+  const size_t numbers = t->n_known * (1 + 2 * SLAVE_MOST_ORDERS);
+  for (size_t i = 0; i < numbers; i++) {
     memcpy(&v, p + i * sizeof v, sizeof v);
     if (!(fabs(v) < HUGE_VAL)) return "a number in them is not finite";
     if (i < t->n_known && !(v >= t->variable[i].min && v <= t->variable[i].max))
       return "a number in them is out of its range";
     if (i < t->n_known && t->variable[i].whole && v != floor(v)) return "a number in them is out of its range";
   }
-  const unsigned char *flag = p + t->n_known * (1 + SLAVE_MOST_ORDERS) * sizeof v;
+  const unsigned char *flag = p + numbers * sizeof v;
   for (size_t i = 0; i < 2 * t->n_known; i++)
     if (flag[i] > 1) return "a flag in them is neither 0 nor 1";
   for (size_t i = 0; i < t->n_known; i++)
@@ -124,8 +138,9 @@ static void get(void *to, const unsigned char **from, size_t size) {
 }
 
 /* The state of the kernel, of another System or on other roads too; false, said and nothing changed, if that fails. */
-static bool restore_kernel(slave *s, size_t fidelity, const unsigned char *texts, const unsigned char *bytes,
+static bool restore_kernel(slave *s, const header *head, const unsigned char *texts, const unsigned char *bytes,
                            size_t size) {
+  const size_t fidelity = head->fidelity;
   slave_fidelity other = s->fidelity;
   const bool same = fidelity == s->fidelity.number && (texts_size() == 0 || memcmp(texts, s->text, texts_size()) == 0);
   if (!same && !slave_fidelity_load(s, fidelity, &other)) return false;
@@ -133,7 +148,11 @@ static bool restore_kernel(slave *s, size_t fidelity, const unsigned char *texts
     slave_fidelity_free(s, &other);
     return false;
   }
-  const ali3_status status = ali3_state_restore(other.kernel, bytes, size);
+  const size_t start = start_size(&other);
+  ali3_status status = size > start ? ALI3_OK : ALI3_BAD_STATE;
+  if (status == ALI3_OK && head->made_n > 0) status = ali3_snapshot_check(other.kernel, bytes);
+  if (status == ALI3_OK) status = ali3_state_restore(other.kernel, bytes + start, size - start);
+  if (status == ALI3_OK) memcpy(other.start, bytes, start);
   if (status != ALI3_OK) {
     if (!same) slave_fidelity_free(s, &other);
     slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", ali3_status_text(status));
@@ -152,7 +171,7 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
   memcpy(&head, bytes, sizeof head);
   const unsigned char *texts = bytes + own_size() - texts_size();
-  if (!restore_kernel(s, head.fidelity, texts, bytes + own_size(), size - own_size())) return SLAVE_ERROR;
+  if (!restore_kernel(s, &head, texts, bytes + own_size(), size - own_size())) return SLAVE_ERROR;
   s->calls.phase = (slave_phase)head.phase;
   s->calls.initialised = (int32_t)head.initialised;
   s->calls.step_warned = (int32_t)head.step_warned;
@@ -161,10 +180,14 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   s->calls.capped_warned = (int32_t)head.capped_warned;
   s->calls.capped_residual = head.capped_residual;
   slave_forget_refusal(s);
+  s->made.n = head.made_n;
+  s->made.h = head.made_h;
+  s->made.sloped = head.sloped;
   s->calls.start_time = head.start_time;
   s->calls.stop_time = head.stop_time;
   get(s->value, &p, n * sizeof(double));
   get(s->slope, &p, n * SLAVE_MOST_ORDERS * sizeof(double));
+  get(s->made_slope, &p, n * SLAVE_MOST_ORDERS * sizeof(double));
   get(s->pending, &p, n);
   get(s->clamped, &p, n);
   get(s->text, &p, texts_size());

@@ -49,19 +49,25 @@ static ali3_status apply_pending(slave *s) {
   return status;
 }
 
-/* The inputs at `elapsed` after the communication point; the kernel holds them in their ranges. */
-static void follow_slopes(const slave *s, double elapsed, double *input) {
+/* What derivatives change in the inputs (nu) at `elapsed` after the communication point. */
+void slave_add_slopes(const double *slope, double elapsed, double *input) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < t->n_known; i++) {
     if (t->variable[i].source != SLAVE_INPUT) continue;
-    const double *slope = s->slope + i * SLAVE_MOST_ORDERS;
-    double u = s->value[i], power = 1.0;
+    double *u = &input[t->variable[i].index], power = 1.0;
     for (int k = 0; k < SLAVE_MOST_ORDERS; k++) {
       power *= elapsed / (k + 1);
-      u += slope[k] * power;
+      *u += slope[i * SLAVE_MOST_ORDERS + (size_t)k] * power;
     }
-    input[t->variable[i].index] = u;
   }
+}
+
+/* The inputs at `elapsed` after the communication point; the kernel holds them in their ranges. */
+static void follow_slopes(const slave *s, double elapsed, double *input) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = 0; i < t->n_known; i++)
+    if (t->variable[i].source == SLAVE_INPUT) input[t->variable[i].index] = s->value[i];
+  slave_add_slopes(s->slope, elapsed, input);
 }
 
 /* *left: the largest residual of an inner step that ended at the limit of its iterations. */
@@ -83,10 +89,22 @@ static ali3_status advance(slave *s, int64_t n, double h, double *left) {
   return status;
 }
 
+/* What a derivative of this communication step begins with. */
+static void keep_start(slave *s, int64_t n, double h) {
+  slave_fidelity *f = &s->fidelity;
+  void *const spare = f->start;
+  f->start = f->snapshot;
+  f->snapshot = spare;
+  s->made.n = n;
+  s->made.h = h;
+  s->made.sloped = any_slope(s);
+  if (s->made.sloped) memcpy(s->made_slope, s->slope, slave_the_table.n_known * SLAVE_MOST_ORDERS * sizeof(double));
+}
+
 /* After a step with slopes the inputs are again what the host set them to. */
 static void forget_slopes(slave *s) {
   const slave_table *t = &slave_the_table;
-  if (!any_slope(s)) return;
+  if (!s->made.sloped) return;
   memset(s->slope, 0, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
   for (size_t i = 0; i < t->n_known; i++)
     if (t->variable[i].source == SLAVE_INPUT) ali3_set_input(s->fidelity.kernel, t->variable[i].index, s->value[i]);
@@ -133,6 +151,7 @@ static slave_status try_step(slave *s, double time, double step) {
     ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.snapshot);
     return slave_refuse_step(s, status, now, step, worst);
   }
+  keep_start(s, n, h);
   forget_slopes(s);
   memset(s->pending, 0, slave_the_table.n_known);
   s->outputs_fresh = false;

@@ -24,17 +24,21 @@ bool slave_outputs(slave *s) {
                                               : s->calls.capped_residual;
   }
   s->outputs_fresh = true;
+  s->followed = false;
   return true;
 }
 
-static void remark_uncomputed(slave *s, const uint32_t *reference, size_t n) {
-  const uint64_t here = (uint64_t)1 << s->fidelity.number;
-  for (size_t i = 0; i < n && !s->uncomputed_said; i++) {
+/* Of outputs that the System at work leaves out: from its follower; without one it is said, once a run. */
+static bool left_out(slave *s, const uint32_t *reference, size_t n) {
+  for (size_t i = 0; i < n; i++) {
     const slave_variable *v = &slave_the_table.variable[reference[i]];
-    if (!(v->uncomputed & here)) continue;
+    if (!slave_left_out(s, v)) continue;
+    if (slave_the_table.follower[s->fidelity.number] >= 0) return slave_follow(s);
+    if (!s->uncomputed_said) slave_say_uncomputed(s, v);
     s->uncomputed_said = true;
-    slave_say_uncomputed(s, v);
+    return true;
   }
+  return true;
 }
 
 slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value) {
@@ -45,8 +49,7 @@ slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *va
       return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference[i]);
     outputs = outputs || slave_is_output(reference[i]);
   }
-  if (outputs && !slave_outputs(s)) return SLAVE_ERROR;
-  if (outputs && !s->uncomputed_said) remark_uncomputed(s, reference, n);
+  if (outputs && !(slave_outputs(s) && left_out(s, reference, n))) return SLAVE_ERROR;
   for (size_t i = 0; i < n; i++) value[i] = s->value[reference[i]];
   return SLAVE_OK;
 }

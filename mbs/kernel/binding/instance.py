@@ -320,6 +320,16 @@ class Instance:
             self._check(status)
         return values
 
+    def follow(self, other: Instance) -> None:
+        """Take over the state of the same model without ports, and find the forces at the ports, for `sensors`.
+
+        Parameters
+        ----------
+        other : Instance
+            Initialised; stays as it is. This System has the map of `mbs.compiler.ports.with_ports_of`.
+        """
+        self._check(self._library.ali3_ports_follow(self._handle, other._handle))
+
     def report(self) -> dict[str, float | int]:
         """Counters and residuals by field name."""
         fields = ReportFields()

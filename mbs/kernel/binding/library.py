@@ -58,6 +58,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     ),
     "ali3_refresh": (c_int32, [c_void_p]),
     "ali3_sensors": (c_int32, [c_void_p, _DOUBLES]),
+    "ali3_ports_follow": (c_int32, [c_void_p, c_void_p]),
     "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
     "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),

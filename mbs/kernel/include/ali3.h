@@ -244,6 +244,9 @@ ALI3_API ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, 
 /* Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs. */
 ALI3_API ali3_status ali3_refresh(ali3_instance *in);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
+/* The System with ports that another run follows, ALI3_BAD_ARGUMENT where it is none of the other's: takes over its
+ * state and finds accelerations and the forces at the ports, for ali3_sensors. `without` stays as it is. */
+ALI3_API ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *without);
 /* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] =
  * 0). */
 ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known);
@@ -300,6 +303,10 @@ ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, si
 ALI3_API size_t ali3_snapshot_size(const ali3_system *s);
 ALI3_API void ali3_snapshot_take(const ali3_instance *in, void *snapshot);
 ALI3_API void ali3_snapshot_restore(ali3_instance *in, const void *snapshot);
+/* Whether one that was stored elsewhere may be restored: ALI3_OK or ALI3_BAD_STATE; the instance stays as it is. */
+ALI3_API ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot);
+/* Per force element (ne) 1 where it touches a road in the present position, else 0. */
+ALI3_API void ali3_contacts(const ali3_instance *in, unsigned char *touching);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is

@@ -18,7 +18,8 @@
   X(double, 2, par_offset) X(int32_t, 1, par_fixed) \
   X(double, 2, payload_mass) X(int32_t, 1, payload_signal) X(double, 2, payload_gravity) \
   X(int32_t, 1, tree_payload_body) X(double, 2, tree_payload_place) \
-  X(int32_t, 1, guide_second)
+  X(int32_t, 1, guide_second) \
+  X(int32_t, 1, ported_ptr) X(int32_t, 1, ported_row) X(double, 2, ported_val) X(double, 2, ported_const)
 
 #define ALI3_SYSTEM_ARRAYS(X) \
   X(unsigned char, 3, meta) \

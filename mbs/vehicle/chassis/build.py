@@ -102,4 +102,7 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
             row = body.reduced.recovery(flexible.gauge_rows[k : k + 1])[0]
             m.sense_coordinate(name, body.combination(row), unit=unit, description=text + note)
     text = "1 where moments and stresses are computed; 0: they read zero"
-    m.sense_constant("stress.computed", float(fidelity is not Fidelity.RIGID), unit="1", description=text, whole=True)
+    computed = fidelity is not Fidelity.RIGID
+    m.sense_constant(
+        "stress.computed", float(computed), unit="1", description=text, whole=True, computed=computed
+    )

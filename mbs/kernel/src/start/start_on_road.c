@@ -75,3 +75,9 @@ double ali3_start_lift(const ali3_instance *in, double *uneven) {
   if (uneven != NULL) *uneven = in != NULL ? in->uneven : 0.0;
   return in != NULL ? in->lift : 0.0;
 }
+
+void ali3_contacts(const ali3_instance *in, unsigned char *touching) {
+  double part;
+  for (int32_t e = 0; in != NULL && touching != NULL && e < in->system->size.ne; e++)
+    touching[e] = in->system->el_kind[e]->depth != NULL && depth(in, in->road, in->now.q, e, 0.0, &part) > 0.0;
+}

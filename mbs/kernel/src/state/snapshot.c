@@ -4,13 +4,8 @@
 
 #include "../instance.h"
 #include "parameters.h"
+#include "snapshot.h"
 #include "vectors.h"
-
-typedef struct {
-  ali3_report report;
-  double t_base, h_last;
-  int64_t count;
-} ali3_snapshot_head; /* then the vectors, inputs and parameters */
 
 static size_t numbers(const ali3_system *s) { return ali3_vector_count(s) + (size_t)s->size.nu + (size_t)s->size.np; }
 

@@ -1,5 +1,6 @@
 /* A state as bytes: header with magic, version, System checksum, size and own checksum; then all that continues bit
  * for bit. */
+#include <math.h>
 #include <string.h>
 
 #include "../files/crc32.h"
@@ -7,6 +8,7 @@
 #include "../rows/assembly_mode.h"
 #include "parameters.h"
 #include "road_files.h"
+#include "snapshot.h"
 #include "vectors.h"
 
 typedef struct { /* 40 bytes without holes */
@@ -95,6 +97,42 @@ static bool report_valid(const ali3_system *s, const ali3_report *r) {
          counted(r->capped) && magnitude(r->capped_residual) && r->energy_error - r->energy_error == 0.0;
 }
 
+/* Vectors, inputs and parameters, one after the other. */
+static bool vectors_valid(const ali3_instance *in, const unsigned char *vectors) {
+  const ali3_system *S = in->system;
+  const unsigned char *inputs = vectors + in->n_vector * sizeof(double),
+                      *parameters = inputs + (size_t)S->size.nu * sizeof(double);
+  return numbers_valid(vectors, in->n_vector) && within(inputs, S->size.nu, S->input_min, S->input_max) &&
+         within(parameters, S->size.np, S->par_min, S->par_max);
+}
+
+/* Whether elements, guides and roads take these parameters; if not, the instance keeps its own. */
+static bool take_parameters(ali3_instance *in, const unsigned char *parameters) {
+  const size_t size = (size_t)in->system->size.np * sizeof(double);
+  memcpy(in->parameter_work, in->parameter, size);
+  memcpy(in->parameter, parameters, size);
+  if (ali3_parameters_apply(in) == ALI3_OK) return true;
+  memcpy(in->parameter, in->parameter_work, size);
+  ali3_parameters_apply(in);
+  return false;
+}
+
+ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot) {
+  ali3_snapshot_head head;
+  if (in == NULL || snapshot == NULL) return ALI3_BAD_ARGUMENT;
+  const unsigned char *vectors = (const unsigned char *)snapshot + sizeof head;
+  const size_t size = (size_t)in->system->size.np * sizeof(double);
+  memcpy(&head, snapshot, sizeof head);
+  if (!report_valid(in->system, &head.report) || !counted(head.count) || !(fabs(head.t_base) <= MOST) ||
+      !(head.h_last >= 0.0 && head.h_last <= MOST) || !vectors_valid(in, vectors))
+    return ALI3_BAD_STATE;
+  const unsigned char *parameters = vectors + (in->n_vector + (size_t)in->system->size.nu) * sizeof(double);
+  if (memcmp(parameters, in->parameter, size) == 0) return ALI3_OK;
+  if (!take_parameters(in, parameters)) return ALI3_BAD_STATE;
+  memcpy(in->parameter, in->parameter_work, size);
+  return ali3_parameters_apply(in);
+}
+
 static void get(void *to, const unsigned char **from, size_t size) {
   if (size > 0) memcpy(to, *from, size);
   *from += size;
@@ -117,20 +155,10 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
     return ALI3_BAD_STATE;
   get(&settings, &p, sizeof settings);
   get(&report, &p, sizeof report);
-  const unsigned char *numbers = (const unsigned char *)bytes + fixed,
-                      *inputs = numbers + (2 + in->n_vector) * sizeof(double);
-  if (!ali3_settings_valid(&settings) || !report_valid(S, &report) || !numbers_valid(numbers, 2 + in->n_vector) ||
-      !within(inputs, z->nu, S->input_min, S->input_max) ||
-      !within(inputs + (size_t)z->nu * sizeof(double), z->np, S->par_min, S->par_max))
+  const unsigned char *times = (const unsigned char *)bytes + fixed, *vectors = times + 2 * sizeof(double);
+  if (!ali3_settings_valid(&settings) || !report_valid(S, &report) || !numbers_valid(times, 2) ||
+      !vectors_valid(in, vectors) || !take_parameters(in, vectors + (in->n_vector + (size_t)z->nu) * sizeof(double)))
     return ALI3_BAD_STATE;
-  double *parameter = in->parameter_work;
-  memcpy(parameter, in->parameter, (size_t)z->np * sizeof(double));
-  memcpy(in->parameter, inputs + (size_t)z->nu * sizeof(double), (size_t)z->np * sizeof(double));
-  if (ali3_parameters_apply(in) != ALI3_OK) {
-    memcpy(in->parameter, parameter, (size_t)z->np * sizeof(double));
-    ali3_parameters_apply(in);
-    return ALI3_BAD_STATE;
-  }
   in->settings = settings;
   in->report = report;
   in->initialised = (int32_t)header.initialised;

@@ -14,6 +14,7 @@ ali3_status ali3_check_tree(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_modes(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_start(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m);
+ali3_status ali3_check_ported(const ali3_system *s, ali3_message m);
 /* Data of elements, guides, roads and payloads, in the order of ALI3_TARGET_*: all, or of what target k of a parameter
  * belongs to. */
 const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_TARGET_COUNT]);

@@ -202,6 +202,7 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(ali3_check_tree(s, m));
   CHECK(ali3_check_modes(s, m));
   CHECK(ali3_check_start(s, m));
+  CHECK(ali3_check_ported(s, m));
   const double *const data[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = s->el_real,
                                                  [ALI3_TARGET_GUIDE] = s->guide_real,
                                                  [ALI3_TARGET_ROAD] = s->road_real,

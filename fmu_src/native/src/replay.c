@@ -1,0 +1,152 @@
+/* What held inputs do to the end of the last communication step: it is made again from its start, with the inputs a
+ * little higher and a little lower, each inner step down to round-off. The state after it then comes back. */
+#include <math.h>
+#include <string.h>
+
+#include "slave.h"
+
+static const double PART = 3e-4; /* of an input's range: the difference to each side */
+enum { ITERATIONS = 12 }; /* of an inner step: Newton's loop converges by a factor of ten or more */
+
+typedef struct { /* in one block, but for the settings */
+  void *end;                        /* snapshot of the kernel */
+  double *held, *unit, *set, *row;  /* nu: inputs of the step, direction in parts of their ranges, work */
+  double *parameter;                /* np: of the step */
+  unsigned char *before, *after;    /* ne: contacts */
+  double size, plus, minus; /* of the direction; ends of the difference, one of them 0 at the end of a range */
+  ali3_settings settings;
+} replay;
+
+static bool allocate(slave *s, replay *r) {
+  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
+  const size_t nu = (size_t)z.nu, ne = (size_t)z.ne, snapshot = ali3_snapshot_size(s->fidelity.system);
+  r->end = s->memory.allocate(1, snapshot + (4 * nu + (size_t)z.np) * sizeof(double) + 2 * ne + 1);
+  if (r->end == NULL) return false;
+  r->held = (double *)((unsigned char *)r->end + snapshot);
+  r->unit = r->held + nu;
+  r->set = r->unit + nu;
+  r->row = r->set + nu;
+  r->parameter = r->row + nu;
+  r->before = (unsigned char *)(r->parameter + z.np);
+  r->after = r->before + ne;
+  return true;
+}
+
+/* The step as it was made: what it ended with, and its inputs and parameters, which its start does not have. */
+static void look(slave *s, replay *r) {
+  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
+  ali3_snapshot_take(s->fidelity.kernel, r->end);
+  ali3_get_settings(s->fidelity.kernel, &r->settings);
+  for (int32_t i = 0; i < z.nu; i++) ali3_get_input(s->fidelity.kernel, i, &r->held[i]);
+  for (int32_t i = 0; i < z.np; i++) ali3_get_parameter(s->fidelity.kernel, i, &r->parameter[i]);
+}
+
+/* The direction in parts of the inputs' ranges, and how far to go each way. */
+static void aim(replay *r, const double *direction) {
+  const slave_table *t = &slave_the_table;
+  r->size = 0.0;
+  r->plus = PART;
+  r->minus = -PART;
+  for (size_t i = 0; i < t->n_known; i++) {
+    const slave_variable *v = &t->variable[i];
+    const double range = v->max - v->min;
+    if (v->source == SLAVE_INPUT) r->size = fmax(r->size, fabs(direction[v->index]) / (range < 1e300 ? range : 1.0));
+  }
+  for (size_t i = 0; i < t->n_known && r->size > 0.0; i++) {
+    const slave_variable *v = &t->variable[i];
+    if (v->source != SLAVE_INPUT) continue;
+    const double unit = direction[v->index] / r->size, held = r->held[v->index];
+    r->unit[v->index] = unit;
+    if (held + PART * unit > v->max || held + PART * unit < v->min) r->plus = 0.0;
+    if (held - PART * unit > v->max || held - PART * unit < v->min) r->minus = 0.0;
+  }
+  if (r->plus == r->minus) r->plus = PART; /* at two ends at once */
+}
+
+/* Starts the step again with `part` of the direction added to its inputs. */
+static ali3_status begin(slave *s, const replay *r, double part) {
+  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
+  ali3_instance *kernel = s->fidelity.kernel;
+  ali3_settings exact = r->settings;
+  exact.step_iterations = ITERATIONS;
+  exact.tolerance_r = 1e-300;
+  ali3_snapshot_restore(kernel, s->fidelity.start);
+  ali3_status status = ali3_set_settings(kernel, &exact);
+  for (int32_t i = 0; i < z.np && status == ALI3_OK; i++) {
+    double was;
+    ali3_get_parameter(kernel, i, &was);
+    if (was != r->parameter[i]) status = ali3_set_parameter(kernel, i, r->parameter[i]);
+  }
+  for (int32_t i = 0; i < z.nu && status == ALI3_OK; i++) {
+    r->set[i] = r->held[i] + part * r->unit[i];
+    status = ali3_set_input(kernel, i, r->set[i]);
+  }
+  return status;
+}
+
+/* To its end; *kink: a contact with a road was made or lost on the way. */
+static ali3_status run(slave *s, const replay *r, bool *kink) {
+  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
+  ali3_instance *kernel = s->fidelity.kernel;
+  ali3_status status = ALI3_OK;
+  ali3_contacts(kernel, r->before);
+  for (int64_t k = 0; k < s->made.n && status == ALI3_OK; k++) {
+    memcpy(r->row, r->set, (size_t)z.nu * sizeof(double));
+    if (s->made.sloped) slave_add_slopes(s->made_slope, (double)(k + 1) * s->made.h, r->row);
+    status = ali3_run(kernel, s->made.h, 1, r->row, 1, NULL, NULL, NULL);
+    ali3_contacts(kernel, r->after);
+    *kink = *kink || memcmp(r->before, r->after, (size_t)z.ne) != 0;
+  }
+  return status;
+}
+
+/* Adds weight times the outputs at the end of one of the two. */
+static slave_status add(slave *s, const replay *r, double part, double weight, bool left_out, double *out) {
+  const slave_table *t = &slave_the_table;
+  bool kink = false;
+  ali3_status status = begin(s, r, part);
+  if (status == ALI3_OK) status = run(s, r, &kink);
+  if (status != ALI3_OK)
+    return slave_say(s, SLAVE_ERROR, "The directional derivative could not be found: %s.", ali3_status_text(status));
+  if (kink)
+    return slave_say(s, SLAVE_ERROR,
+                     "There is no directional derivative of this communication step: a contact with the road was made "
+                     "or lost in it.");
+  s->outputs_fresh = false;
+  if (!slave_outputs(s) || (left_out && !slave_follow(s))) return SLAVE_ERROR;
+  for (size_t i = t->n_known; i < t->n_variables; i++)
+    if (t->variable[i].source == SLAVE_SENSOR) out[i] += weight * s->value[i];
+  return SLAVE_OK;
+}
+
+/* A step that had to be halved is another function of its inputs nearby. */
+static slave_status check_halvings(slave *s) {
+  ali3_report start, end;
+  ali3_report_get(s->fidelity.kernel, &end);
+  ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.start);
+  ali3_report_get(s->fidelity.kernel, &start);
+  if (start.halvings == end.halvings) return SLAVE_OK;
+  return slave_say(s, SLAVE_ERROR,
+                   "There is no directional derivative of this communication step: an inner step of it was halved.");
+}
+
+/* out (n_variables): the change of the outputs that are sensors per unit of the direction (nu); left_out: also of those
+ * that the System at work leaves out. The instance stays as it is. */
+slave_status slave_step_derivative(slave *s, const double *direction, bool left_out, double *out) {
+  replay r;
+  if (s->made.n == 0)
+    return slave_say(s, SLAVE_ERROR,
+                     "There is no communication step to differentiate; after initialisation it takes one step.");
+  if (!allocate(s, &r)) return slave_say(s, SLAVE_ERROR, "There is not enough memory for the derivatives.");
+  look(s, &r);
+  aim(&r, direction);
+  slave_status status = r.size > 0.0 ? check_halvings(s) : SLAVE_OK;
+  const double weight = r.size / (r.plus - r.minus);
+  if (r.size > 0.0 && status == SLAVE_OK) status = add(s, &r, r.plus, weight, left_out, out);
+  if (r.size > 0.0 && status == SLAVE_OK) status = add(s, &r, r.minus, -weight, left_out, out);
+  ali3_set_settings(s->fidelity.kernel, &r.settings);
+  ali3_snapshot_restore(s->fidelity.kernel, r.end);
+  s->outputs_fresh = false;
+  s->memory.release(r.end);
+  return status;
+}

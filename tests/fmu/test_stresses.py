@@ -1,0 +1,191 @@
+"""Stresses of the rigid car: found when they are read, from the motion and without a trace in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
+
+from hosts.fmu.fmu import Fmu
+from mbs import System, compile
+from mbs.compiler.ports import following, with_ports_of
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.scenes import kerb_test, pendulum, prototype_car
+
+H = 0.01  # s
+EDGE = 760  # steps; the front wheels are over the kerb ten steps later
+LEFT_OUT = ("stress", "bending_moment")
+GAUGES = tuple(f"{what}.SG{k}" for what in ("bending_moment", "stress") for k in (1, 2, 3, 4))
+
+
+class Bare:
+    """An instance of either version through FMPy, its real outputs by name."""
+
+    def __init__(self, file: Path) -> None:
+        description = fmpy.read_model_description(str(file))
+        given = {
+            "guid": description.guid,
+            "unzipDirectory": fmpy.extract(str(file)),
+            "modelIdentifier": description.coSimulation.modelIdentifier,
+            "instanceName": "bare",
+        }
+        self.references = {v.name: v.valueReference for v in description.modelVariables}
+        real = [v for v in description.modelVariables if v.causality == "output" and v.type in ("Real", "Float64")]
+        self.other = [(v.valueReference, v.shape or (1,)) for v in real if v.name.partition(".")[0] not in LEFT_OUT]
+        self.third = description.fmiVersion == "3.0"
+        self.slave: Any = FMU3Slave(**given) if self.third else FMU2Slave(**given)
+        self.slave.instantiate()
+        if self.third:
+            self.slave.setInt32([self.references["fidelity"]], [0])
+        else:
+            self.slave.setInteger([self.references["fidelity"]], [0])
+            self.slave.setupExperiment(startTime=0.0)
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+
+    def motion(self) -> list[float]:
+        """All outputs but those of the frame."""
+        if self.third:
+            return [x for r, shape in self.other for x in self.slave.getFloat64([r], int(np.prod(shape)))]
+        return list(self.slave.getReal([r for r, _ in self.other]))
+
+    def stress(self) -> float:
+        get = self.slave.getFloat64 if self.third else self.slave.getReal
+        return float(get([self.references["stress.SG3"]])[0]) if "stress.SG3" in self.references else np.nan
+
+    def run(self, first: int, last: int) -> None:
+        for k in range(first, last):
+            self.slave.doStep(k * H, H)
+
+    def saved(self) -> Any:
+        return self.slave.getFMUState()
+
+
+@pytest.mark.parametrize("kind", ["native", "python", "fmi3_scalar"])
+def test_reading_stresses_leaves_no_trace(kerb_fmus: Path, kind: str, need: Callable[[str], None]) -> None:
+    need(kind)
+    unread, read = Bare(kerb_fmus / f"{kind}.fmu"), Bare(kerb_fmus / f"{kind}.fmu")
+    unread.run(0, EDGE)
+    assert np.isfinite(read.stress())
+    read.run(0, EDGE)
+    peak = 0.0
+    for k in range(EDGE, EDGE + 60):
+        peak = max(peak, abs(read.stress()))
+        if k == EDGE + 20:  # a state that was saved after reading goes on as one that was not
+            state = read.saved()
+            read.run(k, k + 3)
+            read.stress()
+            read.slave.setFMUState(state)
+        unread.run(k, k + 1)
+        read.run(k, k + 1)
+        assert read.motion() == unread.motion()
+    assert peak > 3e6
+    after = read.stress()
+    state = unread.saved()
+    unread.run(EDGE + 60, EDGE + 70)
+    unread.slave.setFMUState(state)
+    assert unread.stress() == after
+
+
+def test_reading_another_output_asks_nothing_of_the_frame(kerb_fmus: Path) -> None:
+    """The System with ports is read with the first stress: without its file all but the stresses are there."""
+    with Fmu(kerb_fmus / "native.fmu") as fmu:
+        next(fmu._folder.glob("resources/**/system_1.ali3")).unlink()
+        fmu.initialise({"fidelity": 0.0})
+        fmu.step(0.0, H)
+        assert np.isfinite(fmu.getter(("speed", "chassis.x"))()).all()
+        with pytest.raises(FMICallException):
+            fmu.getter(("stress.SG1",))()
+        assert any("system_1.ali3" in line and "cannot be read" in line for line in fmu.messages)
+        fmu.step(H, H)
+
+
+def test_stresses_have_no_rates(kerb_fmus: Path) -> None:
+    with Fmu(kerb_fmus / "native.fmu") as fmu:
+        fmu.initialise({"fidelity": 0.0})
+        fmu.step(0.0, H)
+        reference = fmu.references(["stress.SG1"])
+        with pytest.raises(FMICallException):
+            fmu._slave.getRealOutputDerivatives(reference, [1])
+        assert any("'stress.SG1' is not known: it depends on forces" in line for line in fmu.messages)
+
+
+def pair(make: Callable[[int], Any]) -> tuple[System, System, System]:
+    without, ported = compile(make(0)), compile(make(1))
+    follower = with_ports_of(ported, without)
+    assert follower is not None
+    return without, ported, follower
+
+
+def loaded(system: System) -> Instance:
+    return Instance(LoadedSystem(system.to_bytes(drawing=False, modes=False)))
+
+
+def gauges_of(system: System, instance: Instance) -> np.ndarray:
+    names = [s["name"] for s in system.meta["sensors"]]
+    return np.array(instance.sensors())[[names.index(g) for g in GAUGES]]
+
+
+@pytest.mark.parametrize(("h", "bound"), [(0.01, 1.2e-3), (0.002, 6e-5)])
+def test_down_a_kerb_they_are_those_of_the_run_with_ports(h: float, bound: float) -> None:
+    """Largest difference as a share of the peak; the velocities of a step are projected after its forces were found."""
+    without, ported, follower = pair(kerb_test.build)
+    rigid, own, following_it = loaded(without), loaded(ported), loaded(follower)
+    rows = []
+    for instance in (rigid, own):
+        instance.initialise()
+        instance.run(h, round(7.6 / h))
+    for _ in range(round(0.7 / h)):
+        rigid.step(h)
+        own.step(h)
+        following_it.follow(rigid)
+        rows.append((gauges_of(without, following_it), gauges_of(ported, own)))
+    found, expected = np.array(rows).transpose(1, 0, 2)
+    assert (np.abs(found - expected).max(axis=0) / np.abs(expected).max(axis=0)).max() < bound
+
+
+def test_payloads_inputs_and_road_follow() -> None:
+    without, ported, follower = pair(lambda fidelity: prototype_car.build(fidelity=fidelity))
+    rigid, own, following_it = loaded(without), loaded(ported), loaded(follower)
+    parameters = {p["name"]: k for k, p in enumerate(without.meta["parameters"])}
+    inputs = {u["name"]: k for k, u in enumerate(without.meta["inputs"])}
+    for instance in (rigid, own):
+        for name, value in (("payload.passenger.mass", 90.0), ("front.spring.stiffness", 25000.0)):
+            instance.set_parameter(parameters[name], value)
+        instance.set_pose(0.0, 0.0, 0.05, 0.3, 12.0)
+        instance.set_input(inputs["steering"], 0.2)
+        instance.set_input(inputs["brake"], 0.3)
+        instance.initialise()
+        instance.run(0.002, 300)
+    following_it.follow(rigid)
+    gap, expected = gauges_of(without, following_it) - gauges_of(ported, own), gauges_of(ported, own)
+    for kind in (slice(0, 4), slice(4, 8)):  # moments, stresses
+        assert np.abs(gap[kind]).max() < 1e-3 * np.abs(expected[kind]).max()
+    rigid.set_parameter(parameters["road.friction"], 0.4)
+    following_it.follow(rigid)
+    assert following_it.get_parameter(parameters["road.friction"]) == 0.4
+
+
+def test_only_the_same_model_is_followed() -> None:
+    without, ported, follower = pair(lambda fidelity: prototype_car.build(fidelity=fidelity))
+    other = compile(pendulum.build())
+    assert with_ports_of(ported, other) is None
+    assert with_ports_of(without, ported) is None
+    assert with_ports_of(System.from_bytes(ported.to_bytes()), without) is None  # a file has no full coordinates
+    assert following([without, ported])[1] == [1, -1]
+    assert following([without])[1] == [-1]
+    rigid, alone = loaded(without), loaded(other)
+    with pytest.raises(KernelError, match="must be initialised first"):
+        loaded(follower).follow(rigid)
+    alone.initialise()
+    rigid.initialise()
+    for one, two in ((loaded(follower), alone), (loaded(ported), rigid)):
+        with pytest.raises(KernelError, match="argument"):
+            one.follow(two)
