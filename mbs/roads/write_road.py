@@ -45,7 +45,7 @@ def write_road(
     Warns
     -----
     RoadWarning
-        A grid has a face that is too steep for the contact of a wheel with a grid.
+        A grid has a wall, a face that is higher than the radius of a wheel.
     """
     instance_of((PlaneRoad, KerbRoad, GridRoad), road, "What write_road writes", "a PlaneRoad, KerbRoad or GridRoad")
     with whole_file(file) as made, made.open("wb") as out:

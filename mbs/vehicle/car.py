@@ -135,7 +135,7 @@ class Car(CarContent):
         Warns
         -----
         RoadWarning
-            The road is a grid with a face that is too steep for the contact of a wheel with a grid.
+            The road is a grid with a wall, a face that is higher than the radius of a wheel.
         """
         fidelity = Fidelity.of(fidelity)
         if fidelity is not Fidelity.RIGID and not self.steering.on_flexible_chassis:

@@ -90,7 +90,7 @@ class RoadSection(Section):
 
 
 def tell_steep_face(road: Road | RoadFile | None, radius: float) -> None:
-    """Warn of a grid with a face that is too steep for a wheel.
+    """Warn of a grid with a wall for a wheel.
 
     Parameters
     ----------

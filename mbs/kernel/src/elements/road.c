@@ -3,56 +3,19 @@
 
 #include "../algebra/small_vectors.h"
 #include "../roads/grid.h"
+#include "disc_on_grid.h"
+#include "half_space.h"
 
 #define FLATTEST 0.05 /* least cosine of an edge used as a divisor */
-/* Sine between wheel axis and road normal below which the width of a wheel matters: lying flat it touches with its
- * centre LYING/2 radii high, half as high as it is wide, and is 4/LYING^2 times as stiff as upright. */
-#define LYING 0.5
-
-/* What stands for the sine as a divisor, and its slope: the sine itself, and below LYING a parabola of the same slope
- * there. */
-static double upright(double sine, double *slope) {
-  const double part = sine / LYING;
-  *slope = part < 1.0 ? part : 1.0;
-  return part < 1.0 ? 0.5 * LYING * (1.0 + part * part) : sine;
-}
-
 enum { PLANE_HEIGHT, PLANE_GRADE_X, PLANE_GRADE_Y, PLANE_FRICTION, PLANE_FACTOR, PLANE_REALS };
 enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_FACTOR, KERB_REALS };
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
-
-/* Half-space below the plane through q with outward unit normal n. Returns the centre's distance along the disc. */
-static double half_space(const double centre[3], const double axis[3], double radius, const double q[3],
-                         const double n[3], ali3_contact *out) {
-  double across = ali3_dot(n, axis), inplane[3], height = 0.0;
-  for (int i = 0; i < 3; i++) {
-    inplane[i] = n[i] - across * axis[i];
-    height += n[i] * (centre[i] - q[i]);
-  }
-  double size = ali3_norm(inplane);
-  if (size < 1e-9) { /* the wheel lies flat: any direction in its plane */
-    const double other[3] = {fabs(axis[0]) < 0.6 ? 1.0 : 0.0, fabs(axis[0]) < 0.6 ? 0.0 : 1.0, 0.0};
-    ali3_cross(axis, other, inplane);
-    out->cosine = upright(0.0, &out->leaning);
-    size = ali3_norm(inplane);
-  } else {
-    out->cosine = upright(size, &out->leaning);
-  }
-  const double distance = height / out->cosine;
-  out->penetration = radius - distance;
-  for (int i = 0; i < 3; i++) {
-    out->normal[i] = n[i];
-    out->down[i] = -inplane[i] / size;
-    out->point[i] = centre[i] + distance * out->down[i];
-  }
-  return distance;
-}
 
 static int plane(const double *p, const double centre[3], const double axis[3], double radius, ali3_contact *out) {
   const double size = sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
   const double n[3] = {-p[PLANE_GRADE_X] / size, -p[PLANE_GRADE_Y] / size, 1.0 / size},
                q[3] = {0.0, 0.0, p[PLANE_HEIGHT]};
-  half_space(centre, axis, radius, q, n, out);
+  ali3_half_space(centre, axis, radius, q, n, out);
   out->friction = p[PLANE_FRICTION];
   return 1;
 }
@@ -87,8 +50,8 @@ static int kerb(const double *p, const double centre[3], const double axis[3], d
   const double up[3] = {0.0, 0.0, 1.0}, face[3] = {side, 0.0, 0.0};
   const double above = centre[2] - edge[2], ahead = side * (centre[0] - edge[0]);
   ali3_contact top;
-  half_space(centre, axis, radius, edge, up, &top);
-  half_space(centre, axis, radius, edge, face, &out[0]);
+  ali3_half_space(centre, axis, radius, edge, up, &top);
+  ali3_half_space(centre, axis, radius, edge, face, &out[0]);
   const int top_is_nearest = above > 0.0 ? side * (top.point[0] - edge[0]) <= 0.0 : ahead <= 0.0 && above >= ahead;
   const int face_is_nearest = ahead > 0.0 ? out[0].point[2] <= edge[2] : above <= 0.0;
   int count = 1;
@@ -96,7 +59,7 @@ static int kerb(const double *p, const double centre[3], const double axis[3], d
     out[0] = top;
   else if (!face_is_nearest)
     count = edge_line(centre, axis, radius, edge, &out[0]);
-  half_space(centre, axis, radius, low, up, &out[count]);
+  ali3_half_space(centre, axis, radius, low, up, &out[count]);
   for (int i = 0; i <= count; i++) out[i].friction = p[KERB_FRICTION];
   return count + 1;
 }
@@ -151,19 +114,11 @@ static int grid_of(const ali3_road *road, ali3_grid *g) {
   return 1;
 }
 
-static int grid(const ali3_road *road, const double centre[3], const double axis[3], double radius, ali3_contact *out) {
+static int grid(const ali3_road *road, const double centre[3], const double axis[3], double radius,
+                ali3_contact out[2]) {
   ali3_grid g;
   if (!grid_of(road, &g)) return 0;
-  double x = centre[0], y = centre[1];
-  for (int pass = 0; pass < 3; pass++) { /* tangent plane under the centre, then twice at the point it gives */
-    const ali3_surface under = ali3_grid_at(&g, x, y);
-    const double q[3] = {x, y, under.height};
-    const double reach = ali3_clamp(half_space(centre, axis, radius, q, under.normal, out), -radius, radius);
-    out->friction = under.friction;
-    x = centre[0] + reach * out->down[0];
-    y = centre[1] + reach * out->down[1];
-  }
-  return 1;
+  return ali3_disc_on_grid(&g, centre, axis, radius, out);
 }
 
 /* Neither negative nor NaN, times the factor. */
@@ -179,7 +134,10 @@ int ali3_road_contacts(const ali3_road *road, const double centre[3], const doub
   if (type == ALI3_ROAD_PLANE) count = plane(reals_of(road), centre, axis, radius, out);
   if (type == ALI3_ROAD_KERB) count = kerb(reals_of(road), centre, axis, radius, out);
   if (type == ALI3_ROAD_GRID) count = grid(road, centre, axis, radius, out);
-  for (int i = 0; i < count; i++) out[i].friction = friction_of(road, out[i].friction);
+  for (int i = 0; i < count; i++) {
+    out[i].friction = friction_of(road, out[i].friction);
+    if (type != ALI3_ROAD_GRID) out[i].yielded = out[i].switching = 0.0;
+  }
   return count;
 }
 

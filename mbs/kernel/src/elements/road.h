@@ -29,6 +29,8 @@ typedef struct {
                     * lies nearly flat */
   double friction;
   double leaning; /* d(cosine)/d(sine between axis and normal): 1, less where the wheel lies nearly flat */
+  double yielded; /* part that the other contact has where only the deepest bears, as on a grid: 0 to 1 */
+  double switching; /* change of that part with the difference of both penetrations, 1/m; 0: both bear */
 } ali3_contact;
 
 /* Writes one or two contacts (also open ones, so that outputs stay continuous) and returns their number.

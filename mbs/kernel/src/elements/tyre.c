@@ -66,7 +66,7 @@ static patch radial(ali3_element_args *a, const double e[3]) {
   const double *p = a->real;
   ali3_contact contact[2];
   patch mean = {0};
-  double deepest = -INFINITY;
+  double deepest = -INFINITY, between[7] = {0}, switching = 0.0;
   const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, p[RADIUS], contact);
   for (int k = 0; k < count; k++) {
     const ali3_contact *c = &contact[k];
@@ -89,8 +89,9 @@ static patch radial(ali3_element_args *a, const double e[3]) {
     for (int i = 0; i < 6; i++) rate -= b[i] * a->ud[i];
     const double deep = depth - (p[RADIUS] - p[BOTTOMING_RADIUS]), hard = deep > 0.0 ? p[BOTTOMING_STIFFNESS] : 0.0;
     const double ramp = depth < TOUCH_DEPTH ? depth / TOUCH_DEPTH : 1.0;
-    const double force = p[STIFFNESS] * depth + hard * deep + p[DAMPING] * rate * ramp;
-    a->potential += 0.5 * (p[STIFFNESS] * depth * depth + hard * deep * deep);
+    const double part = 1.0 - c->yielded;
+    const double force = part * (p[STIFFNESS] * depth + hard * deep + p[DAMPING] * rate * ramp);
+    a->potential += part * (0.5 * (p[STIFFNESS] * depth * depth + hard * deep * deep));
     if (!(force > 0.0)) continue;
     const double load = force / c->cosine, total = mean.load + load;
     for (int i = 0; i < 6; i++) a->f[i] += force * b[i];
@@ -103,8 +104,11 @@ static patch radial(ali3_element_args *a, const double e[3]) {
     if (!a->S) continue;
     double stiffness = p[STIFFNESS] + hard + (ramp < 1.0 ? p[DAMPING] * rate / TOUCH_DEPTH : 0.0);
     if (stiffness < 0.0) stiffness = 0.0;
-    ali3_add_outer(a->S, 7, a->wK * stiffness + a->wC * p[DAMPING] * ramp, b);
+    ali3_add_outer(a->S, 7, part * (a->wK * stiffness + a->wC * p[DAMPING] * ramp), b);
+    for (int i = 0; i < 7; i++) between[i] += k ? -b[i] : b[i];
+    switching = a->wK * c->switching * (p[STIFFNESS] * depth + hard * deep);
   }
+  if (a->S && switching > 0.0) ali3_add_outer(a->S, 7, switching, between);
   const double size = ali3_norm(mean.normal);
   for (int i = 0; i < 3; i++) mean.normal[i] = size > 0.0 ? mean.normal[i] / size : (i == 2);
   return mean;

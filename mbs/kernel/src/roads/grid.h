@@ -17,6 +17,8 @@ typedef struct {
 } ali3_surface;
 
 ali3_surface ali3_grid_at(const ali3_grid *g, double x, double y);
+/* Height of the bilinear surface. */
+double ali3_grid_chord(const ali3_grid *g, double x, double y);
 /* No point of the grid within reach of a place in x and y is higher; infinite where that takes too long to see. */
 double ali3_grid_top(const ali3_grid *g, const double place[3], double reach);
 #endif

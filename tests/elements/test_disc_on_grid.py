@@ -1,0 +1,121 @@
+"""The contact of a disc with a grid, against a dense search of the profile, and the slopes of a grid at steps."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.elements import GridRoad
+from tests.elements.harness import Array, contacts
+from tests.roads.test_physics import DAMPER, RADIUS, SPEED, SPRING, SPRUNG, TYRE, TYRE_DAMPER, UNSPRUNG, G, quarter_car
+
+AXIS = np.array([0.0, 1.0, 0.0])
+FOOT = 3.0  # m: x of the last point before a face
+
+
+def face(height: float, spacing: float) -> GridRoad:
+    """Level, then level again `height` higher from the next point on."""
+    x = np.arange(-8.0, 14.0, spacing)
+    x += FOOT - x[np.argmin(np.abs(x - FOOT))]
+    heights = np.where(x > FOOT + 1e-9, height, 0.0)
+    return GridRoad((float(x[0]), -2.0), (spacing, 1.0), np.repeat(heights[:, None], 5, axis=1))
+
+
+def rising(x: Array, height: float, spacing: float) -> Array:
+    """Height of such a face between its points: a cubic without slope at both ends."""
+    t = np.clip((x - FOOT) / spacing, 0.0, 1.0)
+    return height * t * t * (3.0 - 2.0 * t)
+
+
+def above(road: GridRoad, x: float, y: float) -> tuple[float, Array]:
+    """Height of a grid and its normal: a tiny disc sees the road under its centre."""
+    (c,) = contacts(road, [x, y, 1.0], AXIS, 1e-9)
+    return 1.0 - (1e-9 - float(c["penetration"])) * float(c["cosine"] / c["normal"][2]), c["normal"]
+
+
+@pytest.mark.parametrize("height", [0.1, -0.1, 100.0])
+def test_a_grid_neither_dips_before_a_step_nor_bulges(height: float) -> None:
+    road = face(height, 0.25)
+    for x in np.linspace(FOOT - 0.5, FOOT + 0.75, 51):
+        z, normal = above(road, x, 0.3)
+        assert z == pytest.approx(rising(x, height, 0.25), abs=1e-6 * abs(height))
+        slope = (rising(x + 1e-6, height, 0.25) - rising(x - 1e-6, height, 0.25)) / 2e-6
+        assert np.allclose(normal[:2] / normal[2], [-slope, 0.0], atol=1e-4 * abs(height))
+
+
+def test_normals_are_the_gradient_and_go_on_from_cell_to_cell_where_slopes_are_limited() -> None:
+    rng = np.random.default_rng(5)
+    heights = np.kron([[0.0, 0.2, 0.0], [0.2, 0.2, 0.0], [0.0, 0.0, 0.2]], np.ones((3, 3)))
+    road = GridRoad((0.0, 0.0), (0.7, 0.9), heights)
+    inside = [above(road, *rng.uniform(1.0, 5.0, 2))[0] for _ in range(500)]
+    assert -0.002 < min(inside) < max(inside) < 0.202  # central differences: -0.031 to 0.232
+    d = 1e-5
+    for _ in range(20):
+        x, y = rng.uniform(1.0, 5.0, 2)
+        slopes = [
+            (above(road, x + d * (k == 0), y + d * (k == 1))[0] - above(road, x - d * (k == 0), y - d * (k == 1))[0])
+            / (2.0 * d)
+            for k in range(2)
+        ]
+        normal = above(road, x, y)[1]
+        assert np.allclose(normal[:2] / normal[2], -np.array(slopes), atol=1e-6)
+    for i in range(2, 7):
+        for where in (lambda s, i=i: (0.7 * i + s, 2.3), lambda s, i=i: (2.3, 0.9 * i + s)):
+            assert np.allclose(above(road, *where(-1e-9))[1], above(road, *where(1e-9))[1], atol=1e-6)
+
+
+def test_a_smooth_road_converges_by_the_third_power_of_the_spacing() -> None:
+    x, worst = np.linspace(2.0, 8.0, 97), []
+    for spacing in (0.2, 0.1, 0.05):
+        place = np.arange(-1.0, 11.0, spacing)
+        road = GridRoad((-1.0, -1.0), (spacing, 1.0), np.repeat(0.1 * np.sin(2.0 * place)[:, None], 3, axis=1))
+        worst.append(max(abs(above(road, s, 0.0)[0] - 0.1 * np.sin(2.0 * s)) for s in x))
+    orders = np.log2(np.divide(worst[:-1], worst[1:]))
+    assert np.all((orders > 2.8) & (orders < 3.3))
+
+
+@pytest.mark.parametrize("camber", [0.0, 0.1])
+@pytest.mark.parametrize(("height", "spacing"), [(0.12, 0.02), (0.12, 0.1), (0.12, 0.2), (0.05, 0.05), (-0.1, 0.05)])
+def test_the_depth_is_that_of_a_dense_search(height: float, spacing: float, camber: float) -> None:
+    """To 0.25 mm, by which the smooth maximum of two equal depths is larger."""
+    road, rng = face(height, spacing), np.random.default_rng(1)
+    axis = np.array([0.0, np.cos(camber), np.sin(camber)])
+    x = np.linspace(FOOT - 1.0, FOOT + 1.0, 40001)
+    z = rising(x, height, spacing)
+    shared = 0
+    for _ in range(200):
+        centre = np.array([FOOT + rng.uniform(-0.4, 0.4), 0.0, max(height, 0.0) + rng.uniform(0.15, 0.3)])
+        distance = float(np.hypot(x - centre[0], (z - centre[2]) / np.cos(camber)).min())
+        found = contacts(road, centre, axis, RADIUS)
+        shared += len(found) == 2
+        assert -1e-6 < found[0]["penetration"] - (RADIUS - distance) < 0.25e-3 + 1e-6
+    assert shared > 0 or spacing > 0.05 or height < 0.0
+
+
+def peak(height: float, spacing: float) -> float:
+    """Largest load of the tyre of the quarter car over such a face, by small steps and a dense search."""
+    x = np.arange(FOOT - 1.0, FOOT + 2.0, 1e-3)
+    profile = rising(x, height, spacing)
+    h, rest = 5e-5, RADIUS - (SPRUNG + UNSPRUNG) * G / TYRE
+    at, wheel, body, speed, body_speed, most = FOOT - 0.5, rest, 0.0, 0.0, 0.0, 0.0
+    while at < FOOT + 1.5:
+        near = slice(int((at - RADIUS - x[0]) / 1e-3), int((at + RADIUS - x[0]) / 1e-3))
+        distance = np.hypot(x[near] - at, wheel - profile[near])
+        k = int(np.argmin(distance))
+        depth, down = RADIUS - distance[k], np.array([x[near][k] - at, profile[near][k] - wheel]) / distance[k]
+        pressed = TYRE * depth + TYRE_DAMPER * (down @ [SPEED, speed]) * min(depth / 0.005, 1.0) if depth > 0.0 else 0.0
+        most = max(most, pressed)
+        spring = SPRUNG * G + SPRING * (wheel - rest - body) + DAMPER * (speed - body_speed)
+        speed += h * (-max(pressed, 0.0) * down[1] - UNSPRUNG * G - spring) / UNSPRUNG
+        body_speed += h * (spring - SPRUNG * G) / SPRUNG
+        wheel, body, at = wheel + h * speed, body + h * body_speed, at + h * SPEED
+    return most
+
+
+@pytest.mark.parametrize(
+    ("height", "spacing"), [(0.05, 0.02), (0.05, 0.05), (0.05, 0.1), (0.03, 0.2), (0.02, 0.05), (0.02, 0.25)]
+)
+def test_peak_loads_are_those_of_a_dense_search(height: float, spacing: float) -> None:
+    run = mbs.simulate(quarter_car(face(height, spacing)), (FOOT + 1.5) / SPEED, 0.0005, progress=False)
+    assert run["load"].max() == pytest.approx(peak(height, spacing), rel=0.1)
