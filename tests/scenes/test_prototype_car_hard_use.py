@@ -179,6 +179,7 @@ def _judge(r):
     return _upright(r).min() < 0.2, quiet
 
 
+@pytest.mark.slow
 def test_wild_driving():
     rolled = 0
     for seed in range(8):

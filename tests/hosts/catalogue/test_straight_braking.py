@@ -59,6 +59,7 @@ def test_loads_move_forward_by_the_moment_of_the_deceleration(gentle: TestRecord
     assert abs(measured["deviation.lateral"]) < 1e-6
 
 
+@pytest.mark.slow
 def test_locked_wheels_are_told(prototype: TestedCar) -> None:
     record = perform(straight_braking.TEST, prototype)
     measured = values(record)

@@ -61,6 +61,7 @@ def test_the_other_engine_is_matched_without_noise(replay: Replay) -> None:
         assert np.abs(result[f"bob.{axis}"] - wanted).max() < 1e-3  # of 0.4 m; the noise is 10 and 5 mm
 
 
+@pytest.mark.slow
 def test_they_come_back_within_their_confidence(replay: Replay) -> None:
     # Of 18 intervals of 95 % fewer than 15 hold with a probability of 1 %.
     assert inside(replay, 6, 0.8).sum() >= 15

@@ -39,9 +39,9 @@ def study_file(spring: Path, tmp_path: Path) -> Callable[..., Path]:
     return write
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def scheduler() -> Iterator[str]:
-    """Address of a scheduler with two workers."""
+    """Address of a scheduler with two workers; they take time of others as long as they are there."""
     with LocalCluster(
         n_workers=2,
         threads_per_worker=1,

@@ -111,6 +111,7 @@ def test_the_command_is_killed(slow_study: Path, tmp_path: Path) -> None:
     check_complete(out)
 
 
+@pytest.mark.slow
 def test_a_worker_is_killed(slow_study: Path, tmp_path: Path, scheduler: str) -> None:
     out = tmp_path / "out"
     process = command(slow_study, "--out", out, "--scheduler", scheduler)

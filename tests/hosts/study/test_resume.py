@@ -129,6 +129,7 @@ def test_a_damaged_part_is_named(half: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")
+@pytest.mark.slow
 def test_a_full_disk_keeps_what_is_written(finished: Path, half: Path, scheduler: str) -> None:
     shutil.copy(finished / "out" / "runs" / "part-000001.parquet", half / "part")
     (half / "study.toml").write_text((half / "study.toml").read_text().replace("runs = 16", "runs = 32"))

@@ -172,7 +172,7 @@ COURSES = list(itertools.product(*map(enumerate, (OBSTACLES, APPROACHES, SPEEDS)
     "courses",
     [
         # each obstacle with each approach, each of both with each speed
-        pytest.param([c for c in COURSES if sum(k for k, _ in c) % 3 == 0], id="pairs"),
+        pytest.param([c for c in COURSES if sum(k for k, _ in c) % 3 == 0], id="pairs", marks=pytest.mark.slow),
         pytest.param(COURSES, id="all", marks=pytest.mark.proof),
     ],
 )
