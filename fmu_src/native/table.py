@@ -22,6 +22,9 @@ _SOURCES = {
     "constant": "SLAVE_CONSTANT",
 }
 
+ROLL = "chassis.roll"
+"""Output that is more than a quarter turn when a vehicle lies upside down."""
+
 
 def c_table(
     table: Sequence[Variable],
@@ -60,6 +63,7 @@ def c_table(
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
     known = sum(v.causality in ("input", "parameter") for v in table)
+    roll = next((k for k, v in enumerate(table) if v.name == ROLL), len(table))
     return (
         "/* Generated with the FMU from its table of variables. */\n"
         '#include <math.h>\n\n#include "slave.h"\n\n'
@@ -67,7 +71,7 @@ def c_table(
         f"{_texts(texts)}{_names('row', names['row'])}{_names('element', names['element'])}"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
         f"{len(table)}, {known},\n    row, first_row, element, first_element, {len(names['row'])},\n    texts, "
-        f"{len(texts)},\n}};\n"
+        f"{len(texts)}, {roll},\n}};\n"
     )
 
 

@@ -333,3 +333,16 @@ def test_fmi_3_gives_the_same(
         assert slave.getFloat64([references[name]])[0] == driven.get(name)
     slave.terminate()
     slave.freeInstance()
+
+
+def test_a_car_on_its_roof_is_told_once(car: Path, host: Any) -> None:
+    driven = host(car).start({"initial.speed": 30.0, "front.tyre.grip": 3.0, "rear.tyre.grip": 3.0})
+    assert driven.messages == []
+    rolled = []
+    for k in range(2000):
+        driven.set("steering", 1.0)
+        assert driven.step(k * H, H) <= 1
+        rolled.append(abs(driven.get("chassis.roll")) > np.pi / 2.0)
+        assert any("has rolled over: chassis.roll is" in line for line in driven.messages) == any(rolled)
+    assert any(rolled)
+    assert sum("has rolled over" in line for line in driven.messages) == 1

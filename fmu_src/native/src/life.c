@@ -56,7 +56,7 @@ static void start_values(slave *s) {
   s->calls = calls;
   s->last_step = SLAVE_OK;
   slave_forget_refusal(s);
-  s->outputs_fresh = s->uncomputed_said = false;
+  s->outputs_fresh = s->uncomputed_said = s->overturned_said = false;
   memset(s->pending, 0, t->n_known);
   memset(s->clamped, 0, t->n_known);
   memset(s->slope, 0, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));

@@ -51,6 +51,7 @@ typedef struct {
   size_t n_systems;            /* to choose from by the fidelity */
   const slave_text *text;      /* variables that are text; numbered by themselves */
   size_t n_texts;
+  size_t roll; /* output that is more than a quarter turn when the vehicle lies upside down; n_variables: there is none */
 } slave_table;
 
 extern const slave_table slave_the_table;
@@ -111,6 +112,7 @@ struct slave {
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
   bool outputs_fresh;
   bool uncomputed_said; /* that an output was read which is not computed, once a run */
+  bool overturned_said; /* that the vehicle lies upside down, once a run */
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
   size_t step_reference, iterations_reference;
@@ -184,6 +186,7 @@ bool slave_wants_end(const slave *s);
 
 /* watch.c: what a run says about itself, once */
 slave_status slave_watch(slave *s);
+void slave_watch_outputs(slave *s);
 
 /* derivatives.c */
 slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order, const double *value);

@@ -24,6 +24,7 @@ bool slave_outputs(slave *s) {
                                               : s->calls.capped_residual;
   }
   s->outputs_fresh = true;
+  slave_watch_outputs(s);
   return true;
 }
 
