@@ -31,6 +31,7 @@ typedef struct {
   bool fixed;             /* a parameter that can be set before the first step only */
   int32_t road;           /* a parameter of the built-in form of this road, without effect on a file; -1: of none */
   uint64_t uncomputed;    /* bits of the fidelities that do not compute it */
+  double least, most;     /* between which a parameter works; infinite where that is not known */
 } slave_variable;
 
 typedef struct {
