@@ -22,6 +22,9 @@ _SOURCES = {
     "constant": "SLAVE_CONSTANT",
 }
 
+ROLL = "chassis.roll"
+"""Output that is more than a quarter turn when a vehicle lies upside down."""
+
 
 def c_table(
     table: Sequence[Variable],
@@ -58,11 +61,13 @@ def c_table(
     variables = "\n".join(
         f"    {{{c_string(v.name)}, {c_string(unit)}, {_SOURCES[v.source]}, {v.index}, "
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
-        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {v.road}, {bits:#x}}},"
+        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {v.road}, {bits:#x}, "
+        f"{_number((v.works or [None])[0], '-HUGE_VAL')}, {_number((v.works or [None])[-1], 'HUGE_VAL')}}},"
         for v, unit, bits in zip(table, units, uncomputed, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
     known = sum(v.causality in ("input", "parameter") for v in table)
+    roll = next((k for k, v in enumerate(table) if v.name == ROLL), len(table))
     return (
         "/* Generated with the FMU from its table of variables. */\n"
         '#include <math.h>\n\n#include "slave.h"\n\n'
@@ -71,7 +76,7 @@ def c_table(
         f"static const int32_t follower[] = {{{', '.join(map(str, followers))}}};\n\n"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
         f"{len(table)}, {known},\n    row, first_row, element, first_element, {len(names['row'])}, follower,\n"
-        f"    texts, {len(texts)},\n}};\n"
+        f"    texts, {len(texts)}, {roll},\n}};\n"
     )
 
 

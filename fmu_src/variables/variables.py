@@ -81,6 +81,8 @@ class Variable:
         Of a parameter of the built-in form of a road, without effect on one from a file: its number; else -1.
     uncomputed : tuple of int
         Fidelities at which it is not computed.
+    works : (float, float), optional
+        Between which values of a parameter the model does what it is made for.
     """
 
     name: str
@@ -98,6 +100,7 @@ class Variable:
     nominal: float | None = None
     road: int = -1
     uncomputed: tuple[int, ...] = ()
+    works: tuple[float, float] | None = None
 
 
 _CAPPED_RESIDUAL = Variable(
@@ -295,6 +298,7 @@ def _ranged(
         _display(entry["name"], unit),
         whole=bool(entry.get("whole", False)),
         road=entry.get("road", -1),
+        works=tuple(entry["works"]) if "works" in entry else None,
     )
 
 

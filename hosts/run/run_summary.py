@@ -63,6 +63,8 @@ def summary(
         if f"chassis.{name}" in result:
             angle = np.degrees(result[f"chassis.{name}"])
             rows.append((name, f"{_signed(angle.min())} to {_signed(angle.max())} deg"))
+            if name == "roll" and np.abs(angle).max() > 90.0:
+                rows.append(("rolled over", f"at {result.time[int(np.argmax(np.abs(angle) > 90.0))]:.2f} s"))
     loads = {w: result[f"wheel_{w}.Fz"] for w in WHEELS if f"wheel_{w}.Fz" in result}
     if loads:
         largest = max(loads, key=lambda w: float(loads[w].max()))

@@ -59,6 +59,7 @@ def metadata(
         "parameters": [
             {"name": p.name, "unit": p.unit, "description": p.description, "value": p.value, "min": p.min, "max": p.max}
             | ({} if p.tunable else {"fixed": True})
+            | ({} if p.works is None else {"works": list(p.works)})
             | ({"whole": True} if p.whole else {})
             | _built_in_road(model, p)
             for p in model.parameters

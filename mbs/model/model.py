@@ -374,6 +374,7 @@ class Model(
         *,
         targets: Sequence[Target],
         tunable: bool = True,
+        works: tuple[float, float] | None = None,
     ) -> Parameter:
         """A number that is set without compiling again: it is written to elements, guides, roads and payloads.
 
@@ -392,6 +393,8 @@ class Model(
         tunable : bool
             Whether it may be set while the model moves; False: before the start only, as masses of payloads and
             switches must be.
+        works : (float, float), optional
+            Least and largest value with which the model does what it is made for; an FMU says so when another is set.
 
         Raises
         ------
@@ -399,7 +402,7 @@ class Model(
             The value is not between the limits, a target does not exist or is another parameter's, or what it writes at
             one of the limits is no value that the target can have.
         """
-        return new_parameter(self, name, value, min, max, unit, description, targets, tunable)
+        return new_parameter(self, name, value, min, max, unit, description, targets, tunable, works)
 
     def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
         """A number about the model that its users need and its equations do not, such as a wheelbase.

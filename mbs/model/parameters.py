@@ -49,6 +49,7 @@ def new_parameter(
     description: str,
     targets: Sequence[Target],
     tunable: bool,
+    works: tuple[float, float] | None,
 ) -> Parameter:
     """Register a parameter; see `Model.parameter`."""
     what = f"parameter {shown(name)}"
@@ -74,7 +75,7 @@ def new_parameter(
         _moving(what, found)
     model.unique("parameter", name)
     places = tuple(target.where for target in found)
-    parameter = Parameter(name, start, low, high, unit, description, places, tunable)
+    parameter = Parameter(name, start, low, high, unit, description, places, tunable, works)
     model.parameters.append(parameter)
     return parameter
 

@@ -74,6 +74,8 @@ class Parameter:
         Family, index in the family, index of the real, scale, offset.
     tunable : bool
         Whether it may be set while the model moves.
+    works : (float, float), optional
+        Least and largest value with which the model does what it is made for.
     """
 
     name: str
@@ -84,6 +86,7 @@ class Parameter:
     description: str
     targets: tuple[tuple[int, int, int, float, float], ...]
     tunable: bool = True
+    works: tuple[float, float] | None = None
 
     @property
     def whole(self) -> bool:

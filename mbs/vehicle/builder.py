@@ -91,13 +91,15 @@ class CarBuilder:
         tied = self._tied.setdefault(section.key(name), _Tied(section, name, quantity, start))
         tied.targets.append((owner, real, scale, offset))
 
-    def parameters(self, order: Callable[[str], int]) -> None:
+    def parameters(self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]]) -> None:
         """Write what was tied into the model.
 
         Parameters
         ----------
         order : callable
             Place of a key path in the file's type.
+        works : mapping of str to (float, float)
+            By key path, between which values the car works.
         """
         for path, tied in sorted(self._tied.items(), key=lambda item: order(item[0])):
             q = tied.quantity
@@ -110,4 +112,5 @@ class CarBuilder:
                 type(tied.section).model_fields[tied.name].description or "",
                 targets=tied.targets,
                 tunable=q.change == "tunable",
+                works=works.get(path),
             )

@@ -33,6 +33,7 @@ from mbs.vehicle.chassis.ground_contact import ground_contact
 from mbs.vehicle.chassis.stress_scene import flexible_part
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import settled
+from mbs.vehicle.checks.working import working_ranges
 from mbs.vehicle.constants import vehicle_constants
 from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.environment import GRAVITY
@@ -157,7 +158,7 @@ class Car(CarContent):
         self.drive.build(b, spins, neutral=guide is not None)
         axles = {"front": self.front, "rear": self.rear}
         self.aerodynamics.build(b, self.vehicle.reference_point, axles)
-        b.parameters(self.order)
+        b.parameters(self.order, working_ranges(self))
         frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in axles.items())
         self.road.parameters(m, road, b.road, ", ".join(frictions))
         self._outputs(b, steered, spins, fidelity)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import cache
 from pathlib import Path
 
 from ali3.reading import read_toml
 from mbs.common.checks import shown
 from mbs.vehicle.car import Car, car_from
-from mbs.vehicle.errors import CarFileError
+from mbs.vehicle.errors import CarFileError, CarWarning
+from mbs.vehicle.kinematics.stops import notes_without_stops
 
 FILE = "car.toml"
 CARS = Path(__file__).parent / "cars"
@@ -47,7 +49,10 @@ def load(car: str | Path) -> Car:
     if not isinstance(car, (str, Path)):
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
     path = file_of(car)
-    return car_from(read_toml(path, CarFileError), path.parent, str(path), warn=True)
+    found = car_from(read_toml(path, CarFileError), path.parent, str(path), warn=True)
+    for sentence in notes_without_stops(found):
+        warnings.warn(f"{path}: {sentence}", CarWarning, stacklevel=2)
+    return found
 
 
 def file_of(car: str | Path) -> Path:

@@ -43,7 +43,7 @@ class _Plausible:
 
 
 SPRING_TABLE = _Plausible(0.01, (200.0, 2e6), ("m", "N/m"))
-DAMPER_TABLE = _Plausible(0.1, (20.0, 5e4), ("m/s", "N.s/m"))
+DAMPER_TABLE = _Plausible(0.1, (20.0, 1e5), ("m/s", "N.s/m"))
 
 
 def law_faults(

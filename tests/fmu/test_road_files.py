@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -333,3 +334,36 @@ def test_fmi_3_gives_the_same(
         assert slave.getFloat64([references[name]])[0] == driven.get(name)
     slave.terminate()
     slave.freeInstance()
+
+
+def test_a_car_on_its_roof_is_told_once(car: Path, host: Any) -> None:
+    driven = host(car).start({"initial.speed": 30.0, "front.tyre.grip": 3.0, "rear.tyre.grip": 3.0})
+    assert driven.messages == []
+    rolled = []
+    for k in range(2000):
+        driven.set("steering", 1.0)
+        assert driven.step(k * H, H) <= 1
+        rolled.append(abs(driven.get("chassis.roll")) > np.pi / 2.0)
+        assert any("has rolled over: chassis.roll is" in line for line in driven.messages) == any(rolled)
+    assert any(rolled)
+    assert sum("has rolled over" in line for line in driven.messages) == 1
+
+
+def test_values_with_which_no_car_works_are_told_with_those_that_do(car: Path, host: Any) -> None:
+    driven = host(car).start({})
+    works = {}
+    for name, bad in {"front.tyre.stiffness": (1e4, 2e6), "rear.spring.stiffness": (1e3, 9e5)}.items():
+        for value in bad:
+            assert driven.set(name, value) == OK
+            line = driven.messages.pop()
+            low, high = (float(v) for v in re.search(r"works; from (\S+) to (\S+) N/m it does", line).groups())
+            assert line.startswith(f"'{name}' was set to {value:.10g} N/m")
+            assert not low <= value <= high
+            works[name] = low, high
+    for name, (low, high) in works.items():
+        for value in (1.01 * low, 0.99 * high):
+            driven.set(name, value)
+            assert driven.messages == []
+    for k in range(100):  # the softest spring and tyre
+        driven.set("front.tyre.stiffness", 1.01 * works["front.tyre.stiffness"][0])
+        assert driven.step(k * H, H) == OK

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 
+import numpy as np
 import pytest
 
 import mbs
-from mbs.vehicle import CarFileError, car_names, load
+from mbs.vehicle import CarFileError, CarWarning, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changes import changed_content
+from mbs.vehicle.copy_car import copy_car
+from mbs.vehicle.kinematics.linkage import Linkage, NotReachedError
+from mbs.vehicle.springs import Damper, Spring
 from tests.vehicle.content import sentences, tables
 
 TABLES = [(name, path) for name in car_names() for path in tables(load(name)._data)]
@@ -55,3 +60,32 @@ def test_without_points_that_touch_the_ground_there_is_no_work_of_it():
     run = mbs.simulate(car, 0.02, 0.002)
     assert not run["energy.ground"].any()
     assert "chassis.ground_force" not in [s["name"] for s in car.meta["sensors"]]
+
+
+@pytest.mark.parametrize("name", car_names())
+def test_without_stops_it_is_told_how_far_the_links_follow(name, tmp_path):
+    file = copy_car(name, tmp_path / "car")[0].parent / "car.toml"
+    text = file.read_text(encoding="utf-8")
+    file.write_text(re.sub(r"\[(front|rear)\.stops\]\n(?:.+\n)+", "", text), encoding="utf-8")
+    with pytest.warns(CarWarning) as caught:
+        car = load(file)
+    told = [str(warning.message) for warning in caught if "stops" in str(warning.message)]
+    for axle, line in zip(("front", "rear"), told, strict=True):
+        assert f"car.toml: {axle}.stops is left out" in line
+        ends = [float(v) for v in re.search(r"follow from ([-+.\d]+) to ([-+.\d]+) m", line).groups()]
+        linkage, start = Linkage(car, axle), Linkage(car, axle).drawn.q
+        for end in ends:
+            q = start
+            for part in np.linspace(0.05, 0.98, 40):
+                q = linkage.solve(q, np.full(2, part * end), 0.0).q
+            with pytest.raises(NotReachedError):
+                linkage.solve(q, np.full(2, 1.02 * end), 0.0)
+
+
+def test_springs_and_dampers_of_a_truck_are_in_the_ranges():
+    """A damper of 36 725 N s/m, by number and by table, and a spring of 116 kN."""
+    rows = [[-1.0, -36725.0], [0.0, 0.0], [1.0, 36725.0]]
+    for damper in (Damper(damping=36725.0), Damper(table=rows)):
+        assert not list(damper.faults())
+    spring = Spring(table=[[-0.05, -29000.0], [0.0, 0.0], [0.1, 58000.0], [0.2, 116000.0]], free_length=0.6)
+    assert not list(spring.faults())

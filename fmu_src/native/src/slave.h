@@ -31,6 +31,7 @@ typedef struct {
   bool fixed;             /* a parameter that can be set before the first step only */
   int32_t road;           /* a parameter of the built-in form of this road, without effect on a file; -1: of none */
   uint64_t uncomputed;    /* bits of the fidelities whose System leaves it out */
+  double least, most;     /* between which a parameter works; infinite where that is not known */
 } slave_variable;
 
 typedef struct {
@@ -52,6 +53,7 @@ typedef struct {
   const int32_t *follower;     /* n_systems: the one with ports that computes what each leaves out; -1: none */
   const slave_text *text;      /* variables that are text; numbered by themselves */
   size_t n_texts;
+  size_t roll; /* output that is more than a quarter turn when the vehicle lies upside down; n_variables: there is none */
 } slave_table;
 
 extern const slave_table slave_the_table;
@@ -121,6 +123,7 @@ struct slave {
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
   bool outputs_fresh, followed; /* followed: with what the follower computes */
   bool uncomputed_said; /* that an output was read which is not computed, once a run */
+  bool overturned_said; /* that the vehicle lies upside down, once a run */
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
   size_t step_reference, iterations_reference;
@@ -202,6 +205,7 @@ bool slave_wants_end(const slave *s);
 
 /* watch.c: what a run says about itself, once */
 slave_status slave_watch(slave *s);
+void slave_watch_outputs(slave *s);
 
 /* derivatives.c */
 slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order, const double *value);

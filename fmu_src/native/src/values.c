@@ -25,6 +25,7 @@ bool slave_outputs(slave *s) {
   }
   s->outputs_fresh = true;
   s->followed = false;
+  slave_watch_outputs(s);
   return true;
 }
 
@@ -98,6 +99,9 @@ static void take(slave *s, uint32_t reference, double value) {
   if ((s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED)) && slave_without_effect(s, v))
     slave_say(s, SLAVE_WARNING, "'%s' was set to %.10g%s, without effect: it is of the built-in road.", v->name, value,
               v->unit);
+  if (value < v->least || value > v->most)
+    slave_say(s, SLAVE_WARNING, "'%s' was set to %.10g%s, with which no such vehicle works; from %.4g to %.4g%s it does.",
+              v->name, value, v->unit, v->least, v->most, v->unit);
   s->value[reference] = value;
   slave_forget_refusal(s);
   if (v->source == SLAVE_INPUT || v->source == SLAVE_PARAMETER) s->pending[reference] = 1;

@@ -1,9 +1,11 @@
 /* What a run says about itself after a step, once: that its numbers are not what was asked. */
+#include <math.h>
 #include <stdio.h>
 
 #include "slave.h"
 
 static const double MUCH_LEFT = 1e-3; /* m */
+static const double QUARTER_TURN = 1.5707963267948966;
 
 static slave_status watch_energy(slave *s, const ali3_report *report) {
   const ali3_report r = *report;
@@ -56,4 +58,14 @@ slave_status slave_watch(slave *s) {
   if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   const slave_status modes = watch_modes(s, &report), energy = watch_energy(s, &report);
   return larger(larger(modes, energy), watch_limit(s, &report));
+}
+
+void slave_watch_outputs(slave *s) {
+  const slave_table *t = &slave_the_table;
+  if (s->overturned_said || t->roll >= t->n_variables || !(fabs(s->value[t->roll]) > QUARTER_TURN)) return;
+  s->overturned_said = true;
+  slave_say(s, SLAVE_WARNING,
+            "At %.6g s the vehicle has rolled over: %s is %.4g%s, more than a quarter turn. What follows is a vehicle that "
+            "slides on its body, as far as points of it touch the ground. This is said once.",
+            ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit);
 }
