@@ -119,7 +119,13 @@ class System:
         return found
 
     def with_arrays(self, arrays: Mapping[str, ArrayLike]) -> System:
-        """The same System with other values of some of its `arrays`, by name."""
+        """The same System with other values of some arrays.
+
+        Parameters
+        ----------
+        arrays : mapping of str to array_like
+            By name, each of shape (n,) as `docs/system_file.md` has it.
+        """
         made = copy.copy(self)
         made.arrays = self.arrays.changed(arrays)
         return made
