@@ -20,7 +20,7 @@ _TITLES = {"input": "inputs", "parameter": "parameters", "output": "outputs", "l
 # What a person calls the outputs that begin so; others are described by what the model says of each.
 _WORDS = {
     "accelerometer": "accelerations of the four corners of the chassis",
-    "bending_moment": "bending moments at the gauges of the frame; zero where `stress.computed` is 0",
+    "bending_moment": "bending moments at the gauges of the frame",
     "chassis": "pose (angles and quaternion), velocities, angular velocities and accelerations of the car's centre of "
     "mass at rest; force of the ground on the chassis and points that touch it",
     "energy": "energies, and works since the start",

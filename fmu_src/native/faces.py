@@ -29,8 +29,8 @@ FMI2 = Face(
         "fusing multiplications and additions: -ffp-contract=off).",
         "Derivatives of inputs up to the third order are followed inside a communication step and forgotten after it. "
         "Outputs that are positions, angles or velocities have first time derivatives. Directional derivatives of "
-        "outputs by inputs are those over the last inner step, the state before it held; in initialisation mode those "
-        "of the initial state.",
+        "outputs by inputs are those over the last communication step, the state before it held; in initialisation "
+        "mode those of the initial state.",
     ),
     {platform: {platform: targets} for platform, targets in TARGETS.items()},
     "model.png",
@@ -57,8 +57,8 @@ def _face_fmi3(group: Callable[[Sequence[Variable]], tuple[Array, ...]], words: 
             "FMI 3.0 co-simulation in C: it needs nothing but the C library of its platform, and can be compiled from "
             f"its folder sources. {words}",
             "Outputs that are positions, angles or velocities have first time derivatives. Directional and adjoint "
-            "derivatives of outputs by inputs are those over the last inner step, the state before it held; in "
-            "initialisation mode those of the initial state.",
+            "derivatives of outputs by inputs are those over the last communication step, the state before it held; "
+            "in initialisation mode those of the initial state.",
         ),
         {name: {FMI3_FOLDERS[target]: (target,) for target in TARGETS[name]} for name in PLATFORMS},
         "terminalsAndIcons/icon.png",

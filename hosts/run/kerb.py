@@ -75,7 +75,7 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
         manoeuvre, settings = set_in(fmu, manoeuvre, given, fidelity)
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, step))
     if result["stress.computed"][0] != 1.0:
-        raise HostError("At this fidelity the moments are not computed (stress.computed is 0); take 1, 2 or 3.")
+        raise HostError(f"{path} does not compute the moments (stress.computed is 0); build it with all fidelities.")
     write_csv(result, table)
     write_record(fmu, manoeuvre, step, settings, result, record)
     rows = moments(result, step)

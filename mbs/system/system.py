@@ -124,7 +124,7 @@ class System:
         Parameters
         ----------
         arrays : mapping of str to array_like
-            By name.
+            By name, each of shape (n,) as `docs/system_file.md` has it.
         """
         made = copy.copy(self)
         made.arrays = self.arrays.changed(arrays)

@@ -28,7 +28,7 @@ class Fidelity(IntEnum):
         member.description = description
         return member
 
-    RIGID = 0, "rigid, stresses not computed"
+    RIGID = 0, "rigid, stresses of an FMU when they are read"
     QUASI_STATIC = 1, "rigid, quasi-static stresses by inertia relief"
     LOAD_PATHS = 2, "flexible, static modes of the load paths"
     DYNAMIC = 3, "flexible, static, inertia and 5 dynamic modes"

@@ -41,7 +41,6 @@ def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.Cap
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--fidelity", "0"], "not computed"),
         (["--fidelity", "0.5"], "whole number"),
         (["--step", "0.1"], "below 0.05 s"),
         (["--step", "nan"], "must be positive"),

@@ -265,6 +265,27 @@ def test_fronts_of_impossible_size_are_refused_without_asking_for_memory() -> No
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
+        ({"ported_ptr": [0, 1, 3, 4]}, "'ported_ptr' runs from 0 to 4 instead of 0 to 3"),
+        ({"ported_ptr": [0] * 7, "ported_row": [], "ported_val": []}, "6 coordinates without ports"),
+        ({"ported_row": [0, 5, 2]}, "'ported_row' is 5"),
+        ({"ported_row": [0, -1, 2]}, "'ported_row' is -1"),
+        ({"ported_val": [1.0]}, "'ported_val' has 1 items instead of 3"),
+        ({"ported_const": [0.0]}, "'ported_const' has 1 items instead of 5"),
+        ({"ported_ptr": []}, "'ported_const' has 5 items instead of 0"),
+        ({"ported_ptr": [], "ported_const": []}, "'ported_row' has 3 items instead of 0"),
+    ],
+)
+def test_a_map_of_ports_that_points_elsewhere_is_refused(changes: dict[str, list[float]], said: str) -> None:
+    good = {"ported_ptr": [0, 1, 3], "ported_row": [0, 1, 2], "ported_val": [1.0] * 3, "ported_const": [0.0] * 5}
+    arrays = sleigh().arrays()
+    assert len(arrays["q0"]) == 5
+    LoadedSystem(pack(arrays | good))
+    assert said in refused(pack(arrays | good | changes))
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
         ({"row_const": [-0.5, 0.1, 0.0]}, "velocity row 1 also has a condition on positions"),
         ({"quad_ptr": [0, 1, 2, 2]}, "velocity row 1 also has a condition on positions"),
         (
