@@ -29,8 +29,8 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     names a saved state of the FMU, beside the table, to begin with. Behind a table that a page has recorded stands a
     line ``# outputs from: NAME``: that column and those after it are what came out, and are not read; its inputs were
     held. A line ``# held: NAME, NAME`` names inputs that keep the value of a row up to the next one; the others go
-    straight, and a time that stands twice is a jump. ``# step: H`` is the communication step that it was recorded with. A
-    table that a run has written is read with the record beside it.
+    straight, and a time that stands twice is a jump. ``# step: H`` is the communication step that it was recorded with.
+    A table that a run has written is read with the record beside it.
 
     Parameters
     ----------
