@@ -10,8 +10,10 @@ from collections.abc import Sequence
 
 from ali3.commands import BEFORE, COMMANDS, Command
 from ali3.extras import command_needs
+from ali3.options import Parser
 from ali3.running import WRONG_USE, run_command, typed_as
 from ali3.search_path import forget_current_folder
+from ali3.words import VALUE, brief
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
@@ -55,7 +57,7 @@ def _help(arguments: Sequence[str], prog: str) -> int:
 
 def _parser(prog: str) -> argparse.ArgumentParser:
     width = max(len(c.name) for c in COMMANDS)
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog=prog,
         usage=f"{prog} COMMAND [...]",
         description="Real-time multibody dynamics: from a model to an FMU, and programs that run it.",
@@ -82,7 +84,7 @@ def _unknown(name: str, arguments: Sequence[str], prog: str) -> int:
         print(f"error: The command '{name}' is now: {prog} {BEFORE[name].line(arguments)}", file=sys.stderr)
         return WRONG_USE
     names = [c.name for c in COMMANDS]
-    near = difflib.get_close_matches(name, names, 1)
+    near = difflib.get_close_matches(name[:VALUE], names, 1)
     hint = f"Did you mean '{near[0]}'?" if near else f"The commands are {', '.join(names)}."
-    print(f"error: There is no command '{name}'. {hint} {prog} --help describes them.", file=sys.stderr)
+    print(f"error: There is no command {brief(name)}. {hint} {prog} --help describes them.", file=sys.stderr)
     return WRONG_USE

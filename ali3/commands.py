@@ -51,7 +51,12 @@ COMMANDS = (
         "simulator",
         "drive a car in real time, from a page or by a steering wheel; repeat recordings",
     ),
-    Command("check", "hosts.check.command", "hosts", "check an FMU, show its parameters, or drive it for hours"),
+    Command(
+        "check",
+        "hosts.check.command",
+        "hosts",
+        "check an FMU, compare it with a reference, show its parameters, or drive it for hours",
+    ),
     Command(
         "catalogue",
         "hosts.catalogue.command",

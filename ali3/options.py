@@ -6,11 +6,19 @@ import argparse
 import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 from ali3.decimal_number import number, short
 from ali3.running import WRONG_USE
-from ali3.words import brief
+from ali3.words import brief, shortened
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser of a command line whose messages quote the beginning of what is long."""
+
+    def error(self, message: str) -> NoReturn:
+        """End the program with a message."""
+        super().error(shortened(message))
 
 
 class Option(NamedTuple):

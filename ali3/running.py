@@ -13,6 +13,7 @@ from ali3.errors import UserError
 from ali3.extras import missing_module
 from ali3.files import reason
 from ali3.signals import Stopped, stopped_by_signals
+from ali3.words import shortened
 
 GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED = 0, 1, 2, 130
 """Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT; so for others
@@ -52,7 +53,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ())
         words = sentence(error, errors)
         if words is None:
             raise
-        return _end(f"error: {words}", WRONG_USE)
+        return _end(f"error: {shortened(words)}", WRONG_USE)
 
 
 def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | None:
@@ -66,6 +67,8 @@ def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | 
     """
     if isinstance(error, ModuleNotFoundError):
         return missing_module(error)
+    if isinstance(error, MemoryError) or (isinstance(error, ImportError) and "map segment" in str(error)):
+        return "There is not enough memory for this; close other programs, or raise the limit (ulimit -v)."
     if isinstance(error, (UserError, *errors)):
         return str(error)
     return _os_words(error) if isinstance(error, OSError) else None
@@ -112,7 +115,7 @@ def told_warnings() -> Iterator[None]:
     """A context in which warnings for a user are lines like errors are, without the place in the source."""
 
     def show(message: Warning | str, *_: object) -> None:
-        print(f"warning: {message}", file=sys.stderr, flush=True)
+        print(f"warning: {shortened(str(message))}", file=sys.stderr, flush=True)
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", UserWarning)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import datetime
+import re
 from collections.abc import Iterable, Mapping
 
 VALUE, SENTENCE = 60, 400
 """Characters of a value in a sentence, and of a sentence with texts of a file in it."""
+_WORD, _MESSAGE = 240, 2000  # of a text without a blank, and of a whole message, that is shown as it is
 
 
 def brief(value: object) -> str:
@@ -32,6 +34,12 @@ def value_words(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     return "null" if value is None else brief(value)
+
+
+def shortened(sentence: str) -> str:
+    """A sentence in which texts without a blank, such as values and paths, and the whole have an end."""
+    sentence = re.sub(rf"\S{{{_WORD},}}", lambda found: f"{found[0][:100]}...{found[0][-60:]}", sentence)
+    return sentence if len(sentence) <= _MESSAGE else f"{sentence[: _MESSAGE // 2]} ... {sentence[-_MESSAGE // 2 :]}"
 
 
 def one_line(sentence: str) -> str:

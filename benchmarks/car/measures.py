@@ -17,6 +17,7 @@ from mbs.analysis.linear_model import LinearModel, Mode
 from mbs.elements.road import PlaneRoad
 from mbs.vehicle import Car
 from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.kinematics import kinematics as found_by_hand
 
 TURN_SPEED, TURN_STEERING, TURN_TIME = 22.22, 0.10, 40.0  # m/s, of full steering at the end, s
 TURN_RANGE = (0.05, 0.30)  # g, of the straight line through angles over lateral acceleration
@@ -67,7 +68,12 @@ MEASURES = (
         "understeer_gradient", "deg/g", (1.0, 4.0), "steering-wheel angle over the steering ratio, less Ackermann's"
     ),
     Measure("sideslip_gradient", "deg/g", None, "at the rear axle's centre, at the same speed"),
-    Measure("turning_circle", "m", (9.5, 11.5), "diameter between kerbs at full lock: outer front wheel's path"),
+    Measure(
+        "turning_circle",
+        "m",
+        (9.5, 11.5),
+        "diameter of the outer front contact centre's way at full lock, without slip",
+    ),
     Measure("time_to_100", "s", (8.0, 16.0), "0 to 100 km/h at full throttle"),
     Measure("top_speed", "km/h", (125.0, 190.0), "after two minutes at full throttle"),
     Measure("deceleration", "g", (0.7, 1.1), "mean from 100 to 20 km/h at the best pedal"),
@@ -130,14 +136,12 @@ def _front_share(model: LinearModel, mode: Mode) -> float:
 def _axles(car: Car) -> dict[str, float]:
     k = kinematics(car)
     stiffness = k["front.roll_stiffness"], k["rear.roll_stiffness"]
-    # radius of the outer front wheel's contact in a slow turn about a point on the rear axle's line
-    radius = car.wheelbase / math.sin(k["lock_outer"])
     return {
         "roll_centre_front": 1e3 * k["front.roll_centre_height"],
         "roll_centre_rear": 1e3 * k["rear.roll_centre_height"],
         "roll_share_front": 100.0 * stiffness[0] / sum(stiffness),
         "steering_ratio": k["steering_ratio"],
-        "turning_circle": 2.0 * radius,
+        "turning_circle": found_by_hand(car).drawn("front")["lock_turning_circle"],
     }
 
 

@@ -18,7 +18,8 @@ from ali3.files import check_writable
 from ali3.parameter_set import ParameterSet
 from fmu_src.build.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
 from fmu_src.build.parameter_file import parameter_set
-from fmu_src.description.probe import probe, with_nominal
+from fmu_src.description.nominal import drive_sizes, with_nominal
+from fmu_src.description.probe import probe
 from fmu_src.geometry.geometry import geometry, geometry_file
 from fmu_src.native.ahead import compiled_ahead
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
@@ -168,11 +169,11 @@ class FmuBuilder:
         self._name, self._told = name, told
         with told("finding what depends on what"):
             reach = probe(systems, table)
+        table = with_nominal(table, drive_sizes(systems, table), reach.size)
         version = importlib.metadata.version("ali3")
         scene = geometry(systems[fidelity], table, fmu_name(name), description)
         self._contents = NativeContents(
-            *("", description, version, systems, with_nominal(table, reach), reach, fidelity, followers, *rights),
-            origin or {},
+            "", description, version, systems, table, reach, fidelity, followers, *rights, origin or {}
         )
         self._scene = scene
         self._libraries: dict[tuple[str, str], bytes] = {}

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from ali3.errors import UserError
 from ali3.extras import missing_package
-from ali3.options import add_old_names, add_option
+from ali3.options import Parser, add_old_names, add_option
 from ali3.running import run_command, told_warnings
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ _KINDS = "native,fmi3,python"
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.py") -> int:
     """Run the command; `prog` is how the user typed it."""
-    parser = argparse.ArgumentParser(prog=prog, description="Build the FMUs of a car or a scene, or the C kernel.")
+    parser = Parser(prog=prog, description="Build the FMUs of a car or a scene, or the C kernel.")
     what = parser.add_mutually_exclusive_group()
     what.add_argument(
         "--car",

@@ -179,25 +179,23 @@ def units(root: ElementTree.Element, table: Sequence[Variable]) -> None:
 
 
 def type_name(v: Variable) -> str:
-    """Name of the declared type of a variable: its quantity, a display unit that is not the usual one, its range."""
-    name = "Count" if v.whole else QUANTITIES.get(v.unit, "Quantity_" + re.sub(r"\W", "_", v.unit))
-    usual = next(iter(DISPLAY_UNITS.get(v.unit, {})), None)
-    if v.display_unit != usual:
-        name += "_" + re.sub(r"\W", "_", v.display_unit or "plain")
-    return name if v.min is None and v.max is None else f"{name}_{_end(v.min)}_to_{_end(v.max)}"
+    """Name of the declared type of a variable: its quantity, or else its unit; a display unit that is not the usual."""
+    if v.whole:
+        return "Count"
+    name = QUANTITIES.get(v.unit, f"Value_in_{_plain(v.unit)}")
+    if v.display_unit != next(iter(DISPLAY_UNITS.get(v.unit, {})), None):
+        name += f"_in_{_plain(v.display_unit or v.unit)}"
+    return name
 
 
 def type_attributes(v: Variable) -> dict[str, str]:
-    """Attributes of the declared type of a variable."""
+    """Attributes of the declared type of a variable; its range stands at the variable."""
     if v.whole:
-        attributes = {"quantity": "Count"}
-    else:
-        attributes = {"quantity": QUANTITIES.get(v.unit, "Quantity"), "unit": v.unit}
-        if v.display_unit is not None:
-            attributes["displayUnit"] = v.display_unit
-    for key, value in (("min", v.min), ("max", v.max)):
-        if value is not None:
-            attributes[key] = value_text(v, value)
+        return {"quantity": "Count"}
+    attributes = {"quantity": QUANTITIES[v.unit]} if v.unit in QUANTITIES else {}
+    attributes["unit"] = v.unit
+    if v.display_unit is not None:
+        attributes["displayUnit"] = v.display_unit
     return attributes
 
 
@@ -222,8 +220,8 @@ def declared_type(v: Variable, types: dict[str, dict[str, str]]) -> str:
     return name
 
 
-def _end(value: float | None) -> str:
-    return "open" if value is None else f"{value:g}".replace("-", "minus").replace("+", "").replace(".", "p")
+def _plain(unit: str) -> str:
+    return re.sub(r"\W+", "_", unit)
 
 
 def _types(root: ElementTree.Element, table: Sequence[Variable]) -> None:

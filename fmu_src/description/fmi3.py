@@ -108,18 +108,26 @@ def build_description(model_identifier: str, sources: Sequence[str]) -> bytes:
     return to_bytes(root)
 
 
-def terminals(arrays: Sequence[Array]) -> bytes | None:
-    """terminalsAndIcons.xml: one terminal per part of the model that has a name and more than one output; or None."""
+def terminals(arrays: Sequence[Array]) -> bytes:
+    """terminalsAndIcons.xml: the place of the icon; a terminal per part of the model that has a name and more than one
+    variable from outside or to outside, and one of the inputs without such a name.
+    """
     parts: dict[str, list[Array]] = {}
     for array in arrays:
-        prefix, dot, _ = array.name.rpartition(".")
-        if dot and array.of.causality == "output":
+        prefix, _, _ = array.name.rpartition(".")
+        if array.of.causality == "input" or (prefix and array.of.causality == "output"):
             parts.setdefault(prefix, []).append(array)
-    parts = {name: members for name, members in parts.items() if len(members) > 1}
-    if not parts:
-        return None
+    controls = parts.pop("", [])
+    if controls:
+        driven = "steering" in {array.name for array in controls}
+        parts = {"driver" if driven and "driver" not in parts else "inputs": controls} | parts
     root = ElementTree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
-    holder = ElementTree.SubElement(root, "Terminals")
+    picture = ElementTree.SubElement(root, "GraphicalRepresentation")
+    corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
+    ElementTree.SubElement(picture, "CoordinateSystem", corners | {"suggestedScalingFactorTo_mm": "0.1"})
+    ElementTree.SubElement(picture, "Icon", corners)
+    parts = {name: members for name, members in parts.items() if len(members) > 1}
+    holder = ElementTree.SubElement(root, "Terminals") if parts else root
     for name, members in parts.items():
         terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="bus")
         for member in members:

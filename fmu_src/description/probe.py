@@ -1,4 +1,4 @@
-"""Which variables reach which outputs, and how large the outputs are: found by trying, at build time.
+"""Which variables reach which outputs, and how large the outputs become: found by trying, at build time.
 
 A variable reaches an output if changing it, and nothing else, changes a bit of the output: over one step from a state
 that random inputs led to (inputs), or in the initial state from random values (all that can be set). Parameters are
@@ -9,10 +9,9 @@ to depend on all parameters and the place of the start, and what a step changes 
 
 from __future__ import annotations
 
-import math
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import mbs
 from fmu_src.description.parameter_groups import parameter_groups
@@ -234,13 +233,3 @@ def _meets_road(system: mbs.System, sensor: int) -> bool:
         return False
     element = int(system.arrays["sen_int"][int(system.arrays["sen_int_ptr"][sensor])])
     return ElementType(system.arrays["el_type"][element]) in _ON_ROAD
-
-
-def with_nominal(table: Sequence[Variable], reach: Dependencies) -> tuple[Variable, ...]:
-    """Real outputs get a typical size: the power of ten below the largest value seen."""
-    return tuple(
-        replace(v, nominal=10.0 ** math.floor(math.log10(reach.size[i])))
-        if reach.size.get(i, 0.0) > 0.0 and not v.whole
-        else v
-        for i, v in enumerate(table)
-    )

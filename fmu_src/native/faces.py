@@ -45,11 +45,11 @@ def _face_fmi3(group: Callable[[Sequence[Variable]], tuple[Array, ...]], words: 
 
     def documents(head: Description, contents: NativeContents) -> dict[str, bytes]:
         groups = group(contents.table)
-        buses = terminals(groups)
         return {
             "modelDescription.xml": model_description_fmi3(head, contents.table, groups, contents.reach),
             "sources/buildDescription.xml": build_description(contents.model_name, head.sources),
-        } | ({"terminalsAndIcons/terminalsAndIcons.xml": buses} if buses is not None else {})
+            "terminalsAndIcons/terminalsAndIcons.xml": terminals(groups),
+        }
 
     return Face(
         "fmi3",

@@ -87,6 +87,27 @@ def references(groups: Sequence[Array]) -> tuple[list[int], int]:
     return [k + (k >= time) for k in range(len(groups))], time
 
 
+def common_text(texts: Sequence[str]) -> str:
+    """One text for several: where words differ, those of all, with commas between single words and else semicolons.
+
+    >>> common_text(["x of the centre", "y of the centre"]), common_text(["at gauge 1", "at gauge 2", "at gauge 3"])
+    ('x, y of the centre', 'at gauge 1 to 3')
+    """
+    rows = [text.split() for text in texts]
+    shortest = min(map(len, rows))
+    if all(row == rows[0] for row in rows):
+        return texts[0]
+    first = next((k for k in range(shortest) if len({row[k] for row in rows}) > 1), shortest)
+    last = next((k for k in range(shortest - first) if len({row[-1 - k] for row in rows}) > 1), shortest - first)
+    middles = [" ".join(row[first : len(row) - last]) for row in rows]
+    if len(rows) > 2 and middles == [str(k) for k in range(1, len(rows) + 1)]:
+        middle = f"1 to {len(rows)}"
+    else:
+        comma = "," if middles[-1].endswith(",") else ""
+        middle = (", " if all(" " not in m for m in middles) else "; ").join(m.rstrip(",") for m in middles) + comma
+    return " ".join([*rows[0][:first], middle, *rows[0][len(rows[0]) - last :]])
+
+
 def _alike(table: Sequence[Variable], items: Sequence[int]) -> bool:
     first = table[items[0]]
     return all(
@@ -101,8 +122,10 @@ def _vector(table: Sequence[Variable], i: int) -> Array | None:
         if last != parts[0] or items[-1] >= len(table) or not _alike(table, items):
             continue
         if all(table[k].name == prefix + dot + part for k, part in zip(items, parts, strict=True)):
-            words = table[i].description.removeprefix(f"{parts[0]} ")
-            return Array(f"{prefix}{dot}{name}", tuple(items), table[i], f"{', '.join(parts)}: {words}")
+            words = common_text([table[k].description for k in items])
+            named = any(", ".join(names) in words for names in (parts, [part[-1] for part in parts]))
+            said = words if named else f"{', '.join(parts)}: {words}"
+            return Array(f"{prefix}{dot}{name}", tuple(items), table[i], said)
     return None
 
 
@@ -116,4 +139,5 @@ def _series(table: Sequence[Variable], i: int) -> Array | None:
         items.append(k)
     if len(items) < 2 or not _alike(table, items):
         return None
-    return Array(f"{match[1]}{match[3]}", tuple(items), table[i], f"1 to {len(items)}: {table[i].description}")
+    said = f"1 to {len(items)}: {common_text([table[k].description for k in items])}"
+    return Array(f"{match[1]}{match[3]}", tuple(items), table[i], said)

@@ -54,6 +54,17 @@ QUANTITIES: dict[str, str] = {
     "Pa": "Stress",
     "kg": "Mass",
     "Hz": "Frequency",
+    "N.s/m": "Damping",
+    "N.m.s/rad": "RotationalDamping",
+    "N.s": "Impulse",
+    "N.m.s": "AngularMomentum",
+    "kg/m": "LinearDensity",
+    "kg/m3": "Density",
+    "kg.m2": "MomentOfInertia",
+    "m2": "Area",
+    "1/m": "Curvature",
+    "A": "ElectricCurrent",
+    "V": "ElectricPotential",
 }
 
 

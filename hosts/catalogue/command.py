@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.cores import available_cores
-from ali3.options import add_old_names, add_option, assignment
+from ali3.options import Parser, add_old_names, add_option, assignment
 from ali3.running import run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu
@@ -30,9 +30,7 @@ _PENDING = "Not done yet: the command is at work, or was stopped."
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.catalogue") -> int:
     """Run the command, which the user typed as `prog`."""
-    parser = argparse.ArgumentParser(
-        prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add_fmu(parser, "*", name="fmus")
     parser.add_argument(
         "--tests", action="append", default=[], metavar="NAME,...", help="only these tests; repeatable; default: all"

@@ -49,7 +49,7 @@ def _one(name: str, function: Callable[[Subject], Finding], subject: Subject) ->
 
     try:
         return function(subject)
-    except ModuleNotFoundError:
+    except (ModuleNotFoundError, MemoryError):
         raise
     except Exception as error:
         return Finding(name, "bad", f"ended with {type(error).__name__}: {error}")

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from ali3.extras import command_needs
 from ali3.isolated import Isolated, Lost
-from ali3.options import add_old_names, add_option, assignment, count
+from ali3.options import Parser, add_old_names, add_option, assignment, count
 from ali3.running import run_command
 from hosts.check.all_checks import check
 from hosts.common.errors import HostError
@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ch
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog=prog,
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,

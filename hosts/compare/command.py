@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.decimal_number import number
-from ali3.options import add_old_names, add_option
+from ali3.options import Parser, add_old_names, add_option
 from ali3.running import run_command
 from hosts.common.options import add_fmu, add_setting_options
 from hosts.fmu.fmu_file import fmu_file
@@ -20,9 +20,7 @@ from hosts.fmu.fmu_file import fmu_file
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.compare") -> int:
     """Run the command, which the user typed as `prog`; 1 if the comparison or the fit is not good."""
-    parser = argparse.ArgumentParser(
-        prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add_fmu(parser)
     parser.add_argument("log", type=Path, metavar="LOG", help="CSV as data loggers write it, or Parquet")
     parser.add_argument("--log-aliases", type=Path, metavar="FILE", help="alias file of the log: names, units, clock")

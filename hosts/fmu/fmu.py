@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ali3.files import reason
 from ali3.running import command_name
+from ali3.words import shortened
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.instance import Instance, State
@@ -61,7 +62,7 @@ def _read(path: Path) -> tuple[ModelDescription, dict[str, Place]]:
         description = read_model_description(str(path))
         arrays = any(v.dimensions for v in description.modelVariables)
         description.modelVariables, places = scalars(description, element_names(path) if arrays else {})
-    except ModuleNotFoundError:
+    except (ImportError, MemoryError):
         raise
     except Exception as error:
         raise HostError(f"{path} is not an FMU that can be read: {error}") from None
@@ -285,4 +286,4 @@ class Fmu:
 
     def _log(self, status: int, category: str, message: str) -> None:
         if status > 0 and message and category != _NOT_COMPUTED:
-            self.messages.append(message)
+            self.messages.append(shortened(message))

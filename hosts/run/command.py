@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ali3.options import add_option, assignment
+from ali3.options import Parser, add_option, assignment
 from ali3.running import run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
@@ -23,7 +23,7 @@ from hosts.fmu.car import is_car
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.run.command") -> int:
     """Run the command, which the user typed as `prog`; 0 if every step was accepted."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog=prog,
         description=__doc__,
         epilog=f"manoeuvres: {', '.join(manoeuvre_names())}",

@@ -20,6 +20,7 @@ _WORKS = {
     "energy.drag": "air",
     "energy.ground": "ground on the chassis",
 }
+_ADDED = "energy.added"  # of a car with elements that a user has added
 _ERROR = "solver.energy_error"
 
 
@@ -112,8 +113,9 @@ def energy_balance(result: Result) -> list[tuple[str, str]]:
     def change(name: str) -> float:
         return float(result[name][-1] - result[name][0])
 
-    stored, works, error = sum(map(change, _STORED)), {n: change(n) for n in _WORKS}, change(_ERROR)
-    parts = {"change of the energy": stored} | {f"- work of {_WORKS[n]}": w for n, w in works.items()}
+    said = _WORKS | ({_ADDED: "added elements"} if _ADDED in result else {})
+    stored, works, error = sum(map(change, _STORED)), {n: change(n) for n in said}, change(_ERROR)
+    parts = {"change of the energy": stored} | {f"- work of {said[n]}": w for n, w in works.items()}
     parts |= {"- steering, structure, rest": stored - sum(works.values()) - error, "- error of the steps": error}
     return [(what, f"{round(1e-3 * part, 4) + 0.0:+.4f} kJ") for what, part in parts.items()]
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.extras import missing_package
-from ali3.options import add_old_names, add_option
+from ali3.options import Parser, add_old_names, add_option
 from ali3.running import GOOD, NOT_GOOD, run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
@@ -48,7 +48,7 @@ def _recorded(options: argparse.Namespace) -> int:
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog=prog,
         description="Drive a car in real time: from a page in the browser, by keys, gamepad or a steering wheel. "
         "Ctrl-C ends with a report of the step times. With --recording: say what a recording holds, repeat it, or "

@@ -61,7 +61,7 @@ class Watch:
         self._place = {name: k for k, name in enumerate(outputs)}
         self._outputs, self._step, self._largest = list(outputs), step, largest_balance
         self._loads = self._all(f"wheel_{wheel}.Fz" for wheel in WHEELS)
-        self._works = self._all(_WORKS)
+        self._works = self._all(_WORKS) + self._all(("energy.added",))
         self._total, self._error = self._one("energy.total"), self._one("solver.energy_error")
         self._balance, self._kinetic = self._one("solver.energy_balance"), self._one("energy.kinetic")
         self._speed, self._iterations = self._one("speed"), self._one("solver.iterations")

@@ -10,16 +10,14 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from ali3.options import add_old_names, add_option
+from ali3.options import Parser, add_old_names, add_option
 from ali3.running import NOT_GOOD, run_command
 from hosts.common.errors import HostError
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.study") -> int:
     """Run the command, which the user typed as `prog`; 0 if every run that was asked for has a row."""
-    parser = argparse.ArgumentParser(
-        prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", type=Path, metavar="STUDY", help="a study file, or the folder of a study's results")
     add_option(parser, "--out", "out/ and the name of the study")
     parser.add_argument(

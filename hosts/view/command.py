@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.decimal_number import number
-from ali3.options import add_old_names, add_option, first_given
+from ali3.options import Parser, add_old_names, add_option, first_given
 from ali3.running import run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_setting_options
@@ -32,9 +32,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.vi
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument(
         "what", nargs="+", type=Path, metavar="RESULT|FMU|CAR", help="table of a result, a recording, or what is run"
     )

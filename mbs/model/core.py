@@ -30,6 +30,7 @@ class ModelCore(Register):
         self.step = 0.01
         self.joints: list[Joint] = []
         self.elements: list[ElementRecord] = []
+        self.book_of_added: tuple[str, str] | None = None
         self.inertias: dict[int, float] = {}
         self.spins: list[Spin] = []
         self.inputs: list[Input] = []

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,8 +22,49 @@ WORKS = ("work", "nonconservative")
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
 
 
+@dataclass(frozen=True)
+class _WorkFrom(Sequence[int]):
+    """Integers of the sensor of a work of all elements from a number on, those that come later too."""
+
+    elements: Sequence[ElementRecord]
+    first: int
+
+    def __len__(self) -> int:
+        return 2 + len(self.elements) - self.first
+
+    @overload
+    def __getitem__(self, index: int) -> int: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[int]: ...
+    def __getitem__(self, index: int | slice) -> int | Sequence[int]:
+        numbers = range(self.first, len(self.elements))
+        return [WORKS.index("nonconservative"), len(numbers), *numbers][index]
+
+
 class ForceSensorVocabulary(SensorBase):
     """What can be read of force elements and of bodies under load."""
+
+    def keep_book_of_added(self, name: str, description: str) -> None:
+        """Sense the nonconservative work of all force elements that are added from now on, J, if there is one.
+
+        What makes a model for others to add to, such as a car, calls it last. The sensor comes with the first element.
+        """
+        self.book_of_added = name, description
+
+    def add(self, element: ElementRecord) -> ElementRecord:
+        """Add a force element by its record.
+
+        Parameters
+        ----------
+        element : ElementRecord
+            From the ``record`` method of an element of `mbs.elements`.
+        """
+        added = super().add(element)
+        if self.book_of_added is not None:
+            (name, description), self.book_of_added = self.book_of_added, None
+            work = _WorkFrom(self.elements, len(self.elements) - 1)
+            self._sense(name, "J", description, SensorType.WORK, integers=work)
+        return added
 
     def sense_element(
         self,

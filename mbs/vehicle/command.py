@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ali3.errors import UserError
 from ali3.extras import command_needs
-from ali3.options import add_old_names, add_option, first_given
+from ali3.options import Parser, add_old_names, add_option, first_given
 from ali3.running import run_command
 
 _OF_KINEMATICS = ("travel", "fidelity", "points", "out", "json")
@@ -20,9 +20,7 @@ _OF_KINEMATICS = ("travel", "fidelity", "points", "out", "json")
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehicle.command") -> int:
     """Run the command; `prog` is how the user typed it."""
-    parser = argparse.ArgumentParser(
-        prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("car", nargs="?", metavar="CAR", help="name of a car of the package, or a car's folder or file")
     parser.add_argument("folder", nargs="?", type=Path, metavar="FOLDER", help="copy the car there; it must not exist")
     add_option(parser, "--list")

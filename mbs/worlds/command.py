@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.errors import UserError
-from ali3.options import add_option, first_given
+from ali3.options import Parser, add_option, first_given
 from ali3.running import run_command
 from mbs.worlds.world import shipped_worlds, world
 
@@ -32,7 +32,7 @@ _OF_ROADS = ("input", "output", "frictions", "origin", "spacing", "range", "fric
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.worlds.command") -> int:
     """Run the command, which the user typed as `prog`."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog=prog,
         description=__doc__,
         epilog=f"{_EPILOG}worlds of the package: {', '.join(shipped_worlds())}",

@@ -10,6 +10,7 @@ import shlex
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -18,7 +19,8 @@ import ali3
 from ali3 import running
 from ali3.command import main
 from ali3.commands import BEFORE, COMMANDS, Command
-from ali3.options import SHARED, add_old_names
+from ali3.decimal_number import number
+from ali3.options import SHARED, Parser, add_old_names, assignment, count, name_and_text
 
 ROOT = Path(ali3.__file__).parents[1]
 # What an installation writes into the folder of programs.
@@ -33,7 +35,7 @@ HEAVY = ("numpy", "scipy", "fmpy", "matplotlib", "lxml", "pydantic", "tqdm", "pa
 OURS = ("mbs", "fmu_src", "hosts", "viewer")
 MOST_MODULES = 40
 """Of ours, which the help of a command may load."""
-MOST_OPTIONS = 138
+MOST_OPTIONS = 141
 """Of all commands together; there were 153 before they were ten."""
 CODE = ("ali3", "mbs", "fmu_src", "hosts", "viewer/page/src", "examples", "benchmarks", "docs/_site")
 
@@ -268,6 +270,26 @@ def test_messages_name_the_command_that_was_typed(
     with pytest.raises(SystemExit):
         main(["compare"])
     assert "ali3 compare: error: the following arguments are required" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.name)
+def test_what_is_long_on_a_command_line_is_not_quoted_whole(
+    command: Command, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An unknown option, a file of that name, and each option that reads a number."""
+    long, lines = 100_000 * "x", []
+    parsers: list[Parser] = []
+    parse = Parser.parse_args
+    monkeypatch.setattr(Parser, "parse_args", lambda self, *a: (parsers.append(self), parse(self, *a))[1])
+    with suppress(SystemExit):
+        main([command.name, f"--{long}"])
+    lines.append(capsys.readouterr().err)
+    numbers = [a for a in parsers[0]._actions if a.type in (number, count, int, assignment, name_and_text)]
+    for line in ([long], *([a.option_strings[0], long] for a in numbers)):
+        with suppress(SystemExit):
+            assert main([command.name, *line]) == 2
+        lines.append(capsys.readouterr().err)
+    assert all("error:" in line and len(line) < 5000 for line in lines)
 
 
 def test_a_missing_extra_is_reported_with_the_line_that_installs_it(tmp_path: Path) -> None:

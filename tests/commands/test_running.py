@@ -12,6 +12,7 @@ import pytest
 
 from ali3.errors import FileError, UserError
 from ali3.running import module_command, run_command
+from ali3.words import shortened
 from mbs.kernel import build
 
 
@@ -27,6 +28,8 @@ def raiser(error: BaseException) -> int:
         (OSError(28, "No space left on device", "a.csv"), 2, "error: a.csv: no space left on device.\n"),
         (ModuleNotFoundError("No module named 'fmpy.x'", name="fmpy.x"), 2, 'python -m pip install "ali3[hosts]"\n'),
         (KeyboardInterrupt(), 130, "stopped by Ctrl-C\n"),
+        (MemoryError(), 2, "raise the limit (ulimit -v).\n"),
+        (ImportError("etree.so: failed to map segment from shared object"), 2, "raise the limit (ulimit -v).\n"),
     ],
 )
 def test_errors_are_one_line(error: BaseException, status: int, words: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -35,6 +38,26 @@ def test_errors_are_one_line(error: BaseException, status: int, words: str, caps
     assert said.err.endswith(words)
     assert said.err.count("\n") == 1
     assert said.out == ""
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        UserError(f"'{'x' * 100_000}' is no number."),
+        UserError(f"The value is {'1 2 ' * 50_000}."),
+        OSError(36, "File name too long", "a/" * 50_000),
+    ],
+)
+def test_no_value_makes_a_sentence_endless(error: Exception, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_command(lambda: raiser(error)) == 2
+    said = capsys.readouterr().err
+    assert len(said) < 2200
+    assert said.endswith((" number.\n", "1 2 .\n", "file name too long.\n"))
+
+
+def test_a_usual_sentence_is_told_whole() -> None:
+    sentence = f"/{'folder/' * 25}car.fmu is not an FMU; its inputs are: {', '.join(f'input_{k}' for k in range(99))}."
+    assert shortened(sentence) == sentence
 
 
 def test_errors_of_ours_keep_their_traceback() -> None:

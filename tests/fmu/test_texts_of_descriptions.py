@@ -1,0 +1,75 @@
+"""What a person reads of an FMU's variables: typical sizes, names of types, texts of arrays, terminals."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from benchmarks.car import manoeuvres
+from fmu_src.description.description import declared_types
+from fmu_src.description.fmi3 import terminals
+from fmu_src.description.nominal import drive_sizes, with_nominal
+from fmu_src.variables.arrays import arrays, common_text
+from fmu_src.variables.variables import Variable, variable_table
+
+MOST = 60.0  # times the typical size, and a part of it, in common drives
+DRIVES = ("slalom", "launch_and_brake")
+
+
+@pytest.fixture(scope="module", params=manoeuvres.CARS)
+def car(request: pytest.FixtureRequest) -> tuple[str, tuple[Variable, ...]]:
+    system = manoeuvres.system_of("drop", request.param)
+    table = variable_table(system.meta, pose=True, step_size=0.002)
+    sizes = drive_sizes([system], table)
+    return request.param, with_nominal(table, sizes, sizes)
+
+
+def test_typical_sizes_are_those_of_common_drives_and_equal_on_both_sides(
+    car: tuple[str, tuple[Variable, ...]],
+) -> None:
+    name, table = car
+    nominal = {v.name: v.nominal for v in table if v.causality == "output" and not v.name.startswith("solver.")}
+    for wheel in ("FR", "RL", "RR"):
+        assert all(nominal[n] == nominal[n.replace("_FL", f"_{wheel}")] for n in nominal if "wheel_FL" in n)
+    runs = [manoeuvres.run(drive, 0.01, car=name) for drive in DRIVES]
+    largest = {n: max(float(np.abs(run[n]).max()) for run in runs) for n in nominal if n in runs[0]}
+    wrong = [
+        f"{n}: nominal {size:g}, {largest[n]:.3g} in drives"
+        for n, size in nominal.items()
+        if not n.endswith((".angle", "sideslip")) and not n.startswith("energy.")  # grow with time, or stand
+        if size is not None and largest.get(n, 0.0) > 1e-6 and not size / MOST < largest[n] < size * MOST
+    ]
+    assert not wrong, "\n".join(wrong)
+    assert nominal["chassis.ax"] in (1.0, 10.0)
+    assert nominal["energy.drive"] in (1e3, 1e4, 1e5)
+
+
+def test_types_have_names_without_numbers(car: tuple[str, tuple[Variable, ...]]) -> None:
+    types = declared_types(car[1])
+    assert {"Angle", "Velocity", "Force", "Count"} <= set(types)
+    assert not [n for n in types if any(c.isdigit() for c in n)]
+    assert all(t["quantity"] != "Quantity" for t in types.values())
+
+
+@pytest.mark.parametrize(
+    ("texts", "said"),
+    [
+        (("x of the centre", "y of the centre", "z of the centre"), "x, y, z of the centre"),
+        (("at gauge 1", "at gauge 2", "at gauge 3"), "at gauge 1 to 3"),
+        (("along x, forward, here", "along y, left, here"), "along x, forward; y, left, here"),
+        (("the same", "the same"), "the same"),
+        (("one", "two of them"), "one; two of them"),
+    ],
+)
+def test_a_text_of_an_array_is_of_all_elements(texts: tuple[str, ...], said: str) -> None:
+    assert common_text(texts) == said
+
+
+def test_inputs_of_a_car_are_the_terminal_of_its_driver(car: tuple[str, tuple[Variable, ...]]) -> None:
+    root = ElementTree.fromstring(terminals(arrays(car[1])))
+    members = {t.get("name"): [m.get("variableName") for m in t] for t in root.iter("Terminal")}
+    assert {"steering", "throttle", "brake", "hand_brake", "selector"} <= set(members["driver"])
+    assert "wheel_FL.force" in members["wheel_FL"]
+    assert root.find("GraphicalRepresentation/Icon") is not None
