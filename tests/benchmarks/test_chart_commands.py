@@ -147,6 +147,7 @@ def test_written_sentences_are_wrapped_and_tables_are_not():
     assert sum(line.startswith(("- ", "  ")) for line in lines) == 3
 
 
+@pytest.mark.slow
 def test_growth_counts_arithmetic_and_finds_the_non_zeros_linear(tmp_path):
     arguments = ["--quick", "--json", str(tmp_path / "g.json"), "--chart", str(tmp_path / "growth.png")]
     assert growth.main(arguments) == 0

@@ -23,6 +23,7 @@ KEYS = {
 }
 
 
+@pytest.mark.slow
 def test_quick_run(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(double_four_bar, "REPEATS", 1)
     file, chart = tmp_path / "rows.json", tmp_path / "chart.png"

@@ -5,10 +5,13 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import pytest
+
 from benchmarks import error_control
 from benchmarks.methods.error_control import MOST_ERROR, compare, misses
 
 
+@pytest.mark.slow
 def test_the_table_holds_every_method_and_the_choice(tmp_path: Path) -> None:
     file = tmp_path / "e.json"
     assert error_control.main(["--quick", "--scene", "spatial_slider_crank", "--json", str(file)]) == 0

@@ -14,6 +14,7 @@ from tests.vehicle.frame_cars import small_frame, written
 REST = {"drive.creep_torque": 0.0}
 
 
+@pytest.mark.slow
 def test_loads_of_the_own_manoeuvres_give_the_load_paths(tmp_path: Path) -> None:
     """The command writes the table that the car then names; few modes bend the frame like all of them."""
     folder = written(small_frame(tmp_path))

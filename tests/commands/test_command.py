@@ -300,6 +300,7 @@ def test_a_missing_extra_is_reported_with_the_line_that_installs_it(tmp_path: Pa
     assert done.stderr == ('error: The package fmpy is not installed; run: python -m pip install "ali3[hosts]"\n')
 
 
+@pytest.mark.slow
 def test_files_of_the_user_cannot_break_a_command(script: Path, crowded: Path) -> None:
     done = ran([script, "build", "--scene", "pendulum", "--kind", "native", "--platforms", "this"], crowded)
     assert done.returncode == 0, done.stderr

@@ -74,6 +74,7 @@ def test_constants_change_by_one_or_by_a_factor() -> None:
     assert 1.005 < float(text.removeprefix("doublex=").removesuffix(";")) / 3e-4 < 2.1
 
 
+@pytest.mark.slow
 def test_a_seed_draws_the_same_from_all_rooms() -> None:
     drawn = [[next(stream) for stream in draw(40, seed)] for seed in (7, 7, 8)]
     assert drawn[0] == drawn[1]

@@ -70,6 +70,7 @@ def test_smooth_tiles_are_polynomials_with_the_same_bits_in_python_and_in_the_ke
     assert {name for name in near if not np.array_equal(near[name], back[name])} == set()
 
 
+@pytest.mark.slow
 def test_level_ground_is_one_tile(tmp_path):
     write_road(GridRoad((0.0, 0.0), (0.1, 0.1), np.full((3200, 3200), 1.5), 0.9), tmp_path / "a.road", shared=True)
     record = RECORD.size + 8

@@ -75,6 +75,7 @@ def test_rigid_car_survives(name, h):
 
 @pytest.mark.parametrize("fidelity", [1, 2, 3])
 @pytest.mark.parametrize("name", list(CASES))
+@pytest.mark.slow
 def test_car_survives_at_every_fidelity(name, fidelity):
     """With each step in one case of each fidelity."""
     _hard(name, fidelity, STEPS[(list(CASES).index(name) + fidelity) % len(STEPS)])
@@ -204,6 +205,7 @@ def test_wild_driving_longer(road, h):
     [(k, range(6)[2 * k - 2 : 2 * k]) for k in (1, 2, 3)]
     + [pytest.param(k, range(6), marks=pytest.mark.proof) for k in (1, 2, 3)],
 )
+@pytest.mark.slow
 def test_wild_driving_at_every_fidelity(fidelity, seeds):
     for seed in seeds:
         _judge(_wild("kerb up", fidelity, 0.005, seed, 6.0))

@@ -112,11 +112,13 @@ def test_contact_with_the_ground_may_be_given_by_joints() -> None:
         PROTOTYPE.changed({"chassis.ground_contact.points": ["XL"]}).model()
 
 
+@pytest.mark.slow
 def test_the_own_frame_of_the_prototype_comes_back_from_matrices(tmp_path: Path) -> None:
     """Same joints; frequencies, moments and trajectory differ by the masses, which a matrix gives at the nodes."""
     _same_as_the_tubes(exported(tmp_path), (1, 2, 3))
 
 
+@pytest.mark.slow
 def test_the_own_frame_of_the_prototype_comes_back_from_nastran(tmp_path: Path) -> None:
     op4 = pytest.importorskip("pyyeti.nastran.op4")
     flexible = PROTOTYPE.flexible_frame

@@ -121,6 +121,7 @@ def test_the_kerb_gives_every_fidelity_the_same_stresses() -> None:
         np.testing.assert_allclose(kerb(3)[name], kerb(0)[name], rtol=0, atol=gap, err_msg=name)
 
 
+@pytest.mark.slow
 def test_stresses_on_the_kerb_converge_with_the_step() -> None:
     steps = (0.01, 0.005, 0.0025, 0.00125)
     peaks = np.array([[peak(kerb(3, h), gauge) for gauge in ("SG1", "SG2", "SG5")] for h in steps])

@@ -232,6 +232,7 @@ def test_a_gamepad_is_plugged_in_and_drives(car: Path, chromium: Any, tmp_path: 
     opened.close()
 
 
+@pytest.mark.slow
 def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium: Any, tmp_path: Path) -> None:
     opened = Page(chromium, written([reach], tmp_path, "--paused", "--step", "0.01", "--plot", "bob.x"))
     assert opened.page.locator('[data-a3="plot bob.x"] canvas').count() == 1
@@ -396,6 +397,7 @@ def mechanisms(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return made
 
 
+@pytest.mark.slow
 def test_the_double_four_bar_is_drawn_where_its_outputs_are(
     mechanisms: dict[str, Path], chromium: Any, tmp_path: Path
 ) -> None:
@@ -415,6 +417,7 @@ def test_the_double_four_bar_is_drawn_where_its_outputs_are(
     opened.close()
 
 
+@pytest.mark.slow
 def test_the_puma_is_moved_by_its_torques(mechanisms: dict[str, Path], chromium: Any, tmp_path: Path) -> None:
     fmu = mechanisms["puma"]
     opened = Page(chromium, written([fmu], tmp_path, "--paused", "--set", "step_size=0.002", "--step", "0.002"))

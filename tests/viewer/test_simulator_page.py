@@ -87,6 +87,7 @@ def test_keys_drive_at_their_rates_and_are_let_go_with_the_focus(program: Progra
     assert wants()[-1]["values"]["selector"] == [-1, None]
 
 
+@pytest.mark.slow
 def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> None:
     flag = lambda name: program.page.locator(f'[data-a3="flag {name}"]')  # noqa: E731
     shown(program, 2.0, 0)
@@ -114,6 +115,7 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
     assert "this is the last that came" in program.text("flag stalled")
 
 
+@pytest.mark.slow
 def test_a_broken_wire_is_said_and_mended(program: Program) -> None:
     shown(program, 1.0, RUNNING)
     program.sockets[-1].close()

@@ -86,6 +86,7 @@ def test_the_ground_is_as_high_as_its_points(drawn):
             red(drawn.picture())
 
 
+@pytest.mark.slow
 def test_there_are_no_cracks_between_patches(drawn):
     """With a magenta sky nothing magenta is seen below the horizon, though the patches do not meet at their points."""
     rng = np.random.default_rng(1)
@@ -154,6 +155,7 @@ def test_trees_are_green_above_brown(drawn):
         assert crown[1] >= crown[0], k
 
 
+@pytest.mark.slow
 def test_far_away_a_world_is_drawn_the_same(drawn):
     """All periods of the pattern away, 1482 km: the same picture, and 1 mm more moves nothing by a pixel."""
     things = [thing for thing in scenery() if thing["kind"] != "building"]  # whose colour is that of its place

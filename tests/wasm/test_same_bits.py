@@ -69,6 +69,7 @@ def test_the_prototype(prototype: Fmu, expected: Any, name: str, host: Callable[
 
 @pytest.mark.parametrize("name", ["rigid", "load paths"])
 @pytest.mark.parametrize("host", HOSTS)
+@pytest.mark.slow
 def test_the_hatchback(hatchback: Fmu, expected: Any, name: str, host: Callable[[Fmu, Plan], Driven]) -> None:
     steps, start = PLANS[name]
     plan = drive(steps // 2, dict(start), every=125)

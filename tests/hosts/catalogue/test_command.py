@@ -29,6 +29,7 @@ def rows(folder: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
+@pytest.mark.slow
 def test_cars_stand_side_by_side_and_jobs_change_nothing(
     prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
