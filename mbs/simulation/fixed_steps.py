@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping
 
 from mbs.common.progress import progress_for
 from mbs.results import accuracy
+from mbs.results.accuracy import Accuracy
+from mbs.results.run_report import BRANCH_JUMPED
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import Signal
@@ -31,6 +33,7 @@ def fixed_step_run(
 ) -> Trajectory:
     """A run in steps of h, with a repeat where its accuracy asks for one."""
     made: list[Simulation] = []
+    found: Accuracy | None = None
 
     def march_from_start(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
         simulation = start(step)
@@ -53,8 +56,10 @@ def fixed_step_run(
             error.trajectory = error.trajectory.thinned(every // often)
         raise
     finally:  # of the run that was asked for, also when it failed
-        if made and made[0].branch_change:
-            warnings.warn(made[0].branch_change, BranchWarning, stacklevel=4)
+        jump = made and made[0].report.branch_kind == BRANCH_JUMPED
+        told = made[0].branch_change if jump else found.branch if found is not None else ""
+        if told:
+            warnings.warn(told, BranchWarning, stacklevel=4)
         if made:
             made[0].bending.warn(stacklevel=5)
     trajectory = run[0].thinned(every // often)
