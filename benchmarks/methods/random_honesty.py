@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,8 @@ NOTHING = 1e-3  # of the range or the length: of a smaller error no estimate is 
 FACTOR = 10.0  # by which an estimate may be off
 KINDS = ("planar", "spatial", "car")
 VERDICTS = ("right", "false alarm", "refused", "wrong, told", "silently wrong")
+TOLD = ("false alarm", "refused", "silently wrong")
+"""Verdicts that are shown case by case."""
 TABLE = {
     "number": "d",
     "kind": "",
@@ -48,7 +50,7 @@ SUMMARY = {
 }
 
 
-def rows_of(seed: int, numbers: Iterator[int]) -> Iterator[dict[str, Any]]:
+def rows_of(seed: int, numbers: Iterable[int]) -> Iterator[dict[str, Any]]:
     """Rows of the cases of a seed; a case without a reference gives one row that says so."""
     for number in numbers:
         rng = np.random.default_rng([seed, number])

@@ -4,7 +4,7 @@ no coordinates, no equations and no integrator with the engine (Haug, "Computer 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -298,8 +298,3 @@ def _run(drawing: Drawing, tolerance: float) -> Array:
     if not run.success:
         raise NoReferenceError(run.message)
     return np.array([dynamics.tips(x) for x in run.y.T])
-
-
-def still(drawing: Drawing) -> Drawing:
-    """The same without what moves it: for tests."""
-    return replace(drawing, rate=0.0, torque=0.0, drive=None, gravity=0.0)

@@ -58,9 +58,9 @@ def to_tolerance(
 ) -> Trajectory:
     """Sensor values at `times` (n,), the first of them the start, with an error of positions of about the tolerance.
 
-    A coarse run and a finer one give the error of the latter (errors are in proportion to the tolerances, since each
-    step has a share of them). Where it is larger than it should be, since the motion lets errors grow, a third and a
-    fourth run are made with what is then known of that growth.
+    A coarse run and a finer one give the error of the latter: errors fall about as what their steps err. Where it is
+    larger than it should be, since the motion lets errors grow, a third and a fourth run are made with what is then known
+    of that growth; a third also where a loop left its assembly mode, which the motion may do or a step.
     """
     first = start()
     t0, t_end = float(times[0]), float(times[-1])
@@ -93,15 +93,16 @@ def to_tolerance(
         run = made
         runs, wall = runs + 1, wall + run.wall
         finer = before.tolerance / run.tolerance - 1.0
-        error = run.distance(before) / (finer if finer > 0.0 else 1.0)
+        error = run.distance(before) * _fall(run, before)
         if error == 0.0 and longest == 1.0:
             # the longest steps were fine enough both times, so the runs are the same and show no error
             before, longest = run, SHORTER
             continue
-        if error <= tolerance or aim <= LEAST:
+        unsure = number == 1 and run.simulation.branch_change  # two runs may have jumped alike
+        if (error <= tolerance and not unsure) or aim <= LEAST:
             break
         before = run
-        aim = max(LEAST, aim * max(MOST_AT_ONCE, AGAIN * tolerance / error))
+        aim = max(LEAST, aim * min(0.1 if unsure else 1.0, max(MOST_AT_ONCE, AGAIN * tolerance / error)))
     assert run is not None
     c = run.fields
     control = Control(
@@ -109,7 +110,7 @@ def to_tolerance(
         c.smallest, c.largest, c.side_steps, runs,
     )  # fmt: skip
     _warn(control)
-    if run.simulation.branch_change:
+    if run.simulation.branch_change and not before.simulation.branch_change:
         warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=3)
     for t, q in zip(run.task.times, run.positions, strict=True):
         run.simulation.bending.look(float(t), np.asarray(q))
@@ -267,3 +268,9 @@ def _trajectory(
         times, values, names, units, ended.report, settings, wall, None, notices, ended.branch_change, control,
         record.poses(times), record.drawing, run_roads(ended.system, ended.instance, ended.road_paths),
     )  # fmt: skip
+
+
+def _fall(run: ControlledRun, before: ControlledRun) -> float:
+    """The error of a run over that of a coarser one: as what their steps have erred."""
+    coarse = before.fields.error_sum
+    return min(1.0, run.fields.error_sum / coarse) if coarse > 0.0 else 1.0

@@ -48,10 +48,10 @@ def check(
     parts = accuracy.divisor(report.steps, report.halvings)
     try:
         known = repeats.finer(parts)
-        if known.error is not None and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]:
+        if not always and known.error is not None and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]:
             known = repeats.finer(2 * parts)
     except SimulationError as error:
-        text = f"A repeat with shorter steps was refused, so the result is not to be trusted: {error}"
+        text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         return replace(known, repeat_cost=repeats.cost, message=text)
     branch = run[0].branch_change if repeats.left_alone else ""
     if known.error is None or known.error <= accuracy.WRONG_ERROR:
@@ -75,7 +75,7 @@ class _Repeats:
         update: Callable[[float], None],
     ) -> None:
         self.system, self.run, self.h, self.every = system, run, h, every
-        self.cost = 0.0
+        self.cost, self.tried = 0.0, h
         self.left_alone = False
         self._march, self._update = march, update
         self._groups, self._ranges = accuracy.judged_sensors(system), dict[str, float]()
@@ -114,7 +114,7 @@ class _Repeats:
         return accuracy.error_text(known, self._ranges, self._groups)
 
     def _again(self, h: float, every: int, cost: float) -> Run:
-        before = 1.0 + self.cost
+        before, self.tried = 1.0 + self.cost, h
         self.cost += cost
         whole = 1.0 + self.cost
         return self._march(h, every, lambda done: self._update((before + cost * done) / whole), bool(self.run[1]))
