@@ -1,12 +1,12 @@
-"""Whether a run reports that it is wrong: ``python -m benchmarks.honesty [--json FILE] [--quick]``, or of mechanisms and
-cars by chance ``--random N --seed S [--before FILE]``.
+"""Whether a run reports that it is wrong: ``python -m benchmarks.honesty [--json FILE] [--quick]``,
+or of mechanisms and cars by chance ``--random N --seed S [--before FILE]``.
 
 Every scene, method and manoeuvre of the car at coarse and fine steps, as `mbs.simulate` runs it: the true error beside
 its estimate. A run is wrong when a judged sensor is off by more than 5 % of the largest range in its unit at one of
 51 instants; a warning then is right, and is a false alarm elsewhere.
 
-With --random, N mechanisms and a car for every ten: each in equal steps and under a tolerance (wrong: beyond ten of it),
-against Newton and Euler's equations under DOP853, of cars against another method.
+With --random, N mechanisms and a car for every ten: each in equal steps and under a tolerance (wrong: beyond ten
+of it), against Newton and Euler's equations under DOP853, of cars against another method.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from typing import Any
 
 import mbs
 from ali3.running import run_command
+from benchmarks.methods import random_honesty
 from benchmarks.methods.honesty import SUMMARY, measure, summary
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
-from benchmarks.methods import random_honesty
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table

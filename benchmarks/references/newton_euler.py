@@ -1,5 +1,6 @@
-"""Mechanisms of rigid bodies by Newton and Euler's equations of each body with multipliers, under SciPy's DOP853: shares
-no coordinates, no equations and no integrator with the engine (Haug, "Computer Aided Kinematics and Dynamics", 6.3, 11.3).
+"""Mechanisms of rigid bodies by Newton and Euler's equations of each body with multipliers, under SciPy's DOP853. They
+share no coordinates, no equations and no integrator with the engine (Haug, "Computer Aided Kinematics and Dynamics",
+6.3 and 11.3).
 """
 
 from __future__ import annotations
@@ -35,8 +36,8 @@ class Link:
 
 @dataclass(frozen=True)
 class Joint:
-    """A shared point of two links, the first one moving; `kind` "ball", "hinge" about `axis`, or "line": the point of the
-    first link stays on a line of the ground along `axis`.
+    """A shared point of two links, the first one moving; `kind` "ball", "hinge" about `axis`, or "line": the point
+    of the first link stays on a line of the ground along `axis`.
     """
 
     kind: str
@@ -160,7 +161,9 @@ class Dynamics:
         else:
             p = x[n * d : n * (d + 4)].reshape(n, 4)
             w, v = p[:, :1], p[:, 1:]
-            turning = 0.5 * np.hstack([-np.sum(omega * v, axis=1, keepdims=True), w * omega + np.cross(omega, v)]).ravel()
+            turning = (
+                0.5 * np.hstack([-np.sum(omega * v, axis=1, keepdims=True), w * omega + np.cross(omega, v)]).ravel()
+            )
         return np.concatenate([velocity[: n * d], turning, acceleration])
 
     def tips(self, x: Array) -> Array:

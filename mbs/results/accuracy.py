@@ -132,8 +132,8 @@ def has_motion_sensor(system: System) -> bool:
 def doubt(report: Report, steps: int, halvings: int, method: str) -> str:
     """How a run is to be checked: empty, not at all; `SCREEN` by one of twice the step, `REPEAT` by one of half.
 
-    Where steps were halved inside a coarser run makes the same parts, and a loop that left its mode, or an open balance,
-    is a sign of coarse steps already.
+    Where steps were halved inside, a coarser run makes the same parts. An open balance, and a loop that left
+    its mode, are signs of coarse steps already.
     """
     if halvings > SUSPECT_HALVINGS * steps or report.energy_balance > WRONG_BALANCE or report.branch_changes > 0:
         return REPEAT
@@ -183,9 +183,12 @@ def extent(unit: str, values: Sequence[Array]) -> float:
 
 
 def differences(
-    coarse: Mapping[str, Array], fine: Mapping[str, Array], groups: Mapping[str, Sequence[str]]
+    coarse: Mapping[str, Array],
+    fine: Mapping[str, Array],
+    groups: Mapping[str, Sequence[str]],
+    extents: dict[str, float] | None = None,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
-    """Largest differences of two runs.
+    """Largest differences of two runs; `extents` are the largest ones of runs before these, and grow with them.
 
     Returns
     -------
@@ -203,6 +206,8 @@ def differences(
         rows = instants(len(coarse[names[0]]))
         gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
         size = extent(unit, [fine[name] for name in names])
+        if extents is not None:
+            size = extents[unit] = max(size, extents.get(unit, 0.0))
         if size > 0.0:
             sensors |= gaps
             units[unit] = max(gaps.values()) / size
@@ -252,7 +257,9 @@ def remedy(system: System, method: str, h: float, accuracy: Accuracy) -> str:
     """What would bring the result to about a hundredth, in a sentence."""
     error = accuracy.error
     better = _higher_orders(system, method)
-    others = f"; so would longer ones with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
+    others = (
+        f"; so would longer ones with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
+    )
     if error is None or error > FAR or accuracy.order is None:
         return (
             "It is too far off to tell how short steps must be: simulate(..., tolerance=1e-3) in place of a step finds "

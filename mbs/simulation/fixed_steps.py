@@ -16,13 +16,13 @@ from mbs.simulation import repeat
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.march import march
-from mbs.simulation.stepping import Simulation
+from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
 
 def fixed_step_run(
     system: System,
-    start: Callable[[float], Simulation],
+    start: Callable[[float], SteppedSystem],
     t0: float,
     t_end: float,
     h: float,
@@ -30,9 +30,10 @@ def fixed_step_run(
     every: int,
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | None,
+    extents: dict[str, float] | None = None,
 ) -> Trajectory:
-    """A run in steps of h, with a repeat where its accuracy asks for one."""
-    made: list[Simulation] = []
+    """A run in steps of h, with repeats where its accuracy asks for them, or at most one (see `repeat.check`)."""
+    made: list[SteppedSystem] = []
     found: Accuracy | None = None
 
     def march_from_start(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
@@ -50,7 +51,9 @@ def fixed_step_run(
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
             if checked:
-                found = repeat.check(system, run, march_from_start, h, often, bar.update, estimate_error is True)
+                found = repeat.check(
+                    system, run, march_from_start, h, often, bar.update, estimate_error is True, extents
+                )
     except SimulationError as error:
         if error.trajectory is not None:
             error.trajectory = error.trajectory.thinned(every // often)

@@ -25,30 +25,37 @@ def check(
     every: int,
     update: Callable[[float], None],
     always: bool,
+    extents: dict[str, float] | None = None,
 ) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
     A run that is not plainly smooth is compared with one of twice the step, which costs half as much. Where they differ
-    it is repeated with half the step, and where that leaves the verdict near its limit, with a quarter.
+    it is repeated with half the step, and where that leaves the verdict near its limit, with a quarter. With `extents`,
+    what moved in the runs before this one by unit, only half the step is tried.
     """
     report, known = run[0].report, run[0].accuracy
     if report is None or known is None or run[0].settings is None:
         return known
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
-    repeats = _Repeats(system, run, march, h, every, update)
+    once = extents is not None
+    repeats = _Repeats(system, run, march, h, every, update, extents)
     if accuracy.balance_decides(report, method, driven) and not always:
         return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
     doubt = accuracy.doubt(report, report.steps, report.halvings, method)
     if len(run[0].t) < 2 or not (always or doubt):
         return known
-    if not always and doubt == accuracy.SCREEN:
+    if not (always or once) and doubt == accuracy.SCREEN:
         screened = repeats.coarser()
         if screened is not None and accuracy.is_fine(screened, method):
             return screened
     parts = accuracy.divisor(report.steps, report.halvings)
     try:
         known = repeats.finer(parts)
-        if not always and known.error is not None and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]:
+        if (
+            not (always or once)
+            and known.error is not None
+            and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]
+        ):
             known = repeats.finer(2 * parts)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
@@ -73,11 +80,12 @@ class _Repeats:
         h: float,
         every: int,
         update: Callable[[float], None],
+        extents: dict[str, float] | None,
     ) -> None:
         self.system, self.run, self.h, self.every = system, run, h, every
         self.cost, self.tried = 0.0, h
         self.left_alone = False
-        self._march, self._update = march, update
+        self._march, self._update, self._extents = march, update, extents
         self._groups, self._ranges = accuracy.judged_sensors(system), dict[str, float]()
 
     def coarser(self) -> Accuracy | None:
@@ -120,7 +128,7 @@ class _Repeats:
         return self._march(h, every, lambda done: self._update((before + cost * done) / whole), bool(self.run[1]))
 
     def _compared(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
-        """The error of the first run, which makes `ratio` steps where the other makes one: below 1 the other is coarser."""
+        """The error of the first run; `ratio` is its step over the other's, below 1 where the other is coarser."""
         (run, seen), (again, seen_again) = first, other
         assert run.settings is not None
         assert run.accuracy is not None
@@ -131,9 +139,9 @@ class _Repeats:
             names = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
             self._groups = {accuracy.COORDINATES: list(names)}
             tables = [{n: np.array(s)[:, i] for n, i in names.items()} for s in (seen, seen_again)]
-            units, sensors, ranges = accuracy.differences(tables[0], tables[1], self._groups)
+            units, sensors, ranges = accuracy.differences(tables[0], tables[1], self._groups, self._extents)
         else:
-            units, sensors, ranges = accuracy.differences(run, again, self._groups)
+            units, sensors, ranges = accuracy.differences(run, again, self._groups, self._extents)
         self._ranges = ranges
         reports = (run.report, again.report) if ratio > 1.0 else (again.report, run.report)
         order = accuracy.measured_order(run.settings.method, *reports, max(ratio, 1.0 / ratio))

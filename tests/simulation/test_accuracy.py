@@ -86,7 +86,6 @@ class TestThePrintedModel:
         assert run.accuracy.message == ""
         assert run.accuracy.energy_balance > 0.036  # what is free is there all the same
 
-
     def test_the_step_that_a_warning_names_is_as_right_as_it_says(self):
         system, case = system_of("pendulum"), CASES["pendulum"]
         with pytest.warns(AccuracyWarning, match="would bring it to about 1 %") as caught:
