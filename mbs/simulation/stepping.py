@@ -176,6 +176,7 @@ class Simulation(SteppedSystem):
             if entry["name"] in parameters and entry.get("road") in files:
                 warnings.warn(
                     f"The parameter {entry['name']!r} has no effect: it is of the road that the file replaces.",
+                    RoadWarning,
                     stacklevel=3,
                 )
 

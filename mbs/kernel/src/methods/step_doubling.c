@@ -17,6 +17,7 @@ enum { TRUSTED = 6 };
 /* A step from time t that is never halved inside; the caller restores what a failed one changed. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h) {
   in->backed_up = false;
+  in->iterations_before = in->report.iterations;
   in->t_now = t;
   return ali3_advance(in, t + h, h, 0);
 }
