@@ -18,6 +18,7 @@ from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
 from mbs.roads.shipped import road_path
+from mbs.roads.steep_faces import RoadWarning
 from mbs.settings.control import checked_tolerance
 from mbs.settings.input_signals import InputSignals, Signal, unit_text
 from mbs.settings.settings import Settings
