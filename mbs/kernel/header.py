@@ -237,6 +237,7 @@ class Status(IntEnum):
     FIXED_PARAMETER = 18
     BAD_ROAD = 19
     ROAD_LOST = 20
+    TOO_DEAR = 21
 
 
 class Update(IntEnum):

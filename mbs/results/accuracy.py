@@ -21,17 +21,16 @@ Array = NDArray[np.float64]
 
 WRONG_ERROR = 0.05  # of the largest range in a unit
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
-SUSPECT_DRIFT = 0.03  # energy balance times (1 + radians turned); half of the smallest of a wrong run
-GOAL_ERROR, GOAL_DRIFT = 0.01, 0.01  # what the step that is proposed aims at
+SURE_BALANCE = 0.2  # above, no repeat is needed to know
+SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
+FINE_DIFFERENCE = 0.012  # of the range, from the run with twice the step: three times the error of order two
+NEAR_LIMIT = (0.025, 0.25)  # estimates between which a third run decides
+GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
+SCREEN, REPEAT = "screen", "repeat"
 INSTANTS = 50  # intervals at whose ends two runs are compared
 STILL = 1e-4  # of the largest value in the unit: a smaller range is rest
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
-BLIND_MISS, BLIND = 0.6, 0.01
-"""The first of these is enough where the energy is better than the angle of a step lets expect, by the second: a free
-body that tumbles keeps its energy to third order, and flips at times that depend on its phase."""
-LONG_MISS, LONG = 0.05, 30.0
-"""The same of motions that have turned by more radians than the second: unstable ones double an error every few."""
 COORDINATES = "1"
 WITH_ORDER = (SensorType.COMPONENT, SensorType.NORM)  # their first integer
 LENGTHS, RATES = ("m", "rad", "N"), ("m/s", "rad/s")
@@ -55,7 +54,9 @@ class Accuracy:
     halvings_per_step : float
         How often steps were halved.
     repeated_with : float or None
-        Step of the repeat, s; None where there was none.
+        Step of the last repeat, s; None where there was none. Above that of the run it was a coarser one.
+    repeat_cost : float
+        Steps of all repeats over those of the run: what the check cost.
     order : float or None
         With which errors fall, as the energy of the two runs shows, else that of the method.
     units : dict of str to float
@@ -64,16 +65,20 @@ class Accuracy:
         Estimated largest error of the sensors that were judged, in their units.
     message : str
         Evidence against the result, with a remedy; empty where there is none.
+    branch : str
+        A sentence about a change of the assembly mode that the repeat does not make; empty where there is none.
     """
 
     energy_balance: float | None
     energy_error: float | None
     halvings_per_step: float
     repeated_with: float | None = None
+    repeat_cost: float = 0.0
     order: float | None = None
     units: dict[str, float] = field(default_factory=dict)
     sensors: dict[str, float] = field(default_factory=dict)
     message: str = ""
+    branch: str = ""
 
     @property
     def error(self) -> float | None:
@@ -89,6 +94,8 @@ class Accuracy:
         if self.units:
             parts = (f"{_percent(e)}{_of(unit)}" for unit, e in self.units.items())
             said.append(f"estimated error {', '.join(parts)}")
+        if self.repeat_cost > 0.0:
+            said.append(f"repeats of {self.repeat_cost:.2g} times its steps (none with estimate_error=False)")
         return "; ".join(said)
 
 
@@ -122,22 +129,24 @@ def has_motion_sensor(system: System) -> bool:
     return any(unit != "N" for unit in judged_sensors(system))
 
 
-def is_suspect(report: Report, steps: int, halvings: int, method: str) -> bool:
-    """Whether a run should be repeated to check it."""
-    if halvings > SUSPECT_HALVINGS * steps or report.energy_balance > WRONG_BALANCE:
-        return True
+def doubt(report: Report, steps: int, halvings: int, method: str) -> str:
+    """How a run is to be checked: empty, not at all; `SCREEN` by one of twice the step, `REPEAT` by one of half.
+
+    Where steps were halved inside, a coarser run makes the same parts. An open balance, and a loop that left
+    its mode, are signs of coarse steps already.
+    """
+    if halvings > SUSPECT_HALVINGS * steps or report.energy_balance > WRONG_BALANCE or report.branch_changes > 0:
+        return REPEAT
     speed = report.speed_peak or math.inf
     miss = report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
-    turned = report.velocity_path / speed
-    blind = (
-        METHOD_TABLE[method].balance_decides
-        and turned > 0.0
-        and report.energy_balance < BLIND * (2.0 * miss / turned) ** 2
-    )
-    most = METHOD_TABLE[method].suspect_miss
-    if blind:
-        most = LONG_MISS if turned > LONG else BLIND_MISS
-    return miss > most or drift(report) > SUSPECT_DRIFT
+    smooth = miss <= METHOD_TABLE[method].smooth_miss and drift(report) <= SMOOTH_DRIFT and halvings == 0
+    return "" if smooth else SCREEN
+
+
+def is_fine(known: Accuracy, method: str) -> bool:
+    """Whether a run of twice the step is so near that the run itself is right."""
+    order = known.order or float(METHOD_TABLE[method].order)
+    return known.error is None or known.error * (2.0**order - 1.0) <= FINE_DIFFERENCE
 
 
 def drift(report: Report) -> float:
@@ -174,9 +183,12 @@ def extent(unit: str, values: Sequence[Array]) -> float:
 
 
 def differences(
-    coarse: Mapping[str, Array], fine: Mapping[str, Array], groups: Mapping[str, Sequence[str]]
+    coarse: Mapping[str, Array],
+    fine: Mapping[str, Array],
+    groups: Mapping[str, Sequence[str]],
+    extents: dict[str, float] | None = None,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
-    """Largest differences of two runs.
+    """Largest differences of two runs; `extents` are the largest ones of runs before these, and grow with them.
 
     Returns
     -------
@@ -194,6 +206,8 @@ def differences(
         rows = instants(len(coarse[names[0]]))
         gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
         size = extent(unit, [fine[name] for name in names])
+        if extents is not None:
+            size = extents[unit] = max(size, extents.get(unit, 0.0))
         if size > 0.0:
             sensors |= gaps
             units[unit] = max(gaps.values()) / size
@@ -220,6 +234,11 @@ def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
     )
 
 
+def balance_decides(report: Report, method: str, driven: bool) -> bool:
+    """Whether it says so without any doubt."""
+    return balance_says(report, method, driven) and report.energy_balance > SURE_BALANCE
+
+
 def balance_says(report: Report, method: str, driven: bool) -> bool:
     """Whether the energy balance alone shows that a result is wrong; a drive whose rate jumps adds energy instantly."""
     return METHOD_TABLE[method].balance_decides and not driven and report.energy_balance > WRONG_BALANCE
@@ -234,19 +253,21 @@ def balance_text(report: Report) -> str:
     )
 
 
-def remedy(system: System, method: str, h: float, accuracy: Accuracy, report: Report) -> str:
-    """A step or a method with which the result would be right to about a hundredth, in a sentence."""
-    order = accuracy.order or float(METHOD_TABLE[method].order)
-    made = h / (1.0 + accuracy.halvings_per_step)
-    shares = [GOAL_DRIFT / drift(report)] if METHOD_TABLE[method].balance_decides and drift(report) > GOAL_DRIFT else []
-    if accuracy.error:
-        shares.append(GOAL_ERROR / accuracy.error)
-    step = _rounded_down(made * min([*shares, 0.5**order]) ** (1.0 / order))
-    said = f"Steps of {step:g} s or less would bring it to about {_percent(GOAL_ERROR)}"
+def remedy(system: System, method: str, h: float, accuracy: Accuracy) -> str:
+    """What would bring the result to about a hundredth, in a sentence."""
+    error = accuracy.error
     better = _higher_orders(system, method)
-    if better:
-        said += f"; so would longer ones with a method of higher order ({' or '.join(map(repr, better))})"
-    return f"{said}."
+    others = (
+        f"; so would longer ones with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
+    )
+    if error is None or error > FAR or accuracy.order is None:
+        return (
+            "It is too far off to tell how short steps must be: simulate(..., tolerance=1e-3) in place of a step finds "
+            "them."
+        )
+    made = h / (1.0 + accuracy.halvings_per_step)
+    step = _rounded_down(made * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order))
+    return f"Steps of {step:g} s or less would bring it to about {_percent(2.0 * GOAL_ERROR)}{others}."
 
 
 def error_text(accuracy: Accuracy, ranges: Mapping[str, float], groups: Mapping[str, Sequence[str]]) -> str:

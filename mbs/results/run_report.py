@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
+BRANCH_JUMPED = 2
+"""`Report.branch_kind` of a step that jumped."""
+
 
 @dataclass(frozen=True)
 class Report:

@@ -22,9 +22,9 @@ class Method:
         With which errors of fixed steps fall.
     project : bool or None
         Value of the setting `project` that the name stands for; None: that of the settings.
-    suspect_miss : float
-        Summed predictor differences of velocity over the largest one, from which on a run is suspect; a third to half
-        of the smallest of a wrong run in the survey.
+    smooth_miss : float
+        Summed predictor differences of velocity over the largest one, up to which a run is plainly smooth and is not
+        checked by another; infinite where they say nothing.
     balance_decides : bool
         Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
         runge_kutta_8 errs where it is stiff.
@@ -38,7 +38,7 @@ class Method:
     title: str
     order: int = 2
     project: bool | None = None
-    suspect_miss: float = math.inf
+    smooth_miss: float = math.inf
     balance_decides: bool = False
     conservative_only: bool = False
     tree_only: bool = False
@@ -61,34 +61,34 @@ METHOD_TABLE = {
     "ali3p": Method(
         number=MethodNumber.ALI3P,
         title="ALi3-P",
-        suspect_miss=1.3,
+        smooth_miss=0.04,
         balance_decides=True,
     ),
     "ali3p_no_projection": Method(
         number=MethodNumber.ALI3P,
         title="ALi3 without projections",
         project=False,
-        suspect_miss=2.0,
+        smooth_miss=0.04,
     ),
     "ali3p_generalised_alpha": Method(
         number=MethodNumber.GENERALISED_ALPHA,
         title="ALi3-P, generalised-α",
-        suspect_miss=1.3,
+        smooth_miss=0.04,
         balance_decides=True,
     ),
     "energy_momentum": Method(
         number=MethodNumber.ENERGY_MOMENTUM,
         title="energy-momentum",
-        suspect_miss=2.0,
+        smooth_miss=0.04,
     ),
     "energy_momentum_4": Method(
         number=MethodNumber.ENERGY_MOMENTUM_4,
         title="energy-momentum, order 4",
         order=4,
-        suspect_miss=8.0,
+        smooth_miss=8.0,
         conservative_only=True,
     ),
-    "runge_kutta_8": Method(  # no suspect_miss: it is accurate far beyond what its predictor shows
+    "runge_kutta_8": Method(  # no smooth_miss: it is accurate far beyond what its predictor shows
         number=MethodNumber.RUNGE_KUTTA_8,
         title="Runge-Kutta, order 8",
         order=8,
@@ -97,7 +97,7 @@ METHOD_TABLE = {
         number=MethodNumber.SEMI_RECURSIVE,
         title="semi-recursive, order 8",
         order=8,
-        suspect_miss=0.05,
+        smooth_miss=0.05,
         tree_only=True,
         cost=0.2,  # measured: relative coordinates save the factorization of the natural ones
     ),
@@ -105,7 +105,7 @@ METHOD_TABLE = {
         number=MethodNumber.SEMI_RECURSIVE_4,
         title="semi-recursive, order 4",
         order=4,
-        suspect_miss=1.0,
+        smooth_miss=1.0,
         tree_only=True,
         cost=0.2,
     ),
@@ -113,7 +113,7 @@ METHOD_TABLE = {
         number=MethodNumber.RADAU_5,
         title="Radau IIA, order 5",
         order=5,
-        suspect_miss=1.0,
+        smooth_miss=1.0,
         positions_only=True,
         cost=5.5,  # measured: three stages in one tangent are three times as wide
     ),

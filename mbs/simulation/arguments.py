@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import numpy as np
+
 from mbs.common.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
 from mbs.kernel.header import Status
 from mbs.results.simulation_error import PoseError
@@ -45,6 +47,13 @@ def check_end(t0: float, t_end: float) -> float:
     if not (is_finite(t_end) and t_end >= t0):
         raise ValueError(f"The end t_end is {shown(t_end)} s; it must be finite and not before {t0:g} s.")
     return check_time(t_end, "The end t_end")
+
+
+def check_estimate(value: object) -> bool | None:
+    """Whether a run is to be repeated, or one sentence."""
+    if value is not None and not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"estimate_error = {shown(value)}; it must be True, False or None (suspects only).")
+    return None if value is None else bool(value)
 
 
 def check_every(every: int) -> int:

@@ -29,7 +29,7 @@ from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.refusal import refusal
 from mbs.simulation.run_roads import run_roads
 from mbs.simulation.step_choice import StepChoice, choose_step
-from mbs.simulation.stepping import Simulation
+from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
 SHORTER = 0.5
@@ -48,25 +48,26 @@ CHECKED = 50  # instants beside those that are recorded at which runs are compar
 
 
 def to_tolerance(
-    start: Callable[[], Simulation],
+    start: Callable[[], SteppedSystem],
     tolerance: float,
     times: Array,
     inputs: Mapping[str, Signal],
     settings: Settings,
     method: str,
     bar: Progress,
-) -> Trajectory:
-    """Sensor values at `times` (n,), the first of them the start, with an error of positions of about the tolerance.
+) -> tuple[Trajectory, SteppedSystem]:
+    """Sensor values at `times` (n,), the first of them the start, with an error of positions of about the tolerance,
+    and where it ended.
 
-    A coarse run and a finer one give the error of the latter (errors are in proportion to the tolerances, since each
-    step has a share of them). Where it is larger than it should be, since the motion lets errors grow, a third and a
-    fourth run are made with what is then known of that growth.
+    A coarse run and a finer one give the error of the latter: errors fall about as what their steps err. Where it is
+    larger than it should be, since the motion lets errors grow, a third and a fourth run are made with what is then
+    known of that growth; a third also where a loop left its assembly mode, which the motion may do or a step.
     """
     first = start()
     t0, t_end = float(times[0]), float(times[-1])
     if t_end <= t0:
         values = np.array([list(first.instance.sensors())])
-        return _trajectory(first, times, values, None, 0.0, settings, first.state.q[None])
+        return _trajectory(first, times, values, None, 0.0, settings, first.state.q[None]), first
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED)
     grid[-1] = t_end
     task = Task(t0, t_end, grid, inputs)
@@ -92,16 +93,16 @@ def to_tolerance(
             break  # a finer run than the last is beyond round-off
         run = made
         runs, wall = runs + 1, wall + run.wall
-        finer = before.tolerance / run.tolerance - 1.0
-        error = run.distance(before) / (finer if finer > 0.0 else 1.0)
+        error = run.distance(before) * _fall(run, before)
         if error == 0.0 and longest == 1.0:
             # the longest steps were fine enough both times, so the runs are the same and show no error
             before, longest = run, SHORTER
             continue
-        if error <= tolerance or aim <= LEAST:
+        unsure = number == 1 and run.simulation.branch_change  # two runs may have jumped alike
+        if (error <= tolerance and not unsure) or aim <= LEAST:
             break
         before = run
-        aim = max(LEAST, aim * max(MOST_AT_ONCE, AGAIN * tolerance / error))
+        aim = max(LEAST, aim * min(0.1 if unsure else 1.0, max(MOST_AT_ONCE, AGAIN * tolerance / error)))
     assert run is not None
     c = run.fields
     control = Control(
@@ -109,7 +110,7 @@ def to_tolerance(
         c.smallest, c.largest, c.side_steps, runs,
     )  # fmt: skip
     _warn(control)
-    if run.simulation.branch_change:
+    if run.simulation.branch_change and not before.simulation.branch_change:
         warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=3)
     for t, q in zip(run.task.times, run.positions, strict=True):
         run.simulation.bending.look(float(t), np.asarray(q))
@@ -117,11 +118,21 @@ def to_tolerance(
     recorded = np.searchsorted(grid, times[1:])
     values = np.vstack([list(first.instance.sensors()), run.values[recorded]])
     positions = np.vstack([first.state.q, run.positions[recorded]])
-    return _trajectory(run.simulation, times, values, control, wall, run.settings, positions)
+    trajectory = _trajectory(run.simulation, times, values, control, wall, run.settings, positions)
+    return trajectory, run.simulation
+
+
+def check_tolerance_settings(settings: Settings) -> None:
+    """Refuse settings with which no tolerance can be kept."""
+    if settings.step_iterations > 0:
+        raise ValueError(
+            f"step_iterations = {settings.step_iterations} with a tolerance: steps that are accepted as they are keep "
+            "none; give a step h, or leave the limit out."
+        )
 
 
 def equal_steps(
-    start: Callable[[float, Settings], Simulation],
+    start: Callable[[float, Settings], SteppedSystem],
     run: Callable[[float, Settings, bool | None], Trajectory],
     t0: float,
     t_end: float,
@@ -134,7 +145,7 @@ def equal_steps(
 ) -> Trajectory:
     """A run in equal steps whose step, method or both are chosen for the default tolerance.
 
-    `start` makes a Simulation for a step and settings, `run` the run itself.
+    `start` makes a SteppedSystem for a step and settings, `run` the run itself.
     """
     check_end(t0, t_end)
     reason, wall, runs, error = "", 0.0, 0, math.nan
@@ -186,7 +197,7 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
 
 
 def _whole(
-    run: ControlledRun, wanted: float, bar: Progress, from_share: float, times: Array, first: Simulation
+    run: ControlledRun, wanted: float, bar: Progress, from_share: float, times: Array, first: SteppedSystem
 ) -> ControlledRun:
     try:
         run.finish(lambda share: bar.update(from_share + (1.0 - from_share) * share))
@@ -197,7 +208,7 @@ def _whole(
     return run
 
 
-def _so_far(run: ControlledRun, times: Array, first: Simulation) -> Trajectory:
+def _so_far(run: ControlledRun, times: Array, first: SteppedSystem) -> Trajectory:
     done = run.task.times[: run.done]
     good = times[1:][times[1:] <= (done[-1] if len(done) else run.task.t0)]
     recorded = np.searchsorted(run.task.times, good)
@@ -211,7 +222,7 @@ def _run_at(run: ControlledRun, wanted: float) -> str:
     return f"{wanted:g}" if run.tolerance == wanted else f"{run.tolerance:g} (in a run on the way to {wanted:g})"
 
 
-def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation) -> SimulationError:
+def _stalled(run: ControlledRun, wanted: float, times: Array, first: SteppedSystem) -> SimulationError:
     time = run.simulation.time
     return SimulationError(
         f"A tolerance of {_run_at(run, wanted)} cannot be held by {run.settings.method!r}: until t = {time:g} s "
@@ -223,7 +234,9 @@ def _stalled(run: ControlledRun, wanted: float, times: Array, first: Simulation)
     )
 
 
-def _refused(run: ControlledRun, wanted: float, times: Array, first: Simulation, error: KernelError) -> SimulationError:
+def _refused(
+    run: ControlledRun, wanted: float, times: Array, first: SteppedSystem, error: KernelError
+) -> SimulationError:
     """The failure with what was recorded until then."""
     simulation = run.simulation
     if error.status in (Status.NO_TREE, Status.WRONG_METHOD):
@@ -250,7 +263,7 @@ def _warn(control: Control) -> None:
 
 
 def _trajectory(
-    ended: Simulation,
+    ended: SteppedSystem,
     times: Array,
     values: Array,
     control: Control | None,
@@ -267,3 +280,9 @@ def _trajectory(
         times, values, names, units, ended.report, settings, wall, None, notices, ended.branch_change, control,
         record.poses(times), record.drawing, run_roads(ended.system, ended.instance, ended.road_paths),
     )  # fmt: skip
+
+
+def _fall(run: ControlledRun, before: ControlledRun) -> float:
+    """The error of a run over that of a coarser one: as what their steps have erred."""
+    coarse = before.fields.error_sum
+    return min(1.0, run.fields.error_sum / coarse) if coarse > 0.0 else 1.0

@@ -14,7 +14,7 @@ from mbs.kernel.binding import ControlFields, KernelError
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
 from mbs.simulation.prepared_system import length_of, prepared
-from mbs.simulation.stepping import Simulation
+from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
 CHUNK_SECONDS, FIRST_CHUNK = 0.1, 64
@@ -63,7 +63,7 @@ class ControlledRun:
 
     Parameters
     ----------
-    simulation : Simulation
+    simulation : SteppedSystem
         At the start; it is left where the run ends.
     settings : Settings
         Of the method; the tolerances of its Newton loop are tightened as the run needs.
@@ -74,7 +74,7 @@ class ControlledRun:
     """
 
     def __init__(
-        self, simulation: Simulation, task: Task, settings: Settings, tolerance: float, longest: float = 1.0
+        self, simulation: SteppedSystem, task: Task, settings: Settings, tolerance: float, longest: float = 1.0
     ) -> None:
         meta = prepared(simulation.system)[1]
         self.simulation, self.task = simulation, task

@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping
 
 from mbs.common.progress import progress_for
 from mbs.results import accuracy
+from mbs.results.accuracy import Accuracy
+from mbs.results.run_report import BRANCH_JUMPED
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import Signal
@@ -14,13 +16,13 @@ from mbs.simulation import repeat
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.march import march
-from mbs.simulation.stepping import Simulation
+from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
 
 def fixed_step_run(
     system: System,
-    start: Callable[[float], Simulation],
+    start: Callable[[float], SteppedSystem],
     t0: float,
     t_end: float,
     h: float,
@@ -28,9 +30,11 @@ def fixed_step_run(
     every: int,
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | None,
+    extents: dict[str, float] | None = None,
 ) -> Trajectory:
-    """A run in steps of h, with a repeat where its accuracy asks for one."""
-    made: list[Simulation] = []
+    """A run in steps of h, with repeats where its accuracy asks for them, or at most one (see `repeat.check`)."""
+    made: list[SteppedSystem] = []
+    found: Accuracy | None = None
 
     def march_from_start(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
         simulation = start(step)
@@ -47,14 +51,18 @@ def fixed_step_run(
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
             if checked:
-                found = repeat.check(system, run, march_from_start, h, often, bar.update, estimate_error is True)
+                found = repeat.check(
+                    system, run, march_from_start, h, often, bar.update, estimate_error is True, extents
+                )
     except SimulationError as error:
         if error.trajectory is not None:
             error.trajectory = error.trajectory.thinned(every // often)
         raise
     finally:  # of the run that was asked for, also when it failed
-        if made and made[0].branch_change:
-            warnings.warn(made[0].branch_change, BranchWarning, stacklevel=4)
+        jump = made and made[0].report.branch_kind == BRANCH_JUMPED
+        told = made[0].branch_change if jump else found.branch if found is not None else ""
+        if told:
+            warnings.warn(told, BranchWarning, stacklevel=4)
         if made:
             made[0].bending.warn(stacklevel=5)
     trajectory = run[0].thinned(every // often)

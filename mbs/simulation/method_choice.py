@@ -14,7 +14,7 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import Settings
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 from mbs.simulation.prepared_system import prepared
-from mbs.simulation.stepping import Simulation
+from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
 FINE = 2e-3  # tolerance below which the rule of order eight is the cheaper one in relative coordinates
@@ -49,7 +49,9 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
     return ["runge_kutta_8", "radau_5", *coarse], "no tree of joints"
 
 
-def choose(start: Callable[[], Simulation], task: Task, settings: Settings, tolerance: float, coarse: float) -> Choice:
+def choose(
+    start: Callable[[], SteppedSystem], task: Task, settings: Settings, tolerance: float, coarse: float
+) -> Choice:
     """The method for a tolerance, by runs of all candidates at a coarse one, each as long as it can still win."""
     system = start().system
     names, what = candidates(system, tolerance)

@@ -45,6 +45,7 @@ def refusal(
         Status.NO_TREE,
         Status.START_REFUSED,
         Status.UNRESOLVED,
+        Status.TOO_DEAR,
         Status.TOO_STIFF,
         Status.TOO_FAR,
         Status.ROAD_LOST,

@@ -1,4 +1,4 @@
-"""The check of a run by a repeat with shorter steps: whether it is wanted, and what it says."""
+"""The check of a run by repeats with other steps: which ones it needs, and what they say."""
 
 from __future__ import annotations
 
@@ -25,59 +25,132 @@ def check(
     every: int,
     update: Callable[[float], None],
     always: bool,
+    extents: dict[str, float] | None = None,
 ) -> Accuracy | None:
-    """What is known of the error of a run, after a repeat where it is wanted or the run is suspect."""
-    coarse, seen = run
-    report, known = coarse.report, coarse.accuracy
-    if report is None or known is None or coarse.settings is None:
+    """What is known of the error of a run, after the repeats that it needs.
+
+    A run that is not plainly smooth is compared with one of twice the step, which costs half as much. Where they differ
+    it is repeated with half the step, and where that leaves the verdict near its limit, with a quarter. With `extents`,
+    what moved in the runs before this one by unit, only half the step is tried.
+    """
+    report, known = run[0].report, run[0].accuracy
+    if report is None or known is None or run[0].settings is None:
         return known
-    method, driven = coarse.settings.method, len(system.arrays["gterm_row"]) > 0
-    wrong = accuracy.balance_says(report, method, driven)
-    text = [accuracy.balance_text(report)] if wrong else []
-    wanted = always or (not wrong and accuracy.is_suspect(report, report.steps, report.halvings, method))
-    if wanted and len(coarse.t) > 1:
-        parts = accuracy.divisor(report.steps, report.halvings)
-        known = replace(known, repeated_with=h / parts)
-        share = 1.0 / (1.0 + parts)
+    method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
+    once = extents is not None
+    repeats = _Repeats(system, run, march, h, every, update, extents)
+    if accuracy.balance_decides(report, method, driven) and not always:
+        return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
+    doubt = accuracy.doubt(report, report.steps, report.halvings, method)
+    if len(run[0].t) < 2 or not (always or doubt):
+        return known
+    if not (always or once) and doubt == accuracy.SCREEN:
+        screened = repeats.coarser()
+        if screened is not None and accuracy.is_fine(screened, method):
+            return screened
+    parts = accuracy.divisor(report.steps, report.halvings)
+    try:
+        known = repeats.finer(parts)
+        if (
+            not (always or once)
+            and known.error is not None
+            and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]
+        ):
+            known = repeats.finer(2 * parts)
+    except SimulationError as error:
+        text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
+        return replace(known, repeat_cost=repeats.cost, message=text)
+    branch = run[0].branch_change if repeats.left_alone else ""
+    if known.error is None or known.error <= accuracy.WRONG_ERROR:
+        return replace(known, branch=branch)
+    said = [repeats.text(known)]
+    if accuracy.balance_says(report, method, driven):
+        said.append(accuracy.balance_text(report))
+    return replace(known, branch=branch, message=" ".join([*said, accuracy.remedy(system, method, h, known)]))
+
+
+class _Repeats:
+    """Further runs of the same motion, compared with the first."""
+
+    def __init__(
+        self,
+        system: System,
+        run: Run,
+        march: Callable[[float, int, Callable[[float], None], bool], Run],
+        h: float,
+        every: int,
+        update: Callable[[float], None],
+        extents: dict[str, float] | None,
+    ) -> None:
+        self.system, self.run, self.h, self.every = system, run, h, every
+        self.cost, self.tried = 0.0, h
+        self.left_alone = False
+        self._march, self._update, self._extents = march, update, extents
+        self._groups, self._ranges = accuracy.judged_sensors(system), dict[str, float]()
+
+    def coarser(self) -> Accuracy | None:
+        """By a run with twice the step; None where it does not end, or ends elsewhere."""
+        coordinates, even = bool(self.run[1]), self.every % 2 == 0
+        if coordinates and not even:
+            return None
+        every = self.every // 2 if even else self.every
         try:
-            fine, fine_seen = march(
-                h / parts, every * parts, lambda done: update(share + (1.0 - share) * done), bool(seen)
-            )
-        except SimulationError as error:
-            text.append(
-                f"A repeat with steps of {h / parts:g} s was refused, so the result is not to be trusted: {error}"
-            )
-            return replace(known, message=" ".join(text))
-        known, said = _compared(system, (coarse, seen), (fine, fine_seen), known, parts)
-        text[:0] = said
-    if not text:
-        return known
-    return replace(known, message=" ".join([*text, accuracy.remedy(system, method, h, known, report)]))
+            twin = self._again(2.0 * self.h, every, 0.5)
+        except SimulationError:
+            return None
+        run = self.run if even else (self.run[0].thinned(2), [])
+        shared = min(len(run[0].t), len(twin[0].t))
+        if shared < max(2, len(run[0].t) - 1) or (coordinates and len(twin[1]) != len(run[1])):
+            return None
+        return self._compared(run, twin, 2.0 * self.h, 0.5)
 
+    def finer(self, parts: int) -> Accuracy:
+        """By a run whose steps are shorter by so many times.
 
-def _compared(system: System, coarse: Run, fine: Run, known: Accuracy, parts: int) -> tuple[Accuracy, list[str]]:
-    """The error of a run by its repeat, and a sentence where it is large."""
-    (run, seen), (again, seen_again) = coarse, fine
-    assert run.settings is not None
-    assert run.report is not None
-    assert again.report is not None
-    method, ratio = run.settings.method, parts / (1.0 + known.halvings_per_step)
-    if seen:
-        angles = set(np.asarray(system.arrays["angle_theta"]).tolist())
-        names = {n: i for i, n in enumerate(system.meta["coordinates"]) if i not in angles}
-        groups = {accuracy.COORDINATES: list(names)}
-        tables = [{n: np.array(s)[:, i] for n, i in names.items()} for s in (seen, seen_again)]
-        units, sensors, ranges = accuracy.differences(tables[0], tables[1], groups)
-    else:
-        groups = accuracy.judged_sensors(system)
-        units, sensors, ranges = accuracy.differences(run, again, groups)
-    order = accuracy.measured_order(method, run.report, again.report, ratio)
-    factor = 1.0 / (1.0 - ratio**-order)
-    known = replace(
-        known,
-        order=order,
-        units={unit: factor * e for unit, e in units.items()},
-        sensors={name: factor * e for name, e in sensors.items()},
-    )
-    wrong = known.error is not None and known.error > accuracy.WRONG_ERROR
-    return known, [accuracy.error_text(known, ranges, groups)] if wrong else []
+        Raises
+        ------
+        SimulationError
+            It does not end.
+        """
+        again = self._again(self.h / parts, self.every * parts, float(parts))
+        self.left_alone = bool(self.run[0].branch_change) and not again[0].branch_change
+        halvings = self.run[0].accuracy.halvings_per_step if self.run[0].accuracy is not None else 0.0
+        return self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
+
+    def text(self, known: Accuracy) -> str:
+        """The estimated error in a sentence."""
+        return accuracy.error_text(known, self._ranges, self._groups)
+
+    def _again(self, h: float, every: int, cost: float) -> Run:
+        before, self.tried = 1.0 + self.cost, h
+        self.cost += cost
+        whole = 1.0 + self.cost
+        return self._march(h, every, lambda done: self._update((before + cost * done) / whole), bool(self.run[1]))
+
+    def _compared(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
+        """The error of the first run; `ratio` is its step over the other's, below 1 where the other is coarser."""
+        (run, seen), (again, seen_again) = first, other
+        assert run.settings is not None
+        assert run.accuracy is not None
+        assert run.report is not None
+        assert again.report is not None
+        if seen:
+            angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
+            names = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
+            self._groups = {accuracy.COORDINATES: list(names)}
+            tables = [{n: np.array(s)[:, i] for n, i in names.items()} for s in (seen, seen_again)]
+            units, sensors, ranges = accuracy.differences(tables[0], tables[1], self._groups, self._extents)
+        else:
+            units, sensors, ranges = accuracy.differences(run, again, self._groups, self._extents)
+        self._ranges = ranges
+        reports = (run.report, again.report) if ratio > 1.0 else (again.report, run.report)
+        order = accuracy.measured_order(run.settings.method, *reports, max(ratio, 1.0 / ratio))
+        factor = 1.0 / abs(1.0 - ratio**-order)
+        return replace(
+            run.accuracy,
+            repeated_with=h,
+            repeat_cost=self.cost,
+            order=order,
+            units={unit: factor * e for unit, e in units.items()},
+            sensors={name: factor * e for name, e in sensors.items()},
+        )

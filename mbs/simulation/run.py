@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.common.checks import shown
 from mbs.common.progress import progress_for
 from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
@@ -20,6 +19,7 @@ from mbs.settings.settings import Settings
 from mbs.simulation import chosen_run
 from mbs.simulation.arguments import (
     check_end,
+    check_estimate,
     check_every,
     check_progress,
     check_settings,
@@ -122,19 +122,15 @@ def simulate(
     t0 = check_time(t0, "The start t0")
     t_end = check_end(t0, t_end)
     h = None if h is None else check_step(h)
-    if estimate_error is not None and not isinstance(estimate_error, (bool, np.bool_)):
-        raise ValueError(f"estimate_error = {shown(estimate_error)}; it must be True, False or None (suspects only).")
+    estimate_error = check_estimate(estimate_error)
     every = check_every(every)
     check_progress(progress)
     if times is not None and tolerance is None:
         raise ValueError("times need a tolerance: equal steps are recorded where they end.")
     wanted = None if tolerance is None else checked_tolerance(tolerance)
     settings = check_settings(settings)
-    if wanted is not None and settings.step_iterations > 0:
-        raise ValueError(
-            f"step_iterations = {settings.step_iterations} with a tolerance: steps that are accepted as they are keep "
-            "none; give a step h, or leave the limit out."
-        )
+    if wanted is not None:
+        chosen_run.check_tolerance_settings(settings)
     check_values(parameters, "The parameters")
     named = method is not None or settings.method != Settings().method
     chosen = method if method is not None else settings.method if named or wanted is None else "auto"
@@ -171,7 +167,7 @@ def simulate(
         return run
     with progress_for(progress) as bar:
         record = chosen_run.record_times(t0, t_end, h, every, times)
-        return chosen_run.to_tolerance(start, wanted, record, given, settings, chosen, bar)
+        return chosen_run.to_tolerance(start, wanted, record, given, settings, chosen, bar)[0]
 
 
 def _warn_of(run: Trajectory) -> None:

@@ -15,8 +15,9 @@ from mbs.common.progress import Progress
 from mbs.results.simulation_error import SimulationError
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
+from mbs.simulation.march import march
 from mbs.simulation.prepared_system import length_of, prepared
-from mbs.simulation.stepping import Simulation
+from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
@@ -37,7 +38,7 @@ class StepChoice:
 
 
 def choose_step(
-    start: Callable[[], Simulation],
+    start: Callable[[], SteppedSystem],
     t_end: float,
     tolerance: float,
     inputs: Mapping[str, Signal],
@@ -87,7 +88,7 @@ def _order(differences: list[float], most: int) -> float:
 
 
 def _positions(
-    start: Callable[[], Simulation],
+    start: Callable[[], SteppedSystem],
     t_end: float,
     h: float,
     inputs: Mapping[str, Signal],
@@ -99,7 +100,7 @@ def _positions(
     found = []
     for k in range(1, CHECKED + 1):
         try:
-            simulation.march(t0 + (t_end - t0) * k / CHECKED, h, inputs=inputs)
+            march(simulation, t0 + (t_end - t0) * k / CHECKED, h, inputs, 1, False)
         except SimulationError:
             if strict:
                 raise

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbs.common.checks import instance_of
 from mbs.kernel.binding import Instance, LoadedSystem
 from mbs.results.run_report import Report
 from mbs.settings.settings import Settings
@@ -62,3 +63,18 @@ class SteppedSystem:
     def state(self) -> State:
         """A copy of the state."""
         return State(*(np.array(part, float) for part in self.instance.get_state()))
+
+    def change_settings(self, settings: Settings) -> None:
+        """Solve the steps from now on in another way."""
+        instance_of(Settings, settings, "The settings", "Settings(...)")
+        self.instance.set_settings(**settings.kernel_fields())
+        self.settings = settings
+
+    def twin(self, state: bytes) -> SteppedSystem:
+        """Another one of the same System in a state that this one had, `Instance.save`, with its roads."""
+        other = SteppedSystem(self.system, self.settings)
+        for road, path in self.road_paths.items():
+            other.instance.set_road(road, path)
+        other.road_paths = dict(self.road_paths)
+        other.instance.restore(state)
+        return other

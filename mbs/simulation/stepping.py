@@ -12,23 +12,32 @@ from typing import Any
 import numpy as np
 
 from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
-from mbs.kernel.binding import KernelError, Status
+from mbs.common.progress import progress_for
+from mbs.kernel.binding import Instance, KernelError, Status
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
 from mbs.roads.shipped import road_path
+from mbs.roads.steep_faces import RoadWarning
+from mbs.settings.control import checked_tolerance
 from mbs.settings.input_signals import InputSignals, Signal, unit_text
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import (
+    check_end,
+    check_estimate,
+    check_every,
     check_pose,
+    check_progress,
     check_resolution,
     check_settings,
     check_step,
     check_system,
     check_time,
     check_values,
+    count_steps,
 )
-from mbs.simulation.march import march
+from mbs.simulation.chosen_run import check_tolerance_settings, record_times, to_tolerance
+from mbs.simulation.fixed_steps import fixed_step_run
 from mbs.simulation.refusal import refusal
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem
@@ -36,6 +45,7 @@ from mbs.system.system import System
 
 SINGULAR = {"switches": "switch"}
 MOST_ITERATIONS = 10**6
+FEWEST_CHECKED = 10  # steps of a run that is repeated to check it
 
 
 class Simulation(SteppedSystem):
@@ -76,6 +86,8 @@ class Simulation(SteppedSystem):
         start = check_time(t0, "The start t0")
         super().__init__(system, settings)
         self._warned = False
+        self._twin: SteppedSystem | None = None
+        self._extents: dict[str, float] = {}
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
         self._started = False
         for name, entry in self._road_files.items():
@@ -108,6 +120,7 @@ class Simulation(SteppedSystem):
         x = number(value, f"The value of input {name!r}", ValueError)
         InputSignals({name: x}, self._meta["inputs"]).at(np.array([self.time]), 0.0)
         self.instance.set_input(index, x)
+        self._also(lambda twin: twin.set_input(index, x))
 
     def set_parameter(self, name: str, value: float | str | os.PathLike[str]) -> None:
         """Value of a tunable parameter from now on; the next step is the first with it.
@@ -147,6 +160,15 @@ class Simulation(SteppedSystem):
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
                 "beside its other values."
             ) from None
+        self._also(lambda twin: twin.set_parameter(index, x))
+
+    def _also(self, act: Callable[[Instance], object]) -> None:
+        """The same with the twin of checked runs, which is given up where it does not follow."""
+        try:
+            if self._twin is not None:
+                act(self._twin.instance)
+        except KernelError:
+            self._twin = None
 
     def _warn_of_other_road(self, parameters: Mapping[str, Any]) -> None:
         """A word about parameters of roads that files replace."""
@@ -155,6 +177,7 @@ class Simulation(SteppedSystem):
             if entry["name"] in parameters and entry.get("road") in files:
                 warnings.warn(
                     f"The parameter {entry['name']!r} has no effect: it is of the road that the file replaces.",
+                    RoadWarning,
                     stacklevel=3,
                 )
 
@@ -201,6 +224,7 @@ class Simulation(SteppedSystem):
             f"Switch {name!r} could not be turned {'on' if on else 'off'} at t = {self.time:g} s",
             lambda: self.instance.set_switch(index, on),
         )
+        self._also(lambda twin: twin.set_switch(index, on))
         return self.report.energy_jump if before != bool(on) else 0.0
 
     def switch(self, name: str) -> bool:
@@ -237,6 +261,7 @@ class Simulation(SteppedSystem):
         """
         force = positive(tolerance, "The tolerance of the static equilibrium", ValueError)
         most = whole(max_iterations, "max_iterations", 1, MOST_ITERATIONS, ValueError)
+        self._twin = None
         self._call(
             "No static equilibrium was found near the present position",
             lambda: self.instance.static_equilibrium(self.time, force, most),
@@ -269,7 +294,7 @@ class Simulation(SteppedSystem):
             raise ValueError(f"n = {shown(n)}; it must be a whole number of steps.")
         check_time(self.time + n * h, f"The end of n = {shown(n)} steps of {h:g} s")
         check_resolution(self.time, h)
-        self.step_tried = h
+        self.step_tried, self._twin = h, None
         for _ in range(int(n)):
             self._call(f"The step from t = {self.time:g} s with h = {h:g} s failed", lambda: self.instance.step(h))
         self._warn_once()
@@ -277,27 +302,35 @@ class Simulation(SteppedSystem):
     def run(
         self,
         t_end: float,
-        h: float,
+        h: float | None = None,
         *,
         inputs: Mapping[str, Signal] | None = None,
         every: int = 1,
         progress: bool | Callable[[float], None] | None = None,
+        estimate_error: bool | None = None,
+        tolerance: float | None = None,
     ) -> Trajectory:
-        """Step from the present time to `t_end`. Only `simulate` can repeat a run to check it.
+        """Step from the present time to `t_end`; what is by hand in between, such as switches, stays as it is.
 
         Parameters
         ----------
         t_end : float
             Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
-        h : float
-            Step, s.
+        h : float, optional
+            Step, s. With a tolerance: interval of the record, by default a 200th of the run.
         inputs : mapping of str to signal, optional
             Per input a constant, a function of time, or a pair (times, values); see `simulate`.
         every : int
-            Record the state after every that many steps.
+            Record the state after every that many steps, or intervals of the record.
         progress : bool or callable, optional
             None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives
             the share that is done.
+        estimate_error : bool, optional
+            As of `simulate`, by a twin with half the step that goes on from run to run and is given the same inputs,
+            parameters and switches; it begins with the first run in doubt, of ten steps or more, and ends with a step
+            by hand.
+        tolerance : float, optional
+            As of `simulate`, of what this part adds to the error; by the method of the settings.
 
         Returns
         -------
@@ -306,42 +339,75 @@ class Simulation(SteppedSystem):
 
         Raises
         ------
+        ValueError
+            Neither h nor a tolerance is given.
         SimulationError
             A step failed; its `trajectory` holds what was recorded.
 
         Warns
         -----
         AccuracyWarning
-            Once, when the energy balance since the start says that the result is wrong.
+            Once, when a repeat or the energy balance since the start says that the result is wrong; each time, when a
+            tolerance is not kept.
+        BranchWarning
+            When a step jumped to another branch.
         BendingWarning
             Once, when a flexible body bends more within its floating frame than its modes hold for.
         """
-        trajectory = march(self, t_end, h, inputs, every, progress)[0]
-        self._warn_once()
-        self.bending.warn(stacklevel=3)
+        if tolerance is not None:
+            return self._to_tolerance(checked_tolerance(tolerance), t_end, h, inputs, every, progress)
+        if h is None:
+            raise ValueError("A run needs a step h or a tolerance.")
+        estimate_error = check_estimate(estimate_error)
+        every = check_every(every)
+        check_progress(progress)
+        checked = estimate_error is not False and count_steps(self.time, t_end, check_step(h)) >= FEWEST_CHECKED
+        given, made, state = self._twin if checked else None, False, self.instance.save() if checked else b""
+        self._twin = None
+
+        def start(_: float) -> SteppedSystem:
+            nonlocal made
+            if not made:
+                made = True
+                return self
+            self._twin = given if given is not None else self.twin(state)
+            return self._twin
+
+        def equal_steps() -> Trajectory:
+            asked = (estimate_error or given is not None or None) if checked else False
+            return fixed_step_run(
+                self.system, start, self.time, t_end, h, inputs, every, progress, asked, self._extents
+            )
+
+        trajectory = equal_steps()
+        found = trajectory.accuracy
+        if found is not None and found.message and not self._warned:
+            self._warned = True
+            warnings.warn(found.message, AccuracyWarning, stacklevel=2)
+        if estimate_error is not False:
+            self._warn_once()
         return trajectory
 
-    def march(self, t_end: float, h: float, inputs: Mapping[str, Signal]) -> Trajectory:
-        """As `run`, without a warning about the accuracy: for callers that compare runs themselves.
-
-        Parameters
-        ----------
-        t_end, h : float
-            End and step, s.
-        inputs : mapping of str to signal
-            Per input a constant, a function of time, or a pair (times, values).
-
-        Returns
-        -------
-        Trajectory
-            Sensor values after every step, the present ones first.
-
-        Raises
-        ------
-        SimulationError
-            A step failed; its `trajectory` holds what was recorded.
-        """
-        return march(self, t_end, h, inputs, 1, False)[0]
+    def _to_tolerance(
+        self,
+        tolerance: float,
+        t_end: float,
+        h: float | None,
+        inputs: Mapping[str, Signal] | None,
+        every: int,
+        progress: bool | Callable[[float], None] | None,
+    ) -> Trajectory:
+        check_tolerance_settings(self.settings)
+        times = record_times(self.time, check_end(self.time, t_end), h, check_every(every), None)
+        state, given = self.instance.save(), check_values(inputs, "The inputs")
+        self._twin = None
+        with progress_for(progress) as bar:
+            trajectory, ended = to_tolerance(
+                lambda: self.twin(state), tolerance, times, given, self.settings, self.settings.method, bar
+            )
+        self.instance.restore(ended.instance.save())
+        self.instance.set_settings(**self.settings.kernel_fields())
+        return trajectory
 
     def _warn_once(self) -> None:
         """The part of `simulate`'s check that costs nothing."""
@@ -352,12 +418,6 @@ class Simulation(SteppedSystem):
             self._warned = True
             text = f"{accuracy.balance_text(self.report)} The result is wrong from before t = {self.time:g} s."
             warnings.warn(f"{text} Take shorter steps.", AccuracyWarning, stacklevel=3)
-
-    def change_settings(self, settings: Settings) -> None:
-        """Solve the steps from now on in another way."""
-        instance_of(Settings, settings, "The settings", "Settings(...)")
-        self.instance.set_settings(**settings.kernel_fields())
-        self.settings = settings
 
     def save(self) -> bytes:
         """All that continues bit for bit, in this or another process.
@@ -378,6 +438,7 @@ class Simulation(SteppedSystem):
             It is damaged or of another System; the state is the one before.
         """
         instance_of((bytes, bytearray), state, "The saved state", "the bytes that save() gave")
+        self._twin = None
         self._call("The saved state was refused", lambda: self.instance.restore(bytes(state)))
 
     def _index(self, kind: str, name: str) -> int:

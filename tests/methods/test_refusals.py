@@ -124,3 +124,16 @@ def test_a_pure_number_has_no_unit(unit, shown):
     m.torque_on("motor", angle, input=m.input("tau", min=-1.0, max=1.0, unit=unit))
     with pytest.raises(ValueError, match=f"'tau' {shown}"):
         simulate(compile(m), 1.0, 0.01, {"tau": 2.0})
+
+
+def test_a_step_has_a_largest_cost():
+    """The governor in a step of a second needs hundreds of parts: it is refused with its reason, and can go on."""
+    simulation = Simulation(system_of("flyball"), settings=Settings(max_halvings=16))
+    before = simulation.state
+    with pytest.raises(SimulationError, match="took more than 1000 iterations") as refused:
+        simulation.step(1.0)
+    assert refused.value.status == Status.TOO_DEAR
+    assert "Worst" not in str(refused.value)
+    assert 1000 < simulation.report.iterations <= 1000 + 2 * simulation.settings.max_iterations
+    assert simulation.state.q.tolist() == before.q.tolist()
+    simulation.step(0.01, 10)

@@ -57,9 +57,7 @@ class TestThePrintedModel:
         text = str(caught[0].message)
         assert caught[0].filename == __file__
         assert text == run.accuracy.message
-        step = float(re.search(r"Steps of (\S+) s or less", text)[1])
-        assert 1e-6 < step < 1e-4
-        assert "'runge_kutta_8'" in text
+        assert "tolerance=1e-3" in text
         assert run.accuracy.energy_balance > 0.036
         assert "energy balance open by" in repr(run)
         assert "halvings a step" in str(run)
@@ -88,14 +86,43 @@ class TestThePrintedModel:
         assert run.accuracy.message == ""
         assert run.accuracy.energy_balance > 0.036  # what is free is there all the same
 
+    def test_the_step_that_a_warning_names_is_as_right_as_it_says(self):
+        system, case = system_of("pendulum"), CASES["pendulum"]
+        with pytest.warns(AccuracyWarning, match="would bring it to about 1 %") as caught:
+            simulate(system, case.end, 0.05, **QUIET)
+        step = float(re.search(r"Steps of (\S+) s or less", str(caught[0].message))[1])
+        every = round(case.end / 50 / step)
+        fine = simulate(system, case.end, case.end / 50 / every, every=every, **QUIET)
+        exact = exact_of("pendulum").T
+        error = max(np.abs(fine[s] - x).max() / np.ptp(exact) for s, x in zip(case.sensors, exact, strict=True))
+        assert 1e-3 < error < 0.01
+
 
 class TestRepeats:
-    def test_a_right_run_is_made_once(self, starts):
-        run = simulate(system_of("pendulum"), 10.0, 0.01, **QUIET)
+    def test_a_smooth_run_is_made_once(self, starts):
+        run = simulate(system_of("pendulum"), 1.0, 0.001, **QUIET)
         assert len(starts) == 1
         assert run.accuracy.repeated_with is None
         assert run.accuracy.error is None
         assert run.accuracy.message == ""
+
+    @pytest.mark.parametrize("every", [1, 2, 7])
+    def test_a_right_run_is_compared_with_one_of_twice_the_step(self, starts, every):
+        run = simulate(system_of("pendulum"), 10.0, 0.005, every=every, **QUIET)
+        assert len(starts) == 2
+        assert run.accuracy.repeated_with == 0.01
+        assert run.accuracy.repeat_cost == 0.5
+        assert "repeats of 0.5 times its steps" in repr(run)
+        whole = simulate(system_of("pendulum"), 10.0, 0.005, estimate_error=True, **QUIET)
+        assert run.accuracy.error == pytest.approx(whole.accuracy.error, rel=0.2)
+
+    def test_near_the_limit_a_third_run_decides(self, starts):
+        case = CASES["pendulum"]
+        run = simulate(system_of("pendulum"), case.end, 0.04, every=5, **QUIET)
+        assert len(starts) == 4
+        assert run.accuracy.repeated_with == 0.01
+        error = max(np.abs(run[s] - x).max() for s, x in zip(case.sensors, exact_of("pendulum").T, strict=True))
+        assert max(run.accuracy.sensors[s] for s in case.sensors) == pytest.approx(error, rel=0.1)
 
     @pytest.mark.parametrize(
         ("scene", "h"), [("pendulum", 0.02), ("double_four_bar", 0.01), ("spatial_chain", 0.01), ("bricard", 0.1)]

@@ -84,9 +84,9 @@ CALLS: dict[str, tuple[Callable[[], Callable[..., Any]], dict[str, Any]]] = {
     "step": (lambda: running().step, {"h": 0.01, "n": 2}),
     "run": (
         lambda: running().run,
-        {"t_end": 1.0, "h": 0.1, "inputs": {"push": 1.0}, "every": 2, "progress": False},
+        {"t_end": 1.0, "h": 0.1, "inputs": {"push": 1.0}, "every": 2, "progress": False, "estimate_error": False},
     ),
-    "march": (lambda: running().march, {"t_end": 1.0, "h": 0.1, "inputs": {"push": 1.0}}),
+    "run to a tolerance": (lambda: running().run, {"t_end": 1.0, "tolerance": 1e-2}),
     "change_settings": (lambda: running().change_settings, {"settings": Settings()}),
     "restore": (lambda: running().restore, {"state": running().save()}),
     "linearise": (lambda: linearise, {"simulation": running(), "side": 1}),
@@ -102,7 +102,7 @@ CALLS: dict[str, tuple[Callable[[], Callable[..., Any]], dict[str, Any]]] = {
 def allowed(call: str, name: str, kind: str, label: str, value: Any) -> bool:
     """Whether a value is right for an argument after all."""
     if value is None:
-        return "None" in kind or (call, name) == ("march", "inputs")
+        return "None" in kind and (call, name) not in (("run", "h"), ("run to a tolerance", "tolerance"))
     if label == "True":
         return kind.startswith("bool")
     if label == "a mapping":

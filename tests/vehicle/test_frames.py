@@ -59,7 +59,10 @@ def test_a_frame_of_the_user_carries_the_car_in_every_fidelity(small: Car) -> No
         assert abs(rest[1][name]) > 0.1
         assert rest[3][name] == pytest.approx(rest[1][name], rel=2e-3)
     assert "bending_moment.G" not in rest[1]
-    runs = [mbs.Simulation(mbs.compile(small.model(fidelity=f))).march(1.0, 0.005, DRIVING) for f in (0, 3)]
+    runs = [
+        mbs.Simulation(mbs.compile(small.model(fidelity=f))).run(1.0, 0.005, inputs=DRIVING, estimate_error=False)
+        for f in (0, 3)
+    ]
     for name, gap in (("chassis.x", 0.02), ("chassis.y", 2e-3), ("chassis.yaw", 1e-3)):
         np.testing.assert_allclose(runs[1][name], runs[0][name], rtol=0, atol=gap)
 
@@ -153,7 +156,9 @@ def _same_as_the_tubes(car: Car, fidelities: tuple[int, ...]) -> None:
         for name in (*moments, *(m.replace("bending_moment", "stress") for m in moments)):
             assert two[name] == pytest.approx(one[name], rel=LUMPED)
         systems = [mbs.compile(c.model(fidelity=fidelity)) for c in (PROTOTYPE, car)]
-        one_run, two_run = (mbs.Simulation(system).march(1.0, 0.005, DRIVING) for system in systems)
+        one_run, two_run = (
+            mbs.Simulation(system).run(1.0, 0.005, inputs=DRIVING, estimate_error=False) for system in systems
+        )
         for name in ("chassis.x", "chassis.y", "chassis.z", "chassis.yaw", "chassis.roll"):
             np.testing.assert_allclose(two_run[name], one_run[name], rtol=0, atol=5e-5)
         for name in moments:
@@ -204,7 +209,10 @@ def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
             assert two[name] == pytest.approx(one[name], rel=0.02, abs=0.05)  # masses at nodes
         # the strain between two nodes of a tube is its axial stress
         assert two["stress.N"] == pytest.approx(two["stress.H"], rel=1e-6)
-    runs = [mbs.Simulation(mbs.compile(c.model(fidelity=3))).march(0.5, 0.005, DRIVING) for c in (small, car)]
+    runs = [
+        mbs.Simulation(mbs.compile(c.model(fidelity=3))).run(0.5, 0.005, inputs=DRIVING, estimate_error=False)
+        for c in (small, car)
+    ]
     for name in ("chassis.x", "chassis.y", "wheel_RL.travel"):
         np.testing.assert_allclose(runs[1][name], runs[0][name], rtol=0, atol=5e-4)
 

@@ -41,6 +41,7 @@ typedef enum {
   ALI3_FIXED_PARAMETER,   /* a parameter that is fixed was set after the start */
   ALI3_BAD_ROAD,          /* the file of a road is refused; the message says why */
   ALI3_ROAD_LOST,         /* a part of a road's file cannot be read or was altered; see ali3_road_lost */
+  ALI3_TOO_DEAR,          /* a step whose parts took more iterations than a step may cost */
   ALI3_STATUS_COUNT
 } ali3_status;
 

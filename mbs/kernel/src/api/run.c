@@ -76,6 +76,7 @@ static ali3_status step(ali3_instance *in, double h, const double *end) {
   ali3_roads_forgive(in);
   in->capped = false;
   in->capped_residual = 0.0;
+  in->iterations_before = before.iterations;
   in->backed_up = false; /* only halves and a new owner of the history change in->now before a step is good */
   in->t_now = ali3_time(in);
   ali3_branch_before(in);

@@ -16,9 +16,12 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
   return method->step(in, t, h);
 }
 
+enum { MOST_ITERATIONS = 1000 }; /* of a step with all its parts */
+
 /* A step to time t, in halves where it does not converge. */
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   const ali3_method *method = ali3_method_of(in);
+  if (in->report.iterations - in->iterations_before > MOST_ITERATIONS) return ALI3_TOO_DEAR;
   in->halves_left = depth > 0 && depth < in->settings.max_halvings;
   const ali3_status status = by_method(in, t, h);
   if (status == ALI3_OK) in->t_now = t;

@@ -12,13 +12,19 @@
 #include "../rows/assembly_mode.h"
 #include "../state/vectors.h"
 #include "branch_watch.h"
+#include "energy_balance.h"
+#include "error_control.h"
 #include "steps.h"
 
 static const double IN_LINE = 0.25; /* square of the largest sine of a ring whose branches may be near */
 static const double APART = 0.5; /* of the change in the step: the parts come out elsewhere; of that: they agree */
-enum { FEW = 4, MANY = 8 };
+static const double MOST_TURNED =
+    0.2; /* sine of a triad in a controlled step past a place where branches may be near */
+enum { FEW = 4, MANY = 8, LOOKS = 8 };
 
 enum { RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
+
+static double root(double signed_square) { return signed_square < 0.0 ? -sqrt(-signed_square) : sqrt(signed_square); }
 
 static bool watches(const ali3_instance *in) { return ali3_triad_count(in->system) > 0; }
 
@@ -92,8 +98,6 @@ static bool crossed(const ali3_instance *in, int32_t k, int32_t first, int32_t e
          in_line(in, in->sine_after, k, first, end);
 }
 
-static double root(double signed_square) { return signed_square < 0.0 ? -sqrt(-signed_square) : sqrt(signed_square); }
-
 /* The first triad, counted in its loop, whose sign the step changed otherwise than its parts do, or -1. */
 static int32_t jumped(ali3_instance *in, double t, double h, int32_t first, int32_t end) {
   const size_t all = (size_t)ali3_triad_count(in->system) * sizeof(double);
@@ -136,6 +140,55 @@ static void left_modes(ali3_instance *in, double t) {
     if (left >= 0 && in->mode_left[loop] == 0.0) report(in, loop, left, ALI3_BRANCH_LEFT, t);
     in->mode_left[loop] = left >= 0 ? 1.0 : 0.0;
   }
+}
+
+/* How far the controlled step turns a triad that changes its sign on the way where its ring is nearly in line: the change
+ * of its sine, 0 where none does. */
+static double passed(ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  const size_t all = (size_t)ali3_triad_count(S) * sizeof(double);
+  int32_t found = -1;
+  ali3_mode_angles(in, in->origin.q);
+  memcpy(in->sine_few, in->mode_sine, all);
+  for (int n = 1; n <= LOOKS && found < 0; n++) {
+    memcpy(in->sine_before, in->mode_sine, all);
+    ali3_interpolate(in, h, 2.0 * n / LOOKS - 1.0, &in->next);
+    ali3_mode_angles(in, in->next.q);
+    for (int64_t loop = 0; loop < ali3_loop_count(S) && found < 0; loop++) {
+      const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;
+      for (int32_t k = first; k < end && found < 0; k++)
+        if (in->sine_before[k] * in->mode_sine[k] < 0.0 &&
+            (in_line(in, in->sine_before, k, first, end) || in_line(in, in->mode_sine, k, first, end)))
+          found = k;
+    }
+  }
+  if (found < 0) return 0.0;
+  ali3_mode_angles(in, in->now.q);
+  return fmax(1e-300, fabs(root(in->mode_sine[found]) - root(in->sine_few[found])));
+}
+
+/* Whether the accepted step of in->origin, in->centre and in->now may have jumped where branches are near: it turns a
+ * ring too far to know, or ends elsewhere than in shorter parts. The whole and its halves may have jumped alike. */
+bool ali3_branch_jumped(ali3_instance *in, const ali3_measure *measure, double t, double h) {
+  const int32_t nq = in->system->size.nq;
+  if (!watches(in)) return false;
+  const double turned = passed(in, h);
+  if (turned == 0.0 || turned > MOST_TURNED) return turned > 0.0;
+  const ali3_report whole = in->report;
+  ali3_vectors_copy(in, &in->coarse, &in->now);
+  ali3_vectors_copy(in, &in->now, &in->origin);
+  ali3_status status = ALI3_OK;
+  for (int i = 0; i < MANY && status == ALI3_OK; i++) status = ali3_trial_step(in, t + h * (double)i / MANY, h / MANY);
+  for (int32_t i = 0; i < nq; i++) {
+    in->w[i] = in->now.q[i] - in->coarse.q[i];
+    in->x[i] = 0.0;
+  }
+  const bool apart = status == ALI3_OK && ali3_distance(in, measure, in->w, in->x, 1.0) > measure->control->tolerance;
+  ali3_vectors_copy(in, &in->now, &in->coarse);
+  in->iterations_before = whole.iterations;
+  ali3_balance_restore(&in->report, &whole);
+  in->t_now = t + h;
+  return apart;
 }
 
 /* After a controlled step, whose halves have shown already that no other branch is near enough to be jumped to. */

@@ -48,7 +48,8 @@ static void weights(double x, int order, double weight[DATA]) {
   }
 }
 
-static void interpolate(const ali3_instance *in, double h, double x, ali3_vectors *to) {
+/* q, qd and qdd of *to at x, -1 to 1, of the step of h that in->origin, in->centre and in->now hold. */
+void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *to) {
   const ali3_vectors *node[NODES] = {&in->origin, &in->centre, &in->now};
   const double unit[3] = {1.0, 0.5 * h, 0.25 * h * h};
   double *result[3] = {to->q, to->qd, to->qdd}, weight[DATA];
@@ -70,7 +71,7 @@ static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t,
   const double x = 2.0 * (when - t) / h - 1.0;
   ali3_vectors *at = &in->next;
   ali3_vectors_copy(in, at, x < 0.0 ? &in->centre : &in->now);
-  interpolate(in, h, x, at);
+  ali3_interpolate(in, h, x, at);
   memcpy(in->D, at->qdd, (size_t)nq * sizeof(double));
   ali3_guides_time(in, at, when);
   in->t_now = when;
@@ -90,7 +91,7 @@ static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t,
  * the polynomial. */
 static void beside_start(ali3_instance *in, double t, double h, double when) {
   ali3_vectors_copy(in, &in->next, &in->origin);
-  interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);
+  ali3_interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);
   ali3_guides_time(in, &in->next, when);
   ali3_work_beside(in, when - t);
 }

@@ -183,7 +183,17 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
       continue;
     }
     const double part = error * c->span / (c->tolerance * tried);
-    const int verdict = judge(c, &seen, tried, error, tried <= 1.5 * least);
+    int verdict = judge(c, &seen, tried, error, tried <= 1.5 * least);
+    if (verdict == ACCEPT && tried > 1.5 * least && ali3_branch_jumped(in, measure, t, tried)) {
+      verdict = REJECT;
+      seen.rejected = true;
+      c->rejected++;
+      c->h = fmax(least, AFTER_FAILURE * tried);
+      ali3_vectors_copy(in, &in->now, &in->origin);
+      in->report.steps = before.steps;
+      ali3_balance_restore(&in->report, &before);
+      continue;
+    }
     if (verdict != REJECT) {
       c->h = verdict == ACCEPT ? fmax(least, next_step(c, size, tried, part, seen.rejected, order)) : AGAIN * tried;
       accepted(c, tried, error, verdict == ACCEPT ? part : 1.0, verdict);

@@ -1,0 +1,105 @@
+"""Random drives of the cars over kerbs and drops, with references by another method."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mbs
+from mbs.elements.road import KerbRoad
+from mbs.results.accuracy import differences, judged_sensors
+from mbs.vehicle import load as load_car
+
+Array = NDArray[np.float64]
+CARS = ("prototype", "hatchback")
+STEPS = (0.02, 0.01, 0.005, 0.002)  # s
+INTERVAL = 0.02  # s, of the record
+REFERENCE, CHECK = 2.5e-4, 1e-4  # s, steps of energy-momentum and of ALi3-P
+AGREE = 0.01  # of the range: by which they may differ
+
+
+class NoReferenceError(Exception):
+    """Two methods do not agree, or one of them refuses."""
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A drive: the kerb's edge lies 3 m ahead of the front axle, `step` m up (positive) or down, or 1 km ahead."""
+
+    car: str
+    step: float
+    z: float
+    yaw: float
+    speed: float
+    steering: tuple[float, float]
+    pedals: tuple[float, float]
+    span: float
+
+    def run(self, method: str = "ali3p", h: float | None = None, **more: Any) -> mbs.Trajectory:
+        """As `mbs.simulate` gives it."""
+        times = np.array([0.0, 0.3, self.span])
+        inputs = {
+            "steering": (times, np.array([self.steering[0], *[self.steering[1]] * 2])),
+            "throttle": self.pedals[0],
+            "brake": self.pedals[1],
+        }
+        pose = mbs.Pose(z=self.z, yaw=self.yaw, speed=self.speed)
+        if h is not None:
+            more["every"] = round(INTERVAL / h)
+        return mbs.simulate(
+            self.system, self.span, h, inputs, pose=pose, method=method, progress=False, **more
+        )  # fmt: skip
+
+    @property
+    def system(self) -> mbs.System:
+        """The car on its road."""
+        return _system(self.car, self.step)
+
+    def truth(self) -> dict[str, Array]:
+        """Judged sensors at the instants of the record, as two methods show them.
+
+        Raises
+        ------
+        NoReferenceError
+            They do not agree, or one refuses.
+        """
+        try:
+            fine = self.run("ali3p", CHECK, estimate_error=False)
+            other = self.run("energy_momentum", REFERENCE, estimate_error=False)
+        except mbs.SimulationError as refused:
+            raise NoReferenceError(str(refused)) from refused
+        groups = judged_sensors(self.system)
+        apart = max(differences(other, fine, groups)[0].values())
+        if not apart <= AGREE:
+            raise NoReferenceError(f"two methods differ by {apart:.1e} of the range")
+        return {n: fine[n] for names in groups.values() for n in names}
+
+
+def drive(rng: np.random.Generator) -> Drive:
+    """A drive over a kerb, or a fall."""
+    car = str(rng.choice(CARS))
+    falls = rng.random() < 0.3
+    step = 0.0 if falls else float(round(rng.choice([-1.0, 1.0]) * rng.uniform(0.02, 0.12), 3))
+    return Drive(
+        car,
+        step,
+        float(rng.uniform(0.05, 0.5)) if falls else 0.0,
+        float(rng.choice([0.0, rng.uniform(-0.6, 0.6)])),
+        float(rng.uniform(0.0, 25.0)) if falls else float(rng.uniform(3.0, 25.0)),
+        (0.0, float(rng.choice([0.0, rng.uniform(-0.3, 0.3)]))),
+        (float(rng.choice([0.0, 0.3])), 0.0) if rng.random() < 0.7 else (0.0, float(rng.uniform(0.0, 0.6))),
+        float(round(rng.uniform(1.2, 2.2) / INTERVAL) * INTERVAL),
+    )
+
+
+@cache
+def _system(name: str, step: float) -> mbs.System:
+    car = load_car(name)
+    if step == 0.0:
+        return mbs.compile(car.model())
+    upper = "after" if step > 0.0 else "before"
+    return mbs.compile(car.model(KerbRoad(3.0, abs(step), min(step, 0.0), upper, car.road.friction)))

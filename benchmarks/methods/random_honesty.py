@@ -1,0 +1,185 @@
+"""Random mechanisms and cars with their true errors: whether runs tell when they are wrong, and only then."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import mbs
+from benchmarks.methods import random_cars, random_mechanisms
+from benchmarks.references import newton_euler
+from mbs.results.accuracy import WRONG_ERROR, extent, instants, judged_sensors
+
+Array = NDArray[np.float64]
+STEPS = (0.001, 0.002, 0.005, 0.01, 0.02)  # s
+TOLERANCES = (1e-2, 1e-3, 1e-4)
+CAR_SHARE = 0.1  # cars beside so many mechanisms
+NOTHING = 1e-3  # of the range or the length: of a smaller error no estimate is asked
+FACTOR = 10.0  # by which an estimate may be off
+BEYOND = 10.0  # tolerances: wrong
+KINDS = ("planar", "spatial", "car")
+VERDICTS = ("right", "false alarm", "refused", "wrong, told", "silently wrong")
+TOLD = ("false alarm", "refused", "silently wrong")
+"""Verdicts that are shown case by case."""
+TABLE = {
+    "number": "d",
+    "kind": "",
+    "asked": "",
+    "error": ".1e",
+    "told": ".1e",
+    "verdict": "",
+    "cpu_s": ".2g",
+}
+SUMMARY = {
+    "asked": "",
+    "runs": "d",
+    "right": "d",
+    "false alarms": "d",
+    "refused": "d",
+    "wrong, told": "d",
+    "silently wrong": "d",
+    "estimates": "d",
+    "within ten times": ".0%",
+    "cost, median": ".3g",
+    "cost over before": ".2f",
+}
+
+
+def rows_of(seed: int, numbers: Iterable[int]) -> Iterator[dict[str, Any]]:
+    """Rows of the cases of a seed; a case without a reference gives one row that says so."""
+    for number in numbers:
+        rng = np.random.default_rng([seed, number])
+        is_car = rng.random() < CAR_SHARE / (1.0 + CAR_SHARE)
+        yield from (_car if is_car else _mechanism)(number, rng)
+
+
+def _mechanism(number: int, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
+    name, drawing = random_mechanisms.drawing(rng)
+    h, tolerance = float(rng.choice(STEPS)), float(rng.choice(TOLERANCES))
+    case = {"number": number, "kind": name, "class": KINDS[drawing.dimension - 2]}
+    try:
+        found = newton_euler.motion(drawing)
+    except newton_euler.NoReferenceError as none:
+        yield case | {"asked": "reference", "verdict": "none", "reason": str(none)}
+        return
+    system = mbs.compile(random_mechanisms.model_of(drawing))
+    t = np.linspace(0.0, drawing.span, newton_euler.INSTANTS + 1)
+    axes = "xyz"[: drawing.dimension]
+    names = [f"tip{i}.{c}" for i in range(len(drawing.links)) for c in axes]
+    truth = dict(zip(names, found.reshape(len(t), -1).T, strict=True))
+    steps = max(1, round(drawing.span / newton_euler.INSTANTS / h))
+    fixed = drawing.span / newton_euler.INSTANTS / steps  # the nearest step that ends at the instants
+    yield case | _judged(
+        f"{h:g} s",
+        lambda: mbs.simulate(system, drawing.span, fixed, every=steps, progress=False),
+        lambda run: (_of_range(run, truth, {"m": names}), run.accuracy.error if run.accuracy else None, WRONG_ERROR),
+    )
+    yield case | _judged(
+        f"tolerance {tolerance:g}",
+        lambda: mbs.simulate(system, drawing.span, times=t, tolerance=tolerance, progress=False),
+        lambda run: (_of_length(run, truth), run.control.error if run.control else None, BEYOND * tolerance),
+    )
+
+
+def _car(number: int, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
+    drive = random_cars.drive(rng)
+    tolerance = float(rng.choice(TOLERANCES[:2]))
+    case = {"number": number, "kind": f"{drive.car} {drive.step:g} m, {drive.speed:.1f} m/s", "class": "car"}
+    try:
+        truth = drive.truth()
+    except random_cars.NoReferenceError as none:
+        yield case | {"asked": "reference", "verdict": "none", "reason": str(none)}
+        return
+    units = judged_sensors(drive.system)
+    for h in random_cars.STEPS:
+        yield case | _judged(
+            f"{h:g} s",
+            lambda h=h: drive.run(h=h),  # type: ignore[misc]
+            lambda run: (_of_range(run, truth, units), run.accuracy.error if run.accuracy else None, WRONG_ERROR),
+        )
+    t = np.linspace(0.0, drive.span, len(next(iter(truth.values()))))
+    yield case | _judged(
+        f"tolerance {tolerance:g}",
+        lambda: drive.run("auto", times=t, tolerance=tolerance),
+        lambda run: (_of_length(run, {n: truth[n] for n in units["m"]}), run.control.error, BEYOND * tolerance),
+    )
+
+
+def _judged(
+    asked: str,
+    make: Callable[[], mbs.Trajectory],
+    judge: Callable[[mbs.Trajectory], tuple[float, float | None, float]],
+) -> dict[str, Any]:
+    """A run with its verdict."""
+    row: dict[str, Any] = {"asked": asked, "verdict": "refused", "warnings": []}
+    begin = time.process_time()
+    try:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            run = make()
+    except mbs.SimulationError as refused:
+        return row | {"cpu_s": time.process_time() - begin, "reason": str(refused)}
+    row["cpu_s"] = time.process_time() - begin
+    error, told, most = judge(run)
+    wrong, said = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught]
+    verdict = VERDICTS[(3 if said else 4) if wrong else (1 if said else 0)]
+    method = run.control.method if run.control is not None else ""
+    return row | {"verdict": verdict, "error": error, "told": told, "warnings": said, "method": method}
+
+
+def _of_range(run: mbs.Trajectory, truth: Mapping[str, Array], units: Mapping[str, Sequence[str]]) -> float:
+    """Largest error over the largest range in a unit, as runs judge themselves."""
+    worst = 0.0
+    for unit, names in units.items():
+        size = extent(unit, [truth[n] for n in names])
+        rows = instants(len(run.t))
+        if size > 0.0:
+            worst = max(worst, *(float(np.abs(run[n] - truth[n])[rows].max()) / size for n in names))
+    return worst
+
+
+def _of_length(run: mbs.Trajectory, truth: Mapping[str, Array]) -> float:
+    """Largest error over the length of the model."""
+    assert run.control is not None
+    return max(float(np.abs(run[n] - values).max()) for n, values in truth.items()) / run.control.length
+
+
+def summary(rows: Sequence[dict[str, Any]], before: Sequence[dict[str, Any]] = ()) -> list[dict[str, Any]]:
+    """Counts per class of cases, of fixed steps and under a tolerance; costs over those of rows of before."""
+    old = {(r["number"], r["asked"]): r["cpu_s"] for r in before if "cpu_s" in r}
+    lines = []
+    for kind in KINDS:
+        for asked, controlled in (("fixed steps", False), ("tolerance", True)):
+            part = [r for r in rows if r["class"] == kind and "cpu_s" in r and ("tol" in r["asked"]) == controlled]
+            if not part:
+                continue
+            count = {v: sum(r["verdict"] == v for r in part) for v in VERDICTS}
+            told = [r for r in part if r.get("told") is not None and r["error"] > _least(r)]
+            near = sum(1.0 / FACTOR <= r["told"] / r["error"] <= FACTOR for r in told)
+            ratios = [r["cpu_s"] / old[r["number"], r["asked"]] for r in part if (r["number"], r["asked"]) in old]
+            lines.append(
+                {
+                    "asked": f"{kind}, {asked}",
+                    "runs": len(part),
+                    "right": count["right"] + count["false alarm"],
+                    "false alarms": count["false alarm"],
+                    "refused": count["refused"],
+                    "wrong, told": count["wrong, told"],
+                    "silently wrong": count["silently wrong"],
+                    "estimates": len(told),
+                    "within ten times": near / len(told) if told else None,
+                    "cost, median": float(np.median([r["cpu_s"] for r in part])),
+                    "cost over before": float(np.median(ratios)) if ratios else None,
+                }
+            )
+    return lines
+
+
+def _least(row: dict[str, Any]) -> float:
+    """The smallest error of which an estimate is asked: what nobody asked for better than a hundredth of."""
+    return 0.01 * float(row["asked"].split()[1]) if "tol" in row["asked"] else NOTHING

@@ -1,0 +1,262 @@
+"""Random planar and spatial mechanisms: driven, sprung, through dead centres."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PPoly
+
+import mbs
+from benchmarks.references.newton_euler import GROUND, Drawing, Joint, Link, Spring
+
+Array = NDArray[np.float64]
+ACROSS = np.array([0.0, 0.0, 1.0])
+NEARLY_EQUAL = 0.3  # share of loops whose arms are drawn so that they all but lie in line on their way
+NEAR = (1e-3, 0.05)  # by which they differ, of their length
+
+
+def drawing(rng: np.random.Generator) -> tuple[str, Drawing]:
+    """A mechanism with its kind."""
+    kinds: dict[str, Callable[[np.random.Generator], Drawing]] = {
+        "four-bar": four_bar,
+        "slider-crank": slider_crank,
+        "six-bar": six_bar,
+        "four-bar with pendulum": _hung,
+        "chain": lambda r: _chain(r, 2),
+        "spatial chain": lambda r: _chain(r, 3),
+        "spatial four-bar": spatial_four_bar,
+        "spatial slider-crank": spatial_slider_crank,
+    }
+    kind = str(rng.choice(list(kinds)))
+    return kind, kinds[kind](rng)
+
+
+def model_of(d: Drawing) -> mbs.Model:
+    """The mechanism in the vocabulary of the engine."""
+    down = (0.0, -d.gravity) if d.dimension == 2 else (0.0, 0.0, -d.gravity)
+    m = mbs.Model("random", dimension=d.dimension, gravity=down)
+    bodies = [
+        m.point_mass(f"b{i}", mass=k.mass, position=k.com)
+        if k.inertia is None
+        else m.body(f"b{i}", mass=k.mass, com=k.com, inertia=k.inertia)
+        for i, k in enumerate(d.links)
+    ]
+    of = {GROUND: m.ground, **dict(enumerate(bodies))}
+    for i, j in enumerate(d.joints):
+        first, second, name = of[j.first], of[j.second], f"j{i}"
+        if j.kind == "line":
+            m.point_on_line(name, (first, j.point), (m.ground, j.point), axis=j.axis)
+        elif j.kind == "ball" or d.dimension == 2:
+            (m.spherical if j.kind == "ball" else m.revolute)(name, second, first, point=j.point)
+        else:
+            m.revolute(name, second, first, point=j.point, axis=j.axis)
+    for i, s in enumerate(d.springs):
+        ends = (of[s.first], s.point_1), (of[s.second], s.point_2)
+        m.spring_damper(f"s{i}", *ends, stiffness=s.stiffness, damping=s.damping, free_length=s.length)
+    axis = {} if d.dimension == 2 else {"axis": d.joints[0].axis}
+    if d.torque or d.drive is not None:
+        angle = m.relative_angle("angle", m.ground, bodies[0], **axis)
+        if d.torque:
+            m.torque_on("motor", angle, input=m.input("torque", start=d.torque))
+        if d.drive is not None:
+            c = np.array([*d.drive[::-1], 0.0])[:, None]
+            m.drive("drive", angle, m.guide_time("guide", PPoly(c, [0.0, 2.0 * d.span]), unit="rad"))
+    if d.drive is None and d.rate:
+        turn = d.rate if d.dimension == 2 else d.rate * d.joints[0].axis
+        arm = d.links[0].com - d.joints[0].point
+        linear = d.rate * np.array([-arm[1], arm[0]]) if d.dimension == 2 else np.cross(turn, arm)
+        m.initial_velocity(bodies[0], linear=linear, angular=turn)
+    for i, c in itertools.product(range(len(bodies)), "xyz"[: d.dimension]):
+        m.sense_position(f"tip{i}.{c}", bodies[i], None if d.links[i].inertia is None else d.tips[i], c)
+    return m
+
+
+def _bar(rng: np.random.Generator, a: Array, b: Array) -> Link:
+    """A link between two points; the lightest a fiftieth of the heaviest."""
+    mass = float(10.0 ** rng.uniform(-0.7, 1.0))
+    length = float(np.linalg.norm(b - a))
+    transverse = mass * length**2 * rng.uniform(0.08, 0.2)
+    if len(a) == 2:
+        return Link(0.5 * (a + b), mass, transverse)
+    along = (b - a) / length
+    axial = transverse * rng.uniform(0.2, 0.8)
+    return Link(0.5 * (a + b), mass, transverse * np.eye(3) + (axial - transverse) * np.outer(along, along))
+
+
+def _moved(rng: np.random.Generator, d: Drawing) -> Drawing:
+    """With what moves it: a drive, a torque or a start, springs, dampers."""
+    values = {f: getattr(d, f) for f in d.__dataclass_fields__}
+    size = d.size
+    total = sum(k.mass for k in d.links)
+    springs = []
+    for _ in range(int(rng.choice([0, 1, 2], p=[0.35, 0.45, 0.2]))):
+        i = int(rng.integers(len(d.links)))
+        anchor = d.tips[i] + rng.normal(0.0, 0.5 * size, d.dimension)
+        length = float(np.linalg.norm(anchor - d.tips[i]))
+        stiffness = total * 9.81 / size * float(10.0 ** rng.uniform(-0.5, 2.0))
+        damping = float(rng.choice([0.0, rng.uniform(0.02, 0.3)])) * float(np.sqrt(stiffness * total))
+        springs.append(Spring(i, d.tips[i], GROUND, anchor, stiffness, damping, length * rng.uniform(0.5, 1.2)))
+    driven = rng.random() < 0.3
+    scale = float(np.sqrt(9.81 / size))
+    values |= {
+        "springs": springs,
+        "rate": float(rng.normal(0.0, 2.0) * scale),
+        "torque": 0.0 if driven or rng.random() < 0.6 else float(rng.normal(0.0, 0.5) * total * 9.81 * size),
+        "drive": (float(rng.uniform(-2.0, 2.0) * scale), float(rng.uniform(-0.3, 0.3) * scale**2)) if driven else None,
+        "span": float(rng.uniform(1.0, 3.0)),
+    }
+    return Drawing(**values)
+
+
+def _drawing(dimension: int, links: list[Link], joints: list[Joint], tips: list[Array]) -> Drawing:
+    return Drawing(dimension, links, joints, [], tips, 0.0, 0.0, None, 1.0)
+
+
+def _meet(a: Array, ra: float, b: Array, rb: float, side: float) -> Array | None:
+    """The point at ra from a and rb from b, on one side."""
+    gap = b - a
+    l = float(np.linalg.norm(gap))
+    x = (ra**2 - rb**2 + l**2) / (2.0 * l)
+    if ra**2 - x**2 <= (0.05 * ra) ** 2:
+        return None
+    e = gap / l
+    return a + x * e + side * np.sqrt(ra**2 - x**2) * np.array([-e[1], e[0]])
+
+
+def _lengths(rng: np.random.Generator) -> Array:
+    """Crank, coupler, rocker and frame of a four-bar, m; some with arms that all but come into line."""
+    r = 10.0 ** rng.uniform(-0.6, 0.3, 4)
+    if rng.random() < NEARLY_EQUAL:
+        near = 1.0 + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(*np.log10(NEAR))
+        r[2] = (r[0] + r[3] - r[1]) * near if r[0] + r[3] > 1.1 * r[1] else r[1] + (r[3] - r[0]) * near
+    return np.abs(r)
+
+
+def _loop(rng: np.random.Generator) -> tuple[list[Link], list[Joint], list[Array], Array, Array]:
+    """Links, joints and tips of a four-bar, and the ends of its coupler."""
+    while True:
+        crank, coupler, rocker, frame = _lengths(rng)
+        angle = rng.uniform(0.0, 2.0 * np.pi)
+        a, d = np.zeros(2), np.array([frame, 0.0])
+        b = crank * np.array([np.cos(angle), np.sin(angle)])
+        c = _meet(b, coupler, d, rocker, float(rng.choice([-1.0, 1.0])))
+        if c is not None:
+            break
+    links = [_bar(rng, a, b), _bar(rng, b, c), _bar(rng, c, d)]
+    joints = [
+        Joint("hinge", 0, GROUND, a, ACROSS),
+        Joint("hinge", 1, 0, b, ACROSS),
+        Joint("hinge", 2, 1, c, ACROSS),
+        Joint("hinge", 2, GROUND, d, ACROSS),
+    ]
+    return links, joints, [b, c, c], b, c
+
+
+def four_bar(rng: np.random.Generator) -> Drawing:
+    """Of all of Grashof's kinds."""
+    links, joints, tips, _, _ = _loop(rng)
+    return _moved(rng, _drawing(2, links, joints, tips))
+
+
+def _hung(rng: np.random.Generator) -> Drawing:
+    """A pendulum on the coupler of a four-bar."""
+    links, joints, tips, b, c = _loop(rng)
+    hook = b + rng.uniform(0.2, 1.2) * (c - b)
+    end = hook + rng.uniform(0.2, 1.0) * _direction(rng, 2)
+    links.append(_bar(rng, hook, end))
+    joints.append(Joint("hinge", 3, 1, hook, ACROSS))
+    return _moved(rng, _drawing(2, links, joints, [*tips, end]))
+
+
+def six_bar(rng: np.random.Generator) -> Drawing:
+    """A four-bar and a dyad between its coupler and the ground (Stephenson's third kind)."""
+    while True:
+        links, joints, tips, b, c = _loop(rng)
+        e = 0.5 * (b + c) + rng.normal(0.0, 0.3, 2)
+        g = rng.normal(0.0, 1.0, 2)
+        f = _meet(e, float(rng.uniform(0.3, 1.5)), g, float(rng.uniform(0.3, 1.5)), float(rng.choice([-1.0, 1.0])))
+        if f is not None:
+            break
+    links += [_bar(rng, e, f), _bar(rng, f, g)]
+    joints += [
+        Joint("hinge", 3, 1, e, ACROSS),
+        Joint("hinge", 4, 3, f, ACROSS),
+        Joint("hinge", 4, GROUND, g, ACROSS),
+    ]
+    return _moved(rng, _drawing(2, links, joints, [*tips, f, f]))
+
+
+def slider_crank(rng: np.random.Generator) -> Drawing:
+    """With an offset or none; some whose rod is all but as long as the crank."""
+    crank = float(10.0 ** rng.uniform(-0.7, 0.0))
+    near = rng.random() < NEARLY_EQUAL
+    rod = crank * float(1.0 + 10.0 ** rng.uniform(*np.log10(NEAR)) if near else rng.uniform(1.2, 4.0))
+    offset = 0.0 if near or rng.random() < 0.5 else float(rng.uniform(-0.5, 0.5)) * (rod - crank)
+    angle = float(rng.uniform(0.0, 2.0 * np.pi))
+    b = crank * np.array([np.cos(angle), np.sin(angle)])
+    c = np.array([b[0] + np.sqrt(rod**2 - (b[1] - offset) ** 2), offset])
+    links = [_bar(rng, np.zeros(2), b), _bar(rng, b, c), Link(c, float(10.0 ** rng.uniform(-0.7, 1.0)), None)]
+    joints = [
+        Joint("hinge", 0, GROUND, np.zeros(2), ACROSS),
+        Joint("hinge", 1, 0, b, ACROSS),
+        Joint("ball", 1, 2, c, ACROSS),
+        Joint("line", 2, GROUND, c, np.array([1.0, 0.0])),
+    ]
+    return _moved(rng, _drawing(2, links, joints, [b, 0.5 * (b + c), c]))
+
+
+def _direction(rng: np.random.Generator, d: int) -> Array:
+    v = rng.normal(0.0, 1.0, d)
+    return np.asarray(v / np.linalg.norm(v))
+
+
+def _chain(rng: np.random.Generator, d: int) -> Drawing:
+    """One to three links, each hung on the one before."""
+    at, links, joints, tips = np.zeros(d), [], [], []
+    for i in range(int(rng.integers(1, 4))):
+        end = at + rng.uniform(0.2, 1.0) * _direction(rng, d)
+        links.append(_bar(rng, at, end))
+        kind = "hinge" if d == 2 or i == 0 or rng.random() < 0.5 else "ball"
+        axis = ACROSS if d == 2 else _direction(rng, 3)
+        joints.append(Joint(kind, i, i - 1 if i else GROUND, at, axis))
+        tips.append(end)
+        at = end
+    return _moved(rng, _drawing(d, links, joints, tips))
+
+
+def _spatial_crank(rng: np.random.Generator) -> tuple[Array, Array]:
+    axis = _direction(rng, 3)
+    arm = np.cross(axis, _direction(rng, 3))
+    return axis, np.asarray(rng.uniform(0.1, 0.5) * arm / np.linalg.norm(arm))
+
+
+def spatial_four_bar(rng: np.random.Generator) -> Drawing:
+    """Two cranks about skew axes and a rod with two balls."""
+    (u, arm), (v, other) = _spatial_crank(rng), _spatial_crank(rng)
+    a, d = np.zeros(3), rng.normal(0.0, 0.7, 3)
+    b, c = a + arm, d + other
+    links = [_bar(rng, a, b), _bar(rng, b, c), _bar(rng, c, d)]
+    joints = [
+        Joint("hinge", 0, GROUND, a, u),
+        Joint("ball", 1, 0, b, u),
+        Joint("ball", 1, 2, c, v),
+        Joint("hinge", 2, GROUND, d, v),
+    ]
+    return _moved(rng, _drawing(3, links, joints, [b, 0.5 * (b + c), c]))
+
+
+def spatial_slider_crank(rng: np.random.Generator) -> Drawing:
+    """A crank, a rod with two balls and a particle on a line."""
+    axis, arm = _spatial_crank(rng)
+    c = rng.normal(0.0, 0.8, 3)
+    links = [_bar(rng, np.zeros(3), arm), _bar(rng, arm, c), Link(c, float(10.0 ** rng.uniform(-0.7, 1.0)), None)]
+    joints = [
+        Joint("hinge", 0, GROUND, np.zeros(3), axis),
+        Joint("ball", 1, 0, arm, axis),
+        Joint("ball", 1, 2, c, axis),
+        Joint("line", 2, GROUND, c, _direction(rng, 3)),
+    ]
+    return _moved(rng, _drawing(3, links, joints, [arm, 0.5 * (arm + c), c]))

@@ -1,0 +1,88 @@
+"""Random mechanisms: their reference against closed forms, and the verdicts on runs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.special import ellipj, ellipk
+
+from benchmarks import honesty
+from benchmarks.methods import random_honesty, random_mechanisms
+from benchmarks.references.newton_euler import (
+    GROUND,
+    INSTANTS,
+    Drawing,
+    Dynamics,
+    Joint,
+    Link,
+    NoReferenceError,
+    motion,
+)
+
+
+def pendulum(dimension: int) -> Drawing:
+    """A bar hinged at its end, from the horizontal."""
+    end = np.array([1.0, 0.0, 0.0][:dimension])
+    axis = np.array([0.0, 0.0, 1.0] if dimension == 2 else [0.0, -1.0, 0.0])
+    inertia = 1.0 / 12.0 if dimension == 2 else np.diag([0.01, 1.0, 1.0]) / 12.0
+    bar = Link(0.5 * end, 1.0, inertia)
+    joint = Joint("hinge", 0, GROUND, np.zeros(dimension), axis)
+    return Drawing(dimension, [bar], [joint], [], [end], 0.0, 0.0, None, 2.0)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_the_reference_swings_as_the_elliptic_functions(dimension):
+    """Angle from below: sin(a/2) = k sn(K - w t), k = sin(45 deg), w^2 = 3 g / 2 L."""
+    k = np.sin(np.pi / 4.0)
+    t = np.linspace(0.0, 2.0, INSTANTS + 1)
+    sn = ellipj(ellipk(k**2) - np.sqrt(1.5 * 9.81) * t, k**2)[0]
+    angle = 2.0 * np.arcsin(k * sn)
+    found = motion(pendulum(dimension))[:, 0]
+    assert np.abs(found[:, 0] - np.sin(angle)).max() < 1e-7
+    assert np.abs(found[:, -1] + np.cos(angle)).max() < 1e-7
+
+
+@pytest.mark.parametrize("number", range(0, 24, 3))
+def test_the_reference_keeps_rows_and_axes(number):
+    """Its accelerations are those of the rows: a step of the start along them opens no joint in second order."""
+    _, drawing = random_mechanisms.drawing(np.random.default_rng([7, number]))
+    dynamics = Dynamics(drawing)
+    try:
+        x, dt = dynamics.start(), 1e-4
+        rate = dynamics.rates(0.0, x)
+    except (NoReferenceError, np.linalg.LinAlgError):
+        pytest.skip("drawn at a singular position")
+    middle = dynamics.rates(0.5 * dt, x + 0.5 * dt * rate)
+    x1 = x + dt * middle
+    _, _, rows, _ = dynamics._equations(dt, x1)
+    speed = x1[-rows.shape[1] :]
+    open_rows = rows @ speed
+    if drawing.drive is not None:
+        open_rows[-1] -= sum(k * a * dt ** (k - 1) for k, a in enumerate(drawing.drive, 1))
+    assert np.abs(open_rows).max() < 1e-5 * max(1.0, np.abs(speed).max() ** 3)
+
+
+def test_the_command_judges_runs_and_compares_costs(tmp_path: Path, monkeypatch, capsys):
+    monkeypatch.setattr(random_honesty, "CAR_SHARE", 0.0)
+    file = tmp_path / "r.json"
+    assert honesty.main(["--random", "1", "--seed", "8", "--json", str(file)]) == 0
+    written = json.loads(file.read_text(encoding="utf-8"))
+    judged = [r for r in written["rows"] if r["verdict"] != "none"]
+    assert written["meta"]["seed"] == 8
+    assert {r["verdict"] for r in judged} <= set(random_honesty.VERDICTS)
+    assert all(r["error"] < 1e-2 for r in judged if "tolerance" in r["asked"])
+    assert honesty.main(["--random", "1", "--seed", "8", "--before", str(file)]) == 0
+    assert "cost over before" in capsys.readouterr().out
+
+
+def test_a_wrong_run_without_a_word_is_found(monkeypatch):
+    """The judge itself: with the checks of a run turned off the same cases are silently wrong."""
+    told, silent = (list(random_honesty.rows_of(1, [7])) for _ in range(2))
+    assert told[0]["asked"] == silent[0]["asked"]
+    real = random_honesty.mbs.simulate
+    monkeypatch.setattr(random_honesty.mbs, "simulate", lambda *a, **k: real(*a, **k, estimate_error=False))
+    unchecked = list(random_honesty.rows_of(1, [7]))
+    assert [r["verdict"] for r in (told[0], unchecked[0])] == ["wrong, told", "silently wrong"]

@@ -1,0 +1,84 @@
+"""Runs of a Simulation: checked by repeats from their start, to a tolerance, with switches in between."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs import AccuracyWarning, Simulation
+from mbs.scenes import puma
+
+QUIET = {"progress": False}
+
+
+def swing(at: float = 1.0) -> mbs.System:
+    """A pendulum that a switch can hold."""
+    m = mbs.Model("swing", dimension=2)
+    bar = m.body("bar", mass=1.0, com=(at, 0.0), inertia=0.1)
+    m.revolute("hinge", m.ground, bar, point=(0.0, 0.0))
+    m.pin("hold", bar)
+    push = m.input("push", unit="N.m")
+    spring = m.spring_damper("spring", (m.ground, (0.0, 1.0)), (bar, (at, 0.0)), stiffness=1.0)
+    m.parameter("stiffness", 1.0, 0.1, 10.0, targets=[(spring, "stiffness", 1.0)])
+    m.torque_on("torque", m.relative_angle("angle", m.ground, bar), input=push)
+    m.sense_position("x", bar, None, "x")
+    m.sense_position("y", bar, None, "y")
+    return mbs.compile(m)
+
+
+def test_the_robot_in_steps_that_are_too_long_says_so() -> None:
+    """169 and 27 mm at its hand, 5.6 % of an angle; each of its three runs alone is right."""
+    system = mbs.compile(puma.build())
+    for h in (0.1, 0.05):
+        with pytest.warns(
+            AccuracyWarning, match=rf"off by .* % of the .* range, as a repeat with steps of {h / 2:g} s"
+        ):
+            puma.replay(system, h)
+
+
+def test_a_checked_run_goes_on_bit_for_bit() -> None:
+    checked, plain = (Simulation(swing(), inputs={"push": 0.3}, parameters={"stiffness": 5.0}) for _ in range(2))
+    for simulation, estimate in ((checked, True), (plain, False)):
+        simulation.run(0.5, 0.005, estimate_error=estimate, **QUIET)
+        simulation.set_switch("hold", True)
+        simulation.run(0.6, 0.005, estimate_error=estimate, **QUIET)
+        simulation.set_switch("hold", False)
+        simulation.run(1.0, 0.005, inputs={"push": lambda t: np.sin(t)}, estimate_error=estimate, **QUIET)
+    assert checked.save() == plain.save()
+
+
+def test_the_twin_goes_on_from_run_to_run() -> None:
+    simulation = Simulation(swing())
+    first = simulation.run(1.0, 0.01, estimate_error=True, **QUIET)
+    second = simulation.run(2.0, 0.01, estimate_error=True, **QUIET)
+    assert first.accuracy.repeated_with == second.accuracy.repeated_with == 0.005
+    whole = mbs.simulate(swing(), 2.0, 0.01, estimate_error=True, **QUIET)
+    assert second.accuracy.sensors == pytest.approx(whole.accuracy.sensors, rel=1e-3)
+    assert 0.0 < first.accuracy.error < whole.accuracy.error
+
+
+def test_a_few_steps_are_not_repeated() -> None:
+    simulation = Simulation(swing())
+    assert simulation.run(0.45, 0.05, **QUIET).accuracy.repeated_with is None
+
+
+def test_a_tolerance_holds_across_switches() -> None:
+    simulation, fine = Simulation(swing()), Simulation(swing())
+    told = []
+    for end, on in ((0.8, True), (1.0, False), (2.0, False)):
+        run = simulation.run(end, tolerance=1e-4, **QUIET)
+        fine.run(end, 1e-4, estimate_error=False, every=100, **QUIET)
+        assert run.t[-1] == simulation.time == end
+        assert [run[c][-1] for c in "xy"] == [simulation.sensors[c] for c in "xy"]
+        told.append(max(abs(simulation.sensors[c] - fine.sensors[c]) for c in "xy") / run.control.length)
+        for one in (simulation, fine):
+            one.set_switch("hold", on)
+    assert 0.0 < max(told) < 5e-4
+    assert simulation.settings == fine.settings
+    simulation.step(0.001, 10)
+
+
+def test_a_run_needs_a_step_or_a_tolerance() -> None:
+    with pytest.raises(ValueError, match="needs a step h or a tolerance"):
+        Simulation(swing()).run(1.0)
