@@ -53,7 +53,8 @@ typedef struct {
   const int32_t *follower;     /* n_systems: the one with ports that computes what each leaves out; -1: none */
   const slave_text *text;      /* variables that are text; numbered by themselves */
   size_t n_texts;
-  size_t roll; /* output that is more than a quarter turn when the vehicle lies upside down; n_variables: there is none */
+  size_t
+      roll; /* output that is more than a quarter turn when the vehicle lies upside down; n_variables: there is none */
 } slave_table;
 
 extern const slave_table slave_the_table;
@@ -81,7 +82,7 @@ typedef struct { /* what a state is beside the kernel's bytes; numbers only */
   slave_phase phase;
   int32_t initialised, step_warned, energy_warned, mode_warned, capped_warned; /* said once a run, the last twice */
   double start_time, stop_time; /* infinite where not given */
-  double capped_residual;       /* m, largest of the last communication step */
+  double capped_residual; /* m, largest of the last communication step */
 } slave_call_state;
 
 typedef struct { /* a step that was refused and what the host did since: nothing, or count is 0 */
@@ -90,8 +91,8 @@ typedef struct { /* a step that was refused and what the host did since: nothing
 } slave_refusal;
 
 typedef struct { /* the last good communication step, whose start the fidelity keeps */
-  int64_t n;   /* inner steps; 0: there is none */
-  double h;    /* s */
+  int64_t n; /* inner steps; 0: there is none */
+  double h; /* s */
   bool sloped; /* along derivatives of the inputs, which are kept */
 } slave_made;
 
@@ -100,7 +101,7 @@ typedef struct { /* a System of the FMU at work */
   ali3_system *system;
   ali3_instance *kernel;
   void *snapshot; /* of the kernel before the step, which may be taken back */
-  void *start;    /* the same of the last good communication step */
+  void *start; /* the same of the last good communication step */
 } slave_fidelity;
 
 struct slave {
@@ -115,9 +116,9 @@ struct slave {
   slave_refusal refusal;
   slave_made made;
   slave_status last_step; /* what the last step was answered with */
-  double *value;          /* per variable; the outputs are filled when they are asked for */
-  double *slope;          /* per variable and order: derivatives of the inputs from the communication point on */
-  double *made_slope;     /* those of the last communication step */
+  double *value; /* per variable; the outputs are filled when they are asked for */
+  double *slope; /* per variable and order: derivatives of the inputs from the communication point on */
+  double *made_slope; /* those of the last communication step */
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
   unsigned char *clamped; /* per known variable: said once */
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
