@@ -229,6 +229,7 @@ class Status(IntEnum):
     FIXED_PARAMETER = 18
     BAD_ROAD = 19
     ROAD_LOST = 20
+    WHEEL_IN_ROAD = 21
 
 
 class Update(IntEnum):

@@ -38,6 +38,7 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_FIXED_PARAMETER] = "a fixed parameter can be set before the start only",
       [ALI3_BAD_ROAD] = "the file is not a valid road",
       [ALI3_ROAD_LOST] = "a part of the road cannot be read from its file",
+      [ALI3_WHEEL_IN_ROAD] = "the centre of a wheel is below the road, where its contact is lost",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
