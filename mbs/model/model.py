@@ -394,7 +394,7 @@ class Model(
             Whether it may be set while the model moves; False: before the start only, as masses of payloads and
             switches must be.
         works : (float, float), optional
-            Least and largest value with which the model does what it is made for; an FMU says so when another is set.
+            Least and largest value, in `unit`, with which the model does what it is made for; an FMU tells others.
 
         Raises
         ------

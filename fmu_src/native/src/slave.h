@@ -52,7 +52,8 @@ typedef struct {
   size_t n_systems;            /* to choose from by the fidelity */
   const slave_text *text;      /* variables that are text; numbered by themselves */
   size_t n_texts;
-  size_t roll; /* output that is more than a quarter turn when the vehicle lies upside down; n_variables: there is none */
+  size_t
+      roll; /* output that is more than a quarter turn when the vehicle lies upside down; n_variables: there is none */
 } slave_table;
 
 extern const slave_table slave_the_table;
@@ -80,7 +81,7 @@ typedef struct { /* what a state is beside the kernel's bytes; numbers only */
   slave_phase phase;
   int32_t initialised, step_warned, energy_warned, mode_warned, capped_warned; /* said once a run, the last twice */
   double start_time, stop_time; /* infinite where not given */
-  double capped_residual;       /* m, largest of the last communication step */
+  double capped_residual; /* m, largest of the last communication step */
 } slave_call_state;
 
 typedef struct { /* a step that was refused and what the host did since: nothing, or count is 0 */
@@ -106,8 +107,8 @@ struct slave {
   slave_call_state calls;
   slave_refusal refusal;
   slave_status last_step; /* what the last step was answered with */
-  double *value;          /* per variable; the outputs are filled when they are asked for */
-  double *slope;          /* per variable and order: derivatives of the inputs from the communication point on */
+  double *value; /* per variable; the outputs are filled when they are asked for */
+  double *slope; /* per variable and order: derivatives of the inputs from the communication point on */
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
   unsigned char *clamped; /* per known variable: said once */
   slave_text_value *text; /* per text variable: the one whose road the kernel has */

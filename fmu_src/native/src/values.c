@@ -97,8 +97,9 @@ static void take(slave *s, uint32_t reference, double value) {
     slave_say(s, SLAVE_WARNING, "'%s' was set to %.10g%s, without effect: it is of the built-in road.", v->name, value,
               v->unit);
   if (value < v->least || value > v->most)
-    slave_say(s, SLAVE_WARNING, "'%s' was set to %.10g%s, with which no such vehicle works; from %.4g to %.4g%s it does.",
-              v->name, value, v->unit, v->least, v->most, v->unit);
+    slave_say(s, SLAVE_WARNING,
+              "'%s' was set to %.10g%s, with which no such vehicle works; from %.4g to %.4g%s it does.", v->name, value,
+              v->unit, v->least, v->most, v->unit);
   s->value[reference] = value;
   slave_forget_refusal(s);
   if (v->source == SLAVE_INPUT || v->source == SLAVE_PARAMETER) s->pending[reference] = 1;

@@ -64,8 +64,9 @@ void slave_watch_outputs(slave *s) {
   const slave_table *t = &slave_the_table;
   if (s->overturned_said || t->roll >= t->n_variables || !(fabs(s->value[t->roll]) > QUARTER_TURN)) return;
   s->overturned_said = true;
-  slave_say(s, SLAVE_WARNING,
-            "At %.6g s the vehicle has rolled over: %s is %.4g%s, more than a quarter turn. What follows is a vehicle that "
-            "slides on its body, as far as points of it touch the ground. This is said once.",
-            ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit);
+  slave_say(
+      s, SLAVE_WARNING,
+      "At %.6g s the vehicle has rolled over: %s is %.4g%s, more than a quarter turn. What follows is a vehicle that "
+      "slides on its body, as far as points of it touch the ground. This is said once.",
+      ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit);
 }

@@ -15,7 +15,7 @@ static double upright(double sine, double *slope) {
 }
 
 double ali3_half_space(const double centre[3], const double axis[3], double radius, const double q[3],
-                         const double n[3], ali3_contact *out) {
+                       const double n[3], ali3_contact *out) {
   double across = ali3_dot(n, axis), inplane[3], height = 0.0;
   for (int i = 0; i < 3; i++) {
     inplane[i] = n[i] - across * axis[i];

@@ -68,10 +68,11 @@ ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *
     if (!(sunk > 0.0)) continue;
     if (element != NULL) *element = e;
     if (text != NULL)
-      snprintf(text, size,
-               "at x = %.6g m, y = %.6g m the centre of a wheel of %.3g m radius is %.2g m below the road, whose points "
-               "are %.3g by %.3g m apart: it has been driven into a face that is too high",
-               u[0], u[1], a.real[0], sunk, spacing[0], spacing[1]);
+      snprintf(
+          text, size,
+          "at x = %.6g m, y = %.6g m the centre of a wheel of %.3g m radius is %.2g m below the road, whose points "
+          "are %.3g by %.3g m apart: it has been driven into a face that is too high",
+          u[0], u[1], a.real[0], sunk, spacing[0], spacing[1]);
     return ALI3_WHEEL_IN_ROAD;
   }
   return ALI3_OK;
