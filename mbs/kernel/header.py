@@ -238,6 +238,7 @@ class Status(IntEnum):
     BAD_ROAD = 19
     ROAD_LOST = 20
     TOO_DEAR = 21
+    WHEEL_IN_ROAD = 22
 
 
 class Update(IntEnum):

@@ -53,6 +53,6 @@ def steep_face(road: GridRoad, name: object, radius: float = WHEEL_RADIUS) -> st
     return (
         f"{name}: at x = {x:g} m, y = {y:g} m a face of {highest:.3g} m rises within {run:g} m (points "
         f"{road.spacing[0]:g} by {road.spacing[1]:g} m apart); a wheel of {radius:.3g} m radius does not climb it, and "
-        "who drives into it so fast that the centre of a wheel gets below the surface is thrown up. A step that is "
-        "driven over is lower than the radius."
+        "a run in which the centre of a wheel gets below the surface there is refused. A step that is driven over is "
+        "lower than the radius."
     )

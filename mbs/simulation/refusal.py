@@ -49,6 +49,7 @@ def refusal(
         Status.TOO_STIFF,
         Status.TOO_FAR,
         Status.ROAD_LOST,
+        Status.WHEEL_IN_ROAD,
     ):
         message += _worst_equations(simulation, report)
     return SimulationError(message, simulation.time, error.status, trajectory)
@@ -69,6 +70,9 @@ def _remedy(simulation: SteppedSystem, status: int) -> str:
         return f" '{name}' {words}. {height:.3g} m higher (z of the pose) it would be clear of it."
     if status == Status.ROAD_LOST:
         return f" Of the road {simulation.instance.road_lost()}."
+    if status == Status.WHEEL_IN_ROAD:
+        element, words = simulation.instance.wheel_in_road()
+        return f" '{prepared(simulation.system)[1]['elements'][element]['name']}': {words}."
     if status == Status.NO_EQUILIBRIUM:
         return _farthest_changed(simulation)
     rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0

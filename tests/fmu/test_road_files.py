@@ -367,3 +367,22 @@ def test_values_with_which_no_car_works_are_told_with_those_that_do(car: Path, h
     for k in range(100):  # the softest spring and tyre
         driven.set("front.tyre.stiffness", 1.01 * works["front.tyre.stiffness"][0])
         assert driven.step(k * H, H) == OK
+
+
+def test_a_wheel_in_a_face_of_a_road_file_is_refused_with_place_radius_and_spacing(
+    car: Path, host: Any, tmp_path: Path
+) -> None:
+    heights = np.repeat(np.where(np.arange(-10.0, 40.0, 0.2) > 10.1, 1.0, 0.0)[:, None], 5, axis=1)
+    with pytest.warns(mbs.RoadWarning, match="a face of 1 m"):
+        write_road(GridRoad((-10.0, -10.0), (0.2, 5.0), heights, 0.9), tmp_path / "wall.road")
+    driven = host(car)
+    text(driven, str(tmp_path / "wall.road"))
+    driven.start({"initial.speed": 30.0})
+    status, k = OK, 0
+    while status <= 1 and k < 200:
+        before = driven.outputs()
+        status, k = driven.step(k * H, H), k + 1
+    assert status == 2  # fmi2Discard
+    assert driven.outputs() == before
+    assert re.search(r"Here at x = 10\.\d+ m, y = \S+ m the centre of a wheel of 0.27 m radius", driven.messages[-1])
+    assert "points are 0.2 by 5 m apart" in driven.messages[-1]

@@ -11,6 +11,7 @@ import pytest
 
 import mbs
 from mbs.elements.road import GridRoad, KerbRoad
+from mbs.kernel.header import Status
 from mbs.roads import RoadWarning, write_road
 from mbs.roads.road_file import RoadFile
 from mbs.roads.steep_faces import steep_face
@@ -81,6 +82,26 @@ def test_smooth_roads_are_not(spacing: float) -> None:
 def test_the_roads_of_the_package_are_not(file: Path) -> None:
     road = RoadFile(file).read()
     assert not isinstance(road, GridRoad) or steep_face(road, file) == ""
+
+
+def test_who_drives_into_a_wall_is_refused_with_the_place() -> None:
+    """A car that stands beside it, or stops at it, is not."""
+    x = np.arange(-10.0, 40.0, 0.2)
+    wall = GridRoad((-10.0, -10.0), (0.2, 5.0), np.repeat(np.where(x > 10.1, 1.0, 0.0)[:, None], 5, axis=1), 0.9)
+    with pytest.warns(RoadWarning, match="a face of 1 m"):
+        car = mbs.compile(mbs.vehicle.load("hatchback").model(wall))
+    slow = mbs.simulate(car, 3.0, 0.005, pose=mbs.Pose(speed=3.0), estimate_error=False, progress=False)
+    assert slow["chassis.x"][-1] < 10.0
+    with pytest.raises(mbs.SimulationError) as refused:
+        mbs.simulate(car, 1.0, 0.002, pose=mbs.Pose(speed=30.0), estimate_error=False, progress=False)
+    told = re.search(
+        r"'tyre F[LR]': at x = (\S+) m, y = (\S+) m the centre of a wheel of 0.311 m radius", str(refused.value)
+    )
+    assert told is not None
+    assert 10.0 < float(told[1]) < 10.3
+    assert abs(abs(float(told[2])) - 0.7375) < 0.02
+    assert "whose points are 0.2 by 5 m apart" in str(refused.value)
+    assert refused.value.status == Status.WHEEL_IN_ROAD
 
 
 def test_told_where_the_road_is_made_and_where_a_car_is_built(

@@ -159,6 +159,12 @@ class Instance:
         """What is wrong with which part of a road's file, after `ROAD_LOST`; else empty."""
         return bytes(self._library.ali3_road_lost(self._handle)).decode(errors="replace")
 
+    def wheel_in_road(self) -> tuple[int, str]:
+        """The element whose wheel has its centre below a grid road, and words on it; -1 and none if there is none."""
+        element, text = c_int32(-1), ctypes.create_string_buffer(512)
+        self._library.ali3_wheel_in_road(self._handle, byref(element), text, len(text))
+        return element.value, text.value.decode(errors="replace")
+
     def set_pose(self, x: float, y: float, z: float, yaw: float, speed: float) -> None:
         """Start of a scene that is not tied to the ground (m, rad, m/s); before `initialise`."""
         self._check(self._library.ali3_set_pose(self._handle, x, y, z, yaw, speed))

@@ -68,12 +68,17 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
 /* The inputs go straight to `end` (nu), or are held where it is NULL. */
 static ali3_status step(ali3_instance *in, double h, const double *end) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
+  ali3_roads_forgive(in);
+  if (ali3_wheel_in_road(in, NULL, NULL, 0) != ALI3_OK && ali3_roads_status(in) == ALI3_OK) {
+    in->report.last_status = ALI3_WHEEL_IN_ROAD;
+    in->report.failures++;
+    return ALI3_WHEEL_IN_ROAD;
+  }
   const ali3_status aimed = ali3_inputs_aim(in, h, end);
   if (aimed != ALI3_OK) return aimed;
   const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   const int64_t count = h == in->h_last ? in->count + 1 : 1;
   const ali3_report before = in->report;
-  ali3_roads_forgive(in);
   in->capped = false;
   in->capped_residual = 0.0;
   in->iterations_before = before.iterations;

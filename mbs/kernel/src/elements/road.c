@@ -214,6 +214,13 @@ int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clear
   return count;
 }
 
+int ali3_road_spacing(const ali3_road *road, double spacing[2]) {
+  ali3_grid g;
+  if (type_of(road) != ALI3_ROAD_GRID || !grid_of(road, &g)) return 0;
+  spacing[0] = g.dx, spacing[1] = g.dy;
+  return 1;
+}
+
 double ali3_road_top(const ali3_road *road, const double place[3], double reach) {
   const int32_t type = type_of(road);
   const double *p = reals_of(road);

@@ -48,6 +48,9 @@ typedef struct {
 /* Writes one or two clearances of a point (kerb: step and lower level) and returns their number. */
 int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clearance out[2]);
 
+/* Whether it is a grid, and the distances of its points, m. */
+int ali3_road_spacing(const ali3_road *road, double spacing[2]);
+
 /* No point of the road within `reach` of a place in x and y is higher, m. */
 double ali3_road_top(const ali3_road *road, const double place[3], double reach);
 

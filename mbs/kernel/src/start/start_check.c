@@ -1,4 +1,6 @@
 /* Starts that an element refuses, and how much higher the scene must begin. */
+#include <stdio.h>
+
 #include "../elements/road.h"
 #include "../instance.h"
 #include "initialise.h"
@@ -52,4 +54,26 @@ double ali3_start_excess(const ali3_instance *in, int32_t *element, const char *
   if (element != NULL) *element = worst;
   if (words != NULL) *words = worst >= 0 ? in->system->el_kind[worst]->start_words : "";
   return raised;
+}
+
+ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *text, size_t size) {
+  if (text != NULL && size > 0) text[0] = 0;
+  if (element != NULL) *element = -1;
+  for (int32_t e = 0; in != NULL && e < in->system->size.ne; e++) {
+    const ali3_system *S = in->system;
+    double u[ALI3_MAX_SIGNALS] = {0.0}, spacing[2];
+    if (S->el_kind[e] != &ali3_tyre || !ali3_road_spacing(&in->road[S->el_int[S->el_int_ptr[e]]], spacing)) continue;
+    const ali3_element_args a = ali3_start_arguments(in, in->road, in->now.q, e, u);
+    const double sunk = S->el_kind[e]->start(&a, 0.0).excess;
+    if (!(sunk > 0.0)) continue;
+    if (element != NULL) *element = e;
+    if (text != NULL)
+      snprintf(
+          text, size,
+          "at x = %.6g m, y = %.6g m the centre of a wheel of %.3g m radius is %.2g m below the road, whose points "
+          "are %.3g by %.3g m apart: it has been driven into a face that is too high",
+          u[0], u[1], a.real[0], sunk, spacing[0], spacing[1]);
+    return ALI3_WHEEL_IN_ROAD;
+  }
+  return ALI3_OK;
 }
