@@ -18,6 +18,7 @@ from ali3.extras import command_needs
 from ali3.isolated import Isolated, Lost
 from ali3.options import Parser, add_old_names, add_option, assignment, count
 from ali3.running import run_command
+from ali3.words import shortened
 from hosts.check.all_checks import check
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -183,7 +184,7 @@ def _outside(fmu: Path, steps: int, given: Wishes) -> int:
 
 def print_finding(finding: Finding) -> None:
     """One line of the verdict."""
-    print(f"{_MARKS[finding.verdict]:>4}  {finding.check:<{_WIDTH}}  {finding.words}", flush=True)
+    print(f"{_MARKS[finding.verdict]:>4}  {finding.check:<{_WIDTH}}  {shortened(finding.words)}", flush=True)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.words import shortened
 from hosts.common.options import Wishes
 
 if TYPE_CHECKING:
@@ -86,6 +87,7 @@ def _differences(variables: Variables, settings: Settings, other: Settings) -> l
 
 def _print_rows(rows: Sequence[Sequence[str]]) -> None:
     """Columns side by side."""
+    rows = [[shortened(cell) for cell in row] for row in rows]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         print("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip())

@@ -55,6 +55,7 @@ BOUNDS = {
     "kerb_lock_brake": (8e-4, 0.33),
     "brake_on_slope": (2e-5, 0.01),
 }
+HATCHBACK = BOUNDS | {"steady_cornering": (3e-6, 1.5e-3), "drop": (9e-3, 0.35), "kerb_drop": (5e-4, 0.28)}
 # The same for held inputs against the kernel with inputs that are late by half a communication step, of the manoeuvres
 # whose inputs change.
 LEFT = {
@@ -88,18 +89,18 @@ def errors(found: Columns, reference: Columns, length: float) -> dict[str, float
 
 
 @pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, str], Path]:
-    """The prototype car as an FMU of a kind, on its own road or that of the manoeuvre of this name, built once."""
+def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """A car as an FMU of a kind, on its own road or that of the manoeuvre of this name, built once."""
 
-    def build(kind: str, road: str) -> Path:
-        system, folder = manoeuvres.system_of(road or "drop"), tmp_path_factory.mktemp(kind)
-        return build_fmu(system, "prototype_car", folder, [fmpy.platform], kind=kind)
+    def build(kind: str, road: str, car: str = manoeuvres.PROTOTYPE) -> Path:
+        system, folder = manoeuvres.system_of(road or "drop", car), tmp_path_factory.mktemp(kind)
+        return build_fmu(system, f"{car}_car", folder, [fmpy.platform], kind=kind)
 
     return functools.cache(build)
 
 
 @pytest.fixture
-def car(request: pytest.FixtureRequest, built: Callable[[str, str], Path], need: Callable[[str], None]) -> Road:
+def car(request: pytest.FixtureRequest, built: Callable[..., Path], need: Callable[[str], None]) -> Road:
     """The FMU of the kind that a test names, for a manoeuvre."""
     need(request.param)
     return lambda name: built(request.param, name if name in manoeuvres.OTHER_ROAD else "")
@@ -157,6 +158,18 @@ def test_with_input_derivatives_an_fmu_is_as_accurate_as_the_kernel(car: Road) -
         _, reference, length = trajectories.read(name)
         found = errors(accuracy.run_of_fmu(car(name), name, H, follow=True), reference, length)
         wrong += beyond(name, found, BOUNDS[name])
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.slow
+def test_with_input_derivatives_the_hatchback_is_as_accurate(built: Callable[..., Path]) -> None:
+    wrong = []
+    for name in manoeuvres.NAMES:
+        _, reference, length = trajectories.read(name, "hatchback")
+        fmu = built("native", name if name in manoeuvres.OTHER_ROAD else "", "hatchback")
+        wrong += beyond(
+            name, errors(accuracy.run_of_fmu(fmu, name, H, True, "hatchback"), reference, length), HATCHBACK[name]
+        )
     assert not wrong, "\n".join(wrong)
 
 

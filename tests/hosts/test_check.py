@@ -15,6 +15,7 @@ from fmu_src.build.scene_registry import load_scene
 from hosts.check.command import main
 from hosts.check.instance import Instance, open_subject
 from mbs.kernel import build
+from tests.in_process import run
 
 ROOT = Path(__file__).parents[2]
 CHECKS = 26
@@ -51,6 +52,15 @@ def test_ours_pass(fmus: dict[str, Path], kind: str) -> None:
     lines = done.stdout.splitlines()
     assert sum(line.startswith("  ok  ") for line in lines) == CHECKS
     assert lines[-1].endswith("nothing bad found")
+
+
+@pytest.mark.parametrize("options", [("--steps", 5), ("--show-parameters",)])
+def test_texts_without_an_end_are_cut(fmus: dict[str, Path], tmp_path: Path, options: tuple[object, ...]) -> None:
+    long = spoil(fmus["native"], tmp_path / "a.fmu", 'description="', f'description="{20_000 * "x"}')
+    long = spoil(long, tmp_path / "b.fmu", 'modelName="', f'modelName="{100_000 * "y"} ')
+    done = run(main, long, *options)
+    assert done.returncode in (0, 1), done.stderr
+    assert len(done.stdout) + len(done.stderr) < 60_000
 
 
 def test_a_description_that_does_not_fit_is_bad(fmus: dict[str, Path], tmp_path: Path) -> None:
