@@ -142,11 +142,14 @@ def with_text(key: str, text: str) -> dict[str, Any]:
     return made
 
 
-@pytest.mark.parametrize(
-    "key",
-    ["name", "arrows[0].name", "arrows[0].unit", "shapes[0].name", "shapes[0].body", "flexible[0].name",
-     "flexible[0].names[1]", "flexible[0].stress.unit", "flexible[0].stress.limit_name"],
-)  # fmt: skip
+KEYS = (
+    *("name", "arrows[0].name", "arrows[0].unit", "shapes[0].name", "shapes[0].body", "flexible[0].name"),
+    *("flexible[0].names[1]", "flexible[0].stress.unit", "flexible[0].stress.limit_name"),
+)
+QUICK = ("arrows[0].unit", "flexible[0].stress.limit_name")
+
+
+@pytest.mark.parametrize("key", [pytest.param(k, marks=() if k in QUICK else pytest.mark.slow) for k in KEYS])
 def test_units_and_names_that_are_markup_are_refused_by_the_reader_and_by_the_page(
     key: str, tmp_path: Path, chromium: Any
 ) -> None:
