@@ -6,6 +6,7 @@ import contextlib
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -81,13 +82,13 @@ def reference_runs(system: mbs.System, follower: mbs.System | None = None) -> tu
     return tuple(runs)
 
 
-def _in_turn(entries: Sequence[Mapping[str, object]], stop: float) -> tuple[Column, dict[str, Column]]:
+def _in_turn(entries: Sequence[Mapping[str, Any]], stop: float) -> tuple[Column, dict[str, Column]]:
     """Corners and values: real inputs with a range move one after the other, in the order of the table."""
     moving = []
     for entry in entries:
-        start, low, high = (float(entry[key]) for key in ("start", "min", "max"))  # type: ignore[arg-type]
-        far = high if high > start else low
-        if not entry.get("whole") and abs(far) < 1e300 and far != start:
+        start, ends = float(entry["start"]), [entry["max"], entry["min"]]  # None: open
+        far = next((float(end) for end in ends if end is not None and abs(end) < 1e300 and end != start), None)
+        if far is not None and not entry.get("whole"):
             moving.append((str(entry["name"]), start, start + _PART * (far - start)))
     corners = np.linspace(0.0, stop, 2 * len(moving) + 1)
     inputs = {name: np.full(len(corners), start) for name, start, _ in moving}

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import ctypes
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.optimize import root
 
-from mbs.kernel.binding import Instance, LoadedSystem, Status
+from mbs.kernel.binding import Instance, LoadedSystem
 from mbs.settings.settings import Settings
 from tests.methods.rolling_models import ROLLING
 
@@ -125,33 +123,6 @@ def test_a_step_solves_the_trapezoidal_rule_with_the_rows_at_its_end() -> None:
     instance.step(h)
     np.testing.assert_allclose(instance.get_state()[2], found.x[:5], atol=1e-8)
     np.testing.assert_allclose(np.array(instance.get_state()[3]) * b.arrays()["row_scale"], found.x[5:], atol=1e-8)
-
-
-def test_the_derivative_of_a_step_by_its_input() -> None:
-    instance = started(tolerance_r=1e-14, tolerance_phi=1e-13)
-    instance.set_input(0, 1.0)
-    for _ in range(10):
-        instance.step(H)
-    before, ends = instance.save(), []
-    for sign in (1.0, -1.0, 0.0):
-        instance.restore(before)
-        instance.set_input(0, 1.0 + sign * 1e-2)
-        instance.step(H)
-        ends.append(np.array(instance.sensors()))
-    expected = (ends[0] - ends[1]) / 2e-2
-    out = (ctypes.c_double * 4)()
-    assert instance._library.ali3_input_derivative(instance._handle, (ctypes.c_double * 1)(1.0), out) == 0
-    np.testing.assert_allclose(np.array(out), expected, rtol=1e-5, atol=1e-11)
-    assert np.abs(expected).max() > 1e-4
-
-
-def test_after_generalised_alpha_there_is_no_derivative_of_a_step() -> None:
-    """It would be that of another rule."""
-    instance = started("ali3p_generalised_alpha")
-    instance.step(H)
-    out = (ctypes.c_double * 4)()
-    status = instance._library.ali3_input_derivative(instance._handle, (ctypes.c_double * 1)(1.0), out)
-    assert status == Status.NOT_INITIALISED
 
 
 def test_a_step_of_energy_momentum_has_the_exact_derivative_of_its_rows() -> None:

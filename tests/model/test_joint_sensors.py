@@ -4,7 +4,6 @@ method, and Newton's and Euler's laws of the body they act on.
 
 from __future__ import annotations
 
-import ctypes
 from math import cos, sin
 
 import numpy as np
@@ -12,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import PPoly
 
-from mbs import Model, ModelError, Settings, Simulation, compile, simulate
+from mbs import Model, ModelError, Simulation, compile, simulate
 from mbs.settings.settings import METHODS
 from tests.flexible_engine.bodies import bar
 
@@ -102,34 +101,6 @@ def test_the_force_of_a_wire_that_turns(method):
     expected = across * np.array([-np.sin(a), np.cos(a)])
     found = np.array([run["force.x"], run["force.y"]])
     assert np.abs(found - expected).max() < bound(method, np.abs(expected).max())
-
-
-def test_the_derivative_of_such_a_force_by_an_input():
-    m = Model("pushed", dimension=2)
-    wire = m.body("wire", mass=1.0, com=(0.5, 0.0), inertia=0.1)
-    m.revolute("bearing", m.ground, wire, point=(0.0, 0.0))
-    mass = m.body("bead", mass=0.7, com=(0.4, 0.0), inertia=0.02)
-    m.prismatic("wire", mass, wire, axis=(1.0, 0.0), point=(0.5, 0.1))
-    m.torque("motor", wire, inputs=m.input("torque", unit="N.m"))
-    for c in "xy":
-        m.sense_joint(f"force.{c}", "wire", c)
-    m.sense_joint("moment", "wire", "z", "moment")
-    m.sense_joint("moment.second", "wire", "z", "moment", on="second")
-    system = compile(m)
-    simulation = Simulation(system, settings=Settings(tolerance_r=1e-13, tolerance_phi=1e-12))
-    simulation.set_input("torque", 3.0)
-    simulation.step(0.002, 200)
-    before, ends = simulation.save(), []
-    for sign in (1.0, -1.0, 0.0):
-        simulation.restore(before)
-        simulation.set_input("torque", 3.0 + sign * 1e-3)
-        simulation.step(0.002)
-        ends.append(np.array(list(simulation.sensors.values())))
-    expected = (ends[0] - ends[1]) / 2e-3
-    out, instance = (ctypes.c_double * 4)(), simulation.instance
-    assert instance._library.ali3_input_derivative(instance._handle, (ctypes.c_double * 1)(1.0), out) == 0
-    assert np.abs(expected).min() > 1e-3
-    np.testing.assert_allclose(out[:], expected, rtol=2e-4)
 
 
 # --- moments ---

@@ -61,7 +61,6 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_sensors": (c_int32, [c_void_p, _DOUBLES]),
     "ali3_ports_follow": (c_int32, [c_void_p, c_void_p]),
     "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
-    "ali3_input_derivative": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
     "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
     "ali3_branch_text": (c_int32, [c_void_p, c_char_p, c_size_t]),

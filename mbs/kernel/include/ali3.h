@@ -255,9 +255,6 @@ ALI3_API ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *w
 /* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] =
  * 0). */
 ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known);
-/* d(sensors at the end of the last step)/d(inputs of that step) times direction (nu), the state before it held; from
- * the factorised tangent (23). ALI3_NOT_INITIALISED before the first step. */
-ALI3_API ali3_status ali3_input_derivative(ali3_instance *in, const double *direction, double *out);
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 /* A row that is open by less, m, is not why something failed. */
 #define ALI3_OPEN 1e-9

@@ -37,8 +37,8 @@ static void add(double *to, const double *change, int32_t n) {
  * no force changes, then *jumps is false. `force` gets the watched forces before, in->watched has those behind.
  * M x + Phi_q' lam = change of Q, Phi_q x = 0 by the penalty; modes of flexible bodies that the step h does not resolve
  * follow as slowly as the trapezoidal rule lets them, by the weights of its tangent: else they would ring. */
-ali3_status ali3_input_change(ali3_instance *in, double h, const double *before, const double *behind, double *force,
-                              bool *jumps) {
+static ali3_status input_change(ali3_instance *in, double h, const double *before, const double *behind, double *force,
+                                bool *jumps) {
   const ali3_system *S = in->system;
   const ali3_vectors *v = &in->now;
   const int32_t nq = S->size.nq;
@@ -70,7 +70,7 @@ ali3_status ali3_input_jump(ali3_instance *in, double h) {
   bool jumps;
   if (!ali3_inputs_jump(in)) return ALI3_OK;
   ali3_back_up(in);
-  const ali3_status status = ali3_input_change(in, h, v->used, in->input_begin, before, &jumps);
+  const ali3_status status = input_change(in, h, v->used, in->input_begin, before, &jumps);
   if (status != ALI3_OK) return status;
   /* By their change: Newton's loop balanced forces of elements with states half a step before these. */
   for (int32_t i = 0; i < S->n_work_force; i++) watched[i] += in->watched[S->n_work + i] - before[i];

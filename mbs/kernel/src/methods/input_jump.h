@@ -3,7 +3,5 @@
 #define ALI3_INPUT_JUMP_H
 #include "../instance.h"
 
-ali3_status ali3_input_change(ali3_instance *in, double h, const double *before, const double *behind, double *force,
-                              bool *jumps);
 ali3_status ali3_input_jump(ali3_instance *in, double h);
 #endif

@@ -1,13 +1,11 @@
-/* Change of the sensor values along in->direction, a direction in the space of states: a function for each type.
- * Along (qd, qdd, ...) it is the rate of a sensor. */
+/* Rates of the sensors that have one: their change along in->direction, a direction in the space of states, which is
+ * (qd, qdd, ...); a function for each such type. */
 #include <math.h>
 #include <string.h>
 
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
-#include "../rows/guides.h"
-#include "../state/work.h"
 #include "../system/sensor_types.h"
 #include "sensors.h"
 
@@ -53,10 +51,6 @@ static double change_signal(const ali3_instance *in, const int32_t *v, const dou
 
 static double change_signal_rate(const ali3_instance *in, const int32_t *v, const double *real) {
   return real[0] * signal(in->system, &in->direction, v[0], 1);
-}
-
-static double change_signal_second_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in->system, &in->direction, v[0], 2);
 }
 
 static double change_component(const ali3_instance *in, const int32_t *v, const double *real) {
@@ -117,10 +111,6 @@ static void flexible_energy(const ali3_instance *in, double *kinetic, double *gr
   }
 }
 
-static double change_element_output(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * in->direction.out[in->system->el_out_ptr[v[0]] + v[1]];
-}
-
 static double change_energy(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   const ali3_system *S = in->system;
@@ -140,31 +130,6 @@ static double change_energy(const ali3_instance *in, const int32_t *v, const dou
 static double change_mass(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)in, (void)v, (void)real;
   return 0.0;
-}
-
-static double change_reaction(const ali3_instance *in, const int32_t *v, const double *weight) {
-  double sum = 0.0;
-  for (int32_t i = 0; i < v[0]; i++) sum += weight[i] * in->system->row_scale[v[1 + i]] * in->direction.lam[v[1 + i]];
-  return sum;
-}
-
-/* The product rule, factor by factor. */
-static double change_reaction_products(const ali3_instance *in, const int32_t *v, const double *weight) {
-  double sum = 0.0;
-  for (int32_t k = 0; k < v[0]; k++) {
-    const int32_t *term = v + 1 + 5 * k, row = term[0], guide = term[4];
-    const double scale = weight[k] * in->system->row_scale[row];
-    double value = scale * in->now.lam[row], change = scale * in->direction.lam[row];
-    for (int i = 1; i < 4; i++) {
-      if (term[i] < 0) continue;
-      const moving u = vector(in, term + i, 0, 1);
-      change = change * u.v[0] + value * u.d[0];
-      value *= u.v[0];
-    }
-    if (guide >= 0) change = change * in->now.s[guide] + value * in->direction.s[guide];
-    sum += change;
-  }
-  return sum;
 }
 
 static double change_norm(const ali3_instance *in, const int32_t *v, const double *real) {
@@ -194,70 +159,21 @@ static double change_angle_about(const ali3_instance *in, const int32_t *v, cons
   return angle_change(dot(turn.v, c.v), dot(a.v, b.v), dot_change(&turn, &c), dot_change(&a, &b));
 }
 
-/* Products of axes with forces at ports and accelerations, as in sensors.c. */
-static double change_quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
-  const int32_t n = v[0], *row = v + 13;
-  const double *gravity = real, *weight = real + 3;
-  moving axis[3], rdd = vector(in, v + 1, 2, 3);
-  double sum = 0.0;
-  for (int i = 0; i < 3; i++) axis[i] = vector(in, v + 4 + 3 * i, 0, 3);
-  for (int k = 0; k < 3; k++) rdd.v[k] -= gravity[k];
-  for (int32_t p = 0; p < n; p++, row += 3, weight += 3) {
-    moving force;
-    for (int k = 0; k < 3; k++) {
-      force.v[k] = in->system->row_scale[row[k]] * in->now.lam[row[k]];
-      force.d[k] = in->system->row_scale[row[k]] * in->direction.lam[row[k]];
-    }
-    for (int i = 0; i < 3; i++) sum += weight[i] * dot_change(&axis[i], &force);
-  }
-  for (int i = 0; i < 3; i++) sum += weight[i] * dot_change(&axis[i], &rdd);
-  weight += 3;
-  for (int j = 0; j < 3; j++) {
-    const moving add = vector(in, v + 4 + 3 * j, 2, 3);
-    for (int i = 0; i < 3; i++) sum += weight[3 * i + j] * dot_change(&axis[i], &add);
-  }
-  return sum;
-}
-
-static double change_input(const ali3_instance *in, const int32_t *v, const double *real) {
-  (void)real;
-  return in->direction.used[v[0]];
-}
-
 static double change_guide(const ali3_instance *in, const int32_t *v, const double *real) {
   const double *of_order[3] = {in->direction.s, in->direction.sd, in->direction.sdd};
   return real[0] * of_order[v[1]][v[0]];
 }
 
-static double change_guide_excess(const ali3_instance *in, const int32_t *v, const double *real) {
-  if (!ali3_guide_filters(in->system->guide_type[v[0]])) return 0.0;
-  const double demand = ali3_guide_demand(in, v[0], in->now.used);
-  return ali3_guide_held(in, v[0], demand) == demand ? 0.0 : real[0] * ali3_guide_demand(in, v[0], in->direction.used);
-}
-
-/* Counts and residuals. */
-static double change_solver(const ali3_instance *in, const int32_t *v, const double *real) {
-  (void)in, (void)v, (void)real;
-  return 0.0;
-}
-
-static double change_work(const ali3_instance *in, const int32_t *v, const double *real) {
-  (void)real;
-  return ali3_work_change(in, v[0], v[1], v + 2);
-}
-
 typedef double sensor_function(const ali3_instance *in, const int32_t *v, const double *real);
+#define FUNCTION_NEVER(name) NULL
+#define FUNCTION_ALWAYS(name) change_##name
+#define FUNCTION_BY_FIRST(name) change_##name
+#define FUNCTION_BY_SECOND(name) change_##name
 static sensor_function *const change_of[ALI3_SENSOR_TYPE_COUNT] = {
-#define ALI3_SENSOR_TYPE(number, NAME, name, ...) [number] = change_##name,
+#define ALI3_SENSOR_TYPE(number, NAME, name, integers, reals, each, rate, ...) [number] = FUNCTION_##rate(name),
     ALI3_SENSOR_TYPES(ALI3_SENSOR_TYPE)
 #undef ALI3_SENSOR_TYPE
 };
-
-void ali3_sensors_derivative(const ali3_instance *in, double *out) {
-  const ali3_system *S = in->system;
-  for (int32_t i = 0; i < S->size.ns; i++)
-    out[i] = change_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], S->sen_real + S->sen_real_ptr[i]);
-}
 
 /* Accelerations have no known rates. */
 static unsigned char rate_known(int32_t type, const int32_t *v) {
@@ -289,10 +205,10 @@ ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *k
     memcpy(d->s, now->sd, ng);
     memcpy(d->sd, now->sdd, ng);
   }
-  ali3_sensors_derivative(in, rates);
   for (int32_t i = 0; i < S->size.ns; i++) {
-    known[i] = rate_known(S->sen_type[i], S->sen_int + S->sen_int_ptr[i]);
-    if (!known[i]) rates[i] = 0.0;
+    const int32_t type = S->sen_type[i], *v = S->sen_int + S->sen_int_ptr[i];
+    known[i] = rate_known(type, v);
+    rates[i] = known[i] ? change_of[type](in, v, S->sen_real + S->sen_real_ptr[i]) : 0.0;
   }
   return ALI3_OK;
 }

@@ -108,21 +108,3 @@ double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int
   }
   return sum;
 }
-
-/* Its change along in->direction, of a step by the trapezoidal rule; step_force: that of the forces at its start. */
-double ali3_work_change(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element) {
-  const ali3_system *S = in->system;
-  const ali3_vectors *d = &in->direction;
-  double sum = 0.0;
-  for (int32_t j = 0; j < n; j++) {
-    const int32_t e = element[j], k = S->work_of[e], *signal = S->el_sig + S->el_sig_ptr[e];
-    for (int32_t i = S->work_ptr[k]; i < S->work_ptr[k + 1]; i++) {
-      const int32_t s = signal[i - S->work_ptr[k]];
-      double moved = 0.0;
-      for (int32_t c = S->sig_ptr[s]; c < S->sig_ptr[s + 1]; c++) moved += S->sig_val[c] * d->q[S->sig_col[c]];
-      sum += in->now.step_force[i] * moved + 0.5 * (d->step_force[i] + d->watched[S->n_work + i]) * in->now.step_way[i];
-    }
-    if (kind == 1) sum += d->potential[e];
-  }
-  return sum;
-}

@@ -12,5 +12,4 @@ void ali3_work_recall(ali3_instance *in);
 void ali3_work_first(ali3_instance *in, double weight);
 void ali3_work_beside(ali3_instance *in, double dt);
 double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element);
-double ali3_work_change(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element);
 #endif
