@@ -93,7 +93,12 @@ class Replay:
         return float(np.linalg.norm(self.hand - expected, axis=1)[on_table].max())
 
 
-def replay(system: System, h: float | tuple[float, float, float], settings: Settings | None = None) -> Replay:
+def replay(
+    system: System,
+    h: float | tuple[float, float, float],
+    settings: Settings | None = None,
+    estimate_error: bool | None = None,
+) -> Replay:
     """Two seconds from rest to rest, four with the hand pinned, two back: torques from the table, steps of `h`.
 
     Parameters
@@ -104,6 +109,8 @@ def replay(system: System, h: float | tuple[float, float, float], settings: Sett
         s; one step, or one for each stage.
     settings : Settings, optional
         Of the solver.
+    estimate_error : bool, optional
+        As of `Simulation.run`.
 
     Raises
     ------
@@ -111,13 +118,16 @@ def replay(system: System, h: float | tuple[float, float, float], settings: Sett
         When a step fails.
     """
     jumps: list[float] = []
-    runs = list(stages(Simulation(system, settings=settings), h, jumps))
+    runs = list(stages(Simulation(system, settings=settings), h, jumps, estimate_error))
     hand = [np.column_stack([run[f"hand.position.{c}"] for c in "xyz"]) for run in runs]
     return Replay(np.concatenate([run.t for run in runs]), np.concatenate(hand), (jumps[0], jumps[1]))
 
 
 def stages(
-    simulation: Simulation, h: float | tuple[float, float, float], jumps: list[float] | None = None
+    simulation: Simulation,
+    h: float | tuple[float, float, float],
+    jumps: list[float] | None = None,
+    estimate_error: bool | None = None,
 ) -> Iterator[Trajectory]:
     """The three runs of the replay, one after the other.
 
@@ -129,6 +139,8 @@ def stages(
         s; one step, or one for each stage.
     jumps : list, optional
         Takes the change of the kinetic energy when the pin closes and when it opens, J.
+    estimate_error : bool, optional
+        As of `Simulation.run`.
 
     Yields
     ------
@@ -146,7 +158,7 @@ def stages(
                 jumps.append(jump)
         end += duration
         inputs = {name: (part[:, 1], part[:, 2 + k]) for k, name in enumerate(TORQUES)}
-        yield simulation.run(end, step, inputs=inputs, progress=False)
+        yield simulation.run(end, step, inputs=inputs, progress=False, estimate_error=estimate_error)
 
 
 def held_at() -> NDArray[np.float64]:
