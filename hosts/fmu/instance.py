@@ -139,7 +139,9 @@ class Instance:
             begin = dict(zip(sizes, np.cumsum([0, *sizes.values()]).tolist(), strict=False))
             call, references, buffer = self._prepared("Get", kind, list(sizes), sum(sizes.values()))
             source = np.array([begin[places[k].reference] + places[k].item for k in mine])
-            reads.append((call, references, buffer, np.ctypeslib.as_array(buffer), np.array(mine), source))
+            reads.append(
+                (call, references, buffer, np.ctypeslib.as_array(buffer), _span(np.array(mine)), _span(source))
+            )
         slave, counts = self.slave, self._counts
 
         def read_values(into: NDArray[np.float64]) -> None:
@@ -194,6 +196,12 @@ class Instance:
             self.restore(state)
         finally:
             self.free_state(state)
+
+
+def _span(places: NDArray[np.int64]) -> slice | NDArray[np.int64]:
+    """Places that follow each other as a slice, which is quicker."""
+    run = bool((np.diff(places) == 1).all())
+    return slice(int(places[0]), int(places[-1]) + 1) if run else places
 
 
 def _by_type(places: Sequence[Place]) -> dict[str, list[int]]:

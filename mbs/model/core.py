@@ -30,6 +30,7 @@ class ModelCore(Register):
         self.step = 0.01
         self.joints: list[Joint] = []
         self.elements: list[ElementRecord] = []
+        # Name and description of a sensor of the work of all elements that come from now on; it comes with the first.
         self.book_of_added: tuple[str, str] | None = None
         self.inertias: dict[int, float] = {}
         self.spins: list[Spin] = []

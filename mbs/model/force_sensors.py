@@ -44,13 +44,6 @@ class _WorkFrom(Sequence[int]):
 class ForceSensorVocabulary(SensorBase):
     """What can be read of force elements and of bodies under load."""
 
-    def keep_book_of_added(self, name: str, description: str) -> None:
-        """Sense the nonconservative work of all force elements that are added from now on, J, if there is one.
-
-        What makes a model for others to add to, such as a car, calls it last. The sensor comes with the first element.
-        """
-        self.book_of_added = name, description
-
     def add(self, element: ElementRecord) -> ElementRecord:
         """Add a force element by its record.
 

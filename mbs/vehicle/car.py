@@ -275,9 +275,8 @@ class Car(CarContent):
         for name, spin in spins.items():
             wheel_poses(b, spin, name)
         lever_outputs(b)
-        m.keep_book_of_added(
-            "energy.added", "work of elements that are not the car's since the start, without what is stored"
-        )
+        text = "work of elements that are not the car's since the start, without what is stored"
+        m.book_of_added = "energy.added", text
 
 
 def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool = True, warn: bool = False) -> Car:

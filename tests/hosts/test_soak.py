@@ -148,7 +148,7 @@ def test_a_state_that_is_not_restored_is_seen(car: Path, tmp_path: Path, monkeyp
 
     def wrong(self: Fmu, state: Any) -> None:
         real(self, state)
-        self._set({"throttle": 0.123456})
+        self.setter(["throttle"])([0.123456])
 
     monkeypatch.setattr(Fmu, "restore", wrong)
     made = drive(task(car, tmp_path, seconds=2.0))
