@@ -103,6 +103,4 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
             m.sense_coordinate(name, body.combination(row), unit=unit, description=text + note)
     text = "1 where moments and stresses are computed; 0: they read zero"
     computed = fidelity is not Fidelity.RIGID
-    m.sense_constant(
-        "stress.computed", float(computed), unit="1", description=text, whole=True, computed=computed
-    )
+    m.sense_constant("stress.computed", float(computed), unit="1", description=text, whole=True, computed=computed)
