@@ -85,8 +85,11 @@ def measures_of_step(level: str, wanted: float, left: SteppedRun, right: Stepped
     a = f" at {wanted:g} m/s²"
     no_peak = "The yaw rate does not overshoot: it has no peak response time."
 
+    peaks = not all(s.yaw_rate.overshoot == 0.0 for s in (left, right))
+
     def made(name: str, value: Callable[[SteppedRun], float], unit: str, text: str, why: str = "") -> Measure:
-        return mean_of_sides(f"{level}.{name}", value(left), value(right), unit, text + a, why=why)
+        exists = peaks or why != no_peak
+        return mean_of_sides(f"{level}.{name}", value(left), value(right), unit, text + a, why=why, exists=exists)
 
     def sign(s: SteppedRun) -> float:
         return math.copysign(1.0, s.angle)

@@ -163,6 +163,7 @@ def measures_of(stops: Sequence[Stop], settings: Mapping[str, float]) -> list[Me
             "m/s2",
             "least mean deceleration at which the car turned by more than 90 degrees against its travel, or rolled",
             note=none or ("" if spun else "it did not"),
+            exists=bool(spun or none),
         ),
         Measure(
             "lock.deceleration",
@@ -171,6 +172,7 @@ def measures_of(stops: Sequence[Stop], settings: Mapping[str, float]) -> list[Me
             "least mean deceleration at which a wheel locked",
             note=none
             or ("the car does not tell the slip of its wheels" if untold else "" if locking else "none locked"),
+            exists=bool(locking or untold or none),
         ),
         Measure(
             "deceleration.largest",

@@ -13,7 +13,14 @@ T = TypeVar("T")
 
 
 def mean_of_sides(
-    name: str, left: float, right: float, unit: str, text: str, limit: Limit | None = None, why: str = ""
+    name: str,
+    left: float,
+    right: float,
+    unit: str,
+    text: str,
+    limit: Limit | None = None,
+    why: str = "",
+    exists: bool = True,
 ) -> Measure:
     """Mean of left and right; the note says so where they differ by more than 5 %, or one is missing.
 
@@ -26,10 +33,12 @@ def mean_of_sides(
     limit : Limit, optional
     why : str
         Note where both are missing.
+    exists : bool
+        Whether there should be a number where both are.
     """
     known = [x for x in (left, right) if math.isfinite(x)]
     if not known:
-        return Measure(name, math.nan, unit, text, limit, why or "The runs do not show it.")
+        return Measure(name, math.nan, unit, text, limit, why or "The runs do not show it.", exists)
     mean = sum(known) / len(known)
     note = ""
     if len(known) == 1:

@@ -79,6 +79,7 @@ _OF_OUR_NAMES = (
     (r"steering_wheel_angle.*|used\.steering_wheel_angle_demand|sideslip|steering_demand_excess", "rad"),
     (r"chassis\.(yaw|pitch|roll)|initial\.yaw|wheel_..\.(steer|camber|inclination|slip_angle|angle)", "rad"),
     (r"vehicle\.(steering_wheel_angle_max|front_wheel_angle_max)|anti_roll_bar_..\.angle", "rad"),
+    (r"vehicle\.steering_frequency", "Hz"),
     (r"chassis\.w[xyz]|wheel_..\.omega|engine_speed|motor_speed|steering_wheel_speed", "rad/s"),
     (r"speed|initial\.speed|chassis\.v[xyz]", "m/s"),
     (r"chassis\.a[xyz]|accelerometer_..\.a[xyz]", "m/s2"),

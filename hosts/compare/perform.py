@@ -39,7 +39,7 @@ def perform(options: argparse.Namespace) -> int:
     wanted = _wanted(options, task)
     for note in task.notes:
         print(f"note: {note}", flush=True)
-    with Replay(options.fmu, task.aliases, task.manoeuvre, task.step, task.speed) as replay:
+    with Replay(options.fmu, task.aliases, task.manoeuvre, task.step, task.speed, task.pedal) as replay:
         before, problems = _first(options, task, replay)
         print(table(before))
         for line in [*common_words(before), *problems]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
+from hosts.compare.follower import demanded
 from hosts.compare.log import Signal
 from hosts.driving.co_simulation import Result, run
 from hosts.driving.manoeuvre import Manoeuvre
@@ -28,6 +29,7 @@ def inputs_of(
     step: float,
     held: bool = False,
     whole: Collection[str] = (),
+    followed: Mapping[str, float] | None = None,
 ) -> Manoeuvre:
     """The manoeuvre that gives an FMU the measured inputs, with a row a step.
 
@@ -46,6 +48,8 @@ def inputs_of(
         that on the whole nothing is late; else that of the begin.
     whole : collection of str
         Inputs that are whole numbers, which keep the value of a sample up to the next.
+    followed : mapping of str to float, optional
+        Inputs that the car follows, by the frequency of its follower in Hz: the measured signal is what follows.
     """
     steps = max(1, round(end / step))
     time: NDArray[np.float64] = step * np.arange(steps + 1, dtype=np.float64)
@@ -54,6 +58,8 @@ def inputs_of(
         n: _kept(s, time) if n in whole else np.interp(at, s.time, s.values).astype(np.float64)
         for n, s in inputs.items()
     }
+    for n, frequency in (followed or {}).items():
+        columns[n] = demanded(inputs[n], frequency, at)
     return Manoeuvre(name, time, columns, steps * step, dict(start))
 
 
@@ -62,8 +68,8 @@ def _kept(signal: Signal, time: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.round(signal.values[np.maximum(rows, 0)]))
 
 
-def _holder(speed: Signal) -> SpeedHolder:
-    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)))
+def _holder(speed: Signal, pedal: float) -> SpeedHolder:
+    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)), pedal=pedal)
 
 
 class Replay:
@@ -80,6 +86,8 @@ class Replay:
         Communication step, s.
     speed : Signal, optional
         That a driver holds by the pedals.
+    pedal : float
+        With which the driver starts.
 
     Attributes
     ----------
@@ -96,10 +104,11 @@ class Replay:
         manoeuvre: Manoeuvre,
         step: float,
         speed: Signal | None = None,
+        pedal: float = 0.0,
     ) -> None:
         self._path, self._aliases = path, aliases
         self.manoeuvre, self.step = manoeuvre, step
-        self._speed = speed
+        self._speed, self._pedal = speed, pedal
         self.said: dict[str, int] = {}
         self._fmu: Fmu | None = None
         self._can_reset: bool | None = None
@@ -143,7 +152,7 @@ class Replay:
         self.runs += 1
         fmu = AliasedFmu(self._fmu, self._aliases)
         # A pilot has a memory: each run has its own.
-        driver = None if self._speed is None else _holder(self._speed)
+        driver = None if self._speed is None else _holder(self._speed, self._pedal)
         self._fmu.messages.clear()
         result = run(fmu, manoeuvre, self.step, driver)
         if self._aliases.derived:

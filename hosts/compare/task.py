@@ -19,6 +19,7 @@ from hosts.compare.log_file import read_log
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
 from hosts.compare.start_values import measured_start, placed
+from hosts.compare.starting_pedal import starting_pedal
 from hosts.driving.co_simulation import check_columns, communication_step
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliased_fmu import AliasedFmu
@@ -29,6 +30,7 @@ from hosts.fmu.variables import Variable
 
 PEDALS = ("throttle", "brake")
 _STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"
+_FREQUENCY = "vehicle.steering_frequency"
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,8 @@ class Task:
     notes : list of str
     speed : Signal, optional
         Measured, where a driver holds it in place of the measured pedals.
+    pedal : float
+        With which that driver starts; negative: of the brake.
     """
 
     aliases: Aliases
@@ -65,6 +69,7 @@ class Task:
     set_values: dict[str, Value]
     notes: list[str]
     speed: Signal | None = None
+    pedal: float = 0.0
 
 
 def prepare(options: argparse.Namespace) -> Task:
@@ -85,7 +90,7 @@ def prepare(options: argparse.Namespace) -> Task:
         log = log_for(fmu, raw, log_aliases, aliases.why_missing)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
-        _add_steering(fmu, log, inputs, outputs, notes)
+        followed = _add_steering(fmu, log, inputs, outputs, notes)
         pedals = _held_speed(fmu, log, inputs, notes) if options.hold_speed else None
         if not inputs and pedals is None:
             raise HostError(
@@ -109,10 +114,16 @@ def prepare(options: argparse.Namespace) -> Task:
         step = communication_step(fmu, Manoeuvre("", np.zeros(0), {}, end), _step(fmu, inputs, options))
         whole = {n for n in inputs if fmu.variables[n].type == "Integer"}
         slopes = opened.follows_slopes
-        manoeuvre = inputs_of(options.log.stem, inputs, everything, end, step, not slopes, whole)
+        manoeuvre = inputs_of(options.log.stem, inputs, everything, end, step, not slopes, whole, followed)
+        for name in followed:
+            variable = fmu.table[name]
+            np.clip(manoeuvre.inputs[name], variable.low, variable.high, out=manoeuvre.inputs[name])
         check_columns(fmu, manoeuvre)
         parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter"}
-    return Task(aliases, inputs, outputs, manoeuvre, step, slopes, parameters, given, notes, speed)
+    pedal = 0.0 if speed is None else starting_pedal(options.fmu, aliases, manoeuvre, step, speed)
+    if speed is not None:
+        notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
+    return Task(aliases, inputs, outputs, manoeuvre, step, slopes, parameters, given, notes, speed, pedal)
 
 
 def log_at(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
@@ -169,16 +180,29 @@ def _chosen(log: Log, fmu: AliasedFmu, options: argparse.Namespace) -> tuple[dic
 
 def _add_steering(
     fmu: AliasedFmu, log: Log, inputs: dict[str, Signal], outputs: dict[str, Signal], notes: list[str]
-) -> None:
-    """A car that is steered by a normalised input, and a log with the angle of the steering wheel."""
-    largest = fmu.constants().get(_ANGLE_MAX)
+) -> dict[str, float]:
+    """A car that is steered by a normalised input, and a log with the angle of the steering wheel.
+
+    Returns
+    -------
+    dict of str to float
+        The input that the car follows, with the frequency of its follower, Hz; empty where there is none.
+    """
+    largest, frequency = fmu.constants().get(_ANGLE_MAX), fmu.constants().get(_FREQUENCY)
     if _ANGLE in log.outputs and largest and _STEERING in fmu.names("input") and _STEERING not in inputs:
         if any(n.startswith("steering_wheel_angle") for n in inputs):
-            return
+            return {}
         angle = log.outputs[_ANGLE]
         outputs.pop(_ANGLE, None)  # what drives is not compared
         inputs[_STEERING] = replace(angle, name=_STEERING, unit="1", values=angle.values / largest)
         notes.append(f"'{_STEERING}' is the measured {_ANGLE} over {_ANGLE_MAX} = {largest:.4g} rad.")
+        if frequency:
+            notes.append(
+                f"The steering wheel turns as measured: the demand leads by what its follower of {frequency:.4g} Hz is "
+                "late."
+            )
+            return {_STEERING: frequency}
+    return {}
 
 
 def _shifted(signals: Mapping[str, Signal], options: argparse.Namespace) -> dict[str, Signal]:

@@ -44,6 +44,9 @@ class Measure:
     limit : Limit, optional
     note : str
         A sentence where the number is not the plain one, else empty.
+    exists : bool
+        False where there is no such number, as the critical speed of a car that understeers: it is NaN, and is not
+        missing.
     """
 
     name: str
@@ -52,6 +55,12 @@ class Measure:
     text: str
     limit: Limit | None = None
     note: str = ""
+    exists: bool = True
+
+    @property
+    def is_missing(self) -> bool:
+        """Whether the run does not yield a number that there should be."""
+        return self.exists and not math.isfinite(self.value)
 
     @property
     def is_kept(self) -> bool | None:

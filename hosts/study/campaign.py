@@ -243,7 +243,11 @@ def _make(
     print(f"{words}; written: {folder}")
     bare = progress.made > 0 and progress.failed + progress.incomplete == progress.made
     if bare:
-        print("No run has yielded all its measures; the column reason says why.", file=sys.stderr)
+        print(
+            "No run has yielded all its measures; the column reason says why. Of a test, measures = [...] beside it "
+            "keeps only those that are wanted.",
+            file=sys.stderr,
+        )
     return Ended(folder, not bare, progress.failed)
 
 

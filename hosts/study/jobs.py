@@ -98,7 +98,7 @@ def _test(entry: ManoeuvreEntry, study: StudyFile, fmu: Fmu | AliasedFmu, where:
             raise HostError(f"{where}: the test {test.name} needs {' or '.join(sorted(names))}, which the FMU has not.")
     start = {**study.start, **_checked(entry.start, fmu, f"{where}.start")}
     step = float("nan") if study.step is None else study.step
-    return Job(entry.name or test.name, None, test.name, settings, start, step)
+    return Job(entry.name or test.name, None, test.name, settings, tuple(entry.measures or ()), start, step)
 
 
 def _place(name: str, file: Path) -> str:

@@ -107,9 +107,9 @@ class Bench:
         record = perform(standard_test(job.test), car, job.settings)
         outcome = Outcome(simulated=sum(result.simulated for result in record.runs.values()))
         outcome.messages = said(record.notes)
-        named = [(column(job, m), m) for m in record.measures]
+        named = [(column(job, m), m) for m in record.measures if not job.measures or m.name in job.measures]
         if not self._work.columns:  # a trial: what it measures becomes the columns
-            outcome.units = {name: m.unit for name, m in named}
+            outcome.units = {column(job, m): m.unit for m in record.measures}
         _take(outcome, [(name, m) for name, m in named if not self._work.columns or name in self._work.columns])
         return outcome
 
@@ -168,7 +168,7 @@ def _of_result(result: Result, job: Job) -> Outcome:
 
 def _take(outcome: Outcome, measures: Sequence[tuple[str, Measure]]) -> None:
     outcome.measures = {name: float(m.value) for name, m in measures}
-    missing = [f"{name}: {m.note or 'it is not a number'}" for name, m in measures if not math.isfinite(m.value)]
+    missing = [f"{name}: {m.note or 'it is not a number'}" for name, m in measures if m.is_missing]
     if missing:
         more = [f"and {len(missing) - _MOST_NOTES} more"] if len(missing) > _MOST_NOTES else []
         outcome.status, outcome.reason = INCOMPLETE, "; ".join(missing[:_MOST_NOTES] + more)

@@ -52,6 +52,7 @@ class ManoeuvreEntry(_Part):
     manoeuvre: str | None = Field(default=None, title="a manoeuvre of the command run: its name or a file")
     test: str | None = Field(default=None, title="the name of a test of the command catalogue")
     settings: dict[str, Number] = Field(default_factory=dict, title="numbers by the name of a test's setting")
+    measures: list[str] | None = Field(default=None, min_length=1, title="a list of at least one measure of a test")
     stop_time: Number | None = Field(default=None, gt=0.0, title="a positive number, s")
     start: dict[str, Setting] = Field(default_factory=dict, title="values by names of parameters or inputs")
 
@@ -63,6 +64,8 @@ class ManoeuvreEntry(_Part):
             raise ValueError("it needs a manoeuvre, a test, or a stop_time (for constant inputs)")
         if self.test is None and self.settings:
             raise ValueError("settings go with a test")
+        if self.test is None and self.measures is not None:
+            raise ValueError("measures here are those of a test that are kept; those of manoeuvres are in [measures]")
         if self.test is not None and self.stop_time is not None:
             raise ValueError("a test ends by itself; leave the stop_time out")
         return self

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import closing
@@ -68,7 +69,7 @@ def try_out(plan: Plan) -> Trial:
             raise HostError(f"No run of {job.label} that was tried ({numbers}) came to its end: {outcome.reason}")
         if outcome.status == INCOMPLETE:
             notes.append(f"Run {point * len(work.jobs) + number}, {job.label}, is incomplete: {outcome.reason}")
-        columns |= outcome.units
+        columns |= _columns(outcome.units, job, f"{plan.file}: manoeuvres[{number + 1}]")
         seconds += outcome.wall / len(work.jobs)
         good.append((number, job, point, outcome))
     reuse, reused = _reuse(plan, good)
@@ -77,6 +78,19 @@ def try_out(plan: Plan) -> Trial:
     elif any(job.manoeuvre is not None for job in work.jobs):
         notes.append("The FMU does not give the same bits after a reset: each run loads a new instance.")
     return Trial(max(seconds, 1e-6), reuse, columns, tuple(notes))
+
+
+def _columns(units: Mapping[str, str], job: Job, where: str) -> dict[str, str]:
+    """Of all measures of a test with their units those that the study asks for; a test tells them by a run only."""
+    if not job.measures:
+        return dict(units)
+    for name in job.measures:
+        if f"{job.label}.{name}" not in units:
+            known = [column.removeprefix(f"{job.label}.") for column in units]
+            near = difflib.get_close_matches(name, known, 3)
+            hint = f"did you mean {' or '.join(near)}?" if near else f"it has {', '.join(known)}."
+            raise HostError(f"{where}.measures: the test {job.test} has no measure '{name}'; {hint}")
+    return {column: unit for column, unit in units.items() if column.removeprefix(f"{job.label}.") in job.measures}
 
 
 def _outcomes(work: Work, plan: Plan, tasks: Sequence[Task]) -> list[Outcome]:

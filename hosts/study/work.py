@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from hosts.study.measures import StudyMeasure
 
 DONE, INCOMPLETE, FAILED = "done", "incomplete", "failed"
-"""How a run ended: every measure is a number; some measure is none; there is no result."""
+"""How a run ended: every measure that exists is a number; some is none; there is no result."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,8 @@ class Job:
         Of the catalogue, where there is no manoeuvre.
     settings : dict of str to float
         Of the test.
+    measures : tuple of str
+        Of the test; empty: all.
     start : dict of str to float, int, bool or str
         For the test.
     step : float
@@ -48,6 +50,7 @@ class Job:
     manoeuvre: Manoeuvre | None
     test: str = ""
     settings: dict[str, float] = field(default_factory=dict)
+    measures: tuple[str, ...] = ()
     start: dict[str, Value] = field(default_factory=dict)
     step: float = float("nan")
     every: int = 0

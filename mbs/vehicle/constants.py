@@ -16,6 +16,7 @@ def vehicle_constants(m: Model, car: CarContent) -> None:
         ("length", car.vehicle.length, "m", "length of the outline, centred on the origin of the vehicle's axes"),
         ("width", car.vehicle.width, "m", "width of the outline without mirrors, centred on that origin too"),
         ("steering_wheel_angle_max", turned, "rad", "angle of the steering wheel at steering = 1"),
+        ("steering_frequency", car.steering.frequency, "Hz", "of the follower from demand to steering wheel"),
         ("front_wheel_angle_max", angle, "rad", "mean steering angle of the front wheels at steering = 1"),
         ("steering_ratio", turned / angle, "1", "angle of the steering wheel over that of the front wheels, both full"),
     ):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -170,7 +170,7 @@ def _measures(q: _Quantity, response: FrequencyResponse, is_angle: bool) -> list
         Measure(f"{q.name}.phase_{word}_hz", response.phase_at(f), "rad", f"phase at {f:g} Hz; negative: it lags")
         for word, f in (("0_5", 0.5), ("1_0", 1.0), ("2_0", 2.0))
     ]
-    return [_or(m, late) for m in made]
+    return [_or(m, late, exists=bool(none)) for m in made]
 
 
 def _mode(found: Mapping[_Quantity, FrequencyResponse]) -> list[Measure]:
@@ -187,11 +187,9 @@ def _mode(found: Mapping[_Quantity, FrequencyResponse]) -> list[Measure]:
     return [_or(m, "The fit does not converge." if used else "There is no response.") for m in made]
 
 
-def _or(measure: Measure, why: str) -> Measure:
-    """The measure, with a note where it is not known."""
-    if math.isfinite(measure.value):
-        return measure
-    return Measure(measure.name, math.nan, measure.unit, measure.text, measure.limit, why)
+def _or(measure: Measure, why: str, exists: bool = True) -> Measure:
+    """The measure, with a note where it is not known, which says why it is missing or that there is none."""
+    return measure if math.isfinite(measure.value) else replace(measure, value=math.nan, note=why, exists=exists)
 
 
 def _plots(run: SteeredRun, found: Mapping[_Quantity, FrequencyResponse]) -> list[Plot]:

@@ -161,7 +161,7 @@ def _speed(name: str, gradient_of: float, wheelbase: float, note: str) -> Measur
     if not math.isfinite(gradient_of):
         return Measure(name, math.nan, "km/h", text, None, note)
     if gradient_of <= 0.0:
-        return Measure(name, math.nan, "km/h", text, None, f"The car does not {kind} there.")
+        return Measure(name, math.nan, "km/h", text, None, f"The car does not {kind} there.", exists=False)
     return Measure(name, 3.6 * math.sqrt(wheelbase / gradient_of), "km/h", text)
 
 

@@ -20,6 +20,8 @@ class SpeedHolder:
         Pedal per m/s2 of the wanted speed.
     brakes : bool
         Whether the brake is used; else a car that is too fast rolls.
+    pedal : float
+        With which it starts, at the wanted speed; negative: of the brake.
 
     Notes
     -----
@@ -33,13 +35,14 @@ class SpeedHolder:
         integral_gain: float = 0.1,
         acceleration_gain: float = 0.1,
         brakes: bool = True,
+        pedal: float = 0.0,
     ) -> None:
         self.speed = speed
         self.gain = gain
         self.integral_gain = integral_gain
         self.acceleration_gain = acceleration_gain
         self._lowest = -1.0 if brakes else 0.0
-        self._integral = 0.0
+        self._integral = pedal / integral_gain if integral_gain else 0.0
         self._time = 0.0
 
     def wanted(self, time: float) -> float:

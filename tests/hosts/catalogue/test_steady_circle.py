@@ -40,6 +40,8 @@ def test_gradients_are_those_of_the_linear_model(understeering: tuple[dict[str, 
     assert m["characteristic_speed"] == pytest.approx(3.6 * math.sqrt(car.wheelbase / k), rel=0.01)
     assert math.isnan(m["critical_speed"])
     assert math.isnan(m["steering_torque_gradient"])
+    # There is no critical speed of such a car; the torque is not told.
+    assert [x.name for x in record.measures if x.is_missing] == ["steering_torque_gradient"]
     assert m["understeer_gradient.difference"] == pytest.approx(0.0, abs=1e-3 * k)
     assert set(record.runs) == {"left", "right"}
     assert "Steering on the circle" in [plot.title for plot in record.plots]
@@ -53,9 +55,10 @@ def test_all_methods_measure_the_same_gradient(method: int) -> None:
 
 def test_a_car_that_oversteers_has_a_critical_speed() -> None:
     car = BicycleCar(front=1.3, rear=1.2)
-    m, _ = drive(car)
+    m, record = drive(car)
     k = m["understeer_gradient"]
     assert k < 0.0
+    assert [x.name for x in record.measures if x.is_missing] == ["steering_torque_gradient"]
     assert k == pytest.approx(car.understeer(), abs=QUASI_STATIC)
     assert m["critical_speed"] == pytest.approx(3.6 * math.sqrt(-car.wheelbase / k))
     assert math.isnan(m["characteristic_speed"])

@@ -30,7 +30,6 @@ speed = "v"
 "chassis.y" = { name = "Nord", unit = "m" }
 "chassis.yaw" = { name = "Kurs", unit = "deg" }
 """
-LARGEST = 8.97597901025655  # rad of the steering wheel at steering 1
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +61,7 @@ def logged(car: Path, folder: Path, start: Mapping[str, float], delay: float = 0
         "Zeit": 1000.0 * t + 7e6,
         "Gas [%]": 20.0 + 0.0 * t,
         "Bremse [%]": 0.0 * t,
-        "Lenkrad [°]": np.degrees(LARGEST * np.interp(t, times, steering)),
+        "Lenkrad [°]": np.degrees(np.interp(t + 0.001, result.time, result["steering_wheel_angle"])),
         "v [km/h]": out("speed", 3.6, 0.05),
         "Gierrate [°/s]": out("chassis.wz", 180.0 / np.pi, 0.004),
         "ay [g]": out("chassis.ay", 1.0 / 9.80665, 0.1),
@@ -105,7 +104,11 @@ def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> 
         assert found[f"{name}.rms"] < largest
         assert found[f"{name}.rating"] > 0.98
     assert found["chassis.y.rms"] < 0.05
-    assert found["chassis.wz.delay"] == pytest.approx(0.0, abs=2e-3)
+    # Demanded as it was measured, the angle would be late by that of the follower of 10 Hz: 32 ms.
+    assert found["chassis.wz.delay"] == pytest.approx(0.0, abs=1e-3)
+    assert any(
+        "turns as measured: the demand leads by what its follower of 10 Hz is late" in n for n in record["notes"]
+    )
 
 
 def test_a_delay_of_the_log_is_found_with_its_sign(car: Path, tmp_path: Path) -> None:
@@ -131,14 +134,18 @@ def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
     assert values(record, "fitted_measures")["chassis.wz.rms"] == pytest.approx(0.004, rel=0.15)
 
 
-def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path) -> None:
+def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """With another drag the pedals of the log would lose the speed; the driver keeps it."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     other = ("--set", "aerodynamics.drag_area=8")
     pedals = values(compared(car, log, *other)[1])["speed.rms"]
     held = values(compared(car, log, *other, "--hold-speed")[1])["speed.rms"]
     assert pedals > 2.0
-    assert held < 0.5 * pedals
+    assert held < 0.1
+    # It takes more of the throttle than the 0.2 of the car in the log, and from the start on.
+    said = capsys.readouterr().out
+    started = float(said.rpartition("The driver starts with ")[2].partition(" of the throttle.")[0])
+    assert 0.2 < started < 0.9
 
 
 def test_a_log_that_begins_in_a_turn_says_so(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
