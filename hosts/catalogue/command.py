@@ -62,6 +62,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
     )
     add_option(parser, "--step", "that of the FMU")
     add_option(parser, "--jobs", "as there are cores that it may use")
+    parser.add_argument("--again", action="store_true", help="do tests again that are done already in the folder")
     parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")
     add_option(parser, "--out", "out/catalogue", default=Path("out", "catalogue"))
     add_old_names(parser, {"--parameters": "--variant"})
@@ -80,6 +81,7 @@ def _list() -> int:
 def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     from ali3.files import check_writable
     from hosts.catalogue.cars import cars_of
+    from hosts.catalogue.kept import kept
     from hosts.catalogue.output import print_measures, write_measures
     from hosts.catalogue.perform import missing_for, settings_of_test
     from hosts.catalogue.registry import TESTS, standard_test
@@ -104,13 +106,18 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
             if reason is not None:
                 outcomes[test.name][car.label] = reason
             else:
-                outcomes[test.name][car.label] = _PENDING
                 folder = None if options.no_runs else options.out.absolute()
-                tasks.append(Task(test.name, car, settings[test.name], folder))
+                task = Task(test.name, car, settings[test.name], folder)
+                before = None if options.again else kept(task, options.out)
+                outcomes[test.name][car.label] = _PENDING if before is None else before
+                tasks += [task] if before is None else []
+    there = sum(not isinstance(outcome, str) for by_car in outcomes.values() for outcome in by_car.values())
+    if there:
+        print(f"{there} of {len(tests) * len(cars)} tests are there; --again does them again.", flush=True)
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, outcomes, settings)
     try:
-        with closing(_done(tasks, options.jobs or available_cores(), outcomes)) as done:
+        with closing(_done(tasks, options.jobs or available_cores(), outcomes, options.out)) as done:
             for _ in done:
                 write_measures(options.out, tests, cars, outcomes, settings)
     finally:  # after Ctrl-C too, of what is there
@@ -118,6 +125,9 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
         files += _report(options.out / "report.html", tests, cars, outcomes, settings, command)
         runs = "" if options.no_runs or not tasks else f", tables of the runs in {options.out / 'runs'}"
         print(f"\nwritten: {', '.join(map(str, files))}{runs}", flush=True)
+        pending = sum(outcome == _PENDING for by_car in outcomes.values() for outcome in by_car.values())
+        if pending:
+            print(f"{pending} tests are not done yet; the same command goes on with them.", flush=True)
     return _verdict(outcomes)
 
 
@@ -136,11 +146,12 @@ def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> 
     return settings
 
 
-def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcome]]) -> Generator[None]:
-    """Do all tasks under a progress bar; after each its outcome is among the others."""
+def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcome]], out: Path) -> Generator[None]:
+    """Do all tasks under a progress bar; after each its outcome is among the others, and kept in the folder."""
     from tqdm import tqdm
 
     from ali3.isolated import Lost, done_by
+    from hosts.catalogue.kept import keep
     from hosts.catalogue.task import do
 
     form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
@@ -157,6 +168,8 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
                 progress(place, 1.0)
                 words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
                 outcomes[tasks[place].test][tasks[place].car.label] = words
+                if not isinstance(words, str):
+                    keep(tasks[place], words, out)
                 yield
 
 

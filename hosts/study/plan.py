@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from hosts.common.errors import HostError
+from hosts.common.program import program_digest, versions
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases import Aliases, find_aliases
 from hosts.fmu.fmu import Fmu
@@ -21,7 +22,6 @@ from hosts.study.measures import StudyMeasure, parse_measure
 from hosts.study.one_run import seen_through
 from hosts.study.parameters import Parameter, parameter_of
 from hosts.study.points import Points, digest, sampled_points, table_points
-from hosts.study.program import program_digest, versions
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
 from hosts.study.work import Chunk, Job, Work
 

@@ -13,10 +13,10 @@ from distributed import Worker, WorkerPlugin, get_worker
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.common.program import program_digest
 from hosts.fmu.fmu import described
 from hosts.study.isolated import IsolatedBench
 from hosts.study.one_run import Bench
-from hosts.study.program import program_digest
 from hosts.study.work import Chunk, Outcome, Work, seed_of
 
 
