@@ -2,10 +2,11 @@
 
 Constraints do not depend on time here (Phi_t = 0). What the paper leaves open follows the kernel: Newton starts from
 q + h qd + h^2/2 qdd; the projections use the tangent of the last Newton iteration, its Phi_q' included, and are made
-PASSES times, since a finite penalty leaves a part behind. They are solved for the change of qd and qdd, that is (24)
-less [df/dq] qd* and (25) less [df/dq] qdd* on both sides, because the sums lose their last digits to the penalty. The
-multipliers follow the projected accelerations: a change x of qdd by (25) is balanced by the change of the multipliers
-with which M x = Phi_q' dlam, up to h/2 C x + h^2/4 K x.
+PASSES times, since a finite penalty leaves a part behind. An iteration may use the tangent of an earlier one; then the
+Phi_q' that the penalty multiplies is that of the tangent. The projections are solved for the change of qd and qdd, that
+is (24) less [df/dq] qd* and (25) less [df/dq] qdd* on both sides, because the sums lose their last digits to the
+penalty. The multipliers follow the projected accelerations: a change x of qdd by (25) is balanced by the change of the
+multipliers with which M x = Phi_q' dlam, up to h/2 C x + h^2/4 K x.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ class PaperState:
     lam: np.ndarray
 
 
-def paper_step(m, state, h, alpha, iterations, update, geometric=True, project=True):
+def paper_step(m, state, h, alpha, iterations, tangents, update, geometric=True, project=True):
     """The state after a step with a given number of Newton iterations.
 
     Parameters
@@ -36,6 +37,8 @@ def paper_step(m, state, h, alpha, iterations, update, geometric=True, project=T
         Step, s, and penalty, 1/s^2.
     iterations : int
         Newton iterations to make.
+    tangents : int
+        How many of them, the first ones, make a new tangent.
     update : {"paper", "linearised"}
         Equation (16), or the multipliers of the bordered system
         [K11, h^2/4 Phi_q'; Phi_q, -1/alpha] [dq; dlam] = -[f without penalty; Phi].
@@ -51,21 +54,23 @@ def paper_step(m, state, h, alpha, iterations, update, geometric=True, project=T
     q = state.q + h * state.qd + h * h / 2.0 * state.qdd
     lam = state.lam.copy()
 
-    for _ in range(iterations):
+    for iteration in range(iterations):
         qd = 2.0 / h * q + qdhat  # (17)
         qdd = 4.0 / h**2 * q + qddhat  # (18)
         Phi, Phiq = m.Phi(q), m.Phiq(q)
-        W = m.M + h / 2.0 * m.C(q, qd) + c * m.K(q, qd)
-        if geometric:
-            W = W + c * m.geometric(lam)
-        df = W + c * Phiq.T @ (alpha * Phiq)  # (23)
+        if iteration < tangents:
+            W = m.M + h / 2.0 * m.C(q, qd) + c * m.K(q, qd)
+            if geometric:
+                W = W + c * m.geometric(lam)
+            Phiq_tangent = Phiq
+            df = W + c * Phiq.T @ (alpha * Phiq)  # (23)
         if update == "paper":
-            f = c * (m.M @ qdd + Phiq.T @ (alpha * Phi) + Phiq.T @ lam - m.Q(q, qd))  # (22)
+            f = c * (m.M @ qdd + Phiq_tangent.T @ (alpha * Phi) + Phiq.T @ lam - m.Q(q, qd))  # (22)
             q = q + np.linalg.solve(df, -f)  # (21)
             lam = lam + alpha * m.Phi(q)  # (16)
         else:
             r = c * (m.M @ qdd + Phiq.T @ lam - m.Q(q, qd))
-            bordered = np.block([[W, c * Phiq.T], [Phiq, -np.eye(m.nc) / alpha]])
+            bordered = np.block([[W, c * Phiq_tangent.T], [Phiq_tangent, -np.eye(m.nc) / alpha]])
             correction = np.linalg.solve(bordered, -np.concatenate([r, Phi]))
             q = q + correction[:n]
             lam = lam + correction[n:]
@@ -73,8 +78,7 @@ def paper_step(m, state, h, alpha, iterations, update, geometric=True, project=T
     qd = 2.0 / h * q + qdhat  # (17)
     qdd = 4.0 / h**2 * q + qddhat  # (18)
     if project:
-        Phiq_tangent = Phiq
-        spread, Phiq = c * Phiq.T * alpha, m.Phiq(q)
+        spread, Phiq = c * Phiq_tangent.T * alpha, m.Phiq(q)
         for _ in range(PASSES):
             qd = qd - np.linalg.solve(df, spread @ (Phiq @ qd))  # (24)
         for _ in range(PASSES):

@@ -144,7 +144,8 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t mad
     if (!judge(in)) return ALI3_NOT_FINITE;
     if (in->report.residual <= settings->tolerance_r && ali3_closed(in->system, in->Phi, settings->tolerance_phi))
       return ALI3_OK;
-    kept = in->report.violation <= KEPT_VIOLATION && in->report.residual <= KEPT_RESIDUAL * before;
+    kept = settings->update == ALI3_UPDATE_LINEARISED && in->report.violation <= KEPT_VIOLATION &&
+           in->report.residual <= KEPT_RESIDUAL * before; /* (16) converges too slowly for more */
     before = in->report.residual;
     if (rigid && !kept) forces(in, h, true);
   }
