@@ -91,9 +91,9 @@ class _Repeats:
         self._groups, self._ranges = accuracy.judged_sensors(system), dict[str, float]()
 
     def coarser(self) -> Accuracy | None:
-        """By a run with twice the step; None where it does not end, or ends elsewhere."""
+        """By a run with twice the step; None where that is longer than the run, does not end, or ends elsewhere."""
         coordinates, even = bool(self.run[1]), self.every % 2 == 0
-        if coordinates and not even:
+        if (coordinates and not even) or self.run[0].t[-1] - self.run[0].t[0] < 1.5 * self.h:
             return None
         every = self.every // 2 if even else self.every
         try:

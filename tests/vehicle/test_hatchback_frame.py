@@ -38,7 +38,7 @@ def system(fidelity: int) -> System:
 @cache
 def kerb(fidelity: int, h: float = kerb_test.STEP) -> Trajectory:
     """Down the kerb with both axles."""
-    return Simulation(compile(kerb_test.build(fidelity, car()))).run(9.0, h)
+    return Simulation(compile(kerb_test.build(fidelity, car()))).run(9.0, h, estimate_error=False)
 
 
 def peak(run: Trajectory, gauge: str) -> float:

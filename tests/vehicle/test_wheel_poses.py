@@ -38,7 +38,7 @@ def system(car: str, road: str = "level") -> mbs.System:
 @cache
 def violent(car: str, road: str = "level", h: float = 0.002) -> mbs.Trajectory:
     pose = None if road == "level" else Pose(z=0.2, speed=12.0)
-    return mbs.simulate(system(car, road), 3.0, h, VIOLENT, pose=pose, progress=False)
+    return mbs.simulate(system(car, road), 3.0, h, VIOLENT, pose=pose, progress=False, estimate_error=False)
 
 
 def vector(run: mbs.Trajectory, wheel: str, *names: str) -> np.ndarray:
