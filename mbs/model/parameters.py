@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from mbs.common.checks import flag, not_negative, not_zero, number, positive, shown, text, whole
+from mbs.common.checks import array, flag, not_negative, not_zero, number, positive, shown, text, whole
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header import GuideType, ParameterTarget
@@ -69,15 +69,25 @@ def new_parameter(
     for end, limit in (("min", low), ("max", high)):
         for target in found:
             target.check(target.written(limit), f"At the {end} {limit:g} of {what}, {target.what}")
+    span = None if works is None else _span(works, what)
     text(unit, f"The unit of {what}")
     text(description, f"The description of {what}", lines=True)
     if flag(tunable, f"The tunable of {what}"):
         _moving(what, found)
     model.unique("parameter", name)
     places = tuple(target.where for target in found)
-    parameter = Parameter(name, start, low, high, unit, description, places, tunable, works)
+    parameter = Parameter(name, start, low, high, unit, description, places, tunable, span)
     model.parameters.append(parameter)
     return parameter
+
+
+def _span(works: object, what: str) -> tuple[float, float]:
+    """The least and the largest value with which the model does what it is made for."""
+    ends = array(works, (2,), f"The works of {what}", wanted="two numbers, the least and the largest value")
+    least, most = ends.tolist()
+    if least > most:
+        raise ModelError(f"The works of {what} are {least:g} and {most:g}; the least must not be above the largest.")
+    return least, most
 
 
 def _moving(what: str, found: Sequence[_Target]) -> None:

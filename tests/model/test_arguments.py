@@ -187,6 +187,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
         "description": "a spring",
         "targets": [(b.spring, "stiffness", 1.0)],
         "tunable": True,
+        "works": (0.6, 1.8),
     },
     "spring_damper": lambda b: {
         "name": "new",

@@ -86,6 +86,13 @@ def test_what_a_parameter_writes_at_its_limits_is_checked_with_the_offset():
         m.parameter("share", 0.5, 0.1, 0.9, targets=[("two", "stiffness", -100.0, 80.0)])
 
 
+def test_a_reversed_range_that_works_is_refused():
+    m = balance(offset=False)
+    with pytest.raises(ModelError, match=r"works of parameter 'd' are 2 and 1; the least must not be above"):
+        m.parameter("d", 1.0, 0.5, 3.0, targets=[("two", "damping", 1.0)], works=(2.0, 1.0))
+    assert not m.parameters
+
+
 def test_a_number_takes_its_value_from_one_parameter():
     m = balance()
     road = m.road(PlaneRoad(friction=0.5))

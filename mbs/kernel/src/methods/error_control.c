@@ -158,6 +158,13 @@ static double next_step(const ali3_control *c, double size, double tried, double
   return tried < size ? fmax(next, fmin(size, GROW * next)) : next;
 }
 
+/* Back to before a step that was made and is not kept. */
+static void take_back(ali3_instance *in, const ali3_report *before) {
+  ali3_vectors_copy(in, &in->now, &in->origin);
+  in->report.steps = before->steps;
+  ali3_balance_restore(&in->report, before);
+}
+
 /* One accepted step from t, at most to `end`; *h is its length. */
 static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measure, double t, double end, double *h) {
   ali3_control *c = measure->control;
@@ -189,9 +196,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
       seen.rejected = true;
       c->rejected++;
       c->h = fmax(least, AFTER_FAILURE * tried);
-      ali3_vectors_copy(in, &in->now, &in->origin);
-      in->report.steps = before.steps;
-      ali3_balance_restore(&in->report, &before);
+      take_back(in, &before);
       continue;
     }
     if (verdict != REJECT) {
@@ -202,9 +207,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
     c->rejected++;
     c->h = seen.force ? seen.first : fmax(least, tried * fmin(MOST_OF_REJECTED, factor(part, 0.0, order)));
     seen.rejected = true;
-    ali3_vectors_copy(in, &in->now, &in->origin);
-    in->report.steps = before.steps;
-    ali3_balance_restore(&in->report, &before);
+    take_back(in, &before);
   }
 }
 
