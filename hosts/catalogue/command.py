@@ -62,7 +62,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
     )
     add_option(parser, "--step", "that of the FMU")
     add_option(parser, "--jobs", "as there are cores that it may use")
-    parser.add_argument("--again", action="store_true", help="do tests again that are done already in the folder")
+    add_option(parser, "--again", "tests that are done already in the folder are kept")
     parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")
     add_option(parser, "--out", "out/catalogue", default=Path("out", "catalogue"))
     add_old_names(parser, {"--parameters": "--variant"})
