@@ -77,6 +77,7 @@ SHARED: dict[str, Option] = {
     "--out": Option("DIR", "folder of what is written", folder),
     "--json": Option("FILE", "write all numbers there too", Path),
     "--list": Option("", "list what there is to choose from, and stop"),
+    "--again": Option("", "make again what an earlier call has left"),
     "--no-open": Option("", "do not open a browser"),
     "--show-parameters": Option("", "print the parameters too"),
     "--jobs": Option("N", "processes at a time", count),

@@ -62,7 +62,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
     )
     add_option(parser, "--step", "that of the FMU")
     add_option(parser, "--jobs", "as there are cores that it may use")
-    parser.add_argument("--afresh", action="store_true", help="do tests again that are done already in the folder")
+    add_option(parser, "--again", "tests that are done already in the folder are kept")
     parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")
     add_option(parser, "--out", "out/catalogue", default=Path("out", "catalogue"))
     add_old_names(parser, {"--parameters": "--variant"})
@@ -108,12 +108,12 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
             else:
                 folder = None if options.no_runs else options.out.absolute()
                 task = Task(test.name, car, settings[test.name], folder)
-                before = None if options.afresh else kept(task, options.out)
+                before = None if options.again else kept(task, options.out)
                 outcomes[test.name][car.label] = _PENDING if before is None else before
                 tasks += [task] if before is None else []
     there = sum(not isinstance(outcome, str) for by_car in outcomes.values() for outcome in by_car.values())
     if there:
-        print(f"{there} of {len(tests) * len(cars)} tests are there; --afresh does them again.", flush=True)
+        print(f"{there} of {len(tests) * len(cars)} tests are there; --again does them again.", flush=True)
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, outcomes, settings)
     try:

@@ -27,7 +27,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.st
     )
     add_option(parser, "--jobs", "as there are cores that it may use")
     parser.add_argument("--dry-run", action="store_true", help="check all, print the plan and stop")
-    parser.add_argument("--again", action="store_true", help="make failed runs again")
+    add_option(parser, "--again", "runs that failed are kept as failed")
     parser.add_argument("--run", type=int, metavar="INDEX", help="print the commands that repeat a run of the results")
     parser.add_argument("--report", action="store_true", help="only write the report of the results")
     parser.add_argument("--no-report", action="store_true", help="write no report at the end")

@@ -14,6 +14,7 @@ import mbs
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
 from mbs.kernel.header import ROAD_TILE
+from mbs.results.accuracy import AccuracyWarning
 from mbs.roads import RoadFile, RoadFileError, read_road, write_road
 from mbs.roads.road_header import HEADER
 from mbs.scenes import prototype_car
@@ -220,7 +221,10 @@ def test_a_file_that_was_taken_away_is_read_on(tmp_path, car):
     kept = run(car, path)
     simulation = mbs.Simulation(car, pose=mbs.Pose(speed=12.0), parameters={"road.file": path})
     path.unlink()
-    simulation.run(1.0, H)
+    with pytest.warns(
+        AccuracyWarning, match=r"repeat .* was refused, .* road '.*a\.road' was refused: there is no such"
+    ):
+        simulation.run(1.0, H)
     assert simulation.sensors["chassis.z"] == kept["chassis.z"][-1]
 
 
