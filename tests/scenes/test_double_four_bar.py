@@ -71,7 +71,7 @@ def test_two_newton_iterations_a_step_at_ten_milliseconds_and_one_at_one():
         simulate(system, END, h, settings=s).report for h, s in ((0.01, None), (0.01, TIGHT), (0.001, None))
     )
     assert 1.0 <= coarse.mean_iterations <= tight.mean_iterations < 2.1
-    assert tight.max_iterations <= 5
+    assert tight.max_iterations <= 4
     assert fine.mean_iterations < 1.05
     for report in (coarse, tight, fine):
         assert report.factorizations <= report.iterations + 4  # the projections use the last tangent of the step

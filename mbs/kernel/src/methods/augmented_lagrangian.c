@@ -28,9 +28,10 @@ enum { MAX_SWEEPS = 3 };
 /* Relative violations at which projections end: velocities at round-off; accelerations only steer the next
  * prediction. */
 static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
-/* A tangent serves the next iteration too where rows are open by so little, m or so, and the last one left at most so much
- * of the residual. */
-static const double KEPT_VIOLATION = 1e-8, KEPT_RESIDUAL = 0.3;
+/* A tangent serves the next iteration too where rows are open by at most so many m/s2 (or so) times h^2, no more than at
+ * 10 ms, and the last one left at most so much of the residual. What is left open is an error of the multipliers where
+ * a row loses its lever. */
+static const double KEPT_VIOLATION = 2e-5, KEPT_RESIDUAL = 0.3;
 
 /* Forces of the present iterate. */
 static void forces(ali3_instance *in, double h, bool tangent) {
@@ -144,7 +145,7 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t mad
     if (!judge(in)) return ALI3_NOT_FINITE;
     if (in->report.residual <= settings->tolerance_r && ali3_closed(in->system, in->Phi, settings->tolerance_phi))
       return ALI3_OK;
-    kept = settings->update == ALI3_UPDATE_LINEARISED && in->report.violation <= KEPT_VIOLATION &&
+    kept = settings->update == ALI3_UPDATE_LINEARISED && in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4) &&
            in->report.residual <= KEPT_RESIDUAL * before; /* (16) converges too slowly for more */
     before = in->report.residual;
     if (rigid && !kept) forces(in, h, true);
