@@ -56,6 +56,9 @@ double ali3_start_excess(const ali3_instance *in, int32_t *element, const char *
   return raised;
 }
 
+/* A vehicle that rolls over presses the centre of a wheel some millimetres into the ground; this is a face. */
+static const double DEEP = 0.5; /* radii */
+
 ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *text, size_t size) {
   if (text != NULL && size > 0) text[0] = 0;
   if (element != NULL) *element = -1;
@@ -65,7 +68,7 @@ ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *
     if (S->el_kind[e] != &ali3_tyre || !ali3_road_spacing(&in->road[S->el_int[S->el_int_ptr[e]]], spacing)) continue;
     const ali3_element_args a = ali3_start_arguments(in, in->road, in->now.q, e, u);
     const double sunk = S->el_kind[e]->start(&a, 0.0).excess;
-    if (!(sunk > 0.0)) continue;
+    if (!(sunk > DEEP * a.real[0])) continue;
     if (element != NULL) *element = e;
     if (text != NULL)
       snprintf(
