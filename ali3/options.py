@@ -153,8 +153,8 @@ def add_old_names(parser: argparse.ArgumentParser, names: Mapping[str, str]) -> 
         parser.add_argument(old, nargs="?", action=_Renamed, const=new, help=argparse.SUPPRESS)
 
 
-def first_given(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> str | None:
-    """The first of these arguments that differs from its default, as the user writes it; None without one.
+def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> list[str]:
+    """Those of these arguments that differ from their defaults, as the user writes them.
 
     Parameters
     ----------
@@ -164,11 +164,9 @@ def first_given(parser: argparse.ArgumentParser, options: argparse.Namespace, na
     names : sequence of str
         Of attributes of `options`.
     """
-    for name in names:
-        if getattr(options, name) != parser.get_default(name):
-            action = next(action for action in parser._actions if action.dest == name)
-            return action.option_strings[0] if action.option_strings else name.upper()
-    return None
+    given = [name for name in names if getattr(options, name) != parser.get_default(name)]
+    actions = {action.dest: action for action in parser._actions}
+    return [next(iter(actions[name].option_strings), name.upper()) for name in given]
 
 
 class _Renamed(argparse.Action):

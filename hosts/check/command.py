@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from ali3.extras import command_needs
 from ali3.isolated import Isolated, Lost
-from ali3.options import Parser, add_old_names, add_option, assignment, count
+from ali3.options import Parser, add_old_names, add_option, assignment, count, given_of
 from ali3.running import run_command
 from ali3.words import shortened
 from hosts.check.all_checks import check
@@ -41,8 +41,9 @@ _OF_BOTH = ("fidelity", "step")
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.check.command") -> int:
     """Run the command, which the user typed as `prog`; 0 if nothing bad was found."""
-    options = _parser(prog).parse_args(arguments)
-    return run_command(lambda: _work(options, prog))
+    parser = _parser(prog)
+    options = parser.parse_args(arguments)
+    return run_command(lambda: _work(options, parser))
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
@@ -107,12 +108,17 @@ def _steps(text: str) -> int:
     return steps
 
 
-def _work(options: argparse.Namespace, prog: str) -> int:
+def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     reference = options.reference is not None
-    _goes_with(options, _OF_SOAK, options.soak, "--soak")
-    _goes_with(options, _OF_REFERENCE, reference, "--reference")
-    _goes_with(options, _OF_BOTH, options.soak or reference, "--soak or --reference")
-    table = _given(options, _OF_PARAMETERS)
+    for names, there, what in (
+        (_OF_SOAK, options.soak, "--soak"),
+        (_OF_REFERENCE, reference, "--reference"),
+        (_OF_BOTH, options.soak or reference, "--soak or --reference"),
+    ):
+        given = given_of(parser, options, names)
+        if given and not there:
+            raise HostError(f"{given[0]} goes with {what}.")
+    table = given_of(parser, options, _OF_PARAMETERS)
     others = [*table, *(["--reference"] if reference else []), *(["--soak"] if options.soak else [])]
     if (options.soak or reference) and len(others) > 1:
         raise HostError(f"{others[0]} does not go with {others[-1]}.")
@@ -122,7 +128,7 @@ def _work(options: argparse.Namespace, prog: str) -> int:
         command_needs("simulator")
         from hosts.soak.soak import soak
 
-        return soak(options, prog)
+        return soak(options, parser.prog)
     fmu = fmu_file(options.fmu)
     if table:
         from hosts.check.parameters import parameters
@@ -138,16 +144,6 @@ def _work(options: argparse.Namespace, prog: str) -> int:
             fmu, options.reference, options.manoeuvre, options.step, fidelity, wishes(options), options.bound
         )
     return _outside(fmu, _STEPS if options.steps is None else options.steps, wishes(options))
-
-
-def _given(options: argparse.Namespace, names: Sequence[str]) -> list[str]:
-    return [f"--{name.replace('_', '-')}" for name in names if getattr(options, name) not in (None, [], False)]
-
-
-def _goes_with(options: argparse.Namespace, names: Sequence[str], there: bool, what: str) -> None:
-    given = _given(options, names)
-    if given and not there:
-        raise HostError(f"{given[0]} goes with {what}.")
 
 
 def _settings(fmu: Path, given: Wishes) -> Settings:

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ali3.options import Parser, add_option, assignment
+from ali3.options import Parser, add_option, assignment, given_of
 from ali3.running import run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
@@ -51,15 +51,15 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
     add_option(parser, "--road")
     add_option(parser, "--out", "out", default=Path("out"))
     options = parser.parse_args(arguments)
-    return run_command(lambda: _kerb(options) if options.kerb else _run(options))
+    return run_command(lambda: _kerb(options, parser) if options.kerb else _run(options))
 
 
-def _kerb(options: argparse.Namespace) -> int:
+def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.run.kerb import kerb_test
 
-    for name in ("manoeuvre", "stop_time", "road", "driver"):
-        if getattr(options, name) not in (None, []):
-            raise HostError(f"--{name.replace('_', '-')} does not go with --kerb, which says what is driven.")
+    given = given_of(parser, options, ("manoeuvre", "stop_time", "road", "driver"))
+    if given:
+        raise HostError(f"{given[0]} does not go with --kerb, which says what is driven.")
     if options.fmu is not None and is_car(options.fmu):
         raise HostError(
             f"--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car {options.fmu} down a kerb."

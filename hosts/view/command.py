@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.decimal_number import number
-from ali3.options import Parser, add_old_names, add_option, first_given
+from ali3.options import Parser, add_old_names, add_option, given_of
 from ali3.running import run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_setting_options
@@ -73,9 +73,9 @@ def _parser(prog: str) -> argparse.ArgumentParser:
 
 def _view(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     foreign = _OF_SHOWN if options.live else _OF_LIVE
-    given = first_given(parser, options, foreign)
-    if given is not None:
-        raise HostError(f"{given} {'does not go with' if options.live else 'goes with'} --live.")
+    given = given_of(parser, options, foreign)
+    if given:
+        raise HostError(f"{given[0]} {'does not go with' if options.live else 'goes with'} --live.")
     if options.live:
         from hosts.view.live import live
 

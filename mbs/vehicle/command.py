@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ali3.errors import UserError
 from ali3.extras import command_needs
-from ali3.options import Parser, add_old_names, add_option, first_given
+from ali3.options import Parser, add_old_names, add_option, given_of
 from ali3.running import run_command
 
 _OF_KINEMATICS = ("travel", "fidelity", "points", "out", "json")
@@ -65,9 +65,9 @@ def _kinematics(options: argparse.Namespace) -> int:
 def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from mbs.vehicle.car_file import car_names, load
 
-    given = first_given(parser, options, _OF_KINEMATICS)
-    if given is not None:
-        raise UserError(f"{given} goes with --kinematics.")
+    given = given_of(parser, options, _OF_KINEMATICS)
+    if given:
+        raise UserError(f"{given[0]} goes with --kinematics.")
     if options.list:
         width = max(map(len, car_names()))
         for name in car_names():

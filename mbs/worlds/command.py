@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.errors import UserError
-from ali3.options import Parser, add_option, first_given
+from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
 from mbs.worlds.world import shipped_worlds, world
 
@@ -81,7 +81,7 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         if options.out is not None:
             raise UserError("--out is the folder of a --world; a road file is named as OUTPUT.road.")
         return make_road(options)
-    given = first_given(parser, options, _OF_ROADS)
-    if given is not None:
-        raise UserError(f"{given} is of a road; with --world leave it out.")
+    given = given_of(parser, options, _OF_ROADS)
+    if given:
+        raise UserError(f"{given[0]} is of a road; with --world leave it out.")
     return world(options.world, options.out or Path("out", "worlds"), options.picture)
