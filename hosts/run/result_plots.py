@@ -122,8 +122,8 @@ _CAR_PANELS = (
     _Panel("Roll and pitch", "deg", (("roll", "chassis.roll", BLUE), ("pitch", "chassis.pitch", RED)), _DEGREES, 1.0),
     _Panel("Yaw rate", "deg/s", (("yaw rate", "chassis.wz", BLUE),), _DEGREES, 2.0),
     _Panel("Sideslip", "deg", (("sideslip", "sideslip", BLUE),), _DEGREES, 1.0),
-    _Panel("Bending moments at the gauges", "N m", _gauges("bending_moment"), 1.0, 1.0),
-    _Panel("Stress at the gauges, upper minus lower fibre", "MPa", _gauges("stress"), 1e-6, 1.0),
+    _Panel("Bending moments", "N m", _gauges("bending_moment"), 1.0, 1.0),
+    _Panel("Gauge stresses", "MPa", _gauges("stress"), 1e-6, 1.0),
     _Panel("Newton iterations of a step", "1", (("iterations", "solver.iterations", BLACK),)),
 )
 
