@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import importlib
 import sys
 from collections.abc import Sequence
 
 from ali3.commands import BEFORE, COMMANDS, Command
 from ali3.extras import command_needs
+from ali3.near_names import did_you_mean
 from ali3.options import Parser
 from ali3.running import WRONG_USE, run_command, typed_as
 from ali3.search_path import forget_current_folder
-from ali3.words import VALUE, brief
+from ali3.words import brief
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
@@ -84,7 +84,6 @@ def _unknown(name: str, arguments: Sequence[str], prog: str) -> int:
         print(f"error: The command '{name}' is now: {prog} {BEFORE[name].line(arguments)}", file=sys.stderr)
         return WRONG_USE
     names = [c.name for c in COMMANDS]
-    near = difflib.get_close_matches(name[:VALUE], names, 1)
-    hint = f"Did you mean '{near[0]}'?" if near else f"The commands are {', '.join(names)}."
-    print(f"error: There is no command {brief(name)}. {hint} {prog} --help describes them.", file=sys.stderr)
+    hint = did_you_mean(name, names, f"the commands are {', '.join(names)}", 1)
+    print(f"error: There is no command {brief(name)}{hint} {prog} --help describes them.", file=sys.stderr)
     return WRONG_USE

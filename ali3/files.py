@@ -103,7 +103,6 @@ def locked(folder: str | os.PathLike[str], busy: str = "") -> Iterator[None]:
 
     Parameters
     ----------
-    folder : path
     busy : str, optional
         What is said where another program has locked it; by default its end is waited for.
 

@@ -121,7 +121,6 @@ def picture(png: bytes, what: str, kind: str = "plot") -> str:
 
     Parameters
     ----------
-    png : bytes
     what : str
         What it shows, in words.
     kind : str

@@ -73,7 +73,6 @@ class Isolated(Generic[T, R]):
 
         Parameters
         ----------
-        task : object
         tell : callable
             Called with what the work tells meanwhile.
         limit : float, optional
@@ -189,7 +188,6 @@ def done_by(
     ----------
     work : callable
         See `Isolated`.
-    tasks : sequence
     jobs : int
         At a time.
     told : callable

@@ -120,7 +120,6 @@ def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", *
 
     Parameters
     ----------
-    parser : argparse.ArgumentParser or group
     name : str
         Key of `SHARED`.
     usual : str
@@ -145,7 +144,6 @@ def add_old_names(parser: argparse.ArgumentParser, names: Mapping[str, str]) -> 
 
     Parameters
     ----------
-    parser : argparse.ArgumentParser
     names : mapping of str to str
         What stands in place of the old name, by old name.
     """
@@ -158,7 +156,6 @@ def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names
 
     Parameters
     ----------
-    parser : argparse.ArgumentParser
     options : argparse.Namespace
         What the user gave.
     names : sequence of str

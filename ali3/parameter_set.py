@@ -26,7 +26,6 @@ class UnitDefinition:
     ----------
     exponents : mapping of str to int
         By name of the base unit; those that are zero left out.
-    factor, offset : float
     """
 
     exponents: Mapping[str, int]
@@ -51,13 +50,7 @@ class UnitDefinition:
         )
 
     def convert(self, value: float, other: UnitDefinition) -> float:
-        """A value in this unit as one in another of the same base units.
-
-        Parameters
-        ----------
-        value : float
-        other : UnitDefinition
-        """
+        """A value in this unit as one in another of the same base units."""
         if (self.factor, self.offset) == (other.factor, other.offset):
             return value  # to the last bit
         return (self.factor * value + self.offset - other.offset) / other.factor
@@ -69,7 +62,6 @@ class Entry:
 
     Parameters
     ----------
-    name : str
     kind : str
         ``Real``, ``Integer``, ``Boolean``, ``String``, ``Enumeration`` or ``Binary``.
     value : str
@@ -93,8 +85,6 @@ class ParameterSet:
 
     Parameters
     ----------
-    name : str
-    entries : sequence of Entry
     units : mapping of str to UnitDefinition
         Of the units in use.
     version : str
@@ -135,7 +125,6 @@ def told(description: str, bounds: str, variability: str) -> str:
 
     Parameters
     ----------
-    description : str
     bounds : str
         The range in words; empty where it is open.
     variability : str

@@ -23,10 +23,6 @@ _SCHEMAS = {"1": "ssv", "2": "ssv2"}
 def read_parameter_set(file: str | os.PathLike[str]) -> ParameterSet:
     """Read an SSV file of SSP 1.0 or 2.0, checked against the standard's XML schema.
 
-    Parameters
-    ----------
-    file : path
-
     Returns
     -------
     ParameterSet

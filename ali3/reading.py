@@ -41,7 +41,6 @@ def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileEr
 
     Parameters
     ----------
-    file : path
     largest : int
         Bytes.
     error : type of exception

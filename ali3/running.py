@@ -61,7 +61,6 @@ def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | 
 
     Parameters
     ----------
-    error : Exception
     errors : sequence of exception types
         See `run_command`.
     """

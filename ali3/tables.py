@@ -126,7 +126,6 @@ class TextTable:
 
         Parameters
         ----------
-        row : Row
         finite : bool
             Whether ``nan`` and ``inf`` are refused.
         first : int

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from pydantic import ValidationError
 
+from ali3.near_names import near_names
 from ali3.typed_paths import (
     all_keys,
     annotation_at,
@@ -23,7 +23,6 @@ from ali3.typed_paths import (
 )
 from ali3.words import one_line, value_words
 
-CLOSE = 0.6  # of difflib: spellings that may be meant
 ELSEWHERE = 3  # places of a key that a sentence names
 UNKNOWN, MISSING = "extra_forbidden", "missing"
 Loc = Sequence["int | str"]
@@ -167,12 +166,8 @@ class Sentences:
         """The key that is meant, first among those that are missing."""
         table = table_at(self.top, path[:-1], self.data)
         known = list(keys_of(table)) if table else []
-        spelt = {key.lower(): key for key in reversed([*missing, *known])}
-        for keys in ([k for k in spelt if spelt[k] in missing], list(spelt)):
-            near = difflib.get_close_matches(path[-1].lower(), keys, 1, CLOSE)
-            if near:
-                return spelt[near[0]]
-        return None
+        near = near_names(path[-1], missing, 1) or near_names(path[-1], known, 1)
+        return near[0] if near else None
 
     def _path(self, loc: Loc) -> list[str]:
         """Key path of an error, without the names of templates and types that stand in it."""

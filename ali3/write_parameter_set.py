@@ -58,12 +58,7 @@ def write_parameter_set(parameters: ParameterSet, file: str | os.PathLike[str], 
 
 
 def is_as_built(file: str | os.PathLike[str]) -> bool:
-    """Whether a file holds the values that a build has written; False for one that a person has changed.
-
-    Parameters
-    ----------
-    file : path
-    """
+    """Whether a file holds the values that a build has written; False for one that a person has changed."""
     try:
         parameters = read_parameter_set(file)
     except UserError:

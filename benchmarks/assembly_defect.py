@@ -12,7 +12,7 @@ from typing import Any
 
 import mbs
 from ali3.running import run_command
-from benchmarks.paper.assembly_defect import STEP, draw, measure, refusal
+from benchmarks.paper.assembly_defect import STEP, draw, measure, peaks, refusal
 from benchmarks.references.assembly_defect import ORIGIN, reference
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
@@ -57,6 +57,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print(f"Against {ORIGIN};")
     print("largest difference as a fraction of the peak of each moment, and of the largest of all moments\n")
     print_table(rows, TABLE)
+    print("\nLargest moments by the diameter of the bars, N m")
+    print_table([peaks(radius) for radius in (scene.RADIUS, 0.5 * scene.RADIUS)])
     print(f"\nWith rigid bars: {refusal()}")
     save_rows(options.json, meta, rows)
     if options.chart is not None:

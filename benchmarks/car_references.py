@@ -19,7 +19,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Write all references, or those named."""
     parser = parser_of("car_references", __doc__, json=False)
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"out of: {', '.join(manoeuvres.NAMES)}")
-    parser.add_argument("--keep-replay", action="store_true", help="do not drive the double lane change anew")
+    parser.add_argument("--keep-replay", action="store_true", help="do not drive the double lane change again")
     parser.add_argument("--car", default=manoeuvres.PROTOTYPE, choices=manoeuvres.CARS, help="default: the prototype")
     options = parser.parse_args(arguments)
     unknown = set(options.names) - set(manoeuvres.NAMES)

@@ -2,7 +2,8 @@
 
 Of each scene a C program repeats the first steps in the kernel: Newton iterations, factorizations and solves a step,
 and instructions where valgrind is installed. The table of the project is `benchmarks/data/instructions.json`, written
-with ``--json``; with ``--against`` the command ends with 1 if a scene takes over 3 % more than in that table.
+with ``--json``; with ``--against`` the command ends with 1 if a scene takes over 3 % more than in that table. With
+``--functions SCENE`` the functions in which the instructions of one scene are, of those of its name the first.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import numpy as np
 from ali3.running import run_command
 from benchmarks.car import manoeuvres
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.instructions import instructions
+from benchmarks.shared.instructions import by_function, instructions
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from hosts.driving.manoeuvre import Manoeuvre
@@ -39,6 +40,8 @@ COLUMNS = {
     "solves": ".3f",
     "instructions": ",d",
 }
+LEAST = 0.01
+"""Share of the instructions from which on a function is named."""
 MOST = 1.03
 """Ratio to the table from which on a step is dearer."""
 
@@ -83,6 +86,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; 1 if a step is dearer than in the table."""
     parser = parser_of("instructions", __doc__)
     parser.add_argument("--against", type=Path, metavar="FILE", help="table that steps are compared with")
+    names = list(dict.fromkeys(scene.name for scene in SCENES))
+    parser.add_argument("--functions", choices=names, metavar="SCENE", help="where the instructions of a scene are")
     options = parser.parse_args(arguments)
 
     def work() -> int:
@@ -90,7 +95,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
             program = Path(folder) / "run_system"
             include = (build.HERE / "include",)
             target, what = build.host_target(), "the program that repeats steps"
-            build.compile_c([SOURCE, *build.sources()], target, program, include=include, what=what, shared=False)
+            sources = [SOURCE, *build.sources(lanes=False)]
+            if options.functions is not None:
+                scene = next(scene for scene in SCENES if scene.name == options.functions)
+                command = build.compiler_command(sources, target, program, include=include, shared=False)
+                subprocess.run([part for part in command if part != "-s"], check=True, env=build.compiler_environment())
+                functions = shares(scene, program, Path(folder))
+                print_table(functions, {"function": "", "share": ".0%"})
+                save_rows(options.json, describe("functions", Settings(), scene=scene.name), functions)
+                return 0
+            build.compile_c(sources, target, program, include=include, what=what, shared=False)
             rows = [measure(scene, program, Path(folder)) for scene in watched(SCENES)]
         print_table(rows, COLUMNS)
         save_rows(options.json, describe("instructions", Settings()), rows)
@@ -102,8 +116,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return run_command(work, (RuntimeError,))
 
 
-def measure(scene: Scene, program: Path, folder: Path) -> dict[str, Any]:
-    """A row of the table."""
+def shares(scene: Scene, program: Path, folder: Path) -> list[dict[str, Any]]:
+    """Functions in which more than 1 % of the instructions of a scene are, and the rest."""
+    found = by_function(command_of(scene, program, folder), "ali3_run", folder)
+    total = sum(found.values())
+    most = {name: count / total for name, count in found.items() if count > LEAST * total}
+    most["all others"] = 1.0 - sum(most.values())
+    return [{"function": name, "share": share} for name, share in most.items()]
+
+
+def command_of(scene: Scene, program: Path, folder: Path) -> list[str]:
+    """The program with its arguments; its files are written."""
     system = scene.system()
     files = [folder / name for name in ("system", "state", "inputs")]
     if scene.manoeuvre:
@@ -117,8 +140,13 @@ def measure(scene: Scene, program: Path, folder: Path) -> dict[str, Any]:
     contents = (system.to_bytes(drawing=False), start.save(), inputs[1:].astype("<f8").tobytes())
     for file, data in zip(files, contents, strict=True):
         file.write_bytes(data)
-    still = [str(program), *map(str, files), repr(scene.step), "0"]
-    command = [*still[:-1], str(scene.steps)]
+    return [str(program), *map(str, files), repr(scene.step), str(scene.steps)]
+
+
+def measure(scene: Scene, program: Path, folder: Path) -> dict[str, Any]:
+    """A row of the table."""
+    command = command_of(scene, program, folder)
+    still = [*command[:-1], "0"]
     said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     status, *counts = map(int, said.split())
     if status != 0:

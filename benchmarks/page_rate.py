@@ -18,7 +18,7 @@ from ali3.running import run_command
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs.compiler import compile
+from mbs import compile
 from mbs.scenes import double_four_bar, prototype_car, puma
 from mbs.worlds import command as world_command
 from viewer import browser

@@ -14,6 +14,8 @@ from typing import Any
 
 from ali3.files import write_text
 from ali3.running import run_command
+from benchmarks.car.pages import car_blocks, function_blocks, instruction_blocks
+from benchmarks.car.trust import COLUMNS, trust_blocks
 from benchmarks.methods.pages import (
     control_blocks,
     dissipative_blocks,
@@ -26,7 +28,8 @@ from benchmarks.methods.study_pages import study_blocks
 from benchmarks.paper.pages import four_bar_blocks, puma_blocks
 from benchmarks.shared.pages import DOCS, machine, replace
 
-PAGES = ("speed_and_accuracy.md", "stability.md", "accuracy.md", "scale.md")
+PAGES = ("speed_and_accuracy.md", "stability.md", "accuracy.md", "scale.md", "speed.md", "fmu.md", "trust.md")
+DATA = ("work", "stability", "growth", "four-bar", "puma", "dissipative", "honesty", "control", "study", "car", "trust")
 
 
 def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
@@ -36,12 +39,12 @@ def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pages", description=__doc__)
-    for name in ("work", "stability", "growth", "four-bar", "puma", "dissipative", "honesty", "control", "study"):
+    for name in (*DATA, "instructions", "functions"):
         parser.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="FILE", help=f"JSON of {name}")
     parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages")
     o = parser.parse_args(arguments)
-    files = (o.work, o.stability, o.growth, o.four_bar, o.puma, o.dissipative, o.honesty, o.control, o.study)
-    work, stability, growth, four_bar, puma, dissipative, honesty, control, study = (_read(f) for f in files)
+    files = (_read(getattr(o, name.replace("-", "_"))) for name in DATA)
+    work, stability, growth, four_bar, puma, dissipative, honesty, control, study, car, trust = files
     blocks: dict[str, str] = {}
     if work:
         blocks |= work_blocks([r for f in work for r in f["rows"]]) | {"machine work": machine(work[0]["meta"])}
@@ -63,6 +66,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         blocks |= {"machine honesty": machine(honesty[0]["meta"])}
     if study:
         blocks |= study_blocks([r for f in study for r in f["rows"]]) | {"machine study": machine(study[0]["meta"])}
+    if car:
+        blocks |= car_blocks(car[0]["rows"]) | {"machine car": machine(car[0]["meta"])}
+    if trust:
+        blocks |= trust_blocks({k: [r for r in trust[0]["rows"] if r["table"] == k] for k in COLUMNS})
+    if o.instructions:
+        blocks |= instruction_blocks(_read(o.instructions)[0]["rows"])
+    if o.functions:
+        blocks |= function_blocks(_read(o.functions)[0]["rows"])
     for page in PAGES:
         file = o.docs / page
         write_text(file, replace(file.read_text(encoding="utf-8"), blocks))

@@ -27,7 +27,7 @@ TABLE = {
     "path_error_mm": ".3g",
     "jump_close_J": ".2e",
     "jump_open_J": ".2e",
-    "wall_s": ".2e",
+    "cpu_s": ".2e",
     "paper_error_mm": ".3g",
     "paper_wall_s": ".3g",
     "ended": "",

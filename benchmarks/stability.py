@@ -15,9 +15,6 @@ import mbs
 from ali3.running import run_command
 from benchmarks.methods.stability import (
     ENERGY,
-    FEW_CLASSICAL,
-    MOST_CLASSICAL,
-    MOST_STEPS,
     OUTCOMES,
     WRONG,
     explain,
@@ -65,7 +62,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         rows += part
         print(f"{scene}: {len(part)} runs in {time.perf_counter() - begin:.0f} s", flush=True)
         if options.charts is not None:
-            draw(part, CASES[scene].title, options.charts / f"stability_{scene}.png")
+            draw(
+                part,
+                f"{CASES[scene].title} (whole motion, {CASES[scene].end:g} s)",
+                options.charts / f"stability_{scene}.png",
+            )
     print(
         "\nDefault settings: the steps over which they are fine, and the decades of eps around the default that are too"
     )
@@ -83,8 +84,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "stability",
         mbs.Settings(),
         fine=f"position within {WRONG:g} of the extent, energy within {ENERGY:g} of the largest kinetic energy",
-        window=f"until the scene's time, or {MOST_STEPS} steps ({MOST_CLASSICAL} or {FEW_CLASSICAL} in Python), "
-        "fewer for large scenes",
+        window="the whole motion of the scene; smaller steps than its budget allows are left out",
         margins=lines,
         why=WHY,
         classical=why,

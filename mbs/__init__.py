@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from mbs.analysis.periodic_motion import FloquetModel, floquet
     from mbs.common.affine import Affine, AffineVector
     from mbs.common.errors import ArgumentTypeError
-    from mbs.compiler import compile
+    from mbs.compiler.compile import compile
     from mbs.model import Model, ModelError
     from mbs.results.accuracy import Accuracy, AccuracyWarning
     from mbs.results.animation import Animation, animate
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from mbs.settings.settings import Settings
     from mbs.simulation.branch_warning import BranchWarning
     from mbs.simulation.large_bending import BendingWarning
+    from mbs.simulation.many_runs import ManyRuns, Variant, simulate_many
+    from mbs.simulation.parameter_warning import ParameterWarning
     from mbs.simulation.run import simulate
     from mbs.simulation.state import Pose
     from mbs.simulation.stepping import Simulation
@@ -48,7 +50,7 @@ _LAZY = {
     "ModelError": "mbs.model",
     "System": "mbs.system.system",
     "SystemFileError": "mbs.system.system",
-    "compile": "mbs.compiler",
+    "compile": "mbs.compiler.compile",
     "Accuracy": "mbs.results.accuracy",
     "AccuracyWarning": "mbs.results.accuracy",
     "Animation": "mbs.results.animation",
@@ -67,11 +69,15 @@ _LAZY = {
     "Trajectory": "mbs.results.trajectory",
     "FloquetModel": "mbs.analysis.periodic_motion",
     "BendingWarning": "mbs.simulation.large_bending",
+    "ParameterWarning": "mbs.simulation.parameter_warning",
     "LinearModel": "mbs.analysis.linear_model",
     "LinearisationWarning": "mbs.analysis.kinks",
     "floquet": "mbs.analysis.periodic_motion",
     "linearise": "mbs.analysis.linear_model",
+    "ManyRuns": "mbs.simulation.many_runs",
+    "Variant": "mbs.simulation.many_runs",
     "simulate": "mbs.simulation.run",
+    "simulate_many": "mbs.simulation.many_runs",
 }
 
 __all__ = [
@@ -87,8 +93,10 @@ __all__ = [
     "FloquetModel",
     "LinearModel",
     "LinearisationWarning",
+    "ManyRuns",
     "Model",
     "ModelError",
+    "ParameterWarning",
     "Pose",
     "Poses",
     "RoadFile",
@@ -100,12 +108,14 @@ __all__ = [
     "System",
     "SystemFileError",
     "Trajectory",
+    "Variant",
     "animate",
     "compile",
     "floquet",
     "linearise",
     "read_road",
     "simulate",
+    "simulate_many",
     "write_road",
 ]
 

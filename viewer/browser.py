@@ -113,7 +113,6 @@ def open_secretly(address: str, folder: str | os.PathLike[str]) -> bool:
 
     Parameters
     ----------
-    address : str
     folder : path
         That only this user can read; it must stay until the browser has read the page.
     """

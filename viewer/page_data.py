@@ -22,7 +22,6 @@ def page_data(recordings: Sequence[Recording], options: Mapping[str, Any]) -> di
 
     Parameters
     ----------
-    recordings : sequence of Recording
     options : mapping
         Of the player.
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ali3.files import check_writable, whole_file
+from ali3.near_names import near_names
 from viewer.errors import ViewerError
 from viewer.html_document import html_document
 from viewer.page_data import page_data
@@ -88,7 +88,7 @@ def page_html(
     known = dict.fromkeys(name for recording in shown for name in recording.columns)
     for name in checked.get("plots", ()):
         if name not in known:
-            near = difflib.get_close_matches(name, known, 3, 0.4) or list(known)[:3]
+            near = near_names(name, known, closeness=0.4) or list(known)[:3]
             raise ViewerError(f"There is no signal {name!r} to be plotted; there is {', '.join(near) or 'none'}.")
     data = page_data(shown, checked)
     heading = title if title is not None else ", ".join(dict.fromkeys(recording.name for recording in shown))

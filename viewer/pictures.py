@@ -74,7 +74,6 @@ def write_picture(
     ----------
     path : path
         File to write; one that is there is replaced when the new one is whole.
-    recordings : Recording or sequence of Recording
     time : float
         s; one outside the recordings is refused.
     size : (int, int)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
+from ali3.near_names import did_you_mean
 from viewer.errors import ViewerError
 
 
@@ -75,9 +75,8 @@ def check_options(options: Mapping[str, Any]) -> dict[str, Any]:
     """
     for name, value in options.items():
         if name not in OPTIONS:
-            near = difflib.get_close_matches(str(name), OPTIONS, 1)
-            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(OPTIONS)}."
-            raise ViewerError(f"The player has no option {str(name)!r}; {hint}")
+            hint = did_you_mean(str(name), OPTIONS, f"there are {', '.join(OPTIONS)}")
+            raise ViewerError(f"The player has no option {str(name)!r}{hint}")
         if not OPTIONS[name].good(value):
             raise ViewerError(f"The option {name!r} of the player is {value!r}; it must be {OPTIONS[name].words}.")
     return {name: list(value) if isinstance(value, tuple) else value for name, value in options.items()}

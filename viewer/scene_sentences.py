@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from ali3.near_names import near_names
 from ali3.words import place_words
 from viewer import road_types, scenery_types
 from viewer import scene_types as types
@@ -213,5 +213,5 @@ def _kinds_at(path: Sequence[str | int]) -> list[str]:
 
 
 def _near(word: str, known: Sequence[str | int]) -> str | None:
-    near = difflib.get_close_matches(word, [str(k) for k in known], 1, 0.6)
+    near = near_names(word, [str(k) for k in known], 1)
     return near[0] if near else None

@@ -5,8 +5,8 @@ Per manoeuvre and step, against the stored reference (see `benchmarks.car_refere
 - `path_error_m`: largest distance between the car's reference point and its place in the reference at the same time;
   `path_error_rel`: that over the length of the reference's path.
 - `wheel_load_error_rel`: largest error of a wheel load over the largest wheel load of the manoeuvre.
-- `us_per_step`, `realtime_factor`: median wall time of the kernel. The `_fmpy` ones go through the FMU: FMPy sets the
-  inputs, makes a communication step of the same length and gets four outputs.
+- `us_per_step`, `realtime_factor`: least processor time of the kernel. The `_fmpy` ones go through the FMU: FMPy sets
+  the inputs, makes a communication step of the same length and gets four outputs.
 - `..._fmpy_held`, `..._fmpy_followed`: the errors through the FMU, with inputs that are held over a communication step,
   and with inputs that follow their first derivatives (fmi2SetRealInputDerivatives).
 """

@@ -14,7 +14,7 @@ import numpy as np
 from benchmarks.car import manoeuvres, trajectories
 from benchmarks.car.trajectories import Column
 from benchmarks.shared.command import pyplot, save_chart
-from benchmarks.shared.timing import median_wall
+from benchmarks.shared.timing import best_time
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import with_names_of
 from mbs import Trajectory
@@ -26,8 +26,8 @@ ERRORS = ("path_error_rel", "wheel_load_error_rel")
 OUTPUTS = (*trajectories.POSITION, "speed")
 
 
-def wall_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeuvres.PROTOTYPE) -> float:
-    """Median wall time of the communication loop of a manoeuvre through FMPy, s."""
+def time_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeuvres.PROTOTYPE) -> float:
+    """Least processor time of the communication loop of a manoeuvre through FMPy, s."""
     from hosts.fmu.fmu import Fmu
 
     manoeuvre, start = manoeuvres.load(name, car), start_of_fmu(name, car)
@@ -38,14 +38,14 @@ def wall_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeu
         with Fmu(file) as fmu:
             set_inputs, get_outputs = fmu.setter(list(manoeuvre.inputs)), fmu.getter(OUTPUTS)
             fmu.initialise(start | manoeuvre.at(0.0) | {"step_size": h})
-            begin = time.perf_counter()
+            begin = time.process_time()
             for k, row in enumerate(rows):
                 set_inputs(row)
                 fmu.step(k * h, h)
                 get_outputs()
-            return time.perf_counter() - begin
+            return time.process_time() - begin
 
-    return median_wall(once, repeats)
+    return best_time(once, repeats)
 
 
 def start_of_fmu(name: str, car: str = manoeuvres.PROTOTYPE) -> dict[str, Value]:
@@ -94,7 +94,7 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
     error = trajectories.path_error(found, values)
     duration = float(found.t[-1])
     system, manoeuvre = manoeuvres.system_of(name, car), manoeuvres.load(name, car)
-    wall = manoeuvres.time_on(system, manoeuvre, h, repeats, time.perf_counter)
+    spent = manoeuvres.time_on(system, manoeuvre, h, repeats, time.process_time)
     held, followed = "_fmpy_held", "_fmpy_followed"
     row: dict[str, Any] = {
         "manoeuvre": name,
@@ -105,15 +105,15 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
         "iterations_mean": report.mean_iterations,
         "iterations_max": report.max_iterations,
         "halvings": report.halvings,
-        "us_per_step": 1e6 * wall * h / duration,
-        "realtime_factor": duration / wall,
+        "us_per_step": 1e6 * spent * h / duration,
+        "realtime_factor": duration / spent,
         "us_per_step_fmpy": None,
         "realtime_factor_fmpy": None,
         **{f"{key}{way}": None for way in (held, followed) for key in ERRORS},
     }
     if fmu is not None and name not in manoeuvres.OTHER_ROAD:
-        wall = wall_of_fmu(fmu, name, h, max(1, repeats // 2), car)
-        row |= {"us_per_step_fmpy": 1e6 * wall * h / duration, "realtime_factor_fmpy": duration / wall}
+        spent = time_of_fmu(fmu, name, h, max(1, repeats // 2), car)
+        row |= {"us_per_step_fmpy": 1e6 * spent * h / duration, "realtime_factor_fmpy": duration / spent}
         for way in (held, followed):
             through = run_of_fmu(fmu, name, h, way == followed, car)
             errors = trajectories.path_error(through, values) / length, trajectories.load_error(through, values)
@@ -148,7 +148,7 @@ def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
 
 
 def chart(rows: Sequence[dict[str, Any]], file: Path, car: str = manoeuvres.PROTOTYPE) -> None:
-    """Errors over wall time of a step, as a picture."""
+    """Errors over processor time of a step, as a picture."""
     plt = pyplot()
     figure, axes = plt.subplots(1, 2, figsize=(13, 5.5), layout="constrained", sharex=True)
     parts = (
@@ -163,7 +163,7 @@ def chart(rows: Sequence[dict[str, Any]], file: Path, car: str = manoeuvres.PROT
             ax.loglog(cost, [row[key] for row in mine], **style)
         ax.axhline(bound, color="0.4", linestyle="--", linewidth=1)
         ax.text(1.0, bound, f"{100 * bound:g} % ", transform=ax.get_yaxis_transform(), ha="right", va="bottom")
-        ax.set_xlabel("wall time per simulated second, ms (steps 10, 5, 2, 1 ms from the left)")
+        ax.set_xlabel("processor time per simulated second, ms (steps 10, 5, 2, 1 ms from the left)")
         ax.set_ylabel(label)
         ax.grid(True, which="major", alpha=0.3)
     figure.legend(*axes[1].get_legend_handles_labels(), loc="outside right center", fontsize="small")

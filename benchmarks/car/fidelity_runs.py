@@ -49,7 +49,7 @@ def run(name: str, fidelity: Fidelity, h: float, settings: Settings | None = Non
 
 
 def cpu_time(name: str, fidelity: Fidelity, h: float, repeats: int) -> float:
-    """Median processor time of all steps of a run, s; start and input table are made before."""
+    """Least processor time of all steps of a run, s; start and input table are made before."""
     return manoeuvres.time_on(system_of(name, fidelity), manoeuvre_of(name), h, repeats, time.process_time)
 
 

@@ -127,7 +127,7 @@ def run_on(
 
 
 def time_on(system: System, manoeuvre: Manoeuvre, h: float, repeats: int, clock: Callable[[], float]) -> float:
-    """Median time of all steps of a manoeuvre by a clock, s; start and input table are made before."""
+    """Least time of all steps of a manoeuvre by a clock, s; start and input table are made before."""
     parameters, pose = start_of(manoeuvre, system)
     return step_time(system, manoeuvre.stop_time, h, repeats, clock, inputs_of(manoeuvre, system), parameters, pose)
 

@@ -23,8 +23,8 @@ except ImportError:  # Windows
     resource = None  # type: ignore[assignment]
 
 STRETCH = 250  # steps between saved states
-RUN = 20.0  # s, after which the car starts anew
-ROLLED, LYING = 1.2, 3.0  # rad, s: a car that lies so long starts anew
+RUN = 20.0  # s, after which the car starts again
+ROLLED, LYING = 1.2, 3.0  # rad, s: a car that lies so long starts again
 KEPT = 3  # worst steps that are kept, by time and by iterations
 _READ = ("chassis.roll", "solver.iterations", "solver.halvings", "solver.capped_steps", "solver.capped_residual")
 

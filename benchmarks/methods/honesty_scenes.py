@@ -16,7 +16,7 @@ import mbs
 from benchmarks.car import manoeuvres
 from benchmarks.methods.kernel_methods import KERNEL, suits
 from benchmarks.references.cases import CASES, SAMPLES, Array, exact_of, system_of
-from mbs.results.accuracy import extent, instants, judged_sensors
+from mbs.results.accuracy import extent, judged_sensors
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
 CLOSE = (
@@ -75,10 +75,9 @@ class Scene:
         estimate = found.accuracy.sensors if found.accuracy is not None else {}
         for unit, names in self.units().items():
             true = self.truth()
-            rows = instants(len(found.t))
             size = extent(unit, [true[n] for n in names])
             for name in names:
-                error = float(np.abs(found[name] - true[name])[rows].max()) / size
+                error = float(np.abs(found[name] - true[name]).max()) / size
                 if error >= worst:
                     worst, estimated = error, estimate.get(name, float("nan")) / size
         return worst, estimated

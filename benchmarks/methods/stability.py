@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -13,20 +12,16 @@ from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.baselines.run import run
 from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY, suits
 from benchmarks.methods.stability_margins import SQUEEZED
-from benchmarks.references.cases import CASES, exact_of, size_of, system_of
+from benchmarks.references.cases import CASES, SAMPLES, exact_of, size_of, system_of
 from benchmarks.shared.command import watched
 from mbs.settings.settings import METHODS as KERNEL
 
-SAMPLES = 10  # instants of a run at which it is compared
-KERNEL_STEPS = 10.0 ** np.arange(-6.0, -0.6, 0.5)
-LARGE_STEPS = (0.05, 0.1, 0.2)
-CLASSICAL_STEPS = (1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.2)
-EPS = 10.0 ** -np.arange(3.0, 13.0)  # alpha = 1/(eps h^2): what the kernel's penalty is given by
+STEPS = tuple(float(f"{digit}e{power}") for power in range(-6, 0) for digit in (1, 2, 5))[:-1]
+EPS = 10.0 ** -np.arange(3.0, 12.0, 2.0)  # alpha = 1/(eps h^2): what the kernel's penalty is given by
 PENALTIES = (1e3, 1e5, 1e7, 1e9)  # mass-normalised, 1/s2
 BAUMGARTE = (0.0, 10.0, 100.0, 1000.0)  # 1/s
-MOST_STEPS, COORDINATE_STEPS = 10000, 120000  # a run at a small step ends earlier: steps, steps times coordinates
-MOST_CLASSICAL, FEW_CLASSICAL = 1000, 200  # in Python; the second below a millisecond
-WRONG = 0.05  # of the extent of the motion over the window (at least a hundredth of the whole)
+MOST_CLASSICAL, CLASSICAL_WORK = 1000, 1.3e4  # steps in Python, and those times coordinates
+WRONG = 0.05  # of the extent of the motion
 ENERGY = 0.05  # of the largest energy exchanged, for conservative scenes
 OUTCOMES = ("fine", "wrong", "refused", "diverged")
 PARAMETER = {
@@ -36,31 +31,24 @@ PARAMETER = {
 }
 
 
-@dataclasses.dataclass(frozen=True)
-class Window:
-    """How far a run of a scene goes at a step: whole samples, at most so many steps."""
-
-    end: float
-    every: int
-
-    @classmethod
-    def of(cls, scene: str, h: float, most: int) -> Window:
-        """The window: `SAMPLES` intervals of `every` steps."""
-        full = CASES[scene].map_end
-        every = max(1, min(round(full / SAMPLES / h), most // SAMPLES))
-        return cls(SAMPLES * every * h, every)
+def intervals(scene: str, h: float) -> int | None:
+    """Intervals between the instants at which a whole motion is compared: as many as stored that hold whole steps."""
+    for count in (n for n in range(SAMPLES, 0, -1) if SAMPLES % n == 0):
+        steps = CASES[scene].end / count / h
+        if round(steps) >= 1 and abs(steps - round(steps)) < 1e-6 * steps:
+            return count
+    return None
 
 
-def judge(scene: str, window: Window, positions: np.ndarray, energy: np.ndarray) -> tuple[str, dict[str, Any]]:
-    """Fine or wrong, and the figures."""
+def judge(scene: str, positions: np.ndarray, energy: np.ndarray) -> tuple[str, dict[str, Any]]:
+    """Fine or wrong, and the figures; of the start and of the instants at the end of equal intervals."""
     case = CASES[scene]
-    exact = exact_of(scene, window.end, SAMPLES)
-    extent = max(float(np.linalg.norm(np.ptp(exact, axis=0))), 0.01 * size_of(scene))
+    exact = exact_of(scene)[:: SAMPLES // (len(positions) - 1)]
     error = float(np.linalg.norm(positions - exact, axis=1).max())
-    figures = {"error_share": error / extent, "energy_deviation_J": float(np.abs(energy - energy[0]).max())}
+    figures = {"error_share": error / size_of(scene), "energy_deviation_J": float(np.abs(energy - energy[0]).max())}
     if not np.isfinite(error):
         return "diverged", figures
-    good = error < WRONG * extent
+    good = figures["error_share"] < WRONG
     if case.energy_stays:
         good = good and figures["energy_deviation_J"] < ENERGY * _energy_scale(scene)
     return ("fine" if good else "wrong"), figures
@@ -95,43 +83,42 @@ def _mass(system: mbs.System) -> np.ndarray:
 def kernel_point(scene: str, method: str, h: float, eps: float | None) -> dict[str, Any]:
     """One run of the kernel; eps None takes the default settings."""
     case = CASES[scene]
-    affordable = case.most_steps * COORDINATE_STEPS // (MOST_STEPS * system_of(scene).nq)
-    window = Window.of(scene, h, max(1000, min(case.most_steps, affordable)))
     settings = mbs.Settings(method=method) if eps is None else mbs.Settings(method=method, alpha=1.0 / (eps * h * h))
-    row = _row(scene, TITLES.get(method, method), h, "eps = 1/(alpha h^2)", eps, window)
+    row = _row(scene, TITLES.get(method, method), h, "eps = 1/(alpha h^2)", eps)
+    every, system = _every(scene, h), system_of(scene)
     try:
-        t = mbs.simulate(
-            system_of(scene), window.end, h, settings=settings, every=window.every, progress=False, estimate_error=False
-        )
+        t = mbs.simulate(system, case.end, h, settings=settings, every=every, progress=False, estimate_error=False)
     except mbs.SimulationError as error:
         return row | {"outcome": "refused", "reason": str(error), "stopped_at_s": error.time}
-    outcome, figures = judge(scene, window, np.column_stack([t[s] for s in case.sensors]), t["energy.total"])
+    outcome, figures = judge(scene, np.column_stack([t[s] for s in case.sensors]), t["energy.total"])
     assert t.report is not None
     return row | figures | {"outcome": outcome, "halvings": t.report.halvings}
 
 
 def classical_point(scene: str, method: str, h: float, penalty: float | None) -> dict[str, Any]:
     """One run of a classical method."""
-    case, window = (
-        CASES[scene],
-        Window.of(scene, h, MOST_CLASSICAL if h > 9e-4 * SQUEEZED.get(scene, 1.0) else FEW_CLASSICAL),
-    )
-    row = _row(scene, method, h, PARAMETER.get(method, "penalty, 1/s2"), penalty, window)
-    r = run(system_of(scene), window.end, h, method, case.sensors, penalty=penalty, every=window.every)
+    case = CASES[scene]
+    row = _row(scene, method, h, PARAMETER.get(method, "penalty, 1/s2"), penalty)
+    r = run(system_of(scene), case.end, h, method, case.sensors, penalty=penalty, every=_every(scene, h))
     if r.status != "finished":
         return row | {"outcome": r.status, "reason": r.reason, "stopped_at_s": r.stopped_at}
-    outcome, figures = judge(scene, window, r.positions, r.energy)
+    outcome, figures = judge(scene, r.positions, r.energy)
     return row | figures | {"outcome": outcome}
 
 
-def _row(scene: str, method: str, h: float, name: str, value: float | None, window: Window) -> dict[str, Any]:
+def _every(scene: str, h: float) -> int:
+    count = intervals(scene, h)
+    assert count is not None
+    return round(CASES[scene].end / count / h)
+
+
+def _row(scene: str, method: str, h: float, name: str, value: float | None) -> dict[str, Any]:
     return {
         "scene": scene,
         "method": method,
         "h_s": h,
         "parameter": name,
         "value": value,
-        "window_s": window.end,
         "outcome": "",
         "error_share": None,
         "energy_deviation_J": None,
@@ -141,34 +128,34 @@ def _row(scene: str, method: str, h: float, name: str, value: float | None, wind
     }
 
 
+def steps_of(scene: str, most: float) -> list[float]:
+    """The steps of a map that divide the whole motion into at most so many."""
+    steps = [SQUEEZED.get(scene, 1.0) * h for h in STEPS]
+    return [h for h in steps if CASES[scene].end / h <= most * (1.0 + 1e-9) and intervals(scene, h) is not None]
+
+
 def measure(scene: str, quick: bool) -> list[dict[str, Any]]:
     """All points of a scene."""
-    case, factor = CASES[scene], SQUEEZED.get(scene, 1.0)
-    steps = factor * np.unique(np.concatenate([KERNEL_STEPS, LARGE_STEPS]))
-    eps, classical = EPS, np.array(CLASSICAL_STEPS) * factor
-    penalties, factors = PENALTIES, BAUMGARTE
+    case, system = CASES[scene], system_of(scene)
+    steps = steps_of(scene, case.map_work / system.nq)
+    classical = steps_of(scene, min(MOST_CLASSICAL, CLASSICAL_WORK / system.nq))
+    eps, penalties, factors = EPS, PENALTIES, BAUMGARTE
     if quick:
-        steps, eps, classical, penalties, factors = (
-            steps[-6:-1:2],
-            EPS[2::4],
-            classical[4:6],
-            PENALTIES[2:3],
-            BAUMGARTE[1:2],
-        )
+        steps, classical, eps = steps[-6:-1:2], classical[1:3], EPS[1::2]
+        penalties, factors = PENALTIES[2:3], BAUMGARTE[1:2]
     todo: list[tuple[Callable[..., dict[str, Any]], str, float, float | None]] = []
     values: list[float | None]
-    system = system_of(scene)
     for method in KERNEL:
         if not suits(method, case.conservative, system):
             continue
         tried = () if method in TREE_ONLY else map(float, eps)  # relative coordinates have no penalty
         values = [None, *tried]
-        todo += [(kernel_point, method, float(h), e) for h in steps for e in values]
+        todo += [(kernel_point, method, h, e) for h in steps for e in values]
     for method in CLASSICAL if case.classical else ():
         values = list(penalties)
         if method in PARAMETER:
             values = [None] if PARAMETER[method] == "none" else list(factors)
-        todo += [(classical_point, method, float(h), v) for h in classical for v in values]
+        todo += [(classical_point, method, h, v) for h in classical for v in values]
     return [point(scene, method, h, value) for point, method, h, value in watched(todo)]
 
 

@@ -1,1 +1,1 @@
-"""The tables and figures of the paper, measured anew."""
+"""The tables and figures of the paper, measured again."""

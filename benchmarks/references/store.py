@@ -19,7 +19,7 @@ def main(names: Sequence[str]) -> int:
     """Write one file for each scene."""
     for name in names or NAMES:
         case = CASES[name]
-        rows = np.column_stack([np.linspace(0.0, case.end, SAMPLES + 1), computed(name, case.end, SAMPLES)])
+        rows = np.column_stack([np.linspace(0.0, case.end, SAMPLES + 1), computed(name)])
         header = f"python -m benchmarks.references.store {name}\n" + ",".join(["time_s", *case.sensors])
         np.savetxt(STORED / f"{name}.csv", rows, fmt="%.15g", delimiter=",", header=header)
     return 0

@@ -11,6 +11,7 @@ import mbs
 from fmu_src.build.scene_registry import SceneError
 from fmu_src.geometry.posed import posed_systems
 from mbs.vehicle import Car, car_names, load
+from mbs.vehicle.ports import chosen_ports
 from mbs.vehicle.summary import grip_row
 
 FOLDER = "resources/car"
@@ -43,7 +44,7 @@ class BuiltCar:
     grip: Mapping[str, str]
 
 
-def build_car(car: str, poses: str | None = None) -> BuiltCar:
+def build_car(car: str, poses: str | None = None, ports: str | None = None) -> BuiltCar:
     """Read a car and compile it.
 
     Parameters
@@ -52,6 +53,9 @@ def build_car(car: str, poses: str | None = None) -> BuiltCar:
         Name of a car of the package, a folder with a file car.toml, or such a file.
     poses : {"wheels", "all"} or None
         As `fmu_src.geometry.posed.posed_systems` takes it.
+    ports : str, optional
+        As `mbs.vehicle.ports.chosen_ports` takes them, besides those of the file; the name of what is built says
+        then that it has ports.
 
     Returns
     -------
@@ -62,7 +66,11 @@ def build_car(car: str, poses: str | None = None) -> BuiltCar:
     ValueError
         The file does not describe a car that can be built; the message says why.
     """
-    made = load(Path(car) if _is_path(car) else car)
+    made, name = load(Path(car) if _is_path(car) else car), None
+    if ports is not None:
+        name = f"{made.name}_ports"
+        chosen = chosen_ports(ports)
+        made = made.changed({f"ports.{key}": kind for key, kind in chosen.items()})
     where = f"{made.folder / _FILE}: the car '{made.name}' cannot be built"
     try:
         makers = made.fidelities()
@@ -71,7 +79,11 @@ def build_car(car: str, poses: str | None = None) -> BuiltCar:
         raise SceneError(f"{where}: {error}") from error
     except (ArithmeticError, LookupError) as error:
         raise SceneError(f"{where}: {type(error).__name__}: {error}.") from error
-    return BuiltCar(made.name, made.description, systems, car_files(made), grip_of(made))
+    files = car_files(made)
+    if ports is not None and b"[ports]" not in files[f"{FOLDER}/{_FILE}"]:  # so that the FMU can be built again from it
+        table = "\n".join(["\n[ports]", *(f'{key} = "{kind}"' for key, kind in chosen.items()), ""])
+        files[f"{FOLDER}/{_FILE}"] += table.encode()
+    return BuiltCar(name or made.name, made.description, systems, files, grip_of(made))
 
 
 def grip_of(car: Car) -> dict[str, str]:

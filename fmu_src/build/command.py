@@ -66,11 +66,19 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         help="poses as outputs, for hosts that draw: wheels, those of the wheels of a car, which are always there; "
         "all, of every body too, after all other outputs; default: wheels where they are enough to draw it, else all",
     )
+    parser.add_argument(
+        "--ports",
+        metavar="LIST",
+        help="inputs of a --car at which other programs take the place of its parts, as torque,brakes=pressure: torque "
+        "(=half_shafts or =hub_motors), brakes (=torque or =pressure), steering (=rack_position or =rack_force)",
+    )
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
     parser.add_argument("--license", default="", help="of the model; default: the solver's")
     add_old_names(parser, {"--only": "--kind", "--target": "--platforms"})
     options = parser.parse_args(arguments)
+    if options.ports is not None and options.car is None:
+        parser.error("--ports are of a car: name it by --car")
     if options.kernel:
         return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
     options.out = options.out or Path("dist")
@@ -185,7 +193,7 @@ def _compiled(
 
         print(f"car {car_words(options.car)} ...", flush=True)
         with line.told("compiling the car"):
-            car = build_car(options.car, options.poses)
+            car = build_car(options.car, options.poses, options.ports)
         _tell_grip(car.grip)
         return car.name, car.systems, min(car.systems), car.description, car.files
     from fmu_src.build.car_registry import grip_of

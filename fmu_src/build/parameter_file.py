@@ -20,7 +20,6 @@ def parameter_set(name: str, table: Sequence[Variable], texts: Sequence[TextVari
     ----------
     name : str
         Of the set.
-    table : sequence of Variable
     texts : sequence of TextVariable
         Those that are text.
     """
@@ -33,11 +32,6 @@ def parameter_set(name: str, table: Sequence[Variable], texts: Sequence[TextVari
 
 def write_beside(parameters: ParameterSet, file: Path) -> bool:
     """Write the file unless a person has changed the one that is there.
-
-    Parameters
-    ----------
-    parameters : ParameterSet
-    file : Path
 
     Returns
     -------

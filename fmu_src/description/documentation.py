@@ -34,7 +34,6 @@ def documentation(
         Of the FMU.
     step_size : float
         Default step, s.
-    table : sequence of Variable
     paragraphs : sequence of str
         What is peculiar to the kind of FMU; plain text.
 

@@ -32,10 +32,8 @@ def model_description_fmi3(
 
     Parameters
     ----------
-    head : Description
     table : sequence of Variable
         All scalars, for units and types.
-    arrays : sequence of Array
     reach : Dependencies
         Which variables of the table reach which outputs.
 
@@ -127,7 +125,8 @@ def terminals(arrays: Sequence[Array]) -> bytes:
     ElementTree.SubElement(picture, "CoordinateSystem", corners | {"suggestedScalingFactorTo_mm": "0.1"})
     ElementTree.SubElement(picture, "Icon", corners)
     parts = {name: members for name, members in parts.items() if len(members) > 1}
-    holder = ElementTree.SubElement(root, "Terminals") if parts else root
+    plugs = _plugs(arrays)
+    holder = ElementTree.SubElement(root, "Terminals") if parts or plugs else root
     for name, members in parts.items():
         terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="bus")
         for member in members:
@@ -138,7 +137,28 @@ def terminals(arrays: Sequence[Array]) -> bytes:
                 memberName=member.name.rpartition(".")[2],
                 variableKind="signal",
             )
+    for name, flow, potential in plugs:
+        terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="plug")
+        for variable, of_flow, kind in ((flow, "flow", "inflow"), (potential, "potential", "signal")):
+            named = {"variableName": variable, "memberName": of_flow, "variableKind": kind}
+            ElementTree.SubElement(terminal, "TerminalMemberVariable", named)
     return to_bytes(root)
+
+
+# Last part of the name of a port that a flow goes in by, and of the output that is its potential.
+_PLUGS = {"drive_torque": "omega", "steering_rack_actuator_force": "steering_rack"}
+
+
+def _plugs(arrays: Sequence[Array]) -> list[tuple[str, str, str]]:
+    """Name, flow and potential of the terminals of ports that are flows."""
+    names = {array.name for array in arrays}
+    found = []
+    for array in arrays:
+        prefix, dot, last = array.name.rpartition(".")
+        potential = f"{prefix}{dot}{_PLUGS.get(last, '')}"
+        if array.of.port and last in _PLUGS and potential in names:
+            found.append((f"{prefix}{dot}{last}_port", array.name, potential))
+    return found
 
 
 def _time(parent: ElementTree.Element, reference: int) -> None:

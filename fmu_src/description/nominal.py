@@ -32,7 +32,6 @@ def with_nominal(
 
     Parameters
     ----------
-    table : sequence of Variable
     driven, tried : mapping of int to float
         Largest values by the places of outputs: of a drive, and of trials for those that a drive does not move.
     """
@@ -51,11 +50,6 @@ def with_nominal(
 
 def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dict[int, float]:
     """Largest absolute values of sensors in a drive of each System, by their places in the table.
-
-    Parameters
-    ----------
-    systems : sequence of mbs.System
-    table : sequence of Variable
 
     Returns
     -------

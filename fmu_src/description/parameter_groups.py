@@ -24,7 +24,6 @@ def parameter_groups(
 
     Parameters
     ----------
-    system : mbs.System
     kernel : Instance
         Of it; it is reset.
     value : callable

@@ -29,7 +29,7 @@ _OPEN_RANGE = 10.0
 _SHARES = (1.0, 0.1, 0.01)
 # Types of sensors, see docs/system_file.md.
 _WITH_ORDER, _SECOND = (SensorType.COMPONENT, SensorType.DIRECTION), 2  # second rates need accelerations
-_ON_ROAD = (ElementType.TYRE, ElementType.CONTACT_POINTS)
+_ON_ROAD = (ElementType.TYRE, ElementType.MAGIC_TYRE, ElementType.CONTACT_POINTS)
 _ECHO, _MOTION, _FORCE = "echo", "motion", "force"
 
 
@@ -54,11 +54,6 @@ class Dependencies:
 
 def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependencies:
     """Try a System, or all fidelities of one.
-
-    Parameters
-    ----------
-    systems : sequence of mbs.System
-    table : sequence of Variable
 
     Returns
     -------

@@ -44,7 +44,6 @@ def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: st
 
     Parameters
     ----------
-    targets : sequence of str
     sources : Path
         The unpacked folder.
     folder, name
@@ -78,4 +77,4 @@ def exports(files: Sequence[Path]) -> list[str]:
 
 
 def _files(face: str, table: Path) -> list[Path]:
-    return [*build.sources(), *shell_files(face), table]
+    return [*build.sources(lanes=False), *shell_files(face), table]

@@ -36,10 +36,8 @@ class NativeContents:
     ----------
     model_name : str
         A C identifier, also the model identifier.
-    description, version : str
     systems : sequence of mbs.System
         One per fidelity.
-    table : sequence of Variable
     reach : Dependencies
         What reaches which outputs.
     fidelity : int
@@ -192,8 +190,6 @@ def pack_native(
 
     Parameters
     ----------
-    contents : NativeContents
-    face : Face
     runs : sequence of ReferenceRun
         The default experiment, then others.
     platforms : sequence of str

@@ -30,7 +30,6 @@ def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
 
     Parameters
     ----------
-    face : str
     table_c : str
         The generated table.
 
@@ -41,7 +40,8 @@ def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
     """
     files = {f.name: f.read_bytes() for f in shell_files(face)}
     files |= {f.name: f.read_bytes() for f in HERE.glob("*.h") if not f.name.startswith(_OTHER[face])}
-    rooms = (build.HERE / "src").rglob("*.[ch]")
+    rooms = [*(build.HERE / "src").rglob("*.h"), *build.sources(lanes=False)]
+    rooms = [f for f in rooms if f.parent.name not in build.LANES]
     files |= {f"kernel/{f.relative_to(build.HERE).as_posix()}": f.read_bytes() for f in rooms}
     # once for the kernel's own files and once where every compiler of source FMUs looks
     header = (KERNEL_INCLUDE / "ali3.h").read_bytes()

@@ -61,7 +61,7 @@ def c_table(
     variables = "\n".join(
         f"    {{{c_string(v.name)}, {c_string(unit)}, {_SOURCES[v.source]}, {v.index}, "
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
-        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {v.road}, {bits:#x}, "
+        f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {str(v.port).lower()}, {v.road}, {bits:#x}, "
         f"{_number((v.works or [None])[0], '-HUGE_VAL')}, {_number((v.works or [None])[-1], 'HUGE_VAL')}}},"
         for v, unit, bits in zip(table, units, uncomputed, strict=True)
     )
@@ -108,10 +108,6 @@ def _number(value: float | None, otherwise: str) -> str:
 
 def c_arrays(groups: Sequence[Array]) -> str:
     """The part of `table.c` that FMI 3.0 adds.
-
-    Parameters
-    ----------
-    groups : sequence of Array
 
     Returns
     -------

@@ -46,7 +46,7 @@ class Slave(Fmi2Slave):
         self._link = link = _Link.from_address(int(kwargs["instance_name"]))
         self.instance_name = link.name.decode(errors="replace")
         self._slave = link.slave
-        # Bound once: a field that is a function is made anew at every look.
+        # Bound once: a field that is a function is made again at every look.
         self._step, self._get, self._set = link.step, link.get, link.set
         # Hosts ask for the same variables again and again.
         self._asked: list[int] = []

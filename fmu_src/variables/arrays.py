@@ -37,7 +37,6 @@ class Array:
         Places in the table of variables.
     of : Variable
         The first of them, for causality, unit and range.
-    description : str
     """
 
     name: str
@@ -48,10 +47,6 @@ class Array:
 
 def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
     """Group the variables of a table.
-
-    Parameters
-    ----------
-    table : sequence of Variable
 
     Returns
     -------

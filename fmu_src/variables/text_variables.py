@@ -19,7 +19,6 @@ class TextVariable:
 
     Parameters
     ----------
-    name, description : str
     road : int
         The road whose file it names.
     start : str

@@ -21,7 +21,6 @@ def check_texts(description: str, rights: Sequence[str], table: Sequence[Variabl
         Of the model.
     rights : sequence of str
         Author, copyright, licence.
-    table : sequence of Variable
 
     Raises
     ------

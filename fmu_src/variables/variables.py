@@ -83,6 +83,8 @@ class Variable:
         Fidelities at which it is not computed.
     works : (float, float), optional
         Between which values of a parameter the model does what it is made for.
+    port : bool
+        Of an input: whether another program sets it at every step.
     """
 
     name: str
@@ -101,6 +103,7 @@ class Variable:
     road: int = -1
     uncomputed: tuple[int, ...] = ()
     works: tuple[float, float] | None = None
+    port: bool = False
 
 
 _CAPPED_RESIDUAL = Variable(
@@ -208,7 +211,6 @@ def with_uncomputed(table: Sequence[Variable], metas: Sequence[Mapping[str, Any]
 
     Parameters
     ----------
-    table : sequence of Variable
     metas : sequence of mapping
         Of the System of each fidelity.
     """
@@ -299,6 +301,7 @@ def _ranged(
         whole=bool(entry.get("whole", False)),
         road=entry.get("road", -1),
         works=tuple(entry["works"]) if "works" in entry else None,
+        port=bool(entry.get("port", False)),
     )
 
 

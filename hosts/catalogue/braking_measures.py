@@ -79,7 +79,7 @@ def measures_of(result: Result, onset: float, settings: Mapping[str, float]) -> 
             "stopping_distance.corrected",
             corrected_to(nominal, distance, initial),
             "m",
-            "the same from the nominal speed",
+            "way to rest, corrected to the nominal speed",
             Limit(_R13H, highest=demand) if legal else None,
             why,
         ),
@@ -87,7 +87,7 @@ def measures_of(result: Result, onset: float, settings: Mapping[str, float]) -> 
             "deceleration.mean_fully_developed",
             mean,
             "m/s2",
-            "over the way from 80 % to 10 % of the initial speed",
+            "mean deceleration over the way from 80 % to 10 % of the initial speed",
             Limit(_R13H, lowest=6.43) if legal else None,
             why,
         ),
@@ -102,7 +102,7 @@ def measures_of(result: Result, onset: float, settings: Mapping[str, float]) -> 
             "deceleration.time_to_90",
             time_to_reach(time, deceleration, 0.9 * mean, onset) if began else math.nan,
             "s",
-            "from the first movement of the pedal to 90 % of the mean fully developed deceleration",
+            "time from the first movement of the pedal to 90 % of the mean fully developed deceleration",
             note=why,
         ),
         *_attitude(result, first, moving),
@@ -113,7 +113,7 @@ def measures_of(result: Result, onset: float, settings: Mapping[str, float]) -> 
 
 
 def _attitude(result: Result, first: int, moving: NDArray[np.bool_]) -> list[Measure]:
-    text = "largest angle from that before, nose down"
+    text = "largest pitch angle from that before braking, nose down"
     if "chassis.pitch" not in result or not moving.any():
         return [
             Measure("pitch.largest", math.nan, "rad", text, note="the car does not tell its pitch, or did not brake")
@@ -155,8 +155,16 @@ def _wheels(
         front = loads[:, :2].sum(axis=1) / loads.sum(axis=1)
         shares = float(front[first]), float(front[developed].mean()) if developed.any() else math.nan
     measures += [
-        Measure("front_share.before", shares[0], "1", "of the wheel loads on the front axle before braking", note=note),
-        Measure("front_share.braking", shares[1], "1", "its mean from 80 % to 10 % of the initial speed", note=note),
+        Measure(
+            "front_share.before", shares[0], "1", "share of the front axle in the wheel loads before braking", note=note
+        ),
+        Measure(
+            "front_share.braking",
+            shares[1],
+            "1",
+            "share of the front axle in the wheel loads, mean from 80 % to 10 % of the initial speed",
+            note=note,
+        ),
     ]
     note = short or ("" if loads is not None and forces is not None else unknown["Fz" if loads is None else "Fx"])
     for axle, wheels in (("front", [0, 1]), ("rear", [2, 3])):
@@ -170,7 +178,7 @@ def _wheels(
 
 def _course(result: Result, first: int) -> list[Measure]:
     """Where the car ends beside the line on which it was when braking began."""
-    text = "from the line of travel at the first movement of the pedal to where the car ends, positive to the left"
+    text = "distance of the place of rest from the line of travel at the first movement of the pedal, to the left"
     names = ("chassis.x", "chassis.y", "chassis.yaw")
     if not all(n in result for n in names):
         missing = next(n for n in names if n not in result)
@@ -183,7 +191,7 @@ def _course(result: Result, first: int) -> list[Measure]:
         turned, note = float(np.unwrap(yaw)[-1] - np.unwrap(yaw)[first]), ""
     return [
         Measure("deviation.lateral", aside, "m", text, note=note),
-        Measure("deviation.yaw", turned, "rad", "change of the heading", note=note),
+        Measure("deviation.yaw", turned, "rad", "change of the heading while braking, positive to the left", note=note),
     ]
 
 

@@ -9,10 +9,11 @@ from pathlib import Path
 
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import Result, communication_step, run
+from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 
 __all__ = ["CarFacts", "Pilot", "TestedCar"]
@@ -105,8 +106,7 @@ class TestedCar:
             step = communication_step(fmu, manoeuvre, self.step)
             every = 1 if record_step is None else max(1, round(record_step / step))
             result = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
-            if self.aliases.derived:
-                result.derive(self.aliases, every > 1)
+            derive_columns(result, self.aliases, every > 1)
             return result
 
     @cached_property

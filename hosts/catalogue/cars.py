@@ -9,7 +9,8 @@ from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes
-from hosts.fmu.aliases import Aliases, find_aliases
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import settings_of
 
@@ -31,7 +32,6 @@ def cars_of(
 
     Parameters
     ----------
-    fmus : sequence of Path
     alias_files : sequence of Path
         None, one for all FMUs, or one for each; or names of those that come with the package, such as ``chrono``;
         `NO_ALIASES` is none.
@@ -67,7 +67,7 @@ def _cars_of_one(
     cars = []
     with Fmu(path) as fmu:
         file = None if alias_file is None or str(alias_file) == NO_ALIASES else alias_file
-        aliases = Aliases() if file is None else find_aliases(file, fmu.table)
+        aliases = aliases_of(file, fmu.table)
         for one in sets:
             wishes = Wishes([] if str(one) == AS_IS else [one], list(values))
             start = settings_of(fmu.table, wishes).start

@@ -115,7 +115,6 @@ def drive_circle(
 
     Parameters
     ----------
-    car : TestedCar
     side : float
         1 to the left, -1 to the right.
     settings : mapping of str to float

@@ -76,7 +76,7 @@ def measures_of_dwell(
             "displacement",
             far,
             "m",
-            "lateral displacement 1.07 s after the begin of steer, least of the runs from 5 A",
+            "lateral displacement 1.07 s after the beginning of steer, least of the runs from 5 A",
             Limit(f"{LAW} S5.2.3", lowest=least),
             "" if math.isfinite(far) else "No run with 5 A or more shows it.",
         ),

@@ -32,7 +32,6 @@ class DwellRun:
         Asked for, rad.
     run : SteeredRun
         Its signals are filtered and zeroed.
-    measures : SineWithDwell
     """
 
     amplitude: float
@@ -69,7 +68,7 @@ def amplitudes(a: float, first: float, increment: float, full_lock: float) -> li
 
 
 def table(amplitude: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Times from the begin and angles: a sine of 0.7 Hz that rests at its second peak for 0.5 s, then straight on."""
+    """Times and angles of a sine of 0.7 Hz that rests at its second peak for 0.5 s; then straight on."""
     period = 1.0 / FREQUENCY
     first = np.linspace(0.0, 0.75 * period, 301)
     second = np.linspace(0.75 * period, period, 101)
@@ -115,14 +114,12 @@ def series(
 
     Parameters
     ----------
-    car : TestedCar
     speed : float
-        At the begin of the steering, coasting, m/s.
+        At the beginning of the steering, coasting, m/s.
     side : float
         1: first to the left, -1: first to the right.
     wanted : list of float
         Amplitudes, rad.
-    progress : callable
     """
     done: list[DwellRun] = []
     for k, amplitude in enumerate(wanted):

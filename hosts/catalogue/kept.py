@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from dataclasses import asdict
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +25,19 @@ def digest(task: Task) -> str:
     """A hash of all that the outcome of a task depends on: the FMU, what is set, the test, and the program."""
     car = task.car
     told = (task.test, repr(car.aliases), sorted(car.start.items()), car.step, sorted(task.settings.items()))
-    parts = (car.path.read_bytes(), repr(told).encode(), program_digest().encode())
-    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
+    state = car.path.stat()
+    parts = (_file_hash(car.path, state.st_size, state.st_mtime_ns), _hash(repr(told).encode()))
+    return _hash(b"".join((*parts, _hash(program_digest().encode())))).hex()
+
+
+@cache
+def _file_hash(path: Path, size: int, changed: int) -> bytes:
+    """Once for all tests of an FMU; its size and the time of its last change, ns, tell another file of its name."""
+    return _hash(path.read_bytes())
+
+
+def _hash(content: bytes) -> bytes:
+    return hashlib.sha256(content).digest()
 
 
 def keep(task: Task, record: TestRecord, out: Path) -> None:

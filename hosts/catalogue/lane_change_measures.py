@@ -25,8 +25,6 @@ class Passage:
     ----------
     wanted : float
         Speed of the driver, km/h.
-    result : Result
-    driver : str
     course : Course
         In axes of its own.
     size : tuple of float
@@ -135,7 +133,7 @@ def measures_of(name: str, passed: Passage | None, failed: Passage | None, resol
             f"{name}.speed_hit",
             slowest,
             "km/h",
-            "lowest speed at which one is hit",
+            "lowest speed at which a cone is hit",
             note="" if failed is not None else "none up to the highest speed",
         ),
     ]
@@ -146,7 +144,7 @@ def measures_of(name: str, passed: Passage | None, failed: Passage | None, resol
         exit_speed = 3.6 * passed.at("speed", last.x_end)
         least = passed.least_clearance
     made += [
-        Measure(f"{name}.entry_speed", entry, "km/h", "of the car, the front in the first lane", note=none),
+        Measure(f"{name}.entry_speed", entry, "km/h", "speed of the car with its front in the first lane", note=none),
         Measure(
             f"{name}.exit_speed", exit_speed, "km/h", "of the car, the front at the end of the last lane", note=none
         ),

@@ -24,7 +24,6 @@ def measures_csv(tests: Sequence[StandardTest], outcomes: Mapping[str, Mapping[s
 
     Parameters
     ----------
-    tests : sequence of StandardTest
     outcomes : mapping of str to mapping of str to Outcome
         By name of the test and label of the car.
     """
@@ -129,7 +128,7 @@ def print_measures(
         records = {label: o for label, o in found.items() if isinstance(o, TestRecord)}
         rows = [["measure", "unit", *labels]] if records else []
         for name in dict.fromkeys(m.name for o in records.values() for m in o.measures):
-            by_car = {label: m for label, o in records.items() for m in o.measures if m.name == name}
+            by_car = {label: m.displayed() for label, o in records.items() for m in o.measures if m.name == name}
             unit = next(iter(by_car.values())).unit
             rows.append([name, "" if unit == "1" else unit, *(_cell(by_car.get(label)) for label in labels)])
         _print_rows(rows)

@@ -21,7 +21,6 @@ def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str
 
     Parameters
     ----------
-    test : StandardTest
     given : mapping of str to float
         By the names of `test.settings`.
 
@@ -75,8 +74,6 @@ def perform(
 
     Parameters
     ----------
-    test : StandardTest
-    car : TestedCar
     settings : mapping of str to float, optional
         Those that are not by default.
     progress : callable

@@ -15,10 +15,6 @@ _NEAR = (0.7, 1.4)
 def implausible(run: SteeredRun) -> str | None:
     """What cannot be in a turn of slowly rising steering; None if all can.
 
-    Parameters
-    ----------
-    run : SteeredRun
-
     Returns
     -------
     str or None

@@ -50,8 +50,6 @@ def held(
 
     Parameters
     ----------
-    car : TestedCar
-    name : str
     stop_time : float
         s.
     inputs : mapping of str to float

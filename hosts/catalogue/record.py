@@ -50,10 +50,8 @@ class Setting:
 
     Parameters
     ----------
-    name : str
     value : float
         By default, in `unit`.
-    unit, text : str
     lowest, highest : float
         Of what makes sense.
     """
@@ -85,7 +83,6 @@ class Plot:
         By which plots of several cars are matched.
     x, y : str
         Quantity and unit, such as ``lateral acceleration, m/s²``.
-    lines : sequence of Line
     log_x, log_y : bool
         Whether the axis is logarithmic.
     equal : bool
@@ -107,8 +104,6 @@ class TestRecord:
 
     Parameters
     ----------
-    measures : sequence of Measure
-    plots : sequence of Plot
     runs : mapping of str to Result
         Every run of the FMU by a short name, under our names of variables, in SI units.
     notes : sequence of str
@@ -132,8 +127,6 @@ class StandardTest(Protocol):
         Of the command, such as ``step_steer``.
     title : str
         For people.
-    standards : tuple of Standard
-    settings : tuple of Setting
     needs : tuple of str
         Variables by our names without which the test cannot be done.
     """
@@ -149,7 +142,6 @@ class StandardTest(Protocol):
 
         Parameters
         ----------
-        car : TestedCar
         settings : mapping of str to float
             Every one of `settings`.
         progress : callable

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import importlib
 import importlib.util
 
+from ali3.near_names import did_you_mean
 from hosts.catalogue.record import StandardTest
 from hosts.common.errors import HostError
 
@@ -36,8 +36,7 @@ def standard_test(name: str) -> StandardTest:
         If there is none of it, with the names that there are.
     """
     if name not in TESTS:
-        near = difflib.get_close_matches(name, TESTS, 1)
-        hint = f"did you mean '{near[0]}'?" if near else f"they are: {', '.join(TESTS)}."
-        raise HostError(f"There is no test '{name}' in the catalogue; {hint}")
+        hint = did_you_mean(name, TESTS, f"they are: {', '.join(TESTS)}")
+        raise HostError(f"There is no test '{name}' in the catalogue{hint}")
     test: StandardTest = importlib.import_module(f"{_FOLDER}.{name}").TEST
     return test

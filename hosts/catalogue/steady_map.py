@@ -35,8 +35,6 @@ class SteadyMap:
         m/s.
     angle, acceleration : ndarray of shape (n,)
         Sizes, rad and m/s²; filtered, up to the largest acceleration.
-    run : SteeredRun
-    notes : tuple of str
     """
 
     speed: float
@@ -78,7 +76,6 @@ def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 
 
     Parameters
     ----------
-    car : TestedCar
     speed : float
         m/s.
     acceleration : float
@@ -144,7 +141,6 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
 
     Parameters
     ----------
-    car : TestedCar
     speed, lower : float
         m/s.
     acceleration : float

@@ -38,12 +38,10 @@ class SteeredPilot:
 
     Parameters
     ----------
-    car : TestedCar
     speed : float
         When the steering begins, m/s.
     time, angle : ndarray of shape (n,)
-        s from the begin, and angle of the steering wheel, rad; linear in between.
-    pedals : Pedals
+        s from the beginning, and angle of the steering wheel, rad; linear in between.
     longest : float
         Time the car has to come to its speed, s.
 
@@ -118,7 +116,7 @@ class SteeredRun:
     begin : float
         Of the steering in its time, s; NaN if the car did not come to its speed.
     time : ndarray of shape (n,)
-        s; from 1 s before the begin or later. Empty if there was none.
+        s; from 1 s before the beginning or later. Empty if there was none.
     steering, yaw_rate, acceleration, sideslip, roll, speed : ndarray of shape (n,)
         rad, rad/s, m/s², rad, rad, m/s; NaN where the car has no such output. The acceleration is lateral and level.
     whole : bool
@@ -173,14 +171,12 @@ def steer(
 
     Parameters
     ----------
-    car : TestedCar
     name : str
         Of the run.
     speed : float
         m/s.
     time, angle : ndarray of shape (n,)
-        s from the begin, rad.
-    pedals : Pedals
+        s from the beginning, rad.
     lateral_limit : float
         Lateral acceleration at which the run ends, m/s².
     """

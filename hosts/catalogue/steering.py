@@ -47,10 +47,6 @@ class SteeringInput:
     def of(cls, facts: CarFacts) -> SteeringInput:
         """The best of the inputs of a car.
 
-        Parameters
-        ----------
-        facts : CarFacts
-
         Raises
         ------
         HostError

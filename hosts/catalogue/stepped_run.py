@@ -24,12 +24,10 @@ class SteppedRun:
 
     Parameters
     ----------
-    run : SteeredRun
     angle : float
         Step of the steering wheel, rad.
     rise : float
         Time from 10 to 90 % of it, s.
-    yaw_rate, acceleration, roll : StepResponse
     sideslip : float
         Of the steady state, rad.
     """
@@ -48,9 +46,8 @@ def stepped(run: SteeredRun, steady: tuple[float, float]) -> SteppedRun:
 
     Parameters
     ----------
-    run : SteeredRun
     steady : tuple of float
-        Begin and end of the window of the steady state, s after the begin of the steering.
+        Beginning and end of the window of the steady state, s after the beginning of the steering.
     """
     t = run.time
     if not len(t) or t[-1] < steady[1] - 1e-6:
@@ -78,7 +75,6 @@ def measures_of_step(level: str, wanted: float, left: SteppedRun, right: Stepped
         First part of their names.
     wanted : float
         Steady lateral acceleration, m/s².
-    left, right : SteppedRun
     angle_unit : str
         Of the steering wheel: ``rad``, or ``1`` where angles are not known.
     """
@@ -97,11 +93,29 @@ def measures_of_step(level: str, wanted: float, left: SteppedRun, right: Stepped
     per = {"rad": ("1/s", "m/(s2.rad)"), "1": ("rad/s", "m/s2")}[angle_unit]
     return [
         made("steering_wheel_angle", lambda s: abs(s.angle), angle_unit, "step of the steering wheel"),
-        made("lateral_acceleration.steady", lambda s: sign(s) * s.acceleration.steady, "m/s2", "as it came out"),
+        made(
+            "lateral_acceleration.steady",
+            lambda s: sign(s) * s.acceleration.steady,
+            "m/s2",
+            "steady lateral acceleration, as it came out",
+        ),
         made("yaw_rate.gain", lambda s: s.yaw_rate.steady / s.angle, per[0], "steady yaw rate over steering angle"),
-        made("yaw_rate.response_time", lambda s: s.yaw_rate.response_time, "s", "from 50 % of steering to 90 %"),
-        made("yaw_rate.peak_response_time", lambda s: s.yaw_rate.peak_response_time, "s", "to the peak", no_peak),
-        made("yaw_rate.overshoot", lambda s: s.yaw_rate.overshoot, "1", "of the yaw rate over its steady value"),
+        made(
+            "yaw_rate.response_time",
+            lambda s: s.yaw_rate.response_time,
+            "s",
+            "time from 50 % of steering to 90 % of the yaw rate",
+        ),
+        made(
+            "yaw_rate.peak_response_time",
+            lambda s: s.yaw_rate.peak_response_time,
+            "s",
+            "time from 50 % of steering to the peak of the yaw rate",
+            no_peak,
+        ),
+        made(
+            "yaw_rate.overshoot", lambda s: s.yaw_rate.overshoot, "1", "overshoot of the yaw rate over its steady value"
+        ),
         made(
             "lateral_acceleration.gain",
             lambda s: s.acceleration.steady / s.angle,
@@ -112,9 +126,14 @@ def measures_of_step(level: str, wanted: float, left: SteppedRun, right: Stepped
             "lateral_acceleration.response_time",
             lambda s: s.acceleration.response_time,
             "s",
-            "from 50 % of steering to 90 %",
+            "time from 50 % of steering to 90 % of the lateral acceleration",
         ),
-        made("lateral_acceleration.overshoot", lambda s: s.acceleration.overshoot, "1", "over its steady value"),
+        made(
+            "lateral_acceleration.overshoot",
+            lambda s: s.acceleration.overshoot,
+            "1",
+            "overshoot of the lateral acceleration over its steady value",
+        ),
         made("sideslip.steady", lambda s: sign(s) * s.sideslip, "rad", "steady sideslip angle, in a turn to the left"),
         made(
             "tb_factor",
@@ -123,8 +142,13 @@ def measures_of_step(level: str, wanted: float, left: SteppedRun, right: Stepped
             "TB: peak response time of the yaw rate times steady sideslip angle",
             no_peak,
         ),
-        made("roll.gradient", lambda s: s.roll.steady / s.acceleration.steady, "rad.s2/m", "roll over acceleration"),
-        made("roll.overshoot", lambda s: s.roll.overshoot, "1", "of the roll angle over its steady value"),
+        made(
+            "roll.gradient",
+            lambda s: s.roll.steady / s.acceleration.steady,
+            "rad.s2/m",
+            "roll angle over lateral acceleration",
+        ),
+        made("roll.overshoot", lambda s: s.roll.overshoot, "1", "overshoot of the roll angle over its steady value"),
         asymmetry(
             f"{level}.asymmetry",
             [(left.yaw_rate.steady / left.angle, right.yaw_rate.steady / right.angle)],

@@ -29,7 +29,6 @@ class Task:
     ----------
     test : str
         Its name.
-    car : TestedCar
     settings : mapping of str to float
         Of the test.
     folder : Path, optional
@@ -47,7 +46,6 @@ def do(task: Task, progress: Callable[[float], None]) -> Outcome:
 
     Parameters
     ----------
-    task : Task
     progress : callable
         Called with the part that is done, 0 to 1, a few times a second.
     """

@@ -42,8 +42,6 @@ class Stop:
 
     Parameters
     ----------
-    pedal : float
-    result : Result
     onset : float
         First movement of the pedal, s; NaN if the car did not get there.
     reason : str
@@ -146,12 +144,13 @@ def measures_of(stops: Sequence[Stop], settings: Mapping[str, float]) -> list[Me
     for k, (name, unit, text) in enumerate(QUANTITIES):
         column = np.array([v[k] for _, v in known])
         value = float(np.interp(at, decelerations, column)) if reached else math.nan
+        worst_text = f"{text}; at the stop where it differs most"
         text = f"{text}; at {at:g} m/s2 of mean deceleration in that second"
         made.append(Measure(name, value, unit, text, note=note))
         neutral = 1.0 if name.endswith("ratio") else 0.0
         worst = float(column[np.argmax(np.abs(column - neutral))]) if len(known) else math.nan
         why = "" if len(known) else (none or "no stop lasts a second")
-        made.append(Measure(f"worst.{name}", worst, unit, "the same where it differs most, over all stops", note=why))
+        made.append(Measure(f"worst.{name}", worst, unit, worst_text, note=why))
     spun = [d for s, d, _ in rows if s.reason in ("spun", "rolled")]
     locking = [d for s, d, _ in rows if s.locks]
     untold = bool(braked) and braked[0].locks is None
@@ -189,9 +188,9 @@ def _steady(stop: Stop | None, none: str) -> list[Measure]:
     names = (
         ("steady.radius", "m", "radius of the undisturbed circle"),
         ("steady.speed", "m/s", "speed on it"),
-        ("steady.ay", "m/s2", "its lateral acceleration, speed squared over radius"),
-        ("steady.yaw_rate", "rad/s", "its yaw rate, positive to the left"),
-        ("steady.sideslip", "rad", "its sideslip, positive to the left"),
+        ("steady.ay", "m/s2", "lateral acceleration on the undisturbed circle, speed squared over radius"),
+        ("steady.yaw_rate", "rad/s", "yaw rate on the undisturbed circle, positive to the left"),
+        ("steady.sideslip", "rad", "sideslip on the undisturbed circle, positive to the left"),
     )
     values = [math.nan] * len(names)
     if stop is not None:

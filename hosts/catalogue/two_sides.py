@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
+from hosts.common.display_units import shown_in
 from hosts.measures.measure import Limit, Measure
 
 _SAME = 0.05
@@ -26,11 +27,8 @@ def mean_of_sides(
 
     Parameters
     ----------
-    name : str
     left, right : float
         NaN where a run does not yield it.
-    unit, text : str
-    limit : Limit, optional
     why : str
         Note where both are missing.
     exists : bool
@@ -44,7 +42,8 @@ def mean_of_sides(
     if len(known) == 1:
         note = f"Of the turn to the {'left' if math.isfinite(left) else 'right'} alone: the other does not show it."
     elif abs(left - right) > _SAME * abs(mean):
-        note = f"Left {left:.4g}, right {right:.4g}."
+        tail, factor = shown_in(unit, name)
+        note = f"Left {factor * left:.4g}, right {factor * right:.4g}{'' if tail == '1' else f' {tail}'}."
     return Measure(name, mean, unit, text, limit, note)
 
 

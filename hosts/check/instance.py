@@ -44,7 +44,6 @@ class Subject:
     ----------
     path, folder : Path
         The file, and where it is unpacked.
-    description : ModelDescription
     steps : int
         Communication steps per run.
     step : float

@@ -19,7 +19,6 @@ def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, sh
 
     Parameters
     ----------
-    fmu : Path
     given : Wishes
         What is set in it before.
     out : Path, optional

@@ -37,7 +37,6 @@ class Deviation:
 
     Parameters
     ----------
-    name, unit : str
     error : float
         The largest, in that unit.
     at : float
@@ -135,7 +134,6 @@ def check_reference(
     step : float, optional
         Communication step, s; by default that of the record beside the table, else of the FMU, else what divides the
         distance of the rows.
-    fidelity : float, optional
     wishes : Wishes
         What is set.
     bounds : sequence of (str, float)

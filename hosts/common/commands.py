@@ -17,8 +17,6 @@ def run_module(module: str, *arguments: str, hear: Callable[[str], None] = lambd
 
     Parameters
     ----------
-    module : str
-    arguments : str
     hear : callable
         Hears each line of its standard error at once.
 

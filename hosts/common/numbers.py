@@ -15,3 +15,8 @@ def parse_value(text: str) -> Value:
     if len(word) >= 2 and word[0] == word[-1] and word[0] in "\"'":
         return word[1:-1]
     return word == "true" if word in ("true", "false") else parse_number(word)
+
+
+def is_round_off(change: float, size: float) -> bool:
+    """Whether a change of a number of this size is no effect of anything, but rounding and the solver's tolerance."""
+    return abs(change) <= max(1e-9 * abs(size), 1e-12)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
+from collections import Counter
 
+from ali3.near_names import did_you_mean
 from ali3.parameter_set import UnitDefinition
 from hosts.common.errors import HostError
 
@@ -110,10 +111,9 @@ def unit_definition(text: str, where: str) -> UnitDefinition:
     """
     found = known_unit(text)
     if found is None:
-        near = difflib.get_close_matches(_plain(text), _UNITS, 3, 0.4)
-        hint = f"; did you mean {' or '.join(near)}" if near else ""
         raise HostError(
-            f"{where}: the unit '{text}' is not known{hint}; another can be given by a factor: "
+            f"{where}: the unit '{text}' is not known{did_you_mean(_plain(text), _UNITS, closeness=0.4)} In a log "
+            "another can be given by a factor: "
             "value in the log = factor * value in the FMU's unit + offset."
         )
     return found
@@ -124,9 +124,27 @@ def known_unit(text: str) -> UnitDefinition | None:
     name = _plain(text)
     name = _OTHER_NAMES.get(name, name)
     if name not in _UNITS:
-        return None
+        return _compound(name)
     exponents, factor, offset = _UNITS[name]
     return UnitDefinition(exponents, factor, offset)
+
+
+def _compound(text: str) -> UnitDefinition | None:
+    """Products and one quotient of known units, such as ``rad.s2/m``, ``deg/g`` or ``m/(s2.rad)``."""
+    above, slash, below = text.partition("/")
+    if slash and "." in below and not re.fullmatch(r"\([^()]*\)", below):
+        return None  # it could be meant either way
+    exponents, factor = Counter[str](), 1.0
+    for part, sign in ((above, 1), (below.strip("()"), -1)):
+        for word in part.split(".") if part else []:
+            found = re.fullmatch(r"(.*?[^\d]|1)(\d?)", word)
+            name = "" if found is None else _OTHER_NAMES.get(found[1], found[1])
+            if found is None or name not in _UNITS or _UNITS[name][2]:
+                return None
+            power = sign * int(found[2] or 1)
+            factor *= _UNITS[name][1] ** power
+            exponents.update({base: power * n for base, n in _UNITS[name][0].items()})
+    return UnitDefinition({base: n for base, n in exponents.items() if n}, factor)
 
 
 def unit_of(name: str) -> str | None:
@@ -140,13 +158,46 @@ def same_quantity(one: UnitDefinition, other: UnitDefinition) -> bool:
     return first == second
 
 
+def conversion(unit: str, other: str, where: str = "the unit") -> float:
+    """The factor from values in a unit to those in another.
+
+    Parameters
+    ----------
+    unit, other : str
+        As a person writes them.
+    where : str
+        How messages call where `unit` stands.
+
+    Raises
+    ------
+    HostError
+        One is not known, the two measure different quantities, or their zeros differ.
+    """
+    if unit == other:
+        return 1.0
+    first, second = unit_definition(unit, where), unit_definition(other, where)
+    if not same_quantity(first, second) or first.offset != second.offset:
+        raise HostError(f"{where}: '{unit}' is no unit of what is measured in {other}.")
+    pairs = ((unit, second), (other, first))
+    turns = [math.tau if _is_hertz(name) and "rad" in of.exponents else 1.0 for name, of in pairs]
+    return turns[0] * first.factor / (turns[1] * second.factor)
+
+
+def _is_hertz(text: str) -> bool:
+    """Whether a unit counts turns, where others count radians."""
+    name = _plain(text)
+    return _OTHER_NAMES.get(name, name) == "Hz"
+
+
 def says_nothing(unit: UnitDefinition) -> bool:
     """Whether it is the plain number 1, which FMUs also give where nobody has thought of a unit."""
     return not unit.exponents and (unit.factor, unit.offset) == (1.0, 0.0)
 
 
 def _plain(text: str) -> str:
-    word = text.strip().strip("[]()").strip()
+    word = text.strip()
+    while word[:1] + word[-1:] in ("[]", "()") and len(word) > 1:
+        word = word[1:-1].strip()
     for written, plain in (("²", "2"), ("^", ""), ("**", ""), ("·", "."), ("º", "°")):
         word = word.replace(written, plain)
     return word

@@ -39,7 +39,6 @@ class Alignment:
         By how much the log's clock of this signal runs fast.
     correlation : float
         When aligned.
-    note : str
     """
 
     delay: float

@@ -20,11 +20,8 @@ class ComparedSignal:
 
     Parameters
     ----------
-    measured : Signal
-    simulated : Curve
     deviations : Deviations
         At the samples of the log, as they are: no delay is taken out.
-    rating : Rating
     alignment : Alignment
         Of this signal alone.
     """
@@ -42,7 +39,6 @@ class Comparison:
 
     Parameters
     ----------
-    signals : dict of str to ComparedSignal
     common : Alignment
         Of all signals together.
     """
@@ -58,13 +54,12 @@ def compare(
 
     Parameters
     ----------
-    outputs : mapping of str to Signal
     curves : mapping of str to Curve
         Of these signals.
     longest_delay : float
         That is looked for, s.
     skip : float
-        Seconds at the begin that are not compared.
+        Seconds at the beginning that are not compared.
     """
     pairs = {n: (s.between(skip, curves[n].end), curves[n]) for n, s in outputs.items()}
     signals = {n: _compared(s, c, longest_delay) for n, (s, c) in pairs.items()}

@@ -26,7 +26,6 @@ class FoundForm:
 
     Parameters
     ----------
-    delimiter, decimal, encoding : str
     names : list of str
         Of the columns, without units; those without a name are empty.
     units : dict of str to str
@@ -48,7 +47,6 @@ def find_form(path: Path, wish: Form) -> FoundForm:
 
     Parameters
     ----------
-    path : Path
     wish : Form
         What is known of it.
 

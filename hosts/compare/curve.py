@@ -12,11 +12,6 @@ from hosts.driving.co_simulation import Result
 class Curve:
     """A simulated signal between its points, and its slope there; a cubic spline, at the ends it stays as it is.
 
-    Parameters
-    ----------
-    result : Result
-    name : str
-
     Attributes
     ----------
     end : float
@@ -48,7 +43,6 @@ class SensedCurve(Curve):
 
     Parameters
     ----------
-    curve : Curve
     delay, drift, bias, gain : float
         s; the unit of the signal.
     """

@@ -24,7 +24,6 @@ class Deviations:
         `largest` with its sign, in the unit of the signal; s.
     correlation : float
         Pearson's coefficient; NaN where one of both is constant.
-    samples : int
     note : str
         Why something is NaN, else empty.
     """

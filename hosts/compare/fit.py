@@ -30,8 +30,6 @@ class Found:
 
     Parameters
     ----------
-    unknown : Unknown
-    value : float
     half_width : float
         Of its 95 % confidence interval; infinite where the log does not determine it.
     bound : str
@@ -50,7 +48,6 @@ class Fit:
 
     Parameters
     ----------
-    found : list of Found
     correlation : ndarray of shape (p, p)
         Of the errors of the unknowns.
     before, after : float
@@ -65,7 +62,6 @@ class Fit:
         Number of samples, and as how many uncorrelated ones they count.
     runs : int
         Of the FMU.
-    converged : bool
     """
 
     found: list[Found]
@@ -222,9 +218,8 @@ def overlapping(
 
     Parameters
     ----------
-    outputs : mapping of str to Signal
     end, skip : float
-        Of the simulation; seconds that are left out at the begin.
+        Of the simulation; seconds that are left out at the beginning.
     delays : mapping of str to float
         First guesses that are used, s.
     """

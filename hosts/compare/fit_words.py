@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from hosts.compare.fit import Fit, Found
+from hosts.compare.words import unit_shown, with_unit
 
 _WIDE = 0.5  # of the range, of half an interval that says little
 _TOGETHER = 0.95
@@ -16,7 +17,7 @@ _MISFIT = 3.0  # times the noise
 
 def fit_rows(fit: Fit) -> list[tuple[str, str, str, str, str]]:
     """Name, start, value, half of the 95 % interval and unit of all that was sought."""
-    return [(f.unknown.name, f"{f.unknown.start:.6g}", *_value(f), f.unknown.unit) for f in fit.found]
+    return [(f.unknown.name, f"{f.unknown.start:.6g}", *_value(f), unit_shown(f.unknown.unit)) for f in fit.found]
 
 
 def _value(found: Found) -> tuple[str, str]:
@@ -62,14 +63,15 @@ def _of(found: Found) -> list[str]:
     if found.bound:
         limit = u.low if found.bound == "lower" else u.high
         lines.append(
-            f"{u.name} lies at its {found.bound} bound, {limit:.6g} {u.unit}: its interval says nothing; give it a "
-            "wider range if that makes sense, or look for what else differs."
+            f"{u.name} lies at its {found.bound} bound, {with_unit(limit, u.unit)}: its interval says nothing; give it "
+            "a wider range if that makes sense, or look for what else differs."
         )
     elif not math.isfinite(found.half_width):
         lines.append(f"{u.name} cannot be identified: the compared signals do not determine it.")
     elif math.isfinite(u.high - u.low) and found.half_width > _WIDE * (u.high - u.low) and u.kind == "parameter":
         lines.append(
-            f"{u.name} cannot be identified: its interval of ± {found.half_width:.3g} {u.unit} is as wide as its range."
+            f"{u.name} cannot be identified: its interval of ± {with_unit(found.half_width, u.unit)} is as wide as "
+            "its range."
         )
     return lines
 

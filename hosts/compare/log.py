@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
@@ -10,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.units import known_unit, unit_definition, unit_of
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
@@ -80,9 +80,6 @@ def log_for(
 
     Parameters
     ----------
-    fmu : AliasedFmu
-    raw : RawLog
-    aliases : LogAliases
     why_missing : callable
         Why the FMU does not have one of our names, in a sentence; empty where nothing is known.
 
@@ -249,9 +246,7 @@ def _signal(
 
 
 def _near(name: str, names: Collection[str]) -> str:
-    near = [n for n in names if n.lower() == name.lower()] or difflib.get_close_matches(name, names, 3)
-    near = near or [n for n in names if name.lower() in n.lower() or n.lower() in name.lower()][:3]
-    return f"; did you mean {' or '.join(repr(n) for n in near)}?"[:-1] if near else f"; it has {_listed(names)}"
+    return did_you_mean(name, names, f"it has {_listed(names)}")
 
 
 def _listed(names: Collection[str]) -> str:

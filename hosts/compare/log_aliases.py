@@ -32,7 +32,6 @@ class Column:
         Of the column.
     unit : str, optional
         Without it that of the table's heading, else that of the FMU.
-    factor, offset : float
     time : str, optional
         Column with the times of this one, where it is not that of the table.
     """
@@ -60,7 +59,6 @@ class Form:
 
     Parameters
     ----------
-    delimiter, decimal, encoding : str, optional
     heading : int, optional
         Line of the names, the first is 1.
     units : int, optional

@@ -25,7 +25,6 @@ class RawLog:
 
     Parameters
     ----------
-    path : Path
     table : pandas.DataFrame
         Columns by name.
     units : dict of str to str

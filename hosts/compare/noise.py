@@ -33,7 +33,6 @@ def computed_noise(residuals: Residuals, p: NDArray[np.float64]) -> float:
 
     Parameters
     ----------
-    residuals : Residuals
     p : ndarray of shape (p,)
 
     Notes
@@ -56,7 +55,6 @@ def difference_steps(
 
     Parameters
     ----------
-    residuals : Residuals
     p : ndarray of shape (p,)
     noise : float
         Of `computed_noise`.

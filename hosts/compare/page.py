@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +12,15 @@ import matplotlib
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hosts.compare.comparison import Comparison
+from hosts.common.display_units import shown_in
+from hosts.compare.comparison import ComparedSignal, Comparison
 from hosts.compare.log import Signal
-from hosts.run.result_plots import BLUE, COLOURS, RED, STYLE, save_picture
+from hosts.compare.words import unit_shown
+from hosts.run.result_plots import BLUE, COLOURS, RED, STYLE, save_pictures
+from hosts.run.slide import write_slide
 
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}
 _MEASURED = "#8a8a8a"
@@ -31,8 +37,6 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
         With the parameters of the FMU.
     after : Comparison, optional
         With fitted ones.
-    title : str
-    inputs : mapping of str to Signal
     """
     names = list(before.signals)[:_MOST]
     rows = len(names) + bool(inputs)
@@ -47,7 +51,8 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
         for k, name in enumerate(names):
             s = before.signals[name]
             every = max(1, len(s.measured.time) // _POINTS)
-            t, y = s.measured.time[::every], s.measured.values[::every]
+            unit, factor = shown_in(s.measured.unit, name)
+            t, y = s.measured.time[::every], factor * s.measured.values[::every]
             over = figure.add_subplot(grid[k, 0], sharex=first)
             first = first or over
             rest = figure.add_subplot(grid[k, 1], sharex=first)
@@ -56,14 +61,14 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
             if after is not None and name in after.signals:
                 runs.append((after.signals[name], RED, "fitted"))
             for run, colour, label in runs:
-                x = run.simulated(t)
+                x = factor * run.simulated(t)
                 over.plot(t, x, color=colour, label=label)
                 rest.plot(t, x - y, color=colour, linewidth=0.9)
-            unit = "" if s.measured.unit == "1" else f", {s.measured.unit}"
             last = runs[-1][0]
-            over.set_title(f"{name}{unit}")
-            rms = f"rms {last.deviations.rms:.3g}{unit.replace(',', '')}"
-            rest.set_title(f"simulated − measured: {rms}; rating {last.rating.overall:.2f}")
+            over.set_title(f"{name}, {unit}" if unit != "1" else name)
+            rms = f"rms {factor * last.deviations.rms:.3g} {unit_shown(unit)}".rstrip()
+            rated = f"; rating {last.rating.overall:.2f}" if math.isfinite(last.rating.overall) else ""
+            rest.set_title(f"simulated − measured: {rms}{rated}")
             rest.axhline(0.0, color="#444444", linewidth=0.8)
             over.margins(x=0)
             if k == 0:
@@ -79,14 +84,42 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
 def _inputs(figure: Figure, grid: Any, row: int, inputs: Mapping[str, Signal], first: Any) -> None:
     axes = figure.add_subplot(grid[row, :1], sharex=first)
     for k, (name, s) in enumerate(inputs.items()):
-        unit = "" if s.unit == "1" else f", {s.unit}"
-        axes.plot(s.time, s.values, color=COLOURS[k % len(COLOURS)], label=f"{name}{unit}")
+        shown, factor = shown_in(s.unit, name)
+        unit = "" if shown == "1" else f", {shown}"
+        axes.plot(s.time, factor * s.values, color=COLOURS[k % len(COLOURS)], label=f"{name}{unit}")
     axes.set_title("inputs, as measured")
     axes.set_xlabel("time, s")
     axes.margins(x=0)
     axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
 
 
+def write_summary(before: Comparison, after: Comparison | None, title: str, stem: Path) -> None:
+    """Write a slide: how far all signals are apart, and three of them over each other."""
+    shown = before if after is None else after
+    head, rows = ["signal", "unit", "rms", "rms / std", "rating"], []
+    for name, s in shown.signals.items():
+        unit, factor = shown_in(s.measured.unit, name)
+        normalised, rated = s.deviations.normalised, s.rating.overall
+        numbers = (f"{x:.2f}" if math.isfinite(x) else "–" for x in (normalised, rated))
+        rows.append([name, unit_shown(unit), f"{factor * s.deviations.rms:.3g}", *numbers])
+    words = "with the parameters of the FMU" if after is None else "with the fitted parameters"
+    subtitle = f"simulated and measured, {words}; rating like ISO/TS 18571, 1 is best"
+    draws = [partial(_over, name=name, s=s) for name, s in shown.signals.items()]
+    write_slide(stem, title, subtitle, head, rows, draws)
+
+
+def _over(axes: Axes, name: str, s: ComparedSignal) -> None:
+    unit, factor = shown_in(s.measured.unit, name)
+    every = max(1, len(s.measured.time) // _POINTS)
+    t = s.measured.time[::every]
+    axes.plot(t, factor * s.measured.values[::every], ".", color=_MEASURED, markersize=2.5, label="measured")
+    axes.plot(t, factor * s.simulated(t), color=BLUE, linewidth=1.2, label="simulated")
+    axes.set_title(f"{name}, {unit}" if unit != "1" else name)
+    axes.set_xlabel("time, s")
+    axes.margins(x=0)
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
 def write_picture(figure: Figure, file: Path) -> None:
-    """Write the page as PNG."""
-    save_picture(figure, file)
+    """Write the page as PNG, and as SVG beside it."""
+    save_pictures(figure, file.with_suffix(""))

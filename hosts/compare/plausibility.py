@@ -37,8 +37,6 @@ def check_inputs(fmu: AliasedFmu, inputs: Mapping[str, Signal], longest: float, 
 
     Parameters
     ----------
-    fmu : AliasedFmu
-    inputs : mapping of str to Signal
     longest : float
         Gap that is bridged by a straight line, s.
     notes : list of str
@@ -101,10 +99,6 @@ def odd_speed(signals: Mapping[str, Signal]) -> str:
     """A sentence if a log's speed times its yaw rate is 3.6 times its lateral acceleration; else empty.
 
     The simulation begins with the speed of the log, so that it cannot tell that this is in another unit.
-
-    Parameters
-    ----------
-    signals : mapping of str to Signal
     """
     speed = signals.get("speed", signals.get("chassis.vx"))
     yaw, lateral = signals.get("chassis.wz"), signals.get("chassis.ay")
@@ -128,7 +122,6 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
 
     Parameters
     ----------
-    signal : Signal
     curve : Curve
         Simulated.
     delay : float

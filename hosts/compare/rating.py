@@ -28,12 +28,7 @@ _GRADES = ((0.94, "excellent"), (0.80, "good"), (0.58, "fair"), (0.0, "poor"))
 
 @dataclass(frozen=True)
 class Rating:
-    """Scores between 0 and 1; NaN where the measured signal is constant.
-
-    Parameters
-    ----------
-    corridor, phase, magnitude, slope, overall : float
-    """
+    """Scores between 0 and 1; NaN where the measured signal is constant."""
 
     corridor: float
     phase: float

@@ -14,10 +14,11 @@ from hosts.common.numbers import Value
 from hosts.compare.follower import demanded
 from hosts.compare.log import Signal
 from hosts.driving.co_simulation import Result, run
+from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 
 
@@ -35,8 +36,6 @@ def inputs_of(
 
     Parameters
     ----------
-    name : str
-    inputs : mapping of str to Signal
     start : mapping of str to float, int, bool or str
         Start values.
     end : float
@@ -45,7 +44,7 @@ def inputs_of(
         Communication step, s.
     held : bool
         Whether the FMU holds its inputs during a step. Each then has the measured value of the middle of the step, so
-        that on the whole nothing is late; else that of the begin.
+        that on the whole nothing is late; else that of the beginning.
     whole : collection of str
         Inputs that are whole numbers, which keep the value of a sample up to the next.
     followed : mapping of str to float, optional
@@ -81,7 +80,6 @@ class Replay:
         FMU.
     aliases : Aliases
         Our names for its variables.
-    manoeuvre : Manoeuvre
     step : float
         Communication step, s.
     speed : Signal, optional
@@ -155,19 +153,18 @@ class Replay:
         driver = None if self._speed is None else _holder(self._speed, self._pedal)
         self._fmu.messages.clear()
         result = run(fmu, manoeuvre, self.step, driver)
-        if self._aliases.derived:
-            result.derive(self._aliases)
+        derive_columns(result, self._aliases)
         for message in dict.fromkeys(result.messages):
             self.said[message] = self.said.get(message, 0) + 1
         return result
 
     def check_reset(self) -> bool:
-        """Drive twice; an FMU whose second drive after a reset is another is loaded anew for each drive from now on.
+        """Drive twice; an FMU whose second drive after a reset is another is loaded again for each drive from now on.
 
         Returns
         -------
         bool
-            Whether it repeats itself to the last bit, after a reset or loaded anew.
+            Whether it repeats itself to the last bit, after a reset or loaded again.
         """
         first = self.run().values
         if self._same(first, self.run().values):

@@ -9,9 +9,11 @@ from pathlib import Path
 
 from ali3 import html
 from ali3.files import write_text
+from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 from hosts.compare.fit import Fit
 from hosts.compare.fit_words import fit_rows
+from hosts.compare.words import unit_shown
 
 _COLUMNS = ("signal", "unit", "rms", "normalised", "mean", "largest", "at, s", "correlation", "rating",
             "corridor", "phase", "magnitude", "slope", "delay, ms")  # fmt: skip
@@ -36,10 +38,6 @@ def write_report(
 
     Parameters
     ----------
-    title : str
-    before, after : Comparison
-    fit : Fit, optional
-    notes, problems : sequence of str
     paths : mapping of str to Path
         ``.html`` is written; ``.png`` is there and goes into it.
     """
@@ -78,8 +76,10 @@ def _rows(comparison: Comparison) -> list[Sequence[str]]:
         d, r, a = s.deviations, s.rating, s.alignment
         scores = [_number(x, ".3f") for x in (r.overall, r.corridor, r.phase, r.magnitude, r.slope)]
         delay = f"{1e3 * a.delay:.3g} ± {1e3 * a.delay_error:.2g}" if math.isfinite(a.delay) else "–"
+        unit, factor = shown_in(s.measured.unit, name)
+        values = [f"{factor * x:.4g}" for x in (d.rms, d.mean, d.largest)]
         rows.append(
-            [name, s.measured.unit, f"{d.rms:.4g}", _number(d.normalised, ".3f"), f"{d.mean:.4g}", f"{d.largest:.4g}",
+            [name, unit_shown(unit), values[0], _number(d.normalised, ".3f"), *values[1:],
              f"{d.time_of_largest:.4g}", _number(d.correlation, ".4f"), *scores, delay]
         )  # fmt: skip
     return rows

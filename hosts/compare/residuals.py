@@ -29,8 +29,6 @@ class Unknown:
 
     Parameters
     ----------
-    name, unit : str
-    start, low, high : float
     scale : float
         By how much it typically changes.
     signal : str
@@ -58,7 +56,6 @@ def nuisances(
     ----------
     wanted : sequence of str
         Of `NUISANCES`.
-    outputs : mapping of str to Signal
     delays : mapping of str to float
         First guesses, s; "" for that in common.
     longest : float

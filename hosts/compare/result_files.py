@@ -21,7 +21,6 @@ def write_signals(before: Comparison, after: Comparison | None, file: Path) -> N
 
     Parameters
     ----------
-    before : Comparison
     after : Comparison, optional
         With fitted parameters.
     file : Path

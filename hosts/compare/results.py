@@ -13,7 +13,7 @@ from ali3.files import check_writable
 from ali3.write_parameter_set import write_parameter_set
 from hosts.compare.comparison import Comparison, measures
 from hosts.compare.fit import Fit
-from hosts.compare.page import comparison_figure, write_picture
+from hosts.compare.page import comparison_figure, write_picture, write_summary
 from hosts.compare.report import write_report
 from hosts.compare.result_files import measure_records, write_json, write_signals
 from hosts.compare.task import Task
@@ -29,7 +29,6 @@ class Outcome:
     ----------
     before, after : Comparison
         With the parameters of the FMU and with fitted ones.
-    fit : Fit, optional
     notes, problems : list of str
         Sentences.
     """
@@ -43,7 +42,7 @@ class Outcome:
 
 def paths_of(options: argparse.Namespace) -> dict[str, Path]:
     """The files to be written by suffix; `FileError` at once, before the work, if they cannot be."""
-    kinds = [".html", ".png", ".csv", *([".ssv"] if options.fit else [])]
+    kinds = [".html", ".png", ".svg", "_summary.svg", "_summary.png", ".csv", *([".ssv"] if options.fit else [])]
     paths = {kind: options.out / f"{options.log.stem}{kind}" for kind in kinds}
     if options.json is not None:
         paths[".json"] = options.json
@@ -61,6 +60,7 @@ def write_outcome(
     title = f"{options.fmu.stem} and {options.log.name}"
     write_signals(outcome.before, outcome.after, paths[".csv"])
     write_picture(comparison_figure(outcome.before, outcome.after, title, task.inputs), paths[".png"])
+    write_summary(outcome.before, outcome.after, title, paths["_summary.svg"].with_suffix(""))
     write_report(title, outcome.before, outcome.after, outcome.fit, outcome.notes, outcome.problems, paths)
     if outcome.fit is not None:
         values = task.aliases.values(dict(task.set_values) | outcome.fit.parameters)

@@ -11,10 +11,10 @@ import numpy as np
 from hosts.common.numbers import Value
 from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 
-_AVERAGED = 0.1  # s at the begin of a log
+_AVERAGED = 0.1  # s at the beginning of a log
 _WHERE = " (where the reference point is to be)"
 _MOVES, _TURNS = 0.5, 0.02  # m/s, rad/s
 
@@ -78,8 +78,6 @@ def placed(
 
     Parameters
     ----------
-    fmu_path : Path
-    aliases : Aliases
     start : mapping
         All start values.
     measured : mapping

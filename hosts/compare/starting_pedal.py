@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from hosts.compare.log import Signal
 from hosts.compare.replay import Replay
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 
 _AHEAD = 0.5  # s, until when the speed is met
 _CLOSE = 0.005  # of the pedal
@@ -24,7 +24,6 @@ def starting_pedal(path: Path, aliases: Aliases, manoeuvre: Manoeuvre, step: flo
     ----------
     path : Path
         FMU.
-    aliases : Aliases
     manoeuvre : Manoeuvre
         Without the pedals.
     step : float

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import wishes
@@ -23,7 +23,8 @@ from hosts.compare.starting_pedal import starting_pedal
 from hosts.driving.co_simulation import check_columns, communication_step
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases import Aliases, find_aliases
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import settings_of
 from hosts.fmu.variables import Variable
@@ -43,7 +44,6 @@ class Task:
         Of the FMU.
     inputs, outputs : dict of str to Signal
         From time 0 on.
-    manoeuvre : Manoeuvre
     step : float
         s.
     slopes : bool
@@ -52,7 +52,6 @@ class Task:
         Of the FMU, by our names.
     set_values : dict
         Start values that the user has set.
-    notes : list of str
     speed : Signal, optional
         Measured, where a driver holds it in place of the measured pedals.
     pedal : float
@@ -85,7 +84,7 @@ def prepare(options: argparse.Namespace) -> Task:
         check_of_fmu(options.aliases)
     raw = read_log(options.log, log_aliases.form)
     with Fmu(options.fmu) as opened:
-        aliases = Aliases() if options.aliases is None else find_aliases(options.aliases, opened.table)
+        aliases = aliases_of(options.aliases, opened.table)
         fmu = AliasedFmu(opened, aliases)
         log = log_for(fmu, raw, log_aliases, aliases.why_missing)
         notes = log.notes
@@ -161,10 +160,9 @@ def _chosen(log: Log, fmu: AliasedFmu, options: argparse.Namespace) -> tuple[dic
         wanted = [n.strip() for n in options.signals.split(",") if n.strip()]
         for name in wanted:
             if name not in outputs:
-                near = difflib.get_close_matches(name, outputs, 3)
-                hint = f"did you mean {' or '.join(near)}?"[:-1] if near else f"it has {', '.join(outputs) or 'none'}"
+                hint = did_you_mean(name, outputs, f"it has {', '.join(outputs) or 'none'}")
                 what = "is no output of the FMU" if name not in fmu.names("output") else "is not in the log"
-                raise HostError(f"--signals: '{name}' {what}; {hint}.")
+                raise HostError(f"--signals: '{name}' {what}{hint}")
         outputs = {n: outputs[n] for n in wanted}
     for name in [n.strip() for n in (options.ignore or "").split(",") if n.strip()]:
         if name not in inputs:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Mapping, Sequence
 
 from ali3.decimal_number import parse_number
+from ali3.near_names import did_you_mean
+from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.compare.residuals import Unknown
@@ -39,12 +40,8 @@ def wanted_parameters(
             raise HostError(f"--fit: '{name}' is given twice.")
         variable = variables.get(name)
         if variable is None:
-            near = difflib.get_close_matches(name, variables, 3)
-            near = near or [n for n in variables if name.lower() in n.lower()][:3]
-            hint = (
-                f"; did you mean {' or '.join(near)}?"[:-1] if near else "; ali3 check FMU --show-parameters lists them"
-            )
-            raise HostError(f"--fit: the FMU has no parameter '{name}'{hint}.")
+            hint = did_you_mean(name, variables, f"{command_name('check')} FMU --show-parameters lists them")
+            raise HostError(f"--fit: the FMU has no parameter '{name}'{hint}")
         if variable.kind != "Real" or variable.start is None:
             raise HostError(f"--fit: '{name}' is of the kind {variable.kind}; only real numbers can be fitted.")
         start = float(given.get(name, variable.start))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 
 _HEADINGS = ("signal", "unit", "rms", "nrms", "largest", "at, s", "corr.", "rating", "", "delay, ms")
@@ -14,13 +15,14 @@ def table(comparison: Comparison) -> str:
     rows = [list(_HEADINGS)]
     for name, s in comparison.signals.items():
         d, r, a = s.deviations, s.rating, s.alignment
+        unit, factor = shown_in(s.measured.unit, name)
         rows.append(
             [
                 name,
-                s.measured.unit,
-                f"{d.rms:.4g}",
+                unit_shown(unit),
+                f"{factor * d.rms:.4g}",
                 _number(d.normalised, ".3f"),
-                f"{d.largest:.4g}",
+                f"{factor * d.largest:.4g}",
                 f"{d.time_of_largest:.4g}",
                 _number(d.correlation, ".4f"),
                 _number(r.overall, ".3f"),
@@ -47,6 +49,16 @@ def common_words(comparison: Comparison) -> list[str]:
         )
         lines.append(f"all signals: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late{drift}")
     return lines
+
+
+def unit_shown(unit: str) -> str:
+    """A unit in a table; empty where there is none."""
+    return "" if unit == "1" else unit
+
+
+def with_unit(value: float, unit: str) -> str:
+    """A number in a sentence."""
+    return f"{value:.4g} {unit_shown(unit)}".rstrip()
 
 
 def _number(value: float, form: str) -> str:

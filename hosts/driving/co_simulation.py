@@ -15,7 +15,6 @@ from hosts.driving.driver import ACTS, SENSES, Driver, make_driver
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.fmu.aliases import Aliases
 from hosts.fmu.fmu import StepRefusedError
 
 # Bytes a run may record: more would fill the memory before the disk.
@@ -73,32 +72,12 @@ class Result:
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         return np.asarray(self.values[:, self.names.index(name)])
 
-    def derive(self, aliases: Aliases, thinned: bool = False) -> None:
-        """Write columns that are derived from others anew, with the inputs that ended each step.
-
-        Parameters
-        ----------
-        aliases : Aliases
-        thinned : bool
-            Whether steps are left out, see `Aliases.with_central_rates`.
-        """
-        ended, held = self.values.copy(), [self.names.index(name) for name in self.held]
-        if not thinned:
-            ended[1:, held] = self.values[:-1, held]
-        for k, before in self.jumps.items():
-            ended[k, : len(before)] = before
-        aliases.with_central_rates(self.names, self.time, ended, thinned)
-        derived = [self.names.index(d.ours) for d in aliases.derived if d.ours in self.names]
-        self.values[:, derived] = ended[:, derived]
-
 
 def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
     """The step of a run: the one that was asked for, else that of the FMU.
 
     Parameters
     ----------
-    fmu : SimulatedFmu
-    manoeuvre : Manoeuvre
     step : float, optional
         s.
 
@@ -268,7 +247,6 @@ def run(
     ----------
     fmu : SimulatedFmu
         Not yet initialised.
-    manoeuvre : Manoeuvre
     step : float
         Communication step, s.
     driver : Pilot, optional

@@ -18,7 +18,6 @@ class Manoeuvre:
 
     Parameters
     ----------
-    name : str
     time : ndarray of shape (n,)
         s, not decreasing; a time that stands twice is a step.
     inputs : dict of str to ndarray of shape (n,)

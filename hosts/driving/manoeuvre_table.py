@@ -34,7 +34,6 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
 
     Parameters
     ----------
-    path : Path
     known : collection of str, optional
         Inputs that there are; columns of other names are not read. By default all columns are inputs.
 
@@ -139,7 +138,6 @@ def read_state(file: Path, where: str) -> bytes:
 
     Parameters
     ----------
-    file : Path
     where : str
         The place that names it, for messages.
 
@@ -182,7 +180,6 @@ def write_table(manoeuvre: Manoeuvre, file: Path) -> list[Path]:
 
     Parameters
     ----------
-    manoeuvre : Manoeuvre
     file : Path
         The state goes beside it, with the suffix ``.state``.
 

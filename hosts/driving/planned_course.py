@@ -48,7 +48,6 @@ def planned(course: Course, begin: float, length: float, width: float) -> Planne
 
     Parameters
     ----------
-    course : Course
     begin : float
         Up to which the line is straight, in the middle of the first lane, m.
     length, width : float

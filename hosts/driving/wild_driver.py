@@ -45,7 +45,6 @@ class WildDriver:
 
     Parameters
     ----------
-    seed : int
     inputs : collection of str
         Names of the FMU's inputs. Of `steering` (or a demand in rad), `throttle`, `brake`, `hand_brake` and `selector`
         those that are there are moved.
@@ -74,7 +73,7 @@ class WildDriver:
         ]
 
     def restart(self, time: float) -> None:
-        """Say that the car starts anew at `time`, so that the next deed begins there."""
+        """Say that the car starts again at `time`, so that the next deed begins there."""
         self._until = time
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
@@ -187,7 +186,6 @@ def wild_start(seed: int, targets: Sequence[Target] = ()) -> dict[str, Value]:
 
     Parameters
     ----------
-    seed : int
     targets : sequence of Target
         Half of the starts are 30 to 60 m before one of them, in its direction.
 

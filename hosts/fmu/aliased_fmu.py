@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
 from hosts.common.units import unit_of
-from hosts.fmu.aliases import Alias, Aliases
+from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
 
@@ -25,7 +25,6 @@ class AliasedFmu:
     ----------
     fmu : Fmu
         Its variables that have no alias keep their names and units.
-    aliases : Aliases
 
     Attributes
     ----------

@@ -24,7 +24,7 @@ _IN_USE = 86400.0  # s since an FMU was asked for, in which a command may still 
 _LARGEST = 500_000_000  # bytes of a car's folder
 
 
-def fmu_of_car(car: str, tell: Callable[[str], None], poses: str | None = None) -> Path:
+def fmu_of_car(car: str, tell: Callable[[str], None], poses: str | None = None, ports: str | None = None) -> Path:
     """The FMU of a car for this machine; built once for each content of its files and each version of the program.
 
     Parameters
@@ -35,14 +35,17 @@ def fmu_of_car(car: str, tell: Callable[[str], None], poses: str | None = None) 
         Takes sentences.
     poses : str, optional
         As ``ali3 build --poses`` takes them.
+    ports : str, optional
+        As ``ali3 build --ports`` takes them.
 
     Raises
     ------
     HostError
         It cannot be built; with the words of the build.
     """
-    options = () if poses is None else ("--poses", poses)
-    name = "-".join([car_digest(car), *options[1:]])
+    chosen = {"--poses": poses, "--ports": ports}
+    options = tuple(word for option, value in chosen.items() if value is not None for word in (option, value))
+    name = "-".join([car_digest(car), *(word.replace(",", "_") for word in options[1::2])])
     return _kept_fmu(f"the car {car}", name, ("--car", car, *options), tell)
 
 
@@ -78,7 +81,6 @@ def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
         For messages.
     options : tuple of str
         Of the command, that say what is built.
-    folder : Path
 
     Raises
     ------

@@ -15,7 +15,6 @@ def description_record(description: ModelDescription, variables: Variables) -> d
 
     Parameters
     ----------
-    description : ModelDescription
     variables : Variables
         Of it.
     """

@@ -37,10 +37,6 @@ class StepRefusedError(Exception):
 def described(path: Path) -> ModelDescription:
     """The description of an FMU of any version that FMPy reads.
 
-    Parameters
-    ----------
-    path : Path
-
     Raises
     ------
     HostError

@@ -20,7 +20,6 @@ class FoundFmu:
 
     Parameters
     ----------
-    path : Path
     built : float
         Seconds that its build took; 0: it was there.
     """

@@ -43,10 +43,8 @@ class Instance:
 
     Parameters
     ----------
-    description : ModelDescription
     folder : Path
         Where the FMU is unpacked.
-    name : str
     told : callable
         Takes status, category and text of each message.
     token : str, optional

@@ -62,7 +62,6 @@ def scalars(
 
     Parameters
     ----------
-    description : ModelDescription
     names : mapping of str to sequence of str
         Of elements, see `element_names`; the others are called ``position[1]``, ``matrix[1,2]``.
 

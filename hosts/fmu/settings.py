@@ -25,7 +25,6 @@ class Setting:
 
     Parameters
     ----------
-    variable : Variable
     value : float, int, bool or str
         In the variable's unit.
     source : str
@@ -86,7 +85,6 @@ class Settings:
 
         Parameters
         ----------
-        values : mapping of str to float, int, bool or str
         source : str
             How messages call where they come from.
 
@@ -114,12 +112,7 @@ class Settings:
                 self._note(v.name, f"{v.with_unit(setting.value)} as in the FMU ({source})")
 
     def add_set(self, file: Path) -> None:
-        """Values of an SSV file, converted into the units of the FMU; see `add_numbers`.
-
-        Parameters
-        ----------
-        file : Path
-        """
+        """Values of an SSV file, converted into the units of the FMU; see `add_numbers`."""
         parameters, source = read_parameter_set(file), file.name
         found = [self._of_entry(entry, parameters, source) for entry in parameters.entries]
         self._put(found)
@@ -136,7 +129,6 @@ class Settings:
 
         Parameters
         ----------
-        names : iterable of str
         by : str
             What does.
         """

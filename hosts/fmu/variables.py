@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from typing import Any
 from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.decimal_number import parse_number
+from ali3.near_names import MOST, did_you_mean
 from ali3.parameter_set import Entry, ParameterSet, UnitDefinition, range_words, told
 from ali3.running import command_name
 from hosts.common.errors import HostError
@@ -26,7 +26,6 @@ _ROLES = {
     "structuralParameter": "a structural parameter",
 }
 _WRITTEN = ("Real", "Integer", "Boolean", "String", "Enumeration")
-_NEAREST = 3
 _LONGEST = 80
 
 
@@ -36,12 +35,10 @@ class Variable:
 
     Parameters
     ----------
-    name, description, causality, variability : str
     kind : str
         ``Real``, ``Integer``, ``Boolean``, ``String``, ``Enumeration``, or another type of FMI.
     unit : str
         "1" where there is none.
-    start : float, int, bool, str or None
     low, high : float
         Range, infinite where open.
     definition : UnitDefinition, optional
@@ -98,7 +95,6 @@ class Variable:
 
         Parameters
         ----------
-        text : str
         source : str
             How messages call where it stands.
 
@@ -128,7 +124,6 @@ class Variable:
         ----------
         kind, text : str
             As in a parameter set.
-        source : str
 
         Raises
         ------
@@ -146,11 +141,6 @@ class Variable:
 
     def check(self, value: Value, source: str) -> Value:
         """The value as its kind has it, if it may be set.
-
-        Parameters
-        ----------
-        value : float, int, bool or str
-        source : str
 
         Raises
         ------
@@ -177,12 +167,6 @@ class Variable:
 
     def from_display(self, value: float, unit: str, source: str) -> float:
         """A value in a display unit of the FMU, in the variable's unit.
-
-        Parameters
-        ----------
-        value : float
-        unit : str
-        source : str
 
         Raises
         ------
@@ -250,7 +234,6 @@ class Variables:
 
         Parameters
         ----------
-        name : str
         source : str
             How messages call where it is asked for.
 
@@ -263,7 +246,7 @@ class Variables:
             raise HostError(f"{source}: '{name}' is an array of the FMU; only scalars can be set here.")
         variable = self._variables.get(name)
         if variable is None:
-            raise HostError(f"{source}: the FMU has no parameter or input '{_line(name)}'{self._near(name)}.")
+            raise HostError(f"{source}: the FMU has no parameter or input '{_line(name)}'{self._near(name)}")
         if variable.variability == "constant":
             raise HostError(
                 f"{source}: '{name}' is a constant, {variable.with_unit(variable.start)}; it cannot be set."
@@ -279,14 +262,8 @@ class Variables:
             for n, v in self._variables.items()
             if v.causality in ("parameter", "input") and v.variability != "constant"
         ]
-        same = [n for n in can if n.lower() == name.lower()]
-        near = same or difflib.get_close_matches(name, can, _NEAREST)
-        near = near or [n for n in can if n.rpartition(".")[2] == name.rpartition(".")[2]][:_NEAREST]
-        if near:
-            return f"; did you mean {' or '.join(near)}?"[:-1]
-        if len(can) <= 2 * _NEAREST:
-            return f"; it has: {', '.join(can) or 'none'}"
-        return f"; {command_name('check')} FMU --show-parameters lists them"
+        few, many = f"it has: {', '.join(can) or 'none'}", f"{command_name('check')} FMU --show-parameters lists them"
+        return did_you_mean(name, can, few if len(can) <= 2 * MOST else many)
 
 
 def _variable(v: ScalarVariable, units: dict[str | None, Any]) -> Variable:

@@ -45,7 +45,6 @@ def clearance(
 
     Parameters
     ----------
-    course : Course
     x, y, yaw : ndarray of shape (n,)
         Centre of the outline and heading, m and rad, in the axes of the course.
     length, width : float

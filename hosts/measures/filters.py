@@ -92,7 +92,6 @@ def crossing(time: NDArray[np.float64], values: NDArray[np.float64], level: floa
     Parameters
     ----------
     time, values : ndarray of shape (n,)
-    level : float
     after : float
         Earlier passages do not count, s.
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+from hosts.common.display_units import shown_in
+from hosts.common.numbers import is_round_off
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,6 @@ class Measure:
         As units of FMI are written, such as ``rad/s``; ``1`` where there is none.
     text : str
         What it is, in a line.
-    limit : Limit, optional
     note : str
         A sentence where the number is not the plain one, else empty.
     exists : bool
@@ -66,3 +68,12 @@ class Measure:
     def is_kept(self) -> bool | None:
         """Whether the limit is kept; None where there is none."""
         return None if self.limit is None else self.limit.holds(self.value)
+
+    def displayed(self) -> Measure:
+        """The same in the unit in which reports show it, and 0 for what is rounding."""
+        unit, factor = shown_in(self.unit, self.name)
+        limit = self.limit
+        if limit is not None:
+            limit = replace(limit, lowest=factor * limit.lowest, highest=factor * limit.highest)
+        value = 0.0 if is_round_off(self.value, 0.0) else factor * self.value
+        return replace(self, value=value, unit=unit, limit=limit)

@@ -28,7 +28,7 @@ class SineWithDwell:
     ratio_1_00, ratio_1_75 : float
         Yaw rate 1.00 and 1.75 s after the completion over the peak; negative: the yaw rate has changed its sign.
     displacement : float
-        Size of the lateral displacement 1.07 s after the begin, m.
+        Size of the lateral displacement 1.07 s after the beginning, m.
     sideslip : float
         Largest size of the sideslip angle until 1.75 s after the completion, rad; NaN without the signal.
     """
@@ -70,7 +70,7 @@ def sine_with_dwell(
 
     Notes
     -----
-    The displacement is the double integral of the lateral acceleration from the begin, as the regulation has it. It is
+    The displacement is the double integral of the lateral acceleration from the start, as the regulation has it. It is
     not that of the path, from which it differs by the turn of the car: it does not take away v times the yaw rate.
     """
     side = _side(steering)

@@ -89,7 +89,7 @@ def step_response(
     reference : float
         Reference time, s.
     before, steady : tuple of float
-        Begin and end of the windows before the step and of the steady state, s.
+        Beginning and end of the windows before the step and of the steady state, s.
 
     Returns
     -------

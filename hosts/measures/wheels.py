@@ -17,7 +17,6 @@ def at_wheels(result: Result, quantity: str) -> NDArray[np.float64] | None:
 
     Parameters
     ----------
-    result : Result
     quantity : str
         Such as ``Fz`` of ``wheel_FL.Fz``.
 

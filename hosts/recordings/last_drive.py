@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.recordings.format import REFUSED
-from hosts.recordings.recorded_drive import RecordedDrive
+from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 
 
 @dataclass(frozen=True)
@@ -51,10 +52,6 @@ class _Row:
 
 def last_drive(drive: RecordedDrive) -> LastDrive:
     """The drive that led to the end of a recording.
-
-    Parameters
-    ----------
-    drive : RecordedDrive
 
     Raises
     ------
@@ -97,18 +94,20 @@ def _path(drive: RecordedDrive) -> list[_Row]:
     return path
 
 
-def recorded_manoeuvre(drive: RecordedDrive) -> Manoeuvre:
+def recorded_manoeuvre(folder: Path) -> Manoeuvre:
     """The last drive of a recording as a manoeuvre; where it begins with a saved state, so does the manoeuvre.
 
     Parameters
     ----------
-    drive : RecordedDrive
+    folder : Path
+        Of the recording.
 
     Raises
     ------
     HostError
-        There is no step in it.
+        It is no recording, or there is no step in it.
     """
+    drive = read_recording(folder)
     last = last_drive(drive)
     return manoeuvre_of(drive, last, 0, len(last.inputs) - 1, None if last.whole else drive.start_state)
 

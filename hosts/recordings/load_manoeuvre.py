@@ -10,8 +10,7 @@ import numpy as np
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_file import read_manoeuvre
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.recordings.last_drive import recorded_manoeuvre
-from hosts.recordings.recorded_drive import is_recording, read_recording
+from hosts.recordings.format import is_recording
 
 
 def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
@@ -27,8 +26,11 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     HostError
         With the line and the reason.
     """
-    folder = Path(manoeuvre)
-    return recorded_manoeuvre(read_recording(folder)) if is_recording(folder) else read_manoeuvre(manoeuvre)
+    if not is_recording(Path(manoeuvre)):
+        return read_manoeuvre(manoeuvre)
+    from hosts.recordings.last_drive import recorded_manoeuvre
+
+    return recorded_manoeuvre(Path(manoeuvre))
 
 
 def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) -> Manoeuvre:
@@ -36,7 +38,6 @@ def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) 
 
     Parameters
     ----------
-    fmu : SimulatedFmu
     given : str, optional
         As `load_manoeuvre` takes it; without it inputs keep their start values.
     stop_time : float, optional

@@ -50,7 +50,6 @@ class RecordedDrive:
 
     Parameters
     ----------
-    folder : Path
     meta : dict
         Its `recording.json`.
     events : list of dict
@@ -119,7 +118,7 @@ class RecordedDrive:
         return joined(made, len(self.names))
 
     def restart(self, epoch: int) -> dict[str, Value] | None:
-        """Start values of the FMU if it starts anew with this epoch, else None."""
+        """Start values of the FMU if it starts again with this epoch, else None."""
         if epoch == self.first_epoch:
             return dict(self.meta["start"])
         event = self._of(epoch, RESTARTS)
@@ -145,11 +144,6 @@ class RecordedDrive:
         return next((e for e in self.events if e.get("epoch") == epoch and e.get("kind") in kinds), None)
 
 
-def is_recording(path: Path) -> bool:
-    """Whether a path is the folder of a recording."""
-    return (path / DESCRIPTION).is_file()
-
-
 def read_recording(folder: Path) -> RecordedDrive:
     """Read a recording; its rows are read when they are asked for.
 
@@ -161,7 +155,7 @@ def read_recording(folder: Path) -> RecordedDrive:
     Raises
     ------
     HostError
-        It is none; one sentence with the file and the reason.
+        It is no recording; one sentence with the file and the reason.
     """
     folder = folder.parent if folder.name == DESCRIPTION else folder
     file = folder / DESCRIPTION
@@ -194,7 +188,6 @@ def session_time(rows: Rows, step: float) -> Any:
 
     Parameters
     ----------
-    rows : Rows
     step : float
         s.
 

@@ -19,7 +19,6 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
 
     Parameters
     ----------
-    folder : Path
     name : str
         Of the run.
     geometry : Path, optional
@@ -53,7 +52,7 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
             raise HostError(f"{folder} names the FMU {fmu}, which is not there any more; name it by --geometry FMU.")
         scene = scene_of(fmu, drive.meta["start"])
         if described(fmu).guid != drive.meta["guid"]:
-            told.append(f"{fmu} was built anew since {name} was recorded; what is drawn is that of the new build.")
+            told.append(f"{fmu} was built again since {name} was recorded; what is drawn is that of the new build.")
     if scene is None:
         told.append(f"{geometry or drive.meta['fmu']} does not say what there is to draw; signals can be plotted.")
     columns = {column: rows.values[:, k] for k, column in enumerate(drive.names)}

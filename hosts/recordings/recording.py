@@ -42,7 +42,6 @@ def recording_meta(
 
     Parameters
     ----------
-    fmu : Path
     step : float
         Communication step, s.
     start : mapping of str to float, int, bool or str
@@ -112,7 +111,6 @@ class Recorder:
         It is made; there must be no recording in it.
     names : sequence of str
         Inputs, then outputs.
-    units : mapping of str to str
     meta : mapping
         Of `recording_meta`.
     table : {"parquet", "csv"}, optional
@@ -193,7 +191,6 @@ class Recorder:
         ----------
         time : float
             Of the FMU, s.
-        kind, text : str
         epoch : int
             The one that begins with it, or that it is in.
         **details

@@ -31,7 +31,6 @@ class Difference:
         Of the FMU, s.
     name : str
         Of the output; ``step``: it was refused, or one that was refused was not.
-    recorded, repeated : float
     """
 
     count: int
@@ -74,14 +73,8 @@ class Repeater:
 
     Parameters
     ----------
-    drive : RecordedDrive
     fmu : Path, optional
         By default the one that was recorded.
-
-    Attributes
-    ----------
-    fmu : Fmu
-    notes : list of str
 
     Raises
     ------
@@ -185,7 +178,6 @@ def replay(
 
     Parameters
     ----------
-    drive : RecordedDrive
     fmu : Path, optional
         By default the one that was recorded.
     progress : callable

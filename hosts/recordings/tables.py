@@ -62,10 +62,6 @@ def joined(blocks: Sequence[Rows], columns: int) -> Rows:
 def blocks_of(folder: Path) -> Iterator[Rows]:
     """The rows of a recording, whether it was closed or not.
 
-    Parameters
-    ----------
-    folder : Path
-
     Raises
     ------
     HostError

@@ -27,7 +27,6 @@ def to_manoeuvre(
 
     Parameters
     ----------
-    drive : RecordedDrive
     out : Path
         CSV file. A part that does not begin with the start needs the state there, which is found by repeating the
         recording in the FMU and is written beside it, with the suffix ``.state``.

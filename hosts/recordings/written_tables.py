@@ -34,8 +34,6 @@ class ParquetTable:
 
     Parameters
     ----------
-    folder : Path
-    names : sequence of str
     units : mapping of str to str
         They stand in the file as metadata of the columns.
     """
@@ -90,8 +88,6 @@ class CsvTable:
 
     Parameters
     ----------
-    folder : Path
-    names : sequence of str
     units : mapping of str to str
         Not written: the recording's description has them.
     """

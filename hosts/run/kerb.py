@@ -39,7 +39,6 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
         Communication step, s; by default `STEP`.
     out : Path
         Folder.
-    given : Wishes
 
     Returns
     -------

@@ -36,7 +36,6 @@ def write_csv(result: Result, file: Path) -> None:
 
     Parameters
     ----------
-    result : Result
     file : Path
         Its folder is made if it is not there.
     """
@@ -52,13 +51,10 @@ def write_record(fmu: Fmu, manoeuvre: Manoeuvre, step: float, settings: Settings
 
     Parameters
     ----------
-    fmu : Fmu
     manoeuvre : Manoeuvre
         A state that it begins with is written beside the record.
     step : float
         Communication step, s.
-    settings : Settings
-    result : Result
     file : Path
         Its folder is made if it is not there.
     """

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import contextlib
+import warnings
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -60,10 +62,8 @@ def plot_page(
 
     Parameters
     ----------
-    result : Result
     file : Path
         PNG to be written.
-    title : str
     rows : sequence of (str, str)
         Summary shown beside the plots.
     course : Course, optional
@@ -76,11 +76,29 @@ def plot_page(
         save_picture(figure, file)
 
 
+@contextlib.contextmanager
+def _however_long() -> Iterator[None]:
+    """Texts of strangers may be too long to be laid out: the picture is drawn all the same."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "constrained_layout not applied", UserWarning)
+        yield
+
+
 def save_picture(figure: Figure, file: Path) -> None:
     """Write a figure as PNG and close it."""
-    with whole_file(file) as made:
+    with whole_file(file) as made, _however_long():
         figure.savefig(made, dpi=110)
     plt.close(figure)
+
+
+def save_pictures(figure: Figure, stem: Path) -> list[Path]:
+    """Write a figure as SVG and as PNG, ``stem`` with these suffixes, and close it."""
+    files = [stem.with_name(f"{stem.name}{suffix}") for suffix in (".svg", ".png")]
+    # the same drawing gives the same bytes
+    with plt.rc_context({"svg.hashsalt": "ali3"}), whole_file(files[0]) as made, _however_long():
+        figure.savefig(made, format="svg", metadata={"Date": None, "Creator": None})
+    save_picture(figure, files[1])
+    return files
 
 
 @dataclass(frozen=True)
@@ -124,7 +142,6 @@ _CAR_PANELS = (
     _Panel("Sideslip", "deg", (("sideslip", "sideslip", BLUE),), _DEGREES, 1.0),
     _Panel("Bending moments", "N m", _gauges("bending_moment"), 1.0, 1.0),
     _Panel("Gauge stresses", "MPa", _gauges("stress"), 1e-6, 1.0),
-    _Panel("Newton iterations of a step", "1", (("iterations", "solver.iterations", BLACK),)),
 )
 
 

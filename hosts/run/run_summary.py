@@ -31,7 +31,6 @@ def summary(
 
     Parameters
     ----------
-    result : Result
     step : float
         Communication step, s.
     course : Course, optional

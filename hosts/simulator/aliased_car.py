@@ -8,18 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from hosts.common.numbers import Value
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 from hosts.simulator.car import Car, Event, Moment
 from hosts.simulator.step_times import StepTimes
 
 
 class AliasedCar:
     """A `Car` seen through aliases; with none of them it is the car as it is.
-
-    Parameters
-    ----------
-    car : Car
-    aliases : Aliases
 
     Attributes
     ----------

@@ -33,18 +33,12 @@ _ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
 class Car:
     """An FMU that runs in a process of its own; it begins paused, at time 0.
 
-    Parameters
-    ----------
-    settings : CarSettings
-
     Attributes
     ----------
     names : tuple of str
         Inputs, then outputs, real and whole ones.
-    inputs : tuple of str
     units : dict of str to str
         Of the names.
-    constants : dict of str to float
     step : float
         s.
 
@@ -152,7 +146,6 @@ class Car:
         name : str
             ``run``, ``pause``, ``step`` (value: how many, at least 1; it pauses after them), ``speed`` (0.05 to 1,
             simulated over wall seconds), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``.
-        value : float
 
         Raises
         ------

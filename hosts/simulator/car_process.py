@@ -44,10 +44,6 @@ class Order:
     ----------
     fmu, folder : Path
         The FMU, and a folder to unpack it in.
-    start : mapping of str to float, int, bool or str
-    step : float
-    paced, priority : bool
-    sizes : Sizes
     memory : str
         Name of the shared memory.
     """
@@ -115,12 +111,8 @@ class Loop:
 
     Parameters
     ----------
-    order : Order
-    car : DrivenFmu
-    shared : SharedValues
     link : Connection
         Brings what is too large for the shared memory: new start values.
-    clock : Clock
     """
 
     def __init__(

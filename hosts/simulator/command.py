@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.extras import missing_package
-from ali3.options import Parser, add_old_names, add_option
+from ali3.options import Parser, add_old_names, add_option, given_of
 from ali3.running import GOOD, NOT_GOOD, run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
@@ -25,18 +25,23 @@ if TYPE_CHECKING:
 _LOCAL = "127.0.0.1"
 _LONGEST = 1e6
 _TITLE = "ALi3: take the wheel"
+_OF_RECORDINGS = ("recording", "replay", "save_manoeuvre", "begin", "end", "fmu")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.simulator") -> int:
     """Run the command, which the user typed as `prog`; 0 unless a run without a page had a refused step."""
     begin = time.monotonic()
-    options = _parser(prog).parse_args(arguments)
-    return run_command(lambda: _simulate(options, begin) if options.recording is None else _recorded(options))
+    parser = _parser(prog)
+    options = parser.parse_args(arguments)
+    return run_command(lambda: _simulate(options, begin) if options.recording is None else _recorded(parser, options))
 
 
-def _recorded(options: argparse.Namespace) -> int:
+def _recorded(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     from hosts.recordings.show import replay_recording, save_manoeuvre, show_recording
 
+    given = given_of(parser, options, [name for name in vars(options) if name not in _OF_RECORDINGS])
+    if given:
+        raise HostError(f"{given[0]} is for driving; with --recording nothing is driven, so leave it out.")
     if options.replay and options.save_manoeuvre is not None:
         raise HostError("A recording is repeated by --replay or written by --save-manoeuvre; give one of them.")
     if options.save_manoeuvre is None and (options.begin, options.end) != (None, None):

@@ -27,7 +27,6 @@ class ConnectedPage:
     ----------
     number : int
         From 1, for names of its sources.
-    connection : ServerConnection
     now : callable
         Seconds of a clock that never goes back.
     """

@@ -1,4 +1,4 @@
-"""An FMU that is driven step by step, started anew, set upright and rewound; it knows no clock."""
+"""An FMU that is driven step by step, started again, set upright and rewound; it knows no clock."""
 
 from __future__ import annotations
 
@@ -27,7 +27,6 @@ class Told:
 
     Parameters
     ----------
-    kind, text : str
     details : dict
         What a recording needs to repeat it.
     """
@@ -42,7 +41,6 @@ class DrivenFmu:
 
     Parameters
     ----------
-    path : Path
     start : mapping of str to float, int, bool or str
         Parameters and start values.
     step : float
@@ -52,7 +50,6 @@ class DrivenFmu:
     ----------
     names : tuple of str
         Inputs, then outputs.
-    inputs : Inputs
     values : ndarray of shape (len(names),)
         Inputs of the last step and outputs after it.
     count : int
@@ -189,7 +186,7 @@ class DrivenFmu:
                 self._begin, self._steps = 0.0, 0
                 self.epoch += 1
                 self._read()
-                raise HostError(f"{error} The car starts anew as at first, for its FMU does not save states.") from None
+                raise HostError(f"{error} The car starts again as at first: its FMU does not save states.") from None
             self._fmu.restore(before)
             raise
         finally:
@@ -200,13 +197,13 @@ class DrivenFmu:
         self.inputs.restart(wish)
 
     def reset(self, wish: float) -> Told:
-        """Start anew at time 0 as at first; wants up to the number `wish` are forgotten."""
+        """Start again at time 0 as at first; wants up to the number `wish` are forgotten."""
         self._new_start(self._start, 0.0, wish)
         self._started()
-        return Told("reset", "The car starts anew.", {"start": self.start})
+        return Told("reset", "The car starts again.", {"start": self.start})
 
     def restart(self, changes: Mapping[str, Value], wish: float) -> Told:
-        """Start anew at time 0 with other start values, which stay for later resets; `HostError` if refused."""
+        """Start again at time 0 with other start values, which stay for later resets; `HostError` if refused."""
         changed = self._start | dict(changes)
         self._new_start(changed, 0.0, wish)
         self._start = changed
@@ -214,14 +211,14 @@ class DrivenFmu:
         self.inputs.restart(wish)
         self._started()
         self._note_offset(changed)
-        return Told("reset", f"The car starts anew with {_words(changes)}.", {"start": self.start})
+        return Told("reset", f"The car starts again with {_words(changes)}.", {"start": self.start})
 
     def upright(self, wish: float) -> Told:
-        """Start anew where the car is, with its heading, at rest; time goes on."""
+        """Start again where the car is, with its heading, at rest; time goes on."""
         if not self._poses:
             missing = [n for n in _POSE if n not in self.names] + [n for n in _AT_REST if n not in self._fmu.variables]
             raise HostError(
-                f"The car cannot be set upright: {self._fmu.path.name} has no {missing[0]}; a reset starts it anew."
+                f"The car cannot be set upright: {self._fmu.path.name} has no {missing[0]}; a reset starts it again."
             )
         x, y, yaw = (float(self.values[self.names.index(n)]) for n in _POSE)
         dx, dy, turn = self._offset
@@ -233,7 +230,7 @@ class DrivenFmu:
             heading,
         )
         if not all(map(math.isfinite, initial)):
-            raise HostError("The car cannot be set upright: its place is not a finite number; a reset starts it anew.")
+            raise HostError("The car cannot be set upright: its place is not a finite number; a reset starts it again.")
         start = self._start | dict(zip(_INITIAL, initial, strict=True)) | {_SPEED: 0.0}
         self._new_start(start, self.time, wish)
         self._started()

@@ -82,10 +82,6 @@ class Hands:
     def gone(self, source: str) -> list[str]:
         """A source is no longer there: what it held is let go.
 
-        Parameters
-        ----------
-        source : str
-
         Returns
         -------
         list of str

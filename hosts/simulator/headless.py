@@ -38,11 +38,6 @@ class Held:
 class OfManoeuvre:
     """Inputs of a manoeuvre: of its table, and of its driver where it has one.
 
-    Parameters
-    ----------
-    manoeuvre : Manoeuvre
-    car : AliasedCar
-
     Raises
     ------
     HostError
@@ -74,8 +69,6 @@ def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | No
 
     Parameters
     ----------
-    car : AliasedCar
-    manoeuvre : Manoeuvre, optional
     wild : int, optional
         Seed of a driver without sense.
     """
@@ -93,7 +86,6 @@ def run_headless(
     ----------
     car : AliasedCar
         Paused.
-    driver : HeadlessDriver
     seconds : float
         Simulated time.
     tell : callable

@@ -31,13 +31,7 @@ class Records(Protocol):
 
 
 class Mail:
-    """Collects events, and hands rows and events to a recording in a thread of its own.
-
-    Parameters
-    ----------
-    shared : SharedValues
-    recorder : Records, optional
-    """
+    """Collects events, and hands rows and events to a recording in a thread of its own."""
 
     def __init__(self, shared: SharedValues, recorder: Records | None) -> None:
         self._shared, self._recorder = shared, recorder

@@ -22,7 +22,6 @@ class Notices:
     ----------
     names : sequence of str
         Columns.
-    clock : Clock
     times : TimesRecord
         Where steps that were cut short are counted, also those of which nothing is said.
     """

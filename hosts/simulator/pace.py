@@ -23,7 +23,6 @@ class Pace:
 
     Parameters
     ----------
-    clock : Clock
     step : float
         Communication step, s.
     times : TimesRecord

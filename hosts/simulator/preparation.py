@@ -16,7 +16,8 @@ from hosts.common.numbers import Value
 from hosts.common.options import Wishes
 from hosts.common.road import PARAMETER as ROAD
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
-from hosts.fmu.aliases import Aliases, find_aliases
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.description_record import description_record
 from hosts.fmu.fmu import described
 from hosts.fmu.fmu_file import FoundFmu, find_fmu
@@ -40,15 +41,12 @@ class Asked:
 
     Parameters
     ----------
-    fmu : Path, optional
     world : str, optional
         Name or file.
     place : str, optional
         Of the world.
-    fidelity : float, optional
     wishes : Wishes
         Of ``--set`` and ``--parameters``.
-    aliases : Path, optional
     record : Path, optional
         Folder.
     manoeuvre : Manoeuvre, optional
@@ -71,13 +69,8 @@ class Prepared:
 
     Parameters
     ----------
-    fmu : FoundFmu
-    description : ModelDescription
-    variables : Variables
-    aliases : Aliases
     settings : Settings
         What is set in it, the road and the place among it.
-    world : World
     scene : dict or None
         The drawing of the FMU without roads; None: it has none.
     """
@@ -119,7 +112,6 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
 
     Parameters
     ----------
-    asked : Asked
     tell : callable
         Takes sentences.
 
@@ -137,7 +129,7 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
         description = described(fmu.path)
         _check_kind(fmu.path, description)
         variables = Variables(description)
-        aliases = Aliases() if asked.aliases is None else find_aliases(asked.aliases, variables)
+        aliases = aliases_of(asked.aliases, variables)
         drawing = pool.submit(scene_of, fmu.path)
         _check_road(asked, fmu.path, ROAD in aliases.names(variables.names))
         if ROAD not in aliases.names(variables.names):

@@ -36,7 +36,6 @@ def frame(moment: Moment, step: float) -> bytes:
 
     Parameters
     ----------
-    moment : Moment
     step : float
         Communication step, s.
 
@@ -131,7 +130,7 @@ def read_message(data: str | bytes, inputs: Collection[str]) -> Message:
     Raises
     ------
     HostError
-        It is none; with the reason.
+        It is no such message; with the reason.
     """
     if not isinstance(data, str):
         raise HostError("A message is text; this one is binary.")

@@ -92,7 +92,6 @@ class RunReport:
 
         Parameters
         ----------
-        times : StepTimes
         file : Path, optional
             JSON.
 

@@ -58,7 +58,6 @@ class SavedStates:
 
     Parameters
     ----------
-    fmu : SavesStates
     inputs : int
         Number of inputs.
     step : float

@@ -43,10 +43,6 @@ class Server:
 
     Parameters
     ----------
-    car : DrivenCar
-    hands : Hands
-    content : Content
-    guard : Guard
     tell : callable
         Takes kind and text of what happens, for the terminal.
 
@@ -94,7 +90,6 @@ class Server:
         ----------
         listening : socket
             See `hosts.simulator.web.listening_socket`.
-        stop : asyncio.Event
         ready : callable
             Called when pages can come.
         first_frame : callable, optional

@@ -179,7 +179,6 @@ class SharedValues:
 
     Parameters
     ----------
-    sizes : Sizes
     name : str, optional
         Of memory that another process has made; without it, it is made.
 

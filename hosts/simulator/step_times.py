@@ -124,8 +124,6 @@ class StepTimes:
     ----------
     step : float
         Communication step, s.
-    paced : bool
-    steps : int
     simulated : float
         Simulated time of these steps, s.
     scheduled : float

@@ -75,7 +75,6 @@ class Web:
 
     Parameters
     ----------
-    guard : Guard
     page : str
         HTML.
     world : mapping
@@ -95,8 +94,6 @@ class Web:
 
         Parameters
         ----------
-        connection : ServerConnection
-        request : Request
         pages : int
             That are connected.
         """

@@ -37,8 +37,6 @@ class Opened:
 
     Parameters
     ----------
-    listening : socket
-    guard : Guard
     browser : bool
         Whether to open one.
     devices : bool
@@ -72,9 +70,6 @@ def drive_with_pages(
     ----------
     car : AliasedCar
         Paused; it runs from the first frame of the first page on.
-    content : Content
-    opened : Opened
-    report : RunReport
 
     Raises
     ------

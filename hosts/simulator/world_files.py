@@ -26,7 +26,6 @@ class World:
 
     Parameters
     ----------
-    name : str
     road : Path or None
         The road file; None: the FMU's own road.
     content : mapping
@@ -73,7 +72,7 @@ def make_world(given: str, tell: Callable[[str], None]) -> World:
     Raises
     ------
     HostError
-        It is none; with the words of ``ali3 road --world``.
+        It is no world; with the words of ``ali3 road --world``.
     """
     file = Path(given)
     room = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:12] if file.is_file() else "named"

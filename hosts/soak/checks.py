@@ -73,7 +73,7 @@ class Watch:
         self.begin([0.0] * len(outputs))
 
     def begin(self, row: Sequence[float]) -> None:
-        """Say that the car starts anew, with these outputs."""
+        """Say that the car starts again, with these outputs."""
         self._steps, self._air, self.overturned = 0, 0, False
         self._begin_total = row[self._total] if self._total >= 0 else 0.0
         self._most_kinetic = 0.0

@@ -32,8 +32,6 @@ class Task:
 
     Parameters
     ----------
-    fmu : str
-    seed : int
     fidelity : int or None
         None: the FMU has no choice.
     seconds : float
@@ -46,7 +44,6 @@ class Task:
         Of `Ground.record`.
     out : str
         Folder for failing stretches.
-    largest_balance : float
     """
 
     fmu: str
@@ -66,12 +63,10 @@ class Failure:
 
     Parameters
     ----------
-    kind, text : str
     run : int
         Of the drive, from 0.
     time : float
         In the run, s.
-    road : str
     manoeuvre : str
         File for ``ali3 run``; empty where it was not written.
     """
@@ -90,13 +85,8 @@ class Outcome:
 
     Parameters
     ----------
-    seed : int
-    fidelity : int or None
     simulated, wall : float
         s.
-    runs, uprights, rewinds : int
-    counts : Counts
-    failures : list of Failure
     messages : dict of str to int
         What the FMU logged, and how often.
     memory_first, memory_last, memory_growth : float
@@ -246,7 +236,6 @@ def drive(task: Task, tell: Callable[[float], None] = lambda seconds: None) -> O
 
     Parameters
     ----------
-    task : Task
     tell : callable
         Hears the simulated seconds that are done.
 

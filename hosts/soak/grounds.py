@@ -43,7 +43,6 @@ class Ground:
     ----------
     road : str
         Of the parameter `road.file`.
-    targets : tuple of Target
     """
 
     road: str
@@ -108,7 +107,6 @@ def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
 
     Parameters
     ----------
-    folder : Path
     centre : (float, float)
         Of the square, m.
 
@@ -140,7 +138,6 @@ def world_ground(name: str, folder: Path) -> Ground:
     ----------
     name : str
         Or a file.
-    folder : Path
 
     Raises
     ------

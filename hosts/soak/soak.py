@@ -39,7 +39,6 @@ def soak(options: argparse.Namespace, prog: str) -> int:
 
     Parameters
     ----------
-    options : argparse.Namespace
     prog : str
         How the user typed the command.
 

@@ -33,7 +33,6 @@ class Stretch:
 
     Parameters
     ----------
-    fmu : Fmu
     names, inputs : sequence of str
         Inputs and outputs; and the inputs alone.
     step : float
@@ -65,10 +64,8 @@ class Stretch:
 
         Parameters
         ----------
-        folder : Path
         kind, text : str
             What was wrong.
-        seed : int
         refused : sequence of float, optional
             Inputs of a step that was refused.
 

@@ -24,7 +24,6 @@ def print_outcomes(tasks: Sequence[Task], outcomes: Sequence[Outcome], prog: str
 
     Parameters
     ----------
-    tasks : sequence of Task
     outcomes : sequence of Outcome
         One for each task.
     prog : str

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from ali3.cores import available_cores
 from ali3.errors import FileError
-from ali3.files import locked
+from ali3.files import locked, whole_file
 from hosts.common.errors import HostError
-from hosts.study.folder import begin_study, check_same, free_space, read_record
+from hosts.study.folder import begin_study, check_same, free_space, read_record, write_record
+from hosts.study.limits import limits_record
 from hosts.study.parts import PartWriter, forget_failed, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
@@ -34,7 +35,6 @@ class Ended:
 
     Parameters
     ----------
-    folder : Path
     good : bool
         Whether every run has a row, and one at least of those made now has all its measures.
     failed : int
@@ -53,8 +53,6 @@ def run_study(
 
     Parameters
     ----------
-    file : Path
-    out : Path, optional
     scheduler : str, optional
         Address.
     workers : int, optional
@@ -81,19 +79,23 @@ def run_study(
     plan = _plan(study, file, folder, before)
     for note in plan.notes:
         print(f"note: {note}", file=sys.stderr)
+    if all(job.manoeuvre is not None for job in plan.work.jobs):
+        plan = _with_limits(plan, study)  # measures of tests are known after a run only
     if before is not None:
         # columns of tests are known from the first half
         plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
         check_same(folder, before, plan.record)
+        plan = _with_limits(plan, study)
     busy = f"Another program runs a study in {folder}; wait for it, or give another --out."
     with nullcontext() if dry else locked(folder, busy):
         if before is not None and not dry and not again and runs_done(folder, plan.runs).all():
+            _keep_limits(plan, folder, before, content)
             print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
             return Ended(folder, True, 0)
         trial = try_out(plan)
         for note in trial.notes:
             print(f"note: {note}", file=sys.stderr)
-        plan = with_columns(plan, trial.columns)
+        plan = _with_limits(with_columns(plan, trial.columns), study)
         plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
         _print_plan(plan, trial, folder, scheduler, workers)
         return None if dry else _run(plan, trial, folder, content, scheduler, workers, again)
@@ -109,18 +111,48 @@ def _before(folder: Path) -> dict[str, Any] | None:
 
 def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | None) -> Plan:
     """The checked plan, with the FMU that is named, or that of the car; an unchanged car has that of the first half."""
-    if study.fmu is not None:
-        return make_plan(study, file, file.parent / study.fmu)
-    from hosts.fmu.built_fmu import car_digest, fmu_of_car
+    if study.car is None:
+        return make_plan(study, file, fmu_of_study(study, file))
+    from hosts.fmu.built_fmu import car_digest
 
-    assert study.car is not None
-    beside = file.parent / study.car
-    car = str(beside) if beside.exists() else study.car
-    digest = car_digest(car)
+    digest = car_digest(_car(study.car, file))
     kept = folder / before["fmu"] if before is not None and before.get("car") == digest else None
-    fmu = kept if kept is not None and kept.is_file() else fmu_of_car(car, lambda line: print(line, file=sys.stderr))
+    fmu = kept if kept is not None and kept.is_file() else fmu_of_study(study, file)
     plan = make_plan(study, file, fmu)
     return replace(plan, record={**plan.record, "car": digest})
+
+
+def fmu_of_study(study: StudyFile, file: Path) -> Path:
+    """The FMU that a study file names, or that of its car, which is built where there is none."""
+    if study.fmu is not None:
+        return file.parent / study.fmu
+    from hosts.fmu.built_fmu import fmu_of_car
+
+    assert study.car is not None
+    return fmu_of_car(_car(study.car, file), lambda line: print(line, file=sys.stderr))
+
+
+def _car(name: str, file: Path) -> str:
+    """A car file beside the study, else a car of the package."""
+    beside = file.parent / name
+    return str(beside) if beside.exists() else name
+
+
+def _with_limits(plan: Plan, study: StudyFile) -> Plan:
+    return replace(
+        plan, record={**plan.record, "limits": limits_record(study.limits, plan.record["measures"], plan.file)}
+    )
+
+
+def _keep_limits(plan: Plan, folder: Path, before: dict[str, Any], content: bytes) -> dict[str, Any]:
+    """The record of a first half with the limits of now: runs that are made do not depend on them."""
+    if before.get("limits", {}) == plan.record["limits"]:
+        return before
+    after = {**before, "limits": plan.record["limits"]}
+    with whole_file(folder / "study.toml") as made:
+        made.write_bytes(content)
+    write_record(folder, after)
+    return after
 
 
 def out_folder(out: Path | None, study: StudyFile, file: Path) -> Path:
@@ -169,6 +201,7 @@ def _run(
         begin_study(folder, record, content, plan.fmu)
     else:
         check_same(folder, record, plan.record)
+        record = _keep_limits(plan, folder, record, content)
     if again:
         print(f"{forget_failed(folder)} failed runs are made again")
     done = runs_done(folder, plan.runs)

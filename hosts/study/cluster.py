@@ -137,11 +137,6 @@ def _local_cluster(workers: int, folder: Path) -> Iterator[LocalCluster]:
 def bring(client: Client, plan: Plan) -> None:
     """Give the study to all workers, also those to come, and check that they would make the same runs.
 
-    Parameters
-    ----------
-    client : Client
-    plan : Plan
-
     Raises
     ------
     HostError

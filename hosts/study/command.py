@@ -10,13 +10,13 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from ali3.options import Parser, add_old_names, add_option
+from ali3.options import Parser, add_old_names, add_option, given_of
 from ali3.running import NOT_GOOD, run_command
 from hosts.common.errors import HostError
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.study") -> int:
-    """Run the command, which the user typed as `prog`; 0 if every run that was asked for has a row."""
+    """Run the command, which the user typed as `prog`; 0 if every run has a row, and keeps the limits."""
     parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", type=Path, metavar="STUDY", help="a study file, or the folder of a study's results")
     add_option(parser, "--out", "out/ and the name of the study")
@@ -31,14 +31,28 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.st
     parser.add_argument("--run", type=int, metavar="INDEX", help="print the commands that repeat a run of the results")
     parser.add_argument("--report", action="store_true", help="only write the report of the results")
     parser.add_argument("--no-report", action="store_true", help="write no report at the end")
+    parser.add_argument(
+        "--target",
+        metavar="MEASURE=VALUE",
+        help="find the value of a parameter that gives this, such as 'understeer_gradient=1.3 deg/g', by few runs",
+    )
+    parser.add_argument("--by", metavar="PARAMETER", help="the parameter of --target")
+    parser.add_argument(
+        "--between",
+        metavar="LOW:HIGH",
+        help="of the parameter of --target, in the unit of the FMU, such as --between=-5:5; default: that of the "
+        "study file, else of the FMU",
+    )
     add_old_names(parser, {"--workers": "--jobs", "--list": "--dry-run"})
     options = parser.parse_args(arguments)
-    return run_command(lambda: _study(options, prog))
+    return run_command(lambda: _study(options, prog) if options.target is None else _target(options, parser))
 
 
 def _study(options: argparse.Namespace, prog: str) -> int:
     if options.jobs is not None and options.scheduler is not None:
         raise HostError("--jobs are processes of this machine, --scheduler has its own; give one of them.")
+    if options.by is not None or options.between is not None:
+        raise HostError("--by and --between go with --target MEASURE=VALUE.")
     if options.run is not None:
         return _repeat(options)
     if options.report:
@@ -50,9 +64,48 @@ def _study(options: argparse.Namespace, prog: str) -> int:
     ended = run_study(options.study, options.out, options.scheduler, options.jobs, options.dry_run, options.again)
     if ended is None:
         return 0
+    kept = _limits(ended.folder)
     if not options.no_report:
         _report(ended.folder)
-    return 0 if ended.good else NOT_GOOD
+    return 0 if ended.good and kept else NOT_GOOD
+
+
+def _limits(folder: Path) -> bool:
+    """Print and write which share of the runs keeps the limits of the study; whether all do."""
+    from hosts.study.limits import share_notes, share_rows, shares, write_shares
+    from hosts.study.store import read_study, study_record
+
+    if not study_record(folder).get("limits"):
+        for name in ("limits.csv", "limits.json"):  # of limits that are not asked for any more
+            (folder / name).unlink(missing_ok=True)
+        return True
+    frame = read_study(folder)
+    found = shares(frame)
+    rows = [("limits", "", "within", "share", "95 %"), *share_rows(found, frame.attrs)]
+    widths = [max(len(row[k]) for row in rows) for k in range(5)]
+    for row in rows:
+        print("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip())
+    for note in share_notes(found, frame.attrs):
+        print(note)
+    print(f"written: {' and '.join(map(str, write_shares(found, folder)))}")
+    return all(share.outside == 0 for share in found)
+
+
+def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+    from hosts.study.target import find_target, target_of
+
+    others = given_of(parser, options, ("scheduler", "jobs", "dry_run", "again", "run", "report", "no_report"))
+    if others:
+        raise HostError(f"{others[0]} does not go with --target, which makes its own runs.")
+    if options.by is None:
+        raise HostError("--target needs --by, the name of a parameter.")
+    if options.study.is_dir():
+        raise HostError(f"{options.study} is a folder; --target takes the study file.")
+    return (
+        0
+        if find_target(options.study, target_of(options.target, options.by, options.between), options.out)
+        else NOT_GOOD
+    )
 
 
 def _repeat(options: argparse.Namespace) -> int:
@@ -73,15 +126,9 @@ def _out(options: argparse.Namespace) -> Path:
 
 
 def _report(folder: Path) -> int:
-    import importlib
+    from hosts.study.analysis.report import write_report
 
-    try:
-        report = importlib.import_module("hosts.study.analysis.report")
-    except ModuleNotFoundError as error:
-        if not (error.name or "").startswith("hosts.study"):
-            raise
-        return 0
-    files = report.write_report(folder)
+    files = write_report(folder)
     print(f"written: {files[0]}" + (f" and {len(files) - 1} files beside it" if len(files) > 1 else ""))
     return 0
 

@@ -36,11 +36,6 @@ class Execution:
 
     Parameters
     ----------
-    client : Client
-    plan : Plan
-    size : ChunkSize
-    writer : PartWriter
-    signals : SignalWriter, optional
     progress : callable
         See `Progress`.
     """

@@ -14,7 +14,7 @@ from ali3.reading import read_json
 from hosts.common.errors import HostError
 
 RECORD, RUNS, SIGNALS = "study.json", "runs", "signals"
-_FREE = ("versions", "file", "units", "measures", "created", "reuse")
+_FREE = ("versions", "file", "units", "measures", "limits", "created", "reuse")
 """Keys of the record that may differ between two halves of a study, or follow from others."""
 _WORDS = {
     "guid": "the GUID of the FMU",
@@ -48,17 +48,19 @@ def begin_study(folder: Path, record: Mapping[str, Any], study_file: bytes, fmu:
 
     Parameters
     ----------
-    folder : Path
-    record : mapping
     study_file : bytes
         Content of the study file.
-    fmu : Path
     """
     with whole_file(folder / "study.toml") as made:
         made.write_bytes(study_file)
     with whole_file(folder / fmu.name) as made:
         shutil.copyfile(fmu, made)
     make_folder(folder / RUNS)
+    write_record(folder, record)
+
+
+def write_record(folder: Path, record: Mapping[str, Any]) -> None:
+    """Write what is known of the study."""
     write_text(folder / RECORD, json.dumps(record, indent=1, ensure_ascii=False) + "\n")
 
 
@@ -67,7 +69,6 @@ def check_same(folder: Path, before: Mapping[str, Any], now: Mapping[str, Any]) 
 
     Parameters
     ----------
-    folder : Path
     before, now : mapping
         Records.
 

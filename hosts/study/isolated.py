@@ -16,7 +16,6 @@ class IsolatedBench:
 
     Parameters
     ----------
-    work : Work
     path : Path
         FMU.
     """

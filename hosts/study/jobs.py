@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import check_columns, communication_step, driver_of
@@ -31,11 +31,8 @@ def jobs_of(study: StudyFile, file: Path, fmu: Fmu | AliasedFmu, parameters: Seq
 
     Parameters
     ----------
-    study : StudyFile
-    file : Path
-    fmu : Fmu or AliasedFmu
     parameters : sequence of str
-        That are varied.
+        Those that the study varies.
 
     Raises
     ------
@@ -106,18 +103,16 @@ def _place(name: str, file: Path) -> str:
     if name in manoeuvre_names():
         return name
     if Path(name).suffix not in SUFFIXES and not (file.parent / name).is_dir():
-        near = difflib.get_close_matches(name, manoeuvre_names(), 1)
-        known = ", ".join(manoeuvre_names())
-        hint = f"did you mean {near[0]}?" if near else f"known are {known}, or a TOML or CSV file."
-        raise HostError(f"{file}: there is no manoeuvre '{name}'; {hint}")
+        known = manoeuvre_names()
+        hint = did_you_mean(name, known, f"known are {', '.join(known)}, or a TOML or CSV file")
+        raise HostError(f"{file}: there is no manoeuvre '{name}'{hint}")
     return str(file.parent / name)
 
 
 def _checked(values: Mapping[str, Value], fmu: Fmu | AliasedFmu, where: str) -> dict[str, Value]:
     for name in values:
         if name not in fmu.variables:
-            near = difflib.get_close_matches(name, list(fmu.variables), 1)
-            raise HostError(f"{where}: the FMU has no '{name}'{f'; did you mean {near[0]}?' if near else '.'}")
+            raise HostError(f"{where}: the FMU has no '{name}'{did_you_mean(name, fmu.variables)}")
     return {name: fmu.table[name].check(value, where) for name, value in values.items()}
 
 

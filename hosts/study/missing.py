@@ -20,7 +20,6 @@ class ChunkSize:
     ----------
     seconds : float
         Of a run, as far as is known.
-    workers : int
     most : int
         Runs of a chunk, by the memory their results need.
     """

@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import Result, driver_of, run
+from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 from hosts.measures.measure import Measure
 from hosts.study.work import DONE, FAILED, INCOMPLETE, Job, Outcome, Work
@@ -36,7 +37,6 @@ class Bench:
 
     Parameters
     ----------
-    work : Work
     path : Path
         FMU.
     """
@@ -60,7 +60,6 @@ class Bench:
 
         Parameters
         ----------
-        job : Job
         values : mapping of str to float, int, bool or str
             Of the parameters.
         seed : int
@@ -85,8 +84,7 @@ class Bench:
         seen = seen_through(fmu, work.aliases)
         manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
         result = run(seen, manoeuvre, job.step, driver_of(seen, manoeuvre))
-        if work.aliases.derived:
-            result.derive(work.aliases)
+        derive_columns(result, work.aliases)
         outcome = _of_result(result, job)
         if job.every:
             outcome.signals = sampled(result, work.signals, job)

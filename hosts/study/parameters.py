@@ -22,14 +22,12 @@ class Parameter:
 
     Parameters
     ----------
-    name : str
     kind : str
         Of its variable: ``Real``, ``Integer``, ``Boolean``, ``String`` or ``Enumeration``.
     unit : str
         Of the FMU.
     low, high : float
         Range; NaN where there are values.
-    log : bool
     values : tuple of float, int, bool or str
         Empty where there is a range.
     count : int or None
@@ -99,9 +97,6 @@ def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str
 
     Parameters
     ----------
-    name : str
-    entry : ParameterEntry
-    variable : Variable
     file : str
         How messages call the study file.
 
@@ -139,10 +134,8 @@ def in_unit(given: Value, unit: str | None, variable: Variable, where: str) -> V
 
     Parameters
     ----------
-    given : float, int, bool or str
     unit : str or None
         That it is given in; None: that of the FMU.
-    variable : Variable
     where : str
         How messages call its place.
     """

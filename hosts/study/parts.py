@@ -47,7 +47,9 @@ def attributes(record: Mapping[str, Any]) -> dict[str, Any]:
         "study": record["name"],
         **{key: record[key] for key in told},
         "measures": list(record["measures"]),
+        "limits": record.get("limits", {}),
         "manoeuvres": [m["name"] for m in record["manoeuvres"]],
+        "tests": [m["name"] for m in record["manoeuvres"] if "test" in m],
         "step": {m["name"]: m["step"] for m in record["manoeuvres"]},
     }
 
@@ -101,7 +103,6 @@ class PartWriter:
 
     Parameters
     ----------
-    folder : Path
     record : mapping
         Of the study.
     """

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import hashlib
 import json
 import math
@@ -11,10 +10,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.program import program_digest, versions
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases import Aliases, find_aliases
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
 from hosts.study.jobs import jobs_of
@@ -34,18 +35,14 @@ class Plan:
 
     Parameters
     ----------
-    name : str
-    file, fmu : Path
     work : Work
         For the workers.
-    points : Points
     kinds : dict of str to str
         ``Real``, ``Integer``, ... of the parameters.
     units : dict of str to str
         Of all columns and signals that have one.
     outputs : tuple of str
         Inputs and outputs of the FMU: all that a run records.
-    seed : int
     record : dict
         All of it for JSON; two plans with the same are the same study.
     notes : tuple of str
@@ -94,10 +91,8 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
 
     Parameters
     ----------
-    study : StudyFile
     file : Path
         Where it was read from; files it names are looked for beside it.
-    fmu_path : Path
 
     Raises
     ------
@@ -179,10 +174,8 @@ def job_digest(job: Job) -> str:
 
 
 def _aliases(study: StudyFile, file: Path, fmu: Fmu) -> Aliases:
-    if study.aliases is None:
-        return Aliases()
-    beside = file.parent / study.aliases
-    return find_aliases(beside if beside.is_file() else study.aliases, fmu.table)
+    beside = None if study.aliases is None else file.parent / study.aliases
+    return aliases_of(beside if beside is not None and beside.is_file() else study.aliases, fmu.table)
 
 
 def _points(study: StudyFile, file: Path, opened: Fmu, fmu: Fmu | AliasedFmu) -> tuple[Points, dict[str, Any]]:
@@ -207,6 +200,8 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: Fmu | AliasedFmu) ->
             raise HostError(f"{file}: '{both[0]}' is a column of {study.sampling.file} and in [start]; give it once.")
         variables = {n: variable_of(n, "") for n in names}
         return table, {n: {"kind": v.kind, "unit": v.unit} for n, v in variables.items()}
+    if not study.parameters:
+        raise HostError(f"{file}: it has no parameters; a grid of none is empty.")
     parameters = tuple(
         parameter_of(name, entry, variable_of(name, f"{file}: parameters"), str(file))
         for name, entry in study.parameters.items()
@@ -229,9 +224,7 @@ def _signals(study: StudyFile, file: Path, fmu: Fmu | AliasedFmu) -> list[str]:
 
 def not_known(name: str, known: Iterable[str], what: str) -> str:
     """The sentence for a name that there is not, with those that are near."""
-    near = difflib.get_close_matches(name, list(known), 3)
-    hint = f"did you mean {' or '.join(near)}?" if near else "the command check lists them."
-    return f"the FMU has no {what} '{name}'; {hint}"
+    return f"the FMU has no {what} '{name}'{did_you_mean(name, known, 'the command check lists them')}"
 
 
 def _measures(

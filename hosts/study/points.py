@@ -22,12 +22,7 @@ _DIGESTED = 256  # drawn points at both ends that tell one plan from another
 
 
 class Points(Protocol):
-    """Where points come from.
-
-    Parameters
-    ----------
-    count : int
-    """
+    """Where points come from."""
 
     count: int
 
@@ -37,13 +32,7 @@ class Points(Protocol):
 
 
 class SampledPoints:
-    """Points of a sampler.
-
-    Parameters
-    ----------
-    parameters : tuple of Parameter
-    sampler : Sampler
-    """
+    """Points of a sampler."""
 
     def __init__(self, parameters: tuple[Parameter, ...], sampler: Sampler) -> None:
         self.parameters, self.count, self._sampler = parameters, sampler.count, sampler
@@ -54,12 +43,7 @@ class SampledPoints:
 
 
 class TablePoints:
-    """Points of a table.
-
-    Parameters
-    ----------
-    columns : mapping of str to list
-    """
+    """Points of a table."""
 
     def __init__(self, columns: Mapping[str, list[Value]]) -> None:
         self._columns = columns
@@ -75,8 +59,6 @@ def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, f
 
     Parameters
     ----------
-    parameters : tuple of Parameter
-    sampling : SamplingEntry
     file : str
         How messages call the study file.
 
@@ -113,7 +95,6 @@ def table_points(
 
     Parameters
     ----------
-    file : Path
     variable_of : callable
         Of a name and of words for messages; raises `HostError` where there is no such variable that can be set.
     entries : mapping of str to ParameterEntry

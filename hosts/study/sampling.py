@@ -29,12 +29,7 @@ class Sampler(Protocol):
 
 
 class LatinHypercube:
-    """A Latin hypercube; its permutations need all points, 8 bytes each per dimension.
-
-    Parameters
-    ----------
-    dimensions, count, seed : int
-    """
+    """A Latin hypercube; its permutations need all points, 8 bytes each per dimension."""
 
     def __init__(self, dimensions: int, count: int, seed: int) -> None:
         self.count = count
@@ -46,12 +41,7 @@ class LatinHypercube:
 
 
 class SobolSequence:
-    """Sobol' points, scrambled by the seed; good at powers of two.
-
-    Parameters
-    ----------
-    dimensions, count, seed : int
-    """
+    """Sobol' points, scrambled by the seed; good at powers of two."""
 
     def __init__(self, dimensions: int, count: int, seed: int) -> None:
         self.count = count
@@ -81,11 +71,8 @@ class Saltelli:
 
     Parameters
     ----------
-    dimensions : int
     base : int
         Base points.
-    seed : int
-    second_order : bool
     """
 
     def __init__(self, dimensions: int, base: int, seed: int, second_order: bool) -> None:

@@ -29,8 +29,6 @@ def make_store(folder: Path, job: Job, record: Mapping[str, Any]) -> None:
 
     Parameters
     ----------
-    folder : Path
-    job : Job
     record : mapping
         Of the study.
     """
@@ -67,14 +65,7 @@ def make_store(folder: Path, job: Job, record: Mapping[str, Any]) -> None:
 
 
 class SignalWriter:
-    """Writes the samples of runs into the groups of their manoeuvres, in any order.
-
-    Parameters
-    ----------
-    folder : Path
-    jobs : sequence of Job
-    names : sequence of str
-    """
+    """Writes the samples of runs into the groups of their manoeuvres, in any order."""
 
     def __init__(self, folder: Path, jobs: Sequence[Job], names: Sequence[str]) -> None:
         self._folder, self._jobs, self._names = folder, jobs, list(names)

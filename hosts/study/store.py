@@ -32,10 +32,6 @@ def study_record(folder: str | os.PathLike[str]) -> dict[str, Any]:
 def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
     """The table of a study.
 
-    Parameters
-    ----------
-    folder : path
-
     Returns
     -------
     DataFrame
@@ -69,7 +65,6 @@ def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -
 
     Parameters
     ----------
-    folder : path
     manoeuvre : str, optional
         May be left out where there is one.
 

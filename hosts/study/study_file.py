@@ -103,6 +103,27 @@ class SignalsEntry(_Part):
     interval: Number = Field(gt=0.0, title="a positive number, s")
 
 
+class LimitEntry(_Part):
+    """What a measure must keep; a list of two numbers means its least and its largest value."""
+
+    min: Number | None = Field(default=None, title="a number, the least value")
+    max: Number | None = Field(default=None, title="a number, the largest value")
+    unit: str | None = Field(default=None, title="the unit of these numbers, as text; default: that of the measure")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _pair(cls, given: object) -> object:
+        return dict(zip(("min", "max"), given, strict=True)) if isinstance(given, list) and len(given) == 2 else given
+
+    @model_validator(mode="after")
+    def _fits(self) -> LimitEntry:
+        if self.min is None and self.max is None:
+            raise ValueError("it needs min or max, or both")
+        if self.min is not None and self.max is not None and self.min > self.max:
+            raise ValueError(f"its limits are {self.min:g} and {self.max:g}; the lower one comes first")
+        return self
+
+
 class StudyFile(_Part):
     """A study."""
 
@@ -118,14 +139,13 @@ class StudyFile(_Part):
     parameters: dict[str, ParameterEntry] = Field(default_factory=dict, title="a table for each parameter")
     signals: SignalsEntry | None = Field(default=None, title="a table with names and interval")
     measures: dict[Name, str] = Field(default_factory=dict, title="what is computed, as text, by its name")
+    limits: dict[str, LimitEntry] = Field(default_factory=dict, title="a table, min and max by names of measures")
 
     @model_validator(mode="after")
     def _fits(self) -> StudyFile:
         if (self.fmu is None) == (self.car is None):
             raise ValueError("it needs fmu or car, one of them")
         if self.sampling.method != "table":
-            if not self.parameters:
-                raise ValueError("it has no parameters; a grid of none is empty")
             for name, entry in self.parameters.items():
                 if entry.range is None and entry.values is None:
                     raise ValueError(f"parameters.'{name}' needs a range or values")
@@ -141,10 +161,6 @@ class StudyFile(_Part):
 
 def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
     """Read a study file.
-
-    Parameters
-    ----------
-    file : Path
 
     Returns
     -------

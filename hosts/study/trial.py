@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.study.isolated import IsolatedBench
 from hosts.study.one_run import Task
@@ -32,7 +32,6 @@ class Trial:
         Whether an instance gives the same bits after a reset.
     columns : dict of str to str
         Measures of tests, with units.
-    notes : tuple of str
     """
 
     seconds: float
@@ -87,9 +86,8 @@ def _columns(units: Mapping[str, str], job: Job, where: str) -> dict[str, str]:
     for name in job.measures:
         if f"{job.label}.{name}" not in units:
             known = [column.removeprefix(f"{job.label}.") for column in units]
-            near = difflib.get_close_matches(name, known, 3)
-            hint = f"did you mean {' or '.join(near)}?" if near else f"it has {', '.join(known)}."
-            raise HostError(f"{where}.measures: the test {job.test} has no measure '{name}'; {hint}")
+            hint = did_you_mean(name, known, f"it has {', '.join(known)}")
+            raise HostError(f"{where}.measures: the test {job.test} has no measure '{name}'{hint}")
     return {column: unit for column, unit in units.items() if column.removeprefix(f"{job.label}.") in job.measures}
 
 

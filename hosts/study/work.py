@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 
 if TYPE_CHECKING:
     from hosts.study.measures import StudyMeasure
@@ -27,7 +27,6 @@ class Job:
 
     Parameters
     ----------
-    label : str
     manoeuvre : Manoeuvre, optional
         With all start values but the parameters.
     test : str
@@ -69,14 +68,10 @@ class Work:
         Of the FMU.
     program : str
         Digest of the program that makes the runs.
-    jobs : tuple of Job
-    parameters : tuple of str
     measures : tuple of StudyMeasure
         Of manoeuvres.
     columns : tuple of str
         All measures of the table.
-    signals : tuple of str
-    aliases : Aliases
     reuse : bool
         Whether an instance of the FMU is used again after a reset.
     time_limit : float, optional
@@ -130,8 +125,6 @@ class Outcome:
 
     Parameters
     ----------
-    status, reason : str
-    measures : dict of str to float
     simulated, wall : float
         s.
     signals : ndarray of shape (samples, signals), optional

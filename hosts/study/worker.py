@@ -59,8 +59,6 @@ class StudyPlugin(WorkerPlugin):
     ----------
     key : str
         Of the study.
-    work : Work
-    seed : int
     fmu : bytes
         Content of the FMU.
     """
@@ -107,7 +105,6 @@ def run_chunk(key: str, chunk: Chunk) -> list[Outcome]:
     ----------
     key : str
         Of the study.
-    chunk : Chunk
 
     Returns
     -------

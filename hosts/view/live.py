@@ -16,7 +16,7 @@ from hosts.common.errors import HostError
 from hosts.common.options import Wishes, wishes
 from hosts.common.road import PARAMETER as ROAD
 from hosts.fmu.fmu_file import fmu_file
-from hosts.recordings.recorded_drive import is_recording
+from hosts.recordings.format import is_recording
 from hosts.view.open_page import open_page
 
 if TYPE_CHECKING:

@@ -34,9 +34,6 @@ class FmuParts:
 
     Parameters
     ----------
-    path : Path
-    description : ModelDescription
-    variables : Variables
     scene : dict
         What is drawn.
     wasm : bytes or None
@@ -90,7 +87,6 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
 
     Parameters
     ----------
-    path : Path
     road : str
         Of the parameter `road.file`: the name of a road in the FMU, or a road file, which goes into the page.
 
@@ -105,7 +101,7 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
         names = archive.namelist()
         if RESOURCE not in names:
             raise HostError(
-                f"{path} has no drawing of itself ({RESOURCE}): it was built by an older version; build it anew with "
+                f"{path} has no drawing of itself ({RESOURCE}): it was built by an older version; build it again with "
                 f"{build_line(path)}"
             )
         binaries = [n for n in names if n.startswith(f"binaries/{PLATFORM}/") and n.endswith(".wasm")]

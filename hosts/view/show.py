@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ali3.files import check_writable
+from ali3.near_names import near_names
 from hosts.common.errors import HostError
 from hosts.common.options import wishes
 from hosts.fmu.car import is_car
@@ -125,8 +126,5 @@ def _exports(recordings: Sequence[Recording], options: argparse.Namespace) -> It
 
 def _some(names: list[str], word: str) -> str:
     """A few of many names, those that are alike first."""
-    import difflib
-
-    near = difflib.get_close_matches(word, names, 5, 0.4)
-    shown = near or names[:5]
+    shown = near_names(word, names, 5, 0.4) or names[:5]
     return ", ".join(shown) + (f" and {len(names) - len(shown)} more" if len(names) > len(shown) else "")

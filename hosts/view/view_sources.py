@@ -13,7 +13,7 @@ from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.fmu.geometry import RESOURCE, scene_from, scene_of
-from hosts.recordings.recorded_drive import is_recording
+from hosts.recordings.format import is_recording
 from hosts.recordings.recorded_view import recorded_view
 from hosts.view.recorded import read_table
 from viewer.recording import Recording
@@ -135,7 +135,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         if scene is None:
             told.append(_foreign(fmu))
         if not same:
-            told.append(f"{fmu} was built anew since {name} was recorded; what is drawn is that of the new build.")
+            told.append(f"{fmu} was built again since {name} was recorded; what is drawn is that of the new build.")
     else:
         told.append(
             f"{table_file} has no record {record_file.name} beside it that names its FMU, and no scene of that name: "

@@ -39,9 +39,8 @@ Array = NDArray[np.float64]
 
 STEADY = 1e-2  # accelerations that a frame does not explain, share of those of the motion and of its forces
 STILL = 1e-3  # m/s2; smaller accelerations count as zero
-STATE_TOLERANCE = (
-    1e-3  # 1/s; slots with smaller slopes of their rates (gears, clocks) have no dynamics; above round-off
-)
+# 1/s; slots with smaller slopes of their rates (gears, clocks) have no dynamics; above round-off
+STATE_TOLERANCE = 1e-3
 FREE = 1e-3  # 1/s; smaller eigenvalues are those of free motions, which are zero up to round-off
 OSCILLATION_TOLERANCE = 1e-9  # imaginary part over modulus of an eigenvalue below which it counts as real
 

@@ -1,5 +1,1 @@
-"""compile(): from a model to a System."""
-
-from mbs.compiler.model_to_system import compile
-
-__all__ = ["compile"]
+"""From a model to a System: elimination, rows, elimination order, tables."""

@@ -52,7 +52,6 @@ class Edge:
         Of the first joint.
     axis : AffineVector or None
         Of a hinge, or of two ball joints the line through them, about which the vertices turn; of a slide its line.
-    slides : bool
     line_of : Vertex or None
         Which vertex the line of a point that slides belongs to; None where it belongs to both.
     """

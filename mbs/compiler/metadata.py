@@ -46,6 +46,7 @@ def metadata(
                 "max": i.max if math.isfinite(i.max) else None,
             }
             | ({"whole": True} if i.whole else {})
+            | ({"port": True} if i.port else {})
             for i in model.inputs
         ],
         "sensors": [

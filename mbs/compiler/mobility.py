@@ -32,7 +32,6 @@ class Closed:
 
     Attributes
     ----------
-    places : Places
     rank : int
         Number of singular values above the tolerance.
     values : ndarray, shape (n,)

@@ -1,19 +1,21 @@
-"""compile(): from a Model to a System, one chain of steps."""
+"""From a Model to a System, one chain of steps."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 
 from mbs.common.affine import Affine
 from mbs.common.checks import flag, instance_of, is_number, mapping, shown
 from mbs.common.errors import ModelError
+from mbs.compiler.armatures import armature_arrays
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.consistent import close_position
 from mbs.compiler.dependent_rows import independent_rows
-from mbs.compiler.drawing import drawing
 from mbs.compiler.equilibrium import equilibrium, start_arrays
 from mbs.compiler.extent import coordinate_lengths, model_length, unit_vectors
 from mbs.compiler.flexible import (
@@ -44,34 +46,20 @@ from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element
 from mbs.compiler.tree import tree_arrays
 from mbs.model.equation import Equation
 from mbs.model.model import Model
+from mbs.system.drawing import Drawing
 from mbs.system.system import System
 
+Drawer = Callable[[Model, sparse.csr_matrix, NDArray[np.float64], NDArray[np.float64]], Drawing | None]
 
-def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
-    """Compile a model.
 
-    Linear joint equations are eliminated, dependent rows removed, the elimination order and fronts of the tangent
-    computed, and the start position and velocity solved. Overconstrained loops are closed by least squares before:
-    points and axes of their joints are moved, by as little as possible, to where the loop moves; the System's report
-    says by how much, joint by joint (`closed`: distance in m, angle in rad).
+def to_system(model: Model, *, tolerance: float = TOLERANCE, drawing: Drawer | None = None) -> System:
+    """`mbs.compiler.compile.compile`, for those who do not draw the model too.
 
     Parameters
     ----------
-    tolerance : float
-        Largest correction of an overconstrained loop, parts of the size of its drawing (m/m) and rad; 0 takes every
-        drawing as it is.
-
-    Returns
-    -------
-    System
-        What `Simulation` and `simulate` step, and what an FMU carries.
-
-    Raises
-    ------
-    ArgumentTypeError
-        `model` is no Model.
-    ModelError
-        If the assembly cannot be closed or the model is not possible; the message names the joints.
+    drawing : callable, optional
+        Makes what the System carries for those who draw it, of the model, the matrix T (full, nq) and the constant
+        (full,) of its full coordinates ``T q + constant``, and the start q (nq,).
     """
     instance_of(Model, model, "What compile takes", "a Model")
     if not model.bodies:
@@ -83,10 +71,14 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
     joints = corrected_joints(model, float(tolerance))
     with redrawn(joints):
         closed = {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}
-        return _compile(model, closed)
+        return _compile(model, closed, drawing or _undrawn)
 
 
-def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
+def _undrawn(*_: object) -> None:
+    """For `to_system` without a drawing."""
+
+
+def _compile(model: Model, closed: dict[str, tuple[float, float]], drawing: Drawer) -> System:
     """The System of a model whose loops are closed; `closed` is for its report."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
@@ -156,6 +148,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         **sensor_arrays(model, signals, row_of),
         **channel_arrays(model),
         **payload_arrays(model, signals),
+        **armature_arrays(model, full, new),
         **flexible_arrays(model, full, new, locate),
         **pose_arrays(model, natural, remaining, of_z, q[new], order),
         **tree,

@@ -43,7 +43,6 @@ class NaturalCoordinates:
 
     Attributes
     ----------
-    info : list of NaturalCoordinate
     expressions : list of Affine
         The coordinates of the model (centre of mass and unit axes) as expressions of these.
     """

@@ -34,7 +34,6 @@ class RowTerms:
         Coordinate of the angle part, or -1.
     cosine, sine : Polynomial
         C and S of the angle part.
-    guides : list of (guide, power, Polynomial)
     switch : int
         Number of the switch that turns it on and off, or -1.
     rates : RateTerms

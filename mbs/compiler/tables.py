@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
+from mbs.compiler.armatures import written_armatures
 from mbs.compiler.front_arrays import Locate
 from mbs.compiler.polynomial import substitute
 from mbs.kernel.header import SensorType
@@ -147,12 +148,14 @@ def channel_arrays(model: Model) -> Arrays:
     element_start = pointer([len(e.real) for e in model.elements])
     guide_start = pointer([len(g.reals) for g in model.guides])
     road_start = pointer([len(r.real) for r in model.roads])
+    written = written_armatures(model)
     starts = (
         element_start,
         guide_start,
         road_start,
         pointer([1] * len(model.payloads)),
         pointer([1] * len(model.switches)),
+        pointer([int(k in written) for k in range(len(model.armatures))]),
     )
     targets = [[(t, int(starts[t][k]) + i, s, o) for t, k, i, s, o in p.targets] for p in model.parameters]
     flat = [t for group in targets for t in group]

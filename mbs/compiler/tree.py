@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.affine import Affine, AffineVector
+from mbs.compiler.armatures import refuse_in_trees
 from mbs.compiler.natural import choose
 from mbs.compiler.spanning_tree import (
     MOST_JOINTS,
@@ -64,6 +65,7 @@ def tree_arrays(
             raise NoTreeError(
                 f"{len(moving)} joints and {rows} rows of loops are many for {len(remaining)} coordinates"
             )
+        refuse_in_trees(model)
         arrays = {
             "parent": [g.parent.number for g in moving if g.parent is not None],
             "slides": [int(g.slides) for g in moving],

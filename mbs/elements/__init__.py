@@ -11,6 +11,7 @@ from mbs.elements.electric_drive import ElectricDrive
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.elements.input_force import InputForce
 from mbs.elements.lift import Lift
+from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
@@ -39,6 +40,7 @@ __all__ = [
     "InputForce",
     "KerbRoad",
     "Lift",
+    "MagicTyre",
     "Output",
     "PlaneRoad",
     "Road",

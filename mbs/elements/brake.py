@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import positive
+from mbs.common.checks import flag, positive
 from mbs.elements.reals import NotNegative, Positive, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
@@ -52,7 +52,15 @@ class Brake:
         return Brake(torque, stiffness, 2.0 * math.sqrt(stiffness * inertia))
 
     def record(
-        self, name: str, f: AffineVector, g: AffineVector, spin: Affine, input: int, hand: int | None = None
+        self,
+        name: str,
+        f: AffineVector,
+        g: AffineVector,
+        spin: Affine,
+        input: int,
+        hand: int | None = None,
+        *,
+        by_size: bool = False,
     ) -> ElementRecord:
         """The force element.
 
@@ -63,9 +71,11 @@ class Brake:
         spin : Affine
             Absolute spin of the wheel, rad.
         input : int
-            Number of the input of the pedal, 0 to 1.
+            Number of the input of the pedal, 0 to 1, or of the size.
         hand : int, optional
             Number of the input of the hand brake, 0 to 1.
+        by_size : bool
+            Whether `input` is no pedal but any number from 0 on, and `max_torque` the torque per unit of it.
         """
         what = f"the brake '{name}'"
         size(f, (3,), f"The vector f of {what}")
@@ -75,11 +85,16 @@ class Brake:
             ElementType.BRAKE,
             (*f.components, *g.components, spin),
             *columns(reals_of(self, what)),
-            (index(input, f"The input of {what}"), -1 if hand is None else index(hand, f"The hand brake of {what}")),
+            (
+                index(input, f"The input of {what}"),
+                -1 if hand is None else index(hand, f"The hand brake of {what}"),
+                *((1,) if flag(by_size, f"The by_size of {what}") else ()),
+            ),
             (0.0, 0.0),
             (
                 Output("torque", "N m", "torque of the brake on the wheel about the axis"),
                 Output("sticking", "1", "1 while the brake sticks, else 0"),
                 Output("rate", "rad/s", "spin of the wheel relative to its carrier"),
+                Output("power", "W", "power of the torque on wheel and carrier together"),
             ),
         )

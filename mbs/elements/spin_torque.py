@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.reals import Number, reals_of
-from mbs.elements.record import ElementRecord, columns
+from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
 from mbs.kernel.header import ElementType
 
@@ -38,4 +38,8 @@ class SpinTorque:
             (*f.components, *g.components, spin),
             *columns(reals_of(self, what)),
             (index(self.input, f"The input of {what}"),),
+            outputs=(
+                Output("torque", "N m", "torque on the wheel about the axis"),
+                Output("power", "W", "power of the torque on wheel and carrier together"),
+            ),
         )

@@ -16,6 +16,7 @@ LINE_OUTPUTS = (
     Output("length", "m", "distance of the two points"),
     Output("force", "N", "force of spring, damper and stops, tension positive"),
     Output("rate", "m/s", "rate of the length"),
+    Output("damper_force", "N", "force of the damper without spring and stops, tension positive"),
 )
 
 

@@ -18,6 +18,29 @@ AtTwoLoads = Annotated[Pair, Real(positive, LOADS)]
 SignedAtTwoLoads = Annotated[Pair, Real(number, LOADS)]
 AlongAxes = Annotated[Pair, Real(positive, AXES)]
 
+TYRE_OUTPUTS = (
+    Output("longitudinal_force", "N", "force of the road along the wheel's heading"),
+    Output("lateral_force", "N", "force of the road to the left"),
+    Output("vertical_force", "N", "force of the road along its normal"),
+    Output("aligning_moment", "N m", "moment about the road's normal"),
+    Output("slip", "1", "longitudinal slip, positive when driven, between about -1 and 1"),
+    Output("slip_angle", "rad", "direction of travel from the wheel's heading, positive to the left"),
+    Output("deflection", "m", "radial deflection"),
+    Output("loaded_radius", "m", "distance of the contact patch from the centre"),
+    *(
+        Output(
+            f"contact_{c}",
+            "m",
+            f"{c} of the contact point, earth; in the air of the road's nearest point in the wheel plane",
+        )
+        for c in "xyz"
+    ),
+    Output("inclination", "rad", "of the wheel plane from the road's normal, positive with the top right"),
+    *(Output(f"normal_{c}", "1", f"{c} of the road's unit normal at the contact point, earth, upwards") for c in "xyz"),
+    Output("rolling_moment", "N m", "about the contact point: rolling resistance, and Fx by its lever"),
+)
+"""What every tyre tells first, in the order of the kernel."""
+
 
 @dataclass(frozen=True)
 class TyreCurve:
@@ -113,29 +136,7 @@ class Tyre:
             *columns(reals),
             (index(road, f"The road of {what}"),),
             (0.0, 0.0, 0.0, 0.0),
-            (
-                Output("longitudinal_force", "N", "force of the road along the wheel's heading"),
-                Output("lateral_force", "N", "force of the road to the left"),
-                Output("vertical_force", "N", "force of the road along its normal"),
-                Output("aligning_moment", "N m", "moment about the road's normal"),
-                Output("slip", "1", "longitudinal slip, positive when driven, between about -1 and 1"),
-                Output("slip_angle", "rad", "direction of travel from the wheel's heading, positive to the left"),
-                Output("deflection", "m", "radial deflection"),
-                Output("loaded_radius", "m", "distance of the contact patch from the centre"),
-                *(
-                    Output(
-                        f"contact_{c}",
-                        "m",
-                        f"{c} of the contact point, earth; in the air of the road's nearest point in the wheel plane",
-                    )
-                    for c in "xyz"
-                ),
-                Output("inclination", "rad", "of the wheel plane from the road's normal, positive with the top right"),
-                *(
-                    Output(f"normal_{c}", "1", f"{c} of the road's unit normal at the contact point, earth, upwards")
-                    for c in "xyz"
-                ),
-            ),
+            TYRE_OUTPUTS,
         )
 
     def _reals(self, what: str) -> Reals:

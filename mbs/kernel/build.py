@@ -42,9 +42,14 @@ WASM_HELPERS = ("malloc", "free", "ali3_file_add", "ali3_file_remove")
 """What the host of a WebAssembly module calls beside the functions it is for: memory, and files in it."""
 
 
-def sources() -> list[Path]:
-    """C files of the kernel, sorted by room and name."""
-    return sorted((HERE / "src").rglob("*.c"))
+LANES = ("lanes", "run_many.c")
+"""The room and the file of `src/` by which many instances advance together, which an FMU has none of."""
+
+
+def sources(lanes: bool = True) -> list[Path]:
+    """C files of the kernel, sorted by room and name; without `lanes` what steps one instance."""
+    found = sorted((HERE / "src").rglob("*.c"))
+    return [f for f in found if lanes or not (f.parent.name in LANES or f.name in LANES)]
 
 
 def host_target() -> str:

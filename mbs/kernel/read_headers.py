@@ -19,6 +19,7 @@ HEADER = KERNEL / "header.py"
 PAGE = KERNEL.parents[1] / "docs" / "system_file.md"
 PUBLIC, SYSTEM, SENSORS = "include/ali3.h", "src/system.h", "src/system/sensor_types.h"
 ELEMENTS = "src/elements/element_types.h"
+MAGIC = "src/elements/magic_formula.h"
 
 ENUMERATIONS = {
     "Status": (PUBLIC, "ALI3_OK", "ALI3_", "Codes of `ali3_status`: how a call of the kernel ended."),
@@ -58,11 +59,13 @@ STRUCTURES = {
     "sizes": "Sizes",
     "control": "ControlFields",
     "record": "RecordFields",
+    "lane": "LaneFields",
     "input_table": "InputTable",
     "input_tables": "InputTables",
 }
 """Names in Python of the structures ``ali3_...``; those that others point to come first."""
 
+_OPAQUE = "ali3_instance"
 _TYPES = {"double": "c_double", "int32_t": "c_int32", "int64_t": "c_int64"}
 
 
@@ -174,6 +177,9 @@ def structure(name: str) -> list[tuple[str, str]]:
         kind, _, names = declaration.removeprefix("const ").partition(" ")
         for field in names.split(","):
             pointer = field.strip().startswith("*")
+            if kind == _OPAQUE:
+                fields.append((field.strip(" *"), "c_void_p"))
+                continue
             ctype = _TYPES.get(kind) or STRUCTURES[kind.removeprefix("ali3_")]
             fields.append((field.strip(" *"), f"POINTER({ctype})" if pointer else ctype))
     return fields
@@ -194,7 +200,7 @@ def header() -> str:
     """Text of `header.py`."""
     parts = [
         '"""Numbers and structures of the kernel\'s C headers. Written by `python mbs/kernel/read_headers.py`."""',
-        "from ctypes import POINTER, Structure, c_double, c_int32, c_int64\nfrom enum import IntEnum",
+        "from ctypes import POINTER, Structure, c_double, c_int32, c_int64, c_void_p\nfrom enum import IntEnum",
     ]
     parts.append("\n".join(_defined(PUBLIC, LIMITS) + _defined(ROADS, ROAD_LIMITS)))
     required, optional = table(SYSTEM, "ALI3_SYSTEM_ARRAYS"), table(SYSTEM, "ALI3_OPTIONAL_ARRAYS")
@@ -225,6 +231,9 @@ def header() -> str:
     parts.append(f"\nSENSOR_READS = {{\n{reads}\n}}")
     elements = (f"{name} = {number}" for name, number in element_types().items())
     parts.append(_class("ElementType", "IntEnum", "Types of force elements.", elements))
+    numbers = "\n".join(f'    "{name}": {float(value)},' for name, value in table(MAGIC, "ALI3_MAGIC_COEFFICIENTS"))
+    text = "Coefficients of the Magic Formula in the order of the element, with what holds where a file has none."
+    parts.append(f'\nMAGIC_COEFFICIENTS = {{\n{numbers}\n}}\n"""{text}"""')
     for c_name, name in STRUCTURES.items():
         fields = (f'("{field}", {kind}),' for field, kind in structure(c_name))
         body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")

@@ -269,22 +269,6 @@ class PointMass(Body):
         return self.com
 
     def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Rates of the full coordinates for given velocities.
-
-        Parameters
-        ----------
-        linear : ndarray, shape (dimension,)
-            Velocity of the centre of mass, earth axes, m/s.
-        angular : ndarray, shape (1,) or (3,)
-            Angular velocity, earth axes, rad/s.
-        position : ndarray, shape (size,)
-            Its full coordinates.
-
-        Returns
-        -------
-        ndarray, shape (size,)
-            Rates.
-        """
         return linear
 
 

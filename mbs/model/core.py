@@ -10,7 +10,7 @@ from mbs.elements.record import ElementRecord
 from mbs.elements.road import Road
 from mbs.model.carried import Payload, Spin
 from mbs.model.joints.joint import Joint
-from mbs.model.records import Constant, Guide, Input, Parameter, RoadFileParameter, Switch
+from mbs.model.records import Armature, Constant, Guide, Input, Parameter, RoadFileParameter, Switch
 from mbs.model.register import Register
 from mbs.model.sensor import Sensor
 
@@ -32,7 +32,8 @@ class ModelCore(Register):
         self.elements: list[ElementRecord] = []
         # Name and description of a sensor of the work of all elements that come from now on; it comes with the first.
         self.book_of_added: tuple[str, str] | None = None
-        self.inertias: dict[int, float] = {}
+        self.inertias: dict[int, float] = {}  # with those of `armatures`, as drawn
+        self.armatures: list[Armature] = []
         self.spins: list[Spin] = []
         self.inputs: list[Input] = []
         self.guides: list[Guide] = []

@@ -229,22 +229,7 @@ class FlexibleBody(Body):
         return np.concatenate([super().reference(), np.zeros(self.n_modes)])
 
     def velocity(self, linear: Vector, angular: Vector, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Rates of the full coordinates for given velocities, undeformed.
-
-        Parameters
-        ----------
-        linear : ndarray, shape (dimension,)
-            Velocity of the centre of mass, earth axes, m/s.
-        angular : ndarray, shape (1,) or (3,)
-            Angular velocity, earth axes, rad/s.
-        position : ndarray, shape (size,)
-            Its full coordinates.
-
-        Returns
-        -------
-        ndarray, shape (size,)
-            Rates.
-        """
+        # of the undeformed body
         arm = position[3:12].reshape(3, 3).T @ self.first_moment / self.mass
         rigid = super().velocity(linear - np.cross(angular, arm), angular, position)
         return np.concatenate([rigid, np.zeros(self.n_modes)])

@@ -12,7 +12,15 @@ from mbs.model.records import Input
 
 
 def new_input(
-    model: ModelCore, name: str, start: float, min: float, max: float, unit: str, description: str, whole: bool
+    model: ModelCore,
+    name: str,
+    start: float,
+    min: float,
+    max: float,
+    unit: str,
+    description: str,
+    whole: bool,
+    port: bool = False,
 ) -> Input:
     """Register an input; limits may be infinite."""
     low, high = limit(min, f"The min of input '{name}'"), limit(max, f"The max of input '{name}'")
@@ -27,7 +35,9 @@ def new_input(
         )
     if flag(whole, f"The whole of input '{name}'"):
         _check_whole(name, {"min": low, "max": high, "start": value}, unit)
-    channel = Input(model.unique("input", name), len(model.inputs), value, low, high, unit, description, bool(whole))
+    as_port = flag(port, f"The port of input '{name}'")
+    number_of, own = len(model.inputs), model.unique("input", name)
+    channel = Input(own, number_of, value, low, high, unit, description, bool(whole), bool(as_port))
     model.inputs.append(channel)
     return channel
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from numpy.typing import ArrayLike
 from scipy.interpolate import PPoly
 
-from mbs.common.checks import not_negative, number, shown
+from mbs.common.checks import not_negative, number, positive, shown
 from mbs.elements.record import ElementRecord
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
@@ -26,7 +26,7 @@ from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.parameters import Target, new_parameter
-from mbs.model.records import Constant, Guide, Input, Parameter
+from mbs.model.records import Armature, Constant, Guide, Input, Parameter
 from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.model.spin import spin
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
@@ -129,20 +129,27 @@ class Model(
         index = self.owned_coordinate(coordinate, "An initial rate").index
         self.coordinate_rates[index] = number(rate, f"The initial rate of '{coordinate.name}'")
 
-    def armature(self, name: str, coordinate: Coordinate, *, inertia: float) -> None:
-        """Inertia that turns with a relative angle, such as a motor behind a gear, seen at the joint.
+    def armature(self, name: str, coordinate: Coordinate, *, inertia: float, ratio: float = 1.0) -> Armature:
+        """Inertia that turns with a relative angle, such as the rotor of a motor behind a gear.
+
+        Its moment on what carries it is left out: the rotor is small, or the carrier turns slowly.
 
         Parameters
         ----------
         coordinate : Coordinate
             A relative angle or a spin of this model.
         inertia : float
-            kg m2; it is added to what the coordinate has already.
+            About its own axis, kg m2; `inertia` times ``ratio**2`` is added to what the coordinate has already.
+        ratio : float
+            Its turns for one of the coordinate. A fixed parameter may write it.
         """
         self.owned_coordinate(coordinate, f"The armature '{name}'")
-        value = not_negative(inertia, f"The inertia of armature '{name}'")
-        self.unique("armature", name)
-        self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + value
+        own = not_negative(inertia, f"The inertia of armature '{name}'")
+        turns = positive(ratio, f"The ratio of armature '{name}'")
+        new = Armature(self.unique("armature", name), coordinate.affine, own, turns)
+        self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + own * turns * turns
+        self.armatures.append(new)
+        return new
 
     def shaft(self, name: str, *, inertia: float = 0.0) -> Coordinate:
         """A shaft that turns in something else, as one coordinate: its angle, from 0 as drawn.
@@ -256,6 +263,7 @@ class Model(
         unit: str = "1",
         description: str = "",
         whole: bool = False,
+        port: bool = False,
     ) -> Input:
         """A number that a host sets.
 
@@ -270,8 +278,11 @@ class Model(
         whole : bool
             Whether it takes whole numbers only, such as the position of a lever: an integer of an FMU. Over time it
             keeps a value until the next one.
+        port : bool
+            Whether another program sets it at every step: an FMU then holds its last value, with one warning, where a
+            value is not finite, and says before the first step if it was not set.
         """
-        return new_input(self, name, start, min, max, unit, description, whole)
+        return new_input(self, name, start, min, max, unit, description, whole, port)
 
     def guide_input(self, name: str, *, input: Input, gain: float = 1.0, frequency: float, unit: str = "1") -> Guide:
         """A prescribed motion that follows ``gain * input`` through a critically damped filter.
@@ -389,13 +400,14 @@ class Model(
         targets : sequence of (owner, real, scale) or (owner, real, scale, offset)
             ``value * scale + offset`` is written to the real of the owner: an element, a guide of an input, or their
             name, and one of its `real_names`; ("road", number) and the name or number of a real of the road; or a
-            payload and "mass"; or the name of a switch and "on", which takes 0 or 1. A real belongs to one parameter.
+            payload and "mass", an armature and "ratio"; or the name of a switch and "on", which takes 0 or 1. A real
+            belongs to one parameter.
         tunable : bool
-            Whether it may be set while the model moves; False: before the start only, as masses of payloads and
-            switches must be.
+            Whether it may be set while the model moves; False: before the start only, as masses of payloads, ratios of
+            armatures and switches must be.
         works : (float, float), optional
-            Least and largest value, in `unit`, with which the model does what it is made for; an FMU says so when
-            another is set.
+            Least and largest value, in `unit`, with which the model does what it is made for; an FMU and a
+            `Simulation` say so when another is set.
 
         Raises
         ------

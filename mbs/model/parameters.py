@@ -13,15 +13,15 @@ from mbs.kernel.header import GuideType, ParameterTarget
 from mbs.model.carried import Payload
 from mbs.model.core import ModelCore
 from mbs.model.payload import REALS as PAYLOAD_REALS
-from mbs.model.records import Guide, Parameter
+from mbs.model.records import Armature, Guide, Parameter
 
 _OF_INPUT: dict[str, Callable[[object, str], float]] = {"frequency": positive, "gain": number, "start": number}
 GUIDE_REALS = {
     GuideType.OF_INPUT: _OF_INPUT,
     GuideType.OF_TWO_INPUTS: _OF_INPUT | {"gain_2": number, "low": number, "high": number},
 }
-Owner: TypeAlias = "ElementRecord | Guide | Payload | str | tuple[str, int]"
-"""An element, a guide, a payload or the name of one; or ("road", number)."""
+Owner: TypeAlias = "ElementRecord | Guide | Payload | Armature | str | tuple[str, int]"
+"""An element, a guide, a payload, an armature or the name of one; or ("road", number)."""
 Target: TypeAlias = "tuple[Owner, str | int, float] | tuple[Owner, str | int, float, float]"
 """Owner, its real, scale, and an offset if there is one."""
 
@@ -93,7 +93,7 @@ def _span(works: object, what: str) -> tuple[float, float]:
 def _moving(what: str, found: Sequence[_Target]) -> None:
     """A mass that changed while it moves would take momentum from nowhere, rows that are turned on are an impact."""
     for target in found:
-        if target.where[0] in (ParameterTarget.PAYLOAD, ParameterTarget.SWITCH):
+        if target.where[0] in (ParameterTarget.PAYLOAD, ParameterTarget.SWITCH, ParameterTarget.ARMATURE):
             raise ModelError(
                 f"The {what} writes {target.what}, which cannot change while it moves; it must be fixed, tunable=False."
             )
@@ -142,12 +142,15 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
         if payload.name == owner_name and real in PAYLOAD_REALS:
             name = f"the {real} of payload '{owner_name}'"
             return _Target((ParameterTarget.PAYLOAD, k, 0, *line), name, not_negative)
+    for k, armature in enumerate(model.armatures):
+        if armature.name == owner_name and real == "ratio":
+            return _Target((ParameterTarget.ARMATURE, k, 0, *line), f"the ratio of armature '{owner_name}'", positive)
     for k, switch in enumerate(model.switches):
         if switch.name == owner_name and real == "on":
             return _Target((ParameterTarget.SWITCH, k, 0, *line), f"the switch '{owner_name}'", _on_or_off)
     raise ModelError(
-        f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element, guide, payload or "
-        "switch."
+        f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element, guide, payload, "
+        "armature or switch."
     )
 
 

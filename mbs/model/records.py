@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from mbs.common.affine import Affine
 from mbs.kernel.header import GuideType, ParameterTarget
 
 
@@ -27,7 +28,7 @@ class Constant:
 
 @dataclass(frozen=True)
 class Input:
-    """A number that a host sets at every step; `index` is its place in the System."""
+    """A number that a host sets at every step; `index` is its place in the System, `port` whether it is a port."""
 
     name: str
     index: int
@@ -37,6 +38,7 @@ class Input:
     unit: str
     description: str
     whole: bool = False
+    port: bool = False
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,24 @@ class Switch:
     name: str
     index: int
     on: bool
+
+
+@dataclass(frozen=True)
+class Armature:
+    """Inertia that turns `ratio` times as fast as a coordinate; made by `Model.armature`.
+
+    Attributes
+    ----------
+    coordinate : Affine
+        The angle as an expression, rad.
+    inertia : float
+        Of what turns, about its own axis, kg m2.
+    """
+
+    name: str
+    coordinate: Affine
+    inertia: float
+    ratio: float
 
 
 @dataclass(frozen=True)
@@ -64,7 +84,7 @@ class Guide:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that writes value * scale + offset to data of elements, guides, roads or payloads, or a switch.
+    """A number that writes value * scale + offset to data of elements, guides, roads, payloads, armatures, or a switch.
 
     Parameters
     ----------

@@ -135,9 +135,10 @@ def doubt(report: Report, steps: int, halvings: int, method: str) -> str:
     Where steps were halved inside, a coarser run makes the same parts. An open balance, and a loop that left
     its mode, are signs of coarse steps already.
     """
-    if halvings > SUSPECT_HALVINGS * steps or report.energy_balance > WRONG_BALANCE or report.branch_changes > 0:
+    if halvings > SUSPECT_HALVINGS * steps or report.balance_wrong or report.branch_changes > 0:
         return REPEAT
-    speed = report.speed_peak or math.inf
+    # what a vehicle has at constant speed is no motion that steps could miss
+    speed = min(report.speed_peak, report.velocity_path) or math.inf
     miss = report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
     smooth = miss <= METHOD_TABLE[method].smooth_miss and drift(report) <= SMOOTH_DRIFT and halvings == 0
     return "" if smooth else SCREEN
@@ -241,7 +242,7 @@ def balance_decides(report: Report, method: str, driven: bool) -> bool:
 
 def balance_says(report: Report, method: str, driven: bool) -> bool:
     """Whether the energy balance alone shows that a result is wrong; a drive whose rate jumps adds energy instantly."""
-    return METHOD_TABLE[method].balance_decides and not driven and report.energy_balance > WRONG_BALANCE
+    return METHOD_TABLE[method].balance_decides and not driven and report.balance_wrong
 
 
 def balance_text(report: Report) -> str:

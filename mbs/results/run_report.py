@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
+from mbs.kernel.header import BALANCE_WRONG
+
 BRANCH_JUMPED = 2
 """`Report.branch_kind` of a step that jumped."""
 
@@ -41,6 +43,10 @@ class Report:
     speed_peak, velocity_path, predictor_path : float
         In the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity, and the sum over the
         steps of what the velocity is off ``v + h a`` of their start.
+    energy_floor : float
+        What gravity does over the tolerance of the residual, J; a smaller `energy_error` tells nothing.
+    rim_pressed, rim_time, rim_x, rim_y : float
+        How much deeper than a wheel holds a rim was pressed into a grid road, m, 0: never; when, s, and where, m.
     branch_changes : int
         Changes of the assembly mode of closed loops.
     branch_time : float
@@ -74,6 +80,11 @@ class Report:
     speed_peak: float = 0.0
     velocity_path: float = 0.0
     predictor_path: float = 0.0
+    energy_floor: float = 0.0
+    rim_pressed: float = 0.0
+    rim_time: float = 0.0
+    rim_x: float = 0.0
+    rim_y: float = 0.0
     branch_changes: int = 0
     branch_time: float = 0.0
     branch_kind: int = 0
@@ -95,6 +106,11 @@ class Report:
         """``|energy_error|`` over the energy that was in the motion, `kinetic_peak` and `work`; 0 where none was."""
         size = self.kinetic_peak + self.work
         return abs(self.energy_error) / size if size > 0.0 else 0.0
+
+    @property
+    def balance_wrong(self) -> bool:
+        """Whether it is above what any right run had, by more than the tolerance of the residual leaves open."""
+        return self.energy_balance > BALANCE_WRONG and abs(self.energy_error) > self.energy_floor
 
     @property
     def capped_text(self) -> str:

@@ -20,7 +20,6 @@ def draw_road(road: PlaneRoad | KerbRoad | GridRoad, file: Path, name: str) -> N
 
     Parameters
     ----------
-    road : PlaneRoad, KerbRoad or GridRoad
     file : Path
         A PNG, or what Matplotlib writes by the suffix.
     name : str

@@ -41,7 +41,6 @@ class Header:
 
     Parameters
     ----------
-    kind : RoadType
     nx, ny : int
         Points of the grid, 0 without one.
     maps : int

@@ -26,7 +26,6 @@ def steep_face(road: GridRoad, name: object, radius: float = WHEEL_RADIUS) -> st
 
     Parameters
     ----------
-    road : GridRoad
     name : object
         How the sentence calls it.
     radius : float

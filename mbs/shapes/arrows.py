@@ -40,7 +40,7 @@ def _of_tyres(model: Model) -> list[Arrow]:
             vectors.setdefault(_key(sensor.signals[0]), sensor.name)
     found = []
     for k, record in enumerate(model.elements):
-        if record.type != ElementType.TYRE:
+        if record.type not in (ElementType.TYRE, ElementType.MAGIC_TYRE):
             continue
         read = {part: [outputs.get((k, name)) for name in names] for part, names in TYRE.items()}
         read["axis"] = [vectors.get(_key(record.signals[3 + i])) for i in range(3)]

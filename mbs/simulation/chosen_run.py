@@ -16,6 +16,7 @@ from mbs.kernel.binding import KernelError, Status
 from mbs.results.accuracy import AccuracyWarning
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
+from mbs.roads.steep_faces import RoadWarning
 from mbs.settings.control import ALLOWED, Control
 from mbs.settings.input_signals import Signal
 from mbs.settings.settings import Settings
@@ -112,6 +113,8 @@ def to_tolerance(
     _warn(control)
     if run.simulation.branch_change and not before.simulation.branch_change:
         warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=3)
+    if told := run.simulation.instance.rim_text():
+        warnings.warn(told, RoadWarning, stacklevel=3)
     for t, q in zip(run.task.times, run.positions, strict=True):
         run.simulation.bending.look(float(t), np.asarray(q))
     run.simulation.bending.warn(stacklevel=4)

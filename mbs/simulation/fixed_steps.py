@@ -11,6 +11,7 @@ from mbs.results.accuracy import Accuracy
 from mbs.results.run_report import BRANCH_JUMPED
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
+from mbs.roads.steep_faces import RoadWarning
 from mbs.settings.input_signals import Signal
 from mbs.simulation import repeat
 from mbs.simulation.arguments import count_steps
@@ -51,9 +52,8 @@ def fixed_step_run(
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
             if checked:
-                found = repeat.check(
-                    system, run, march_from_start, h, often, bar.update, estimate_error is True, extents
-                )
+                repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, extents)
+                found = repeat.check(repeats, always=estimate_error is True)
     except SimulationError as error:
         if error.trajectory is not None:
             error.trajectory = error.trajectory.thinned(every // often)
@@ -65,6 +65,8 @@ def fixed_step_run(
             warnings.warn(told, BranchWarning, stacklevel=4)
         if made:
             made[0].bending.warn(stacklevel=5)
+        if made and found is not None and (told := made[0].instance.rim_text()):  # else the refusal says it
+            warnings.warn(told, RoadWarning, stacklevel=4)
     trajectory = run[0].thinned(every // often)
     trajectory.accuracy = found
     return trajectory

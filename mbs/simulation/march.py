@@ -65,7 +65,7 @@ def march(
     seen = [simulation.state.q] if look else []
     record = PositionRecord(simulation.system, simulation.state.q, len(values), wanted)
     done, wall, chunk, before = 0, 0.0, every, simulation.report
-    with progress_for(progress) as bar, _attached(simulation, signals, t0, t0 + steps * h, 1e-6 * h):
+    with progress_for(progress) as bar, attached(simulation, signals, t0, t0 + steps * h, 1e-6 * h):
         while done < steps:
             ahead = [k - done for k in looks if k > done]
             n = min(chunk, steps - done, *ahead[:1])
@@ -79,7 +79,7 @@ def march(
                 good = round((simulation.time - t0) / h) // every + 1
                 wall += time.perf_counter() - begin
                 record.take(row, places)
-                recorded = _trajectory(simulation, t0, h * every, values[:good], wall, before, record)
+                recorded = trajectory_of(simulation, t0, h * every, values[:good], wall, before, record)
                 what = f"The step from t = {simulation.time:g} s with h = {h:g} s failed"
                 raise refusal(simulation, what, error, recorded) from error
             spent = time.perf_counter() - begin
@@ -92,8 +92,8 @@ def march(
                 if look:
                     seen.append(q)
             bar.update(done / steps)
-            chunk = _next_chunk(chunk, spent, every)
-    return _trajectory(simulation, t0, h * every, values, wall, before, record), seen
+            chunk = next_chunk(chunk, spent, every)
+    return trajectory_of(simulation, t0, h * every, values, wall, before, record), seen
 
 
 def notices_of(system: System, t: Array, values: Array) -> list[str]:
@@ -116,7 +116,7 @@ def notices_of(system: System, t: Array, values: Array) -> list[str]:
 
 
 @contextmanager
-def _attached(
+def attached(
     simulation: SteppedSystem, signals: InputSignals, t0: float, t_end: float, tolerance: float
 ) -> Iterator[None]:
     """Inputs of a run: the kernel asks for them at the times at which its method evaluates them."""
@@ -127,7 +127,7 @@ def _attached(
         simulation.instance.set_input_function(None)
 
 
-def _trajectory(
+def trajectory_of(
     simulation: SteppedSystem,
     t0: float,
     interval: float,
@@ -156,7 +156,7 @@ def _trajectory(
     )
 
 
-def _next_chunk(chunk: int, spent: float, every: int) -> int:
+def next_chunk(chunk: int, spent: float, every: int) -> int:
     """Steps of the next call, a multiple of `every`, for about CHUNK_SECONDS."""
     factor = min(8.0, CHUNK_SECONDS / max(spent, 1e-9))
     return max(1, int(chunk * factor / every)) * every

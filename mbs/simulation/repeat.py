@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.kernel.header import Status
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
 from mbs.results.simulation_error import SimulationError
@@ -19,76 +20,47 @@ FAR_FINER = 3.9  # times the step
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 
 
-def check(
-    system: System,
-    run: Run,
-    march: Callable[[float, int, Callable[[float], None], bool], Run],
-    h: float,
-    every: int,
-    update: Callable[[float], None],
-    always: bool,
-    extents: dict[str, float] | None = None,
-) -> Accuracy | None:
-    """What is known of the error of a run, after the repeats that it needs.
+@dataclass
+class Repeats:
+    """Further runs of the same motion, compared with the first.
 
-    A run that is not plainly smooth is compared with one of twice the step, which costs half as much. Where they differ
-    it is repeated with half the step, and where that leaves the verdict near its limit, with a quarter. With `extents`,
-    what moved in the runs before this one by unit, only half the step is tried.
+    Parameters
+    ----------
+    run : tuple of Trajectory and list of ndarray
+        The first run, and its coordinates where they are compared in place of sensors.
+    march : callable
+        Makes a run of a step, s, the steps from one sample to the next, what takes its progress from 0 to 1, and
+        whether coordinates are kept.
+    h : float
+        Step of the first run, s.
+    every : int
+        Its steps from one sample to the next.
+    update : callable
+        Takes the progress of all runs, from 0 to 1.
+    extents : dict of str to float, optional
+        What moved in the runs before this one, by unit.
+
+    Attributes
+    ----------
+    cost : float
+        Of the repeats, in first runs.
+    tried : float
+        Step of the last repeat, s.
+    left_alone : bool
+        Whether only the first run changed the assembly mode of a loop.
     """
-    report, known = run[0].report, run[0].accuracy
-    if report is None or known is None or run[0].settings is None:
-        return known
-    method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
-    once = extents is not None
-    repeats = _Repeats(system, run, march, h, every, update, extents)
-    if accuracy.balance_decides(report, method, driven) and not always:
-        return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
-    doubt = accuracy.doubt(report, report.steps, report.halvings, method)
-    if len(run[0].t) < 2 or not (always or doubt):
-        return known
-    if not (always or once) and doubt == accuracy.SCREEN:
-        screened = repeats.coarser()
-        if screened is not None and accuracy.is_fine(screened, method):
-            return screened
-    parts = accuracy.divisor(report.steps, report.halvings)
-    try:
-        known = repeats.finer(parts)
-        if (
-            not (always or once)
-            and known.error is not None
-            and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]
-        ):
-            known = repeats.finer(2 * parts)
-    except SimulationError as error:
-        text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
-        return replace(known, repeat_cost=repeats.cost, message=text)
-    branch = run[0].branch_change if repeats.left_alone else ""
-    if known.error is None or known.error <= accuracy.WRONG_ERROR:
-        return replace(known, branch=branch)
-    said = [repeats.text(known)]
-    if accuracy.balance_says(report, method, driven):
-        said.append(accuracy.balance_text(report))
-    return replace(known, branch=branch, message=" ".join([*said, accuracy.remedy(system, method, h, known)]))
 
+    system: System
+    run: Run
+    march: Callable[[float, int, Callable[[float], None], bool], Run]
+    h: float
+    every: int
+    update: Callable[[float], None]
+    extents: dict[str, float] | None = None
 
-class _Repeats:
-    """Further runs of the same motion, compared with the first."""
-
-    def __init__(
-        self,
-        system: System,
-        run: Run,
-        march: Callable[[float, int, Callable[[float], None], bool], Run],
-        h: float,
-        every: int,
-        update: Callable[[float], None],
-        extents: dict[str, float] | None,
-    ) -> None:
-        self.system, self.run, self.h, self.every = system, run, h, every
-        self.cost, self.tried = 0.0, h
-        self.left_alone = False
-        self._march, self._update, self._extents = march, update, extents
-        self._groups, self._ranges = accuracy.judged_sensors(system), dict[str, float]()
+    def __post_init__(self) -> None:
+        self.cost, self.tried, self.left_alone = 0.0, self.h, False
+        self._groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
 
     def coarser(self) -> Accuracy | None:
         """By a run with twice the step; None where that is longer than the run, does not end, or ends elsewhere."""
@@ -127,7 +99,7 @@ class _Repeats:
         before, self.tried = 1.0 + self.cost, h
         self.cost += cost
         whole = 1.0 + self.cost
-        return self._march(h, every, lambda done: self._update((before + cost * done) / whole), bool(self.run[1]))
+        return self.march(h, every, lambda done: self.update((before + cost * done) / whole), bool(self.run[1]))
 
     def _compared(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
         """The error of the first run; `ratio` is its step over the other's, below 1 where the other is coarser."""
@@ -141,9 +113,9 @@ class _Repeats:
             names = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
             self._groups = {accuracy.COORDINATES: list(names)}
             tables = [{n: np.array(s)[:, i] for n, i in names.items()} for s in (seen, seen_again)]
-            units, sensors, ranges = accuracy.differences(tables[0], tables[1], self._groups, self._extents)
+            units, sensors, ranges = accuracy.differences(tables[0], tables[1], self._groups, self.extents)
         else:
-            units, sensors, ranges = accuracy.differences(run, again, self._groups, self._extents)
+            units, sensors, ranges = accuracy.differences(run, again, self._groups, self.extents)
         self._ranges = ranges
         reports = (run.report, again.report) if ratio > 1.0 else (again.report, run.report)
         order = float(METHOD_TABLE[run.settings.method].order)
@@ -158,3 +130,55 @@ class _Repeats:
             units={unit: factor * e for unit, e in units.items()},
             sensors={name: factor * e for name, e in sensors.items()},
         )
+
+
+def check(repeats: Repeats, always: bool) -> Accuracy | None:
+    """What is known of the error of a run, after the repeats that it needs.
+
+    A run that is not plainly smooth is compared with one of twice the step, which costs half as much. Where they differ
+    it is repeated with half the step, and where that leaves the verdict near its limit, with a quarter. With
+    `Repeats.extents` only half the step is tried.
+
+    Parameters
+    ----------
+    repeats : Repeats
+        Of the run.
+    always : bool
+        Whether a run that is plainly smooth is repeated too.
+    """
+    system, run, h = repeats.system, repeats.run, repeats.h
+    report, known = run[0].report, run[0].accuracy
+    if report is None or known is None or run[0].settings is None:
+        return known
+    method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
+    once = repeats.extents is not None
+    if accuracy.balance_decides(report, method, driven) and not always:
+        return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
+    doubt = accuracy.doubt(report, report.steps, report.halvings, method)
+    if len(run[0].t) < 2 or not (always or doubt):
+        return known
+    if not (always or once) and doubt == accuracy.SCREEN:
+        screened = repeats.coarser()
+        if screened is not None and accuracy.is_fine(screened, method):
+            return screened
+    parts = accuracy.divisor(report.steps, report.halvings)
+    try:
+        known = repeats.finer(parts)
+        if (
+            not (always or once)
+            and known.error is not None
+            and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]
+        ):
+            known = repeats.finer(2 * parts)
+    except SimulationError as error:
+        text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
+        if error.status == Status.ROAD_LOST:  # which says nothing about the steps
+            text = f"The error of the run is not known: in a repeat with steps of {repeats.tried:g} s {error}"
+        return replace(known, repeat_cost=repeats.cost, message=text)
+    branch = run[0].branch_change if repeats.left_alone else ""
+    if known.error is None or known.error <= accuracy.WRONG_ERROR:
+        return replace(known, branch=branch)
+    said = [repeats.text(known)]
+    if accuracy.balance_says(report, method, driven):
+        said.append(accuracy.balance_text(report))
+    return replace(known, branch=branch, message=" ".join([*said, accuracy.remedy(system, method, h, known)]))

@@ -13,10 +13,6 @@ class StandingSystem(SteppedSystem):
     """A System at its start, on roads that are no files; the assembly modes of its loops, which take long to find, are
     not watched.
 
-    Parameters
-    ----------
-    system : System
-
     Raises
     ------
     ModelError

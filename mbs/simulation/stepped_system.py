@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mbs.common.checks import instance_of
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import Instance, LoadedSystem
 from mbs.results.run_report import Report
-from mbs.results.simulation_error import SimulationError
 from mbs.settings.settings import Settings
 from mbs.simulation.large_bending import BendingWatch
 from mbs.simulation.prepared_system import prepared
@@ -70,21 +69,3 @@ class SteppedSystem:
         instance_of(Settings, settings, "The settings", "Settings(...)")
         self.instance.set_settings(**settings.kernel_fields())
         self.settings = settings
-
-    def twin(self, state: bytes) -> SteppedSystem:
-        """Another one of the same System in a state that this one had, `Instance.save`, with its roads.
-
-        Raises
-        ------
-        SimulationError
-            The file of a road can no longer be read.
-        """
-        other = SteppedSystem(self.system, self.settings)
-        try:
-            for road, path in self.road_paths.items():
-                other.instance.set_road(road, path)
-        except KernelError as error:
-            raise SimulationError(str(error), self.time, error.status) from error
-        other.road_paths = dict(self.road_paths)
-        other.instance.restore(state)
-        return other

@@ -38,9 +38,11 @@ from mbs.simulation.arguments import (
 )
 from mbs.simulation.chosen_run import check_tolerance_settings, record_times, to_tolerance
 from mbs.simulation.fixed_steps import fixed_step_run
+from mbs.simulation.parameter_warning import tell_unworkable
 from mbs.simulation.refusal import refusal
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem
+from mbs.simulation.twin import twin
 from mbs.system.system import System
 
 SINGULAR = {"switches": "switch"}
@@ -85,7 +87,7 @@ class Simulation(SteppedSystem):
         system, settings = check_system(system, "The system of a Simulation"), check_settings(settings)
         start = check_time(t0, "The start t0")
         super().__init__(system, settings)
-        self._warned = False
+        self._warned = self._rim_told = False
         self._twin: SteppedSystem | None = None
         self._extents: dict[str, float] = {}
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
@@ -125,6 +127,8 @@ class Simulation(SteppedSystem):
     def set_parameter(self, name: str, value: float | str | os.PathLike[str]) -> None:
         """Value of a tunable parameter from now on; the next step is the first with it.
 
+        A `ParameterWarning` says where no such model works with the value, see `Model.parameter`.
+
         Parameters
         ----------
         value : float or path
@@ -160,6 +164,7 @@ class Simulation(SteppedSystem):
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
                 "beside its other values."
             ) from None
+        tell_unworkable(entry, x, stacklevel=2 if self._started else 3)
         self._also(lambda twin: twin.set_parameter(index, x))
 
     def _also(self, act: Callable[[Instance], object]) -> None:
@@ -370,7 +375,7 @@ class Simulation(SteppedSystem):
             if not made:
                 made = True
                 return self
-            self._twin = given if given is not None else self.twin(state)
+            self._twin = given if given is not None else twin(self, state)
             return self._twin
 
         def equal_steps() -> Trajectory:
@@ -403,7 +408,7 @@ class Simulation(SteppedSystem):
         self._twin = None
         with progress_for(progress) as bar:
             trajectory, ended = to_tolerance(
-                lambda: self.twin(state), tolerance, times, given, self.settings, self.settings.method, bar
+                lambda: twin(self, state), tolerance, times, given, self.settings, self.settings.method, bar
             )
         self.instance.restore(ended.instance.save())
         self.instance.set_settings(**self.settings.kernel_fields())
@@ -411,6 +416,9 @@ class Simulation(SteppedSystem):
 
     def _warn_once(self) -> None:
         """The part of `simulate`'s check that costs nothing."""
+        if not self._rim_told and (told := self.instance.rim_text()):
+            self._rim_told = True
+            warnings.warn(told, RoadWarning, stacklevel=3)
         if self._warned or self.instance.energy_balance() <= accuracy.WRONG_BALANCE:
             return
         driven = len(self.system.arrays["gterm_row"]) > 0

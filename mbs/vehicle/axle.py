@@ -16,6 +16,7 @@ from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
 from mbs.vehicle.suspensions import Suspension
 from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar
 from mbs.vehicle.tyre import TMeasy
+from mbs.vehicle.tyre_by_file import MagicFormula
 
 
 class Wheel(Section):
@@ -46,8 +47,8 @@ class Axle(Section):
     """Anti-roll bar with its links."""
     wheel: Wheel
     """Wheels."""
-    tyre: TMeasy
-    """Tyres."""
+    tyre: TMeasy | MagicFormula = Field(discriminator="kind")
+    """Tyres, by their formula."""
 
     @property
     def track(self) -> float:
@@ -56,8 +57,8 @@ class Axle(Section):
 
     @property
     def rolling_radius(self) -> float:
-        """Way of a free wheel per radian, m: (2 R + loaded radius)/3; at rest the wheel's centre is that high."""
-        return (2.0 * self.tyre.radius + self.wheel.centre[2]) / 3.0
+        """Way of a free wheel per radian, m; at rest the loaded radius is the height of the wheel's centre."""
+        return self.tyre.rolling_radius(self.wheel.centre[2])
 
     def faults(self) -> Iterator[str]:
         """The anti-roll bar hangs on a part that is there."""
@@ -104,8 +105,8 @@ class Axle(Section):
             spin_inertia=self.wheel.spin_inertia,
             diametral_inertia=self.wheel.diametral_inertia,
         )
-        tyre = b.m.add(self.tyre.tyre().record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.road))
-        b.tie(self.tyre, "grip", tyre, "friction_factor")
-        for name in ("stiffness", "rolling_resistance"):
-            b.tie(self.tyre, name, tyre, name)
+        made = self.tyre.tyre(corner.side.name)
+        tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.road))
+        for name, real in self.tyre.parameters.items():
+            b.tie(self.tyre, name, tyre, real)
         return spin

@@ -6,10 +6,13 @@ import math
 
 from mbs.elements.brake import Brake
 from mbs.model.carried import Spin
+from mbs.model.records import Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
 from mbs.vehicle.quantities import Balance, BrakeTorque, HandBrakeTorque, StickStiffness
 from mbs.vehicle.section import Section
+
+LARGEST_TORQUE, LARGEST_PRESSURE = 1e4, 4e7  # N m, Pa: ends of the ranges of the ports
 
 
 class AxleBrakes(Section):
@@ -33,6 +36,14 @@ class Brakes(Section):
     rear: AxleBrakes
     """Brakes of the rear wheels."""
 
+    def _port(self, b: CarBuilder, wheel: str) -> Input:
+        """The input of the brake of a wheel that another program sets."""
+        if b.ports.brakes == "torque":
+            text = "largest torque that the brake of the wheel can hold, which turns neither way by itself"
+            return b.port(f"wheel_{wheel}.brake_torque_demand", 0.0, LARGEST_TORQUE, "N.m", text)
+        text = "pressure in the brake of the wheel"
+        return b.port(f"wheel_{wheel}.brake_pressure", 0.0, LARGEST_PRESSURE, "Pa", text)
+
     def build(self, b: CarBuilder, corner: Corner, spin: Spin, spin_inertia: float) -> None:
         """Add the brake of a wheel.
 
@@ -45,11 +56,19 @@ class Brakes(Section):
         stiffness = (self.rear if behind else self.front).stick_stiffness
         damping = 2.0 * math.sqrt(stiffness * spin_inertia)
         share = 1.0 - self.balance if behind else self.balance
-        brake = Brake(self.torque, stiffness, damping, share, self.hand_torque if behind else 0.0)
+        by_size, per_unit = b.ports.brakes is not None, 1.0
+        if b.ports.brakes == "pressure":
+            per_unit = 1.0 / b.ports.full_pressure
+        torque = self.torque * per_unit
+        if b.ports.brakes == "torque":
+            torque = share = 1.0
+        channel = self._port(b, corner.side.wheel) if by_size else b.inputs["brake"]
+        brake = Brake(torque, stiffness, damping, share, self.hand_torque if behind else 0.0)
         hand = b.inputs["hand_brake"].index if behind else None
         name = f"brake {corner.side.wheel}"
-        element = b.m.add(brake.record(name, spin.f, spin.g, spin.coordinate, b.inputs["brake"].index, hand))
-        b.tie(self, "torque", element, "max_torque")
-        b.tie(self, "balance", element, "share", -1.0 if behind else 1.0, 1.0 if behind else 0.0)
+        element = b.m.add(brake.record(name, spin.f, spin.g, spin.coordinate, channel.index, hand, by_size=by_size))
+        if b.ports.brakes != "torque":
+            b.tie(self, "torque", element, "max_torque", per_unit)
+            b.tie(self, "balance", element, "share", -1.0 if behind else 1.0, 1.0 if behind else 0.0)
         if behind:
             b.tie(self, "hand_torque", element, "hand_torque")

@@ -10,6 +10,7 @@ from mbs.model import Model
 from mbs.model.parameters import Owner
 from mbs.model.records import Input
 from mbs.vehicle.chassis.mount import Mount
+from mbs.vehicle.ports import Ports
 from mbs.vehicle.quantities import Quantity
 from mbs.vehicle.section import Section
 
@@ -36,7 +37,11 @@ class CarBuilder:
     m : Model
         Gets bodies, joints and elements.
     inputs : mapping of str to Input
-        By name.
+        Of the driver, by name.
+    ports : Ports
+        Which parts other programs replace.
+    port_inputs : list of Input
+        Those of the ports so far.
     chassis : Mount
         What the rest of the car is fixed to; set once the chassis is there.
     """
@@ -44,6 +49,8 @@ class CarBuilder:
     m: Model
     road: int
     inputs: Mapping[str, Input]
+    ports: Ports = field(default_factory=Ports)
+    port_inputs: list[Input] = field(default_factory=list)
     _chassis: Mount | None = None
     _tied: dict[str, _Tied] = field(default_factory=dict)
 
@@ -56,6 +63,18 @@ class CarBuilder:
     @chassis.setter
     def chassis(self, mount: Mount) -> None:
         self._chassis = mount
+
+    def port(self, name: str, least: float, largest: float, unit: str, description: str) -> Input:
+        """An input that another program sets, 0 until then.
+
+        Parameters
+        ----------
+        least, largest : float
+            Ends of its range, at which larger values are held, in `unit`.
+        """
+        channel = self.m.input(name, min=least, max=largest, unit=unit, description=description, port=True)
+        self.port_inputs.append(channel)
+        return channel
 
     def tie(
         self,

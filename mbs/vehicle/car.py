@@ -19,7 +19,7 @@ from mbs.model import Model
 from mbs.model.carried import Spin
 from mbs.model.ends import End
 from mbs.model.records import Guide
-from mbs.roads import RoadFile
+from mbs.roads.road_file import RoadFile
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.changes import changed_content
@@ -49,12 +49,14 @@ from mbs.vehicle.outputs import (
     wheel_poses,
     work_outputs,
 )
+from mbs.vehicle.port_parts import driver_inputs, port_outputs, torque_ports
 from mbs.vehicle.road import level_within, tell_steep_face
 from mbs.vehicle.schema_version import of_this_version
 from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.tyre_by_file import MagicFormula
 
 MOST_FAULTS = 8
 
@@ -155,7 +157,10 @@ class Car(CarContent):
             payload.build(b, name, fidelity)
         (steered, front), (_, rear) = self.mechanism(b)
         spins = front | rear
-        self.drive.build(b, spins, neutral=guide is not None)
+        if self.ports.torque is None:
+            self.drive.build(b, spins, neutral=guide is not None)
+        else:
+            torque_ports(b, spins, self.drive, self.ports.torque)
         axles = {"front": self.front, "rear": self.rear}
         self.aerodynamics.build(b, self.vehicle.reference_point, axles)
         b.parameters(self.order, working_ranges(self))
@@ -189,21 +194,8 @@ class Car(CarContent):
         m.floating = True
         m.start_in_equilibrium = level_within(road, self.footprint)
         m.stop_time, m.step = 10.0, 0.002
-        inputs = {
-            "steering": m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left"),
-            "throttle": m.input("throttle", min=0.0, max=1.0, description="throttle pedal"),
-            "brake": m.input("brake", min=0.0, max=1.0, description="brake pedal"),
-            "hand_brake": m.input("hand_brake", min=0.0, max=1.0, description="hand brake on the rear wheels"),
-            "selector": m.input(
-                "selector",
-                start=1.0,
-                min=-1.0,
-                max=1.0,
-                description="selector: -1 reverse, 0 neutral, 1 drive",
-                whole=True,
-            ),
-        }
-        return CarBuilder(m, m.road(road or self.road.default(), file="road.file"), inputs)
+        inputs = driver_inputs(m, self.ports)
+        return CarBuilder(m, m.road(road or self.road.default(), file="road.file"), inputs, self.ports)
 
     def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add steering and front axle, then the rear axle.
@@ -258,7 +250,8 @@ class Car(CarContent):
         m = b.m
         chassis_outputs(b, self)
         steered.outputs()
-        self.drive.outputs(b)
+        if self.ports.torque is None:
+            self.drive.outputs(b)
         used_inputs(b)
         for name, spin in spins.items():
             wheel_outputs(b, spin, name)
@@ -275,6 +268,8 @@ class Car(CarContent):
         for name, spin in spins.items():
             wheel_poses(b, spin, name)
         lever_outputs(b)
+        if self.ports.any:
+            port_outputs(b, self, spins)
         text = "work of elements that are not the car's since the start, without what is stored"
         m.book_of_added = "energy.added", text
 
@@ -306,6 +301,12 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
     car.locate("")
     car._folder = folder
     car._data = dict(data)
+    try:
+        for axle in (car.front, car.rear):
+            if isinstance(axle.tyre, MagicFormula):
+                axle.tyre.open(folder)
+    except CarFileError as error:
+        raise CarFileError(_told(what, [str(error)])) from None
     faults = car_faults(car)
     if faults:
         raise CarFileError(_told(what, faults))

@@ -20,6 +20,7 @@ from mbs.vehicle.chassis.tubular_frame import TubularFrame
 from mbs.vehicle.drives import Drive
 from mbs.vehicle.names import CarName, Name, Text
 from mbs.vehicle.payload import Payload
+from mbs.vehicle.ports import Ports
 from mbs.vehicle.quantities import Length, Mass, Point
 from mbs.vehicle.road import RoadSection
 from mbs.vehicle.section import Section, sections_of
@@ -70,6 +71,8 @@ class CarContent(Section):
     """Forces of the air."""
     road: RoadSection
     """Road under the car where no other is given."""
+    ports: Ports = Field(default_factory=Ports)
+    """Parts that other programs replace."""
 
     _folder: Path = PrivateAttr(Path())
     _data: dict[str, Any] = PrivateAttr(default_factory=dict)
@@ -112,10 +115,16 @@ class CarContent(Section):
         return self.chassis.frame
 
     def faults(self) -> Iterator[str]:
-        """The front axle steers."""
+        """The front axle steers; the port of the steering is one that its kind has."""
         if isinstance(self.front.suspension, TwistBeam):
             kind = self.front.suspension.kind
             yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
+        port = self.ports.steering
+        if port is not None and (port == "rack_force") != (self.steering.kind == "column"):
+            yield (
+                f"ports.steering is '{port}' and steering.kind '{self.steering.kind}'; a rack_by_angle has the port "
+                "rack_position, a column rack_force."
+            )
 
     def values(self) -> dict[str, float]:
         """Numbers that a finished FMU of the car has as parameters, by key path."""

@@ -10,7 +10,7 @@ from ali3.reading import read_toml
 from mbs.common.checks import shown
 from mbs.vehicle.car import Car, car_from
 from mbs.vehicle.errors import CarFileError, CarWarning
-from mbs.vehicle.kinematics.stops import notes_without_stops
+from mbs.vehicle.linkages.free_travel import notes_without_stops
 
 FILE = "car.toml"
 CARS = Path(__file__).parent / "cars"

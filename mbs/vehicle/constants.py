@@ -21,3 +21,11 @@ def vehicle_constants(m: Model, car: CarContent) -> None:
         ("steering_ratio", turned / angle, "1", "angle of the steering wheel over that of the front wheels, both full"),
     ):
         m.constant(f"vehicle.{name}", value, unit, text)
+    for name, axle in (("front", car.front), ("rear", car.rear)):
+        tyre = axle.tyre
+        m.constant(
+            f"vehicle.tyre_friction_{name}",
+            tyre.friction[0] / tyre.reference_friction,
+            "1",
+            f"largest longitudinal force of a {name} tyre over its nominal load, on a road whose friction is 1",
+        )

@@ -9,7 +9,8 @@ from typing import Any
 def from_first(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
     """Content of schema 1 in the form of schema 2.
 
-    Curves of tyres held on a road whose friction was the largest longitudinal force over the load, at the nominal load;
+    The rotor of an electric motor was given as each wheel feels it; schema 2 has its own moment of inertia. Curves of
+    tyres held on a road whose friction was the largest longitudinal force over the load, at the nominal load;
     schema 2 has that number.
 
     Parameters
@@ -34,4 +35,12 @@ def from_first(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
         if isinstance(friction, float) and "reference_friction" not in tyre:
             new[axle] = {**data[axle], "tyre": {**tyre, "reference_friction": friction}}
             written.append(f"{axle}.tyre.reference_friction = {friction!r}")
+    try:
+        drive = data["drive"]
+        own = 2.0 * drive["rotor_inertia"] / (drive["ratio"] * drive["ratio"])
+    except (LookupError, TypeError, ArithmeticError):
+        return new, written
+    if isinstance(own, float) and "motor_inertia" not in drive:
+        new["drive"] = {**{k: v for k, v in drive.items() if k != "rotor_inertia"}, "motor_inertia": own}
+        written.append(f"drive.motor_inertia = {own!r} in place of drive.rotor_inertia")
     return new, written

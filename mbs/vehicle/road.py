@@ -10,9 +10,9 @@ import numpy as np
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
 from mbs.model import Model
-from mbs.roads import RoadFile, RoadWarning, read_road
-from mbs.roads.road_file import TEXTS
-from mbs.roads.steep_faces import steep_face
+from mbs.roads.read_road import read_road
+from mbs.roads.road_file import TEXTS, RoadFile
+from mbs.roads.steep_faces import RoadWarning, steep_face
 from mbs.vehicle.quantities import Factor, RoadFriction
 from mbs.vehicle.section import Section
 

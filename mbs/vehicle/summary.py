@@ -61,9 +61,7 @@ def grip_row(car: Car, axle: str) -> tuple[str, str]:
     """
     tyre = (car.front if axle == "front" else car.rear).tyre
     scale = car.road.friction * car.road.friction_factor * tyre.grip / tyre.reference_friction
-    longitudinal, lateral = (
-        scale * curve.max_force[0] / tyre.nominal_load for curve in (tyre.longitudinal, tyre.lateral)
-    )
+    longitudinal, lateral = (scale * friction for friction in tyre.friction)
     return (
         f"{axle} grip",
         f"{longitudinal:.4g} longitudinal, {lateral:.4g} lateral: largest force over a load of {tyre.nominal_load:g} "

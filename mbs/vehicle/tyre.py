@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import ClassVar, Literal
 
 from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.vehicle.quantities import (
@@ -115,8 +115,37 @@ class TMeasy(Section):
                     f"{self.key('trail_zero')}.{k}, {self.trail_zero[k]:g}."
                 )
 
-    def tyre(self) -> Tyre:
-        """The tyre of the engine."""
+    parameters: ClassVar[dict[str, str]] = {
+        "grip": "friction_factor",
+        "stiffness": "stiffness",
+        "rolling_resistance": "rolling_resistance",
+    }
+    """Fields that a parameter may change, and the real of the element that they are."""
+
+    @property
+    def friction(self) -> tuple[float, float]:
+        """Largest longitudinal and lateral force over the load, at the nominal load on the road of the reference."""
+        longitudinal, lateral = (c.max_force[0] / self.nominal_load for c in (self.longitudinal, self.lateral))
+        return longitudinal, lateral
+
+    def rolling_radius(self, loaded: float) -> float:
+        """Way of a free wheel per radian, m.
+
+        Parameters
+        ----------
+        loaded : float
+            Loaded radius, m.
+        """
+        return (2.0 * self.radius + loaded) / 3.0
+
+    def tyre(self, side: str = "left") -> Tyre:
+        """The tyre of the engine, the same on both sides.
+
+        Parameters
+        ----------
+        side : str
+            Not used.
+        """
         values = {name: getattr(self, name) for name in type(self).model_fields if name not in ("kind", "grip")}
         for name in ("longitudinal", "lateral"):
             values[name] = TyreCurve(**dict(getattr(self, name)))

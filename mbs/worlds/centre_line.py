@@ -33,8 +33,6 @@ class CentreLine:
         The first one again at the end of a closed line, m.
     coefficients : ndarray, shape (2, 4, n - 1)
         Of x and y by powers of the way behind a point.
-    closed : bool
-    straight : bool
     """
 
     step: float

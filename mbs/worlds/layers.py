@@ -69,8 +69,6 @@ class CourseLayer:
 
     Parameters
     ----------
-    course : Course
-    line : CentreLine
     ground : callable
         Heights of what lies below, which a course without heights of its own follows.
     heights, widths, banks : ndarray, shape (n,), optional

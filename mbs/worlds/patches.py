@@ -49,7 +49,6 @@ def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: No
 
     Parameters
     ----------
-    terrain : Terrain
     tell : callable
         Called with the part that is done, 0 to 1.
     """

@@ -29,7 +29,6 @@ def write_world_road(terrain: Terrain, file: Path, tell: Callable[[float], None]
 
     Parameters
     ----------
-    terrain : Terrain
     file : Path
         To write.
     tell : callable

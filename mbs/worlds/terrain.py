@@ -33,7 +33,6 @@ class Terrain:
 
     Parameters
     ----------
-    world : WorldDescription
     folder : Path
         Of the files it names.
     """

@@ -23,7 +23,6 @@ def world_record(terrain: Terrain, tell: Callable[[float], None] = lambda part: 
 
     Parameters
     ----------
-    terrain : Terrain
     tell : callable
         Called with the part that is done, 0 to 1.
     """

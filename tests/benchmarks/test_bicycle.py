@@ -12,6 +12,7 @@ from benchmarks import bicycle
 DIFFERENCES = 1e-5  # of the central differences
 
 
+@pytest.mark.slow
 def test_the_command_prints_all_three_and_every_method(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert bicycle.main(["--quick", "--json", str(tmp_path / "b.json")]) == 0
     data = json.loads((tmp_path / "b.json").read_text(encoding="utf-8"))

@@ -12,6 +12,7 @@ from benchmarks import fmu
 SCENE = Path(__file__).parents[2] / "examples" / "motor_pendulum.py"
 
 
+@pytest.mark.slow
 def test_every_quantity_has_a_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "fmu.json"
     scene = f"{SCENE}:motor_pendulum"

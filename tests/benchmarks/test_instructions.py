@@ -11,6 +11,7 @@ from benchmarks.shared.instructions import counter
 from mbs import simulate
 
 
+@pytest.mark.slow
 def test_counts_are_those_of_a_run_and_a_dearer_step_is_told(tmp_path, capsys, monkeypatch):
     scene = instructions.SCENES[0]._replace(steps=20)
     monkeypatch.setattr(instructions, "SCENES", [scene])
@@ -29,6 +30,20 @@ def test_counts_are_those_of_a_run_and_a_dearer_step_is_told(tmp_path, capsys, m
     capsys.readouterr()
     assert instructions.main(["--against", str(table)]) == 1
     assert f"double four-bar, 30 ms: {what} 5.0 % more a step." in capsys.readouterr().out
+
+
+@pytest.mark.skipif(counter() is None, reason="valgrind is not installed")
+def test_the_functions_of_a_scene_are_named_with_their_shares(tmp_path, capsys, monkeypatch):
+    scene = instructions.SCENES[0]._replace(steps=20)
+    monkeypatch.setattr(instructions, "SCENES", [scene])
+    table = tmp_path / "functions.json"
+    assert instructions.main(["--functions", scene.name, "--json", str(table)]) == 0
+    rows = json.loads(table.read_text("utf-8"))["rows"]
+    share = {row["function"]: row["share"] for row in rows}
+    assert sum(share.values()) == pytest.approx(1.0)
+    assert {"ali3_constraints", "ali3_factorise"} <= set(share)
+    assert all(value > instructions.LEAST for name, value in share.items() if name != "all others")
+    assert "ali3_factorise" in capsys.readouterr().out
 
 
 def test_the_table_of_the_project_has_every_scene():

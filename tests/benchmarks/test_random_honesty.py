@@ -65,6 +65,7 @@ def test_the_reference_keeps_rows_and_axes(number):
     assert np.abs(open_rows).max() < 1e-5 * max(1.0, np.abs(speed).max() ** 3)
 
 
+@pytest.mark.slow
 def test_the_command_judges_runs_and_compares_costs(tmp_path: Path, monkeypatch, capsys):
     monkeypatch.setattr(random_honesty, "CAR_SHARE", 0.0)
     file = tmp_path / "r.json"

@@ -44,6 +44,7 @@ def _without_fidelity(fmu, start, *rest):
     return drive(fmu, {name: value for name, value in start.items() if name != "fidelity"}, *rest)
 
 
+@pytest.mark.slow
 def test_a_drive_is_the_same_again_and_its_worst_steps_are_repeated(prototype_fmu, tmp_path):
     targets = write_ground(tmp_path / "wild.road")
     start = {"road.file": str(tmp_path / "wild.road")}

@@ -17,10 +17,10 @@ FOLDER = ROOT / "benchmarks"
 ROOMS = benchmarks.ROOMS
 COMMANDS = {"benchmarks.car.__main__", *(f"benchmarks.{name}" for name in commands())} - {"benchmarks.car"}
 WRITERS = {
-    "animations", "calculix", "car_references", "fidelity_references", "gauge_picture", "load_paths", "pages",
-    "stress_picture", "variables",
+    "animations", "calculix", "car_references", "fidelity_references", "figures", "gauge_picture", "load_paths",
+    "pages", "stress_picture", "variables",
 }  # fmt: skip
-"""Commands that write references, pages or pictures; all others measure, and write rows with `--json`."""
+"""Commands that write references, pages or pictures or read pages; all others measure, and write rows with `--json`."""
 
 
 def imports(file: Path) -> Iterator[str]:

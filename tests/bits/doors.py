@@ -99,7 +99,7 @@ def road(source: Path, folder: Path) -> tuple[Path, Path]:
 
 
 def world(name: str, folder: Path) -> tuple[Path, Path]:
-    """The road file and the drawing of a world, made anew."""
+    """The road file and the drawing of a world, made again."""
     ali3("road", "--world", name, "--out", folder)
     return folder / f"{name}.road", folder / f"{name}.json"
 

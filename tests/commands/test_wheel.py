@@ -70,6 +70,7 @@ def test_its_tag_is_that_of_the_oldest_system_it_runs_on(wheel: Path) -> None:
     assert wheel.stem.rpartition("-")[2].startswith("manylinux_2_17_")
 
 
+@pytest.mark.slow
 def test_its_types_reach_a_user(installed: Path, tmp_path: Path) -> None:
     pytest.importorskip("mypy")
     command = [sys.executable, "-m", "mypy", "--strict", "--python-executable", str(installed), "user.py"]

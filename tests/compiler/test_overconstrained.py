@@ -195,7 +195,7 @@ def test_a_frame_that_stands_is_a_model():
 
 
 def test_the_moment_of_a_corrected_joint_can_be_read():
-    """Its rows are made anew with the corrected axes; how a redundant loop shares its forces hangs on the drawing."""
+    """Its rows are made again with the corrected axes; how a redundant loop shares its forces hangs on the drawing."""
 
     def moment(pen):
         m = drawn.bennett(pen)

@@ -18,9 +18,10 @@ import pytest
 
 import mbs.scenes
 from mbs.elements.reals import declared
+from tests.house.test_import_directions import ROOT
 
 ROOMS = ("mbs", "mbs.model", "mbs.elements", "mbs.flexible")
-SECTION = re.compile(r"^(Parameters|Returns|Raises|Warns|Attributes|Examples)\n-+$", re.MULTILINE)
+SECTION = re.compile(r"^(Parameters|Returns|Yields|Raises|Warns|Attributes|Notes|Examples)\n-+$", re.MULTILINE)
 UNIT = re.compile(
     r"\b(m|mm|m2|kg|m3|m/s2?|s|N|rad|deg|degrees|Hz|J|W|Pa|K|[Ff]actor|[Rr]atio|share|[Cc]oefficient|Multiplies|[Rr]elative|units?"
     r"|[Tt]urns|[Mm]ultiple|[Ff]raction|0 to 1)\b|%|(?:See|As of) `"
@@ -103,6 +104,35 @@ def test_docstrings_say_units_and_shapes_and_nothing_empty():
         kinds = {p.name: str(p.annotation) for p in signature.parameters.values() if p.name not in ("self", "cls")}
         wrong += [f"{name}: {fault}" for fault in _faults(inspect.getdoc(function) or "", kinds)]
     assert not wrong, "\n".join(wrong)
+
+
+def _bare_entries(text: str) -> list[str]:
+    """Names of a docstring's parameters that have no text below, and whose types tell no shape."""
+    return [
+        name
+        for section in ("Parameters", "Attributes")
+        for name, entry in _entries(text, section).items()
+        if not entry.partition("\n")[2].strip() and not re.search(r"shape|length|\{|array of", entry)
+    ]
+
+
+def test_no_entry_only_repeats_a_name_and_a_type():
+    """Of all functions and classes of the product, private ones too."""
+    wrong, count = [], 0
+    for room in ("ali3", "benchmarks", "fmu_src", "hosts", "mbs", "viewer"):
+        for file in sorted((ROOT / room).rglob("*.py")):
+            for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+                text = ast.get_docstring(node) if isinstance(node, ast.FunctionDef | ast.ClassDef) else None
+                if text is not None:
+                    count += 1
+                    wrong += [f"{file.relative_to(ROOT)}: {node.name}: {name}" for name in _bare_entries(text)]
+    assert not wrong, "\n".join(wrong)
+    assert count > 3000
+
+
+def test_a_bare_entry_is_seen():
+    text = "A force.\n\nParameters\n----------\nbody : Body\nx, y : float\n    m.\npoint : array, shape (3,)\n"
+    assert _bare_entries(text) == ["body"]
 
 
 def _attributes(kind: type) -> dict[str, str]:

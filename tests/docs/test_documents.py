@@ -55,7 +55,7 @@ def defines(file, name):
 
 def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_path):
     page = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
-    whole, fmu, model = snippets(page)
+    thing, whole, fmu, model = snippets(page)
     said = re.search(r"^    (after .*)$", page, re.MULTILINE)[1]
     (tmp_path / "dist").mkdir()
     shutil.copy(prototype_fmu, tmp_path / "dist")
@@ -66,6 +66,8 @@ def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_p
     by_model = run(f"{model}\nprint([now['speed'], now['chassis.wz']])", tmp_path).splitlines()
     assert by_fmu[0] == said
     assert by_fmu == by_model  # the page: to the last bit
+    named = thing.replace('"prototype"', '"dist/PrototypeCar.fmu"').replace("car.close()", "")
+    assert run(f"{named}\nprint([float(speed), float(yaw_rate)])", tmp_path).splitlines() == by_fmu
 
 
 def test_readme_models_a_pendulum(tmp_path):

@@ -64,6 +64,7 @@ def test_it_takes_force_times_way_and_comes_to_rest() -> None:
     assert abs(s.qd[0]) < 1e-6
 
 
+@pytest.mark.slow
 def test_a_spring_leaves_it_within_the_friction_over_its_stiffness() -> None:
     spring = 8.0
     s = shaft(0.0, 12.0, spring=spring)

@@ -22,6 +22,7 @@ PROMISED = {
     "rolling_disc": (1e-6, 5e-4, "circle of 1.041 m"),
     "flexible_beam": (1e-5, 0.005, "deflection up to 18.77 mm"),
     "car_over_kerb": (0.01, 0.15, "falls by 0.0800 m"),
+    "anti_lock_brakes": (0.8, 0.92, "wet road, wheels locked"),
     "motor_pendulum": (0.8685, 0.8695, "the rod swings out to 0.869 rad"),
 }
 LONGEST = 60  # lines

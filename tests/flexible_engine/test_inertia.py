@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from mbs.compiler import compile
+from mbs import compile
 from mbs.model import Model
 from mbs.simulation.stepping import Simulation
 from tests.flexible_engine.bodies import cloud

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PPoly
 
-from mbs import linearise, simulate
-from mbs.compiler import compile
+from mbs import compile, linearise, simulate
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.material import Material
 from mbs.flexible.section import round_bar

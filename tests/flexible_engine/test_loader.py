@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs.compiler import compile
+from mbs import compile
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.model import Model
 from mbs.system.system import System

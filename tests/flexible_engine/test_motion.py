@@ -7,8 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from mbs import Settings, linearise, simulate
-from mbs.compiler import compile
+from mbs import Settings, compile, linearise, simulate
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.section import round_bar
 from mbs.model import Model

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs.compiler import compile
+from mbs import compile
 from mbs.model import Model, ModelError
 from mbs.model.flexible import FlexibleBody
 from mbs.simulation.stepping import Simulation

@@ -64,6 +64,20 @@ def _reach(name: str) -> tuple[mbs.Model, Any, Any]:
     return m, bob, pull
 
 
+def towed() -> mbs.Model:
+    """A body that two ports push, and an input that is none."""
+    m = mbs.Model("towed", dimension=2)
+    body = m.body("body", mass=2.0, com=(0.0, 0.0), inertia=1.0)
+    m.prismatic("rail", body, m.ground, axis=(1.0, 0.0))
+    pushes = [m.input(f"{side}.push", min=-10.0, max=10.0, unit="N", port=True) for side in ("left", "right")]
+    brake = m.input("brake", unit="N")
+    for name, channel in (("left", pushes[0]), ("right", pushes[1]), ("brake", brake)):
+        m.force(name, body, inputs=(channel, None))
+    m.sense_position("x", body, component="x")
+    m.sense_input("used", pushes[0])
+    return m
+
+
 def sled() -> mbs.Model:
     m = mbs.Model("sled", dimension=2, gravity=(0.0, 0.0))
     m.floating = True
@@ -123,9 +137,15 @@ def gearstick() -> mbs.Model:
 
 
 def loaded_beam(
-    load: float = 0.0, share: float = 0.6, free_length: float = 0.9, damping: float = 4.0, gain: float = 0.1
+    load: float = 0.0,
+    share: float = 0.6,
+    free_length: float = 0.9,
+    damping: float = 4.0,
+    gain: float = 0.1,
+    gear: float = 10.0,
 ) -> mbs.Model:
-    """A beam on two springs that starts in equilibrium: a load, a stiffness that is shared out, and a pull by an input.
+    """A beam on two springs that starts in equilibrium: a load, a stiffness that is shared out, a pull by an input, and
+    a flywheel behind a gear that turns with the beam.
 
     Every argument is a parameter of the same name.
     """
@@ -150,6 +170,7 @@ def loaded_beam(
     slider = m.slide("slider", m.ground, point=(2.0, -2.0), direction=(1.0, 0.0), guide=winch)
     m.distance("side rope", slider, hook)
     payload = m.payload("load", beam, (0.5, -0.9), mass=load)
+    flywheel = m.armature("flywheel", m.relative_angle("turn", m.ground, beam), inertia=0.004, ratio=gear)
     left, right = springs
     m.parameter("load", load, 0.0, 20.0, "kg", "Load", targets=[(payload, "mass", 1.0)], tunable=False)
     shares = [(left, "stiffness", 1000.0), (right, "stiffness", -1000.0, 1000.0)]
@@ -159,6 +180,7 @@ def loaded_beam(
     losses = [(spring, "damping", 1.0) for spring in springs]
     m.parameter("damping", damping, 0.0, 50.0, "N.s/m", "Damping", targets=losses)
     m.parameter("gain", gain, 0.01, 0.2, "1", "Way of the slider", targets=[(winch, "gain", 1.0)])
+    m.parameter("gear", gear, 1.0, 20.0, "1", "Of the flywheel", targets=[(flywheel, "ratio", 1.0)], tunable=False)
     m.sense_position("beam.x", beam, component="x")
     m.sense_position("beam.y", beam, component="y")
     m.sense_position("beam.ay", beam, component="y", order=2)

@@ -86,6 +86,7 @@ def test_the_file_of_the_fmu_is_the_car_again(tmp_path: Path) -> None:
     assert load(tmp_path / "resources" / "car").model_dump() == made.model_dump()
 
 
+@pytest.mark.slow
 def test_another_file_gives_another_token(car: Path, tmp_path: Path) -> None:
     tokens = set()
     for k in range(2):

@@ -22,7 +22,7 @@ def test_every_parameter_is_as_if_the_model_were_built_with_it(build: Callable[.
         inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
         t_end=1.0,
     )
-    assert [c.name for c in found] == ["load", "share", "free_length", "damping", "gain"]
+    assert [c.name for c in found] == ["load", "share", "free_length", "damping", "gain", "gear"]
     assert {c.name: c.difference for c in found if c.difference > SAME} == {}
     assert {c.name: c.fmu for c in found if c.fmu != 0.0} == {}
     assert [c.name for c in found if c.effect < 1e-4] == []

@@ -50,6 +50,7 @@ def drive(driven: Any) -> np.ndarray:
     return np.array(rows)
 
 
+@pytest.mark.slow
 def test_a_manoeuvre_of_the_car(cars: tuple[mbs.System, dict[str, Path]], host: HostMaker) -> None:
     system, files = cars
     native, python = (drive(host(files[kind])) for kind in ("native", "python"))

@@ -147,8 +147,10 @@ def beyond(name: str, found: Mapping[str, float], bounds: tuple[float, float]) -
     return [f"{name}: {g} {e:.2e}" for g, e in found.items() if not e <= (place if g == "place" else other)]
 
 
-def of_kinds(*kinds: str) -> pytest.MarkDecorator:
-    return pytest.mark.parametrize("car", kinds, indirect=True)
+def of_kinds(first: str, *others: str) -> pytest.MarkDecorator:
+    """By kind of FMU; one kind is seen by all tests, the others by slow ones."""
+    slow = [pytest.param(kind, marks=pytest.mark.slow) for kind in others]
+    return pytest.mark.parametrize("car", [first, *slow], indirect=True)
 
 
 @of_kinds("native", "python")
@@ -174,6 +176,7 @@ def test_with_input_derivatives_the_hatchback_is_as_accurate(built: Callable[...
 
 
 @of_kinds("native")
+@pytest.mark.slow
 def test_with_input_derivatives_errors_fall_with_the_square_of_the_step(car: Road) -> None:
     wrong = []
     for name in ("slalom", "steady_cornering", "double_lane_change_replay"):

@@ -18,7 +18,7 @@ from fmpy.fmi3 import FMU3Slave
 import mbs
 from fmu_src.build.build import build_fmu
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
-from mbs.roads import RoadFile, write_road
+from mbs.roads import RoadFile, RoadWarning, write_road
 from mbs.roads.shipped import FOLDER
 from mbs.scenes import prototype_car
 from mbs.scenes.prototype_car import Fidelity
@@ -336,6 +336,21 @@ def test_fmi_3_gives_the_same(
     slave.freeInstance()
 
 
+def test_a_wheel_that_is_driven_into_a_wall_is_told_once(car: Path, host: Any, tmp_path: Path) -> None:
+    x = np.arange(-10.0, 30.0, 0.05)
+    heights = np.repeat(np.clip((x - 8.0) / 0.3, 0.0, 1.0)[:, None], 21, axis=1)
+    with pytest.warns(RoadWarning):
+        write_road(GridRoad((-10.0, -5.0), (0.05, 0.5), heights, 1.0), tmp_path / "wall.road")
+    driven = host(car)
+    text(driven, str(tmp_path / "wall.road"))
+    driven.start({"initial.speed": 25.0})
+    for k in range(200):
+        if driven.step(k * H, H) > 1:
+            break
+    (line,) = [line for line in driven.messages if "the rim is pressed in by" in line]
+    assert "was driven into a face of the road that is too high or too steep" in line
+
+
 def test_a_car_on_its_roof_is_told_once(car: Path, host: Any) -> None:
     driven = host(car).start({"initial.speed": 30.0, "front.tyre.grip": 3.0, "rear.tyre.grip": 3.0})
     assert driven.messages == []
@@ -352,12 +367,18 @@ def test_a_car_on_its_roof_is_told_once(car: Path, host: Any) -> None:
 def test_values_with_which_no_car_works_are_told_with_those_that_do(car: Path, host: Any) -> None:
     driven = host(car).start({})
     works = {}
-    for name, bad in {"front.tyre.stiffness": (1e4, 2e6), "rear.spring.stiffness": (1e3, 9e5)}.items():
+    for name, bad in {
+        "front.tyre.stiffness": (1e4, 2e6),
+        "rear.spring.stiffness": (1e3, 9e5),
+        "rear.spring.free_length": (0.3, 2.0),
+        "front.damper.damping": (0.0, 4e4),
+        "brakes.torque": (30.0, 2e4),
+    }.items():
         for value in bad:
             assert driven.set(name, value) == OK
             line = driven.messages.pop()
-            low, high = (float(v) for v in re.search(r"works; from (\S+) to (\S+) N/m it does", line).groups())
-            assert line.startswith(f"'{name}' was set to {value:.10g} N/m")
+            low, high = (float(v) for v in re.search(r"works; from (\S+) to (\S+) \S+ it does", line).groups())
+            assert line.startswith(f"'{name}' was set to {value:.10g} ")
             assert not low <= value <= high
             works[name] = low, high
     for name, (low, high) in works.items():

@@ -87,6 +87,7 @@ def test_kerb_drop(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     assert "failed steps               0 of 2000" in said
 
 
+@pytest.mark.slow
 def test_drop_comes_to_rest_on_four_wheels(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     r, _ = drive(car, "drop", tmp_path)
     assert all(r[f"wheel_{w}.Fz"][1:10].max() == 0.0 for w in WHEELS)

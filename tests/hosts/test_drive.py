@@ -184,6 +184,7 @@ def test_results_that_cannot_be_written_are_refused_before_the_drive(
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")
+@pytest.mark.slow
 def test_a_full_disk_leaves_no_table(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
     start = (
         "import resource, signal, sys; signal.signal(signal.SIGXFSZ, signal.SIG_IGN);"

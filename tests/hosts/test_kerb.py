@@ -27,6 +27,7 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_fmu(systems, "kerb_test", tmp_path_factory.mktemp("kerb"), [PLATFORM], fidelity=1)
 
 
+@pytest.mark.slow
 def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--kerb", str(fmu), "--fidelity", "1", "--out", str(tmp_path)]) == 0
     said = capsys.readouterr().out
@@ -62,6 +63,7 @@ def test_a_folder_that_cannot_be_made_is_named(fmu: Path, tmp_path: Path, capsys
     assert "cannot be made" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_without_an_fmu_that_of_the_scene_is_built_and_kept(
     fmu: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -175,9 +175,9 @@ def test_units_are_converted_by_their_definitions(
         (ssv("spring.stiffness=2e7"), "'spring.stiffness' is 20000000 N/m; its range is 10 to 900 N/m"),
         (ssv("spring.stiffness=NaN"), "'spring.stiffness' is nan; only finite numbers"),
         (ssv("spring.stiffness=INF"), "'spring.stiffness' is inf; only finite numbers"),
-        (ssv("spring.stifness=20"), "no parameter or input 'spring.stifness'; did you mean spring.stiffness"),
-        (ssv("Spring.Damping=2"), "no parameter or input 'Spring.Damping'; did you mean spring.damping"),
-        (ssv("car.damping=2"), "did you mean spring.damping"),
+        (ssv("spring.stifness=20"), "no parameter or input 'spring.stifness'; did you mean 'spring.stiffness'"),
+        (ssv("Spring.Damping=2"), "no parameter or input 'Spring.Damping'; did you mean 'spring.damping'"),
+        (ssv("car.damping=2"), "did you mean 'spring.damping'"),
         (ssv(f"a&#10;{'b' * 200}=2"), "no parameter or input 'a bbbbb.*[.]{3}'; it has: "),
         (ssv("xyzzy=2"), "no parameter or input 'xyzzy'; it has: "),
         (ssv("bob.x=2"), "'bob.x' is an output of the FMU"),
@@ -204,7 +204,7 @@ def test_what_cannot_be_taken_is_one_sentence(variables: Variables, file: Path, 
     with pytest.raises(UserError, match=words) as raised:
         made.add_set(file)
     assert "\n" not in str(raised.value)
-    assert str(raised.value).endswith(".")
+    assert str(raised.value).endswith((".", "?"))
     assert "set.ssv" in str(raised.value)
     assert made.start == {}  # nothing of the file
 

@@ -68,6 +68,7 @@ def test_a_short_soak_test_is_good(car: Path, tmp_path: Path, capfd: pytest.Capt
     assert max(outcome["counts"]["top_speed"] for outcome in outcomes) > 20.0
 
 
+@pytest.mark.slow
 def test_a_drive_is_the_same_by_its_seed(car: Path, ground: Ground, tmp_path: Path) -> None:
     def numbers(seed: int) -> dict[str, Any]:
         return asdict(drive(task(car, tmp_path, seed=seed, grounds=[ground.record])).counts)
@@ -227,6 +228,7 @@ def dying(task: Task, tell: Callable[[float], None]) -> Outcome:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a signal")
+@pytest.mark.slow
 def test_a_soak_test_that_is_ended_tells_what_is_done(car: Path, tmp_path: Path) -> None:
     out = tmp_path / "numbers.json"
     words = ["--soak", "--stop-time", "300", "--drives", "2", "--jobs", "2", "--json", str(out)]
@@ -246,6 +248,7 @@ def test_a_soak_test_that_is_ended_tells_what_is_done(car: Path, tmp_path: Path)
     assert len(json.loads(out.read_text())["outcomes"]) == 2
 
 
+@pytest.mark.slow
 def test_a_process_that_dies_is_a_failure(
     car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -52,6 +52,7 @@ def driven(fmu: Path) -> dict[str, np.ndarray]:
     return {name: table[:, k] for k, name in enumerate(OUTPUTS)} | {"torque": np.array(torques)}
 
 
+@pytest.mark.slow
 def test_the_torque_drives_a_slalom(driven: dict[str, np.ndarray]) -> None:
     angle, y = driven["steering_wheel_angle"], driven["chassis.y"]
     assert np.ptp(y[400:]) > 0.5

@@ -12,13 +12,33 @@ import grimp
 from ali3.commands import COMMANDS
 from tests.house.test_circles import FACADES, PACKAGES, ROOT
 
+CAR = {"CAR": "hosts.fmu.built_fmu"}
+RECORDING = {"--manoeuvre RECORDING": "hosts.recordings.last_drive"}
+ALIASES = {"--aliases": "hosts.fmu.aliases.file"}
 WAYS = {
     "build": {"--kernel": "mbs.kernel.build"},
     "car": {"--kinematics": "mbs.vehicle.kinematics.report"},
-    "run": {"CAR": "hosts.fmu.built_fmu", "--kerb": "hosts.run.kerb"},
+    "run": {**CAR, **RECORDING, "--kerb": "hosts.run.kerb"},
     "view": {"RESULT": "hosts.view.show", "--live": "hosts.view.live"},
-    "simulator": {"--recording": "hosts.recordings.show"},
-    "check": {"--show-parameters": "hosts.check.parameters", "--soak": "hosts.soak.soak"},
+    "simulator": {
+        **CAR,
+        **RECORDING,
+        **ALIASES,
+        "--recording": "hosts.recordings.show",
+        "--headless": "hosts.simulator.headless",
+        "wheels and gamepads": "hosts.simulator.devices",
+    },
+    "check": {**CAR, **RECORDING, "--show-parameters": "hosts.check.parameters", "--soak": "hosts.soak.soak"},
+    "catalogue": {**CAR, **ALIASES},
+    "compare": {**CAR, **ALIASES},
+    "study": {
+        **CAR,
+        **RECORDING,
+        **ALIASES,
+        "FILE.py:FUNCTION": "hosts.study.measures.user_function",
+        "--run": "hosts.study.repeat",
+        "--report": "hosts.study.analysis.report",
+    },
     "road": {"INPUT": "mbs.worlds.road", "--world": "mbs.worlds.world"},
 }
 """What some commands do besides, or instead: the module of it, which others need not read."""
@@ -52,10 +72,12 @@ def main() -> None:
         _row(command.name, read_for(graph, command.module, ways.values()))
         for way, module in ways.items():
             _row(f"{command.name} {way}", read_for(graph, module))
+        if ways:
+            _row(f"{command.name}, all of it", read_for(graph, command.module))
 
 
 def _row(name: str, files: Collection[str]) -> None:
-    print(f"{name:23} {len(files):4d} files {sum(map(lines_of, files)):6d} lines")
+    print(f"{name:31} {len(files):4d} files {sum(map(lines_of, files)):6d} lines")
 
 
 if __name__ == "__main__":

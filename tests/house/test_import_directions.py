@@ -20,6 +20,7 @@ DIRECTIONS = Path(__file__).with_name("import_directions.ini")
 KERNEL = ROOT / "mbs" / "kernel" / "src"
 ROOMS = (
     "api",
+    "lanes",
     "methods",
     "start",
     "sensors",

@@ -176,7 +176,7 @@ def chain(n: int, groups: list[int]) -> SystemBuilder:
     gravity = -9.81 * np.diag(mass) * np.tile([0.0, 1.0], n)
     b = SystemBuilder(mass, q0, None, gravity, rows, groups)
     signals = [b.signal({2 * n - 2: 1.0}, 0.5), b.signal({2 * n - 1: 1.0}, -0.5)]
-    b.elements = [Element(1, signals, [300.0, 8.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=3)]
+    b.elements = [Element(1, signals, [300.0, 8.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4)]
     return b
 
 

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from ctypes import byref
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
 from benchmarks.methods.honesty_scenes import printed_model
 from benchmarks.references.cases import CASES, system_of
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
+from mbs.kernel.header import Doubt, ReportFields
 from mbs.scenes import cart_pole
 from mbs.settings.settings import METHODS
 from tests.simulation.scenes import pendulum
@@ -60,6 +65,19 @@ def test_the_balance_in_python_is_that_of_the_kernel():
     simulation.step(0.05, 100)
     assert simulation.instance.energy_balance() == pytest.approx(simulation.report.energy_balance, rel=1e-15)
     assert simulation.report.energy_balance > 1e-3
+
+
+def test_what_the_tolerance_leaves_open_is_no_violation_of_the_balance():
+    """A car at rest moved with 8e-9 J, of which an error of 1e-9 J is 12 %: 600 kg times g times 1e-10 m are 6e-7 J."""
+    simulation = Simulation(system_of("pendulum"), settings=Settings(tolerance_r=1e-9))
+    gravity = np.abs(simulation.system.arrays["gravity_force"]).sum()
+    simulation.step(0.05, 5)
+    assert simulation.report.energy_floor == pytest.approx(1e-9 * gravity, rel=1e-12)
+    for error, floor, wrong in ((1e-9, 0.0, True), (-1e-9, 6e-7, False), (1e-6, 6e-7, True), (-1e-6, 6e-7, True)):
+        numbers = {"steps": 500, "energy_error": error, "kinetic_peak": 8e-9, "energy_floor": floor}
+        assert replace(simulation.report, work=0.0, **numbers).balance_wrong == wrong
+        kernel = simulation.instance._library.ali3_run_doubt(byref(ReportFields(**numbers)))
+        assert kernel == (Doubt.BALANCE if wrong else Doubt.NONE)
 
 
 def test_a_refused_step_leaves_the_energy_balance_as_it_was():

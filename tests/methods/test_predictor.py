@@ -53,6 +53,7 @@ def test_energy_momentum_foretells_a_smooth_motion_to_one_iteration_a_step():
     assert report.iterations < 1.1 * report.steps
 
 
+@pytest.mark.slow
 def test_a_thousand_loops_pass_a_singular_position_in_small_steps():
     """Multipliers of rows that lose their lever are all round-off; with 0.8 of their change it stops at 0.72 s."""
     report = simulate(compile(double_four_bar.build(1000)), 1.0, 0.002, progress=False).report

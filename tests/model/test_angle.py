@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import PPoly
 
-from mbs import Model, ModelError, Simulation, compile
+from mbs import Model, ModelError, Simulation, SimulationError, System, compile, simulate
+from mbs.kernel.binding import KernelError
 
 EXACT = 1e-9
 TURNS = 3.25
@@ -77,6 +78,45 @@ def test_armature_adds_its_inertia():
     m.sense_coordinate("acceleration", angle, order=2)
     expected = -9.81 * 0.5 / (0.1 + 0.25 + 0.7)
     assert Simulation(compile(m)).sensors["acceleration"] == pytest.approx(expected, rel=1e-9)
+
+
+def geared(ratio, tunable=False, dimension=2):
+    m, _, angle = driven_arm(dimension)
+    rotor = m.armature("rotor", angle, inertia=0.02, ratio=ratio)
+    m.sense_coordinate("acceleration", angle, order=2)
+    m.sense_energy("energy", "kinetic")
+    m.parameter("ratio", ratio, 1.0, 20.0, targets=[(rotor, "ratio", 1.0)], tunable=tunable)
+    return m
+
+
+def test_an_armature_behind_a_gear_turns_with_the_ratio_of_its_parameter():
+    """By the inertia times the square of the ratio, as drawn with it and as set; to a larger and to a smaller one."""
+    for drawn, ratio in ((3.0, 3.0), (3.0, 7.0), (7.0, 3.0)):
+        simulation = Simulation(compile(geared(drawn)), parameters={"ratio": ratio})
+        total = 0.1 + 0.25 + 0.02 * ratio**2
+        assert simulation.sensors["acceleration"] == pytest.approx(-9.81 * 0.5 / total, rel=1e-9)
+        run, rebuilt = (s.run(0.4, 0.002) for s in (simulation, Simulation(compile(geared(ratio)))))
+        for name in ("angle", "energy"):
+            np.testing.assert_allclose(run[name], rebuilt[name], rtol=0, atol=1e-12)
+        assert run["energy"][-1] == pytest.approx(9.81 * 0.5 * np.sin(-run["angle"][-1]), rel=1e-4)
+
+
+def test_a_ratio_that_a_parameter_writes_is_fixed_and_needs_a_coordinate_of_its_own():
+    with pytest.raises(ModelError, match="the ratio of armature 'rotor', which cannot change while it moves"):
+        geared(3.0, tunable=True)
+    system = compile(geared(3.0))
+    with pytest.raises(ValueError, match="'ratio' is fixed"):
+        Simulation(system).set_parameter("ratio", 4.0)
+    with pytest.raises(SimulationError, match="a parameter writes the ratio of armature 'rotor'"):
+        simulate(system, 0.1, 0.01, method="semi_recursive", progress=False)
+    for name, value, words in (
+        ("par_fixed", [0], "parameter 0 writes the ratio of an armature and is not fixed"),
+        ("armature_inertia", [1e3], "the inertia of armature 0 is not in that of its coordinate"),
+        ("armature_col", [99], "armature_col"),
+        ("armature_ratio", [-3.0], "the ratio of an armature must be a number above 0"),
+    ):
+        with pytest.raises(KernelError, match=words):
+            Simulation(System({**system.arrays, name: value}, system.meta))
 
 
 def test_a_torque_on_an_angle_acts_on_both_bodies():

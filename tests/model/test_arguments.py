@@ -133,7 +133,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
         "material": "steel",
         "opacity": 0.5,
     },
-    "armature": lambda b: {"name": "new", "coordinate": b.angle, "inertia": 1.0},
+    "armature": lambda b: {"name": "new", "coordinate": b.angle, "inertia": 1.0, "ratio": 2.0},
     "shaft": lambda b: {"name": "new", "inertia": 1.0},
     "spin": lambda b: {
         "name": "new",
@@ -165,6 +165,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
         "unit": "N",
         "description": "a force",
         "whole": False,
+        "port": True,
     },
     "guide_input": lambda b: {"name": "new", "input": b.pedal, "gain": 1.0, "frequency": 5.0, "unit": "m"},
     "guide_inputs": lambda b: {

@@ -21,7 +21,7 @@ NEIGHBOURS = {
     "viewer": ("tests/viewer", "tests/hosts"),
     "viewer/page": ("viewer/page/test", "tests/viewer"),
 }
-"""Folders of tests beside those of the same names, by the begin of a path; longer begins count more."""
+"""Folders of tests beside those of the same names, by the beginning of a path; longer begins count more."""
 
 LEFT_OUT = ("tests/house/", "tests/mutation/", "tests/commands/test_wheel.py", "tests/fmu/test_native_binaries.py")
 """They see any change of a text, or compile for other platforms."""

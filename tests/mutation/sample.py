@@ -114,7 +114,7 @@ class Sampled:
 
 
 def common(one: list[str], other: list[str]) -> int:
-    """How many items at the begin are the same."""
+    """How many items at the beginning are the same."""
     return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False)))
 
 

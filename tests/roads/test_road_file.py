@@ -122,6 +122,7 @@ def test_a_file_is_the_grid_in_memory_to_the_last_bit(tmp_path, frictions):
     assert outside.instance.start_lift() == (0.0, 0.0)  # the grid is also the road of the model
 
 
+@pytest.mark.slow
 def test_what_is_near_is_read_and_the_history_does_not_matter(tmp_path, car):
     """More tiles than are kept: the car comes back to where it was, other ways lead to the same bits."""
     write_road(rough(5000, 130), tmp_path / "long.road")
@@ -198,6 +199,26 @@ def test_memory_does_not_grow_with_the_road(tmp_path, car):
     assert "x = 48 m, y = -8 m on was altered or damaged" in instance.road_lost()
     instance.restore(before)
     instance.step(H)
+
+
+def test_a_file_that_is_cut_while_a_run_is_checked_leaves_its_error_unknown(tmp_path, car):
+    """The result stands: it is the repeat that the road is missing to."""
+    path, times = tmp_path / "a.road", [0.0]
+    write_road(rough(5000, 64), path)
+
+    def throttle(t):
+        if times[-1] < 0.1 <= t < max(times):  # the run has begun again
+            with path.open("r+b") as file:
+                file.truncate(path.stat().st_size // 20)
+        times.append(t)
+        return 0.3
+
+    words = r"The error of the run is not known: in a repeat with steps of 0\.00\d+ s .* Of the road its part from"
+    road, start = {"road.file": path}, mbs.Pose(speed=20.0)
+    with pytest.warns(mbs.AccuracyWarning, match=words) as told:
+        run = mbs.simulate(car, 3.0, H, {"throttle": throttle}, None, road, pose=start, estimate_error=True)
+    assert not any("not to be trusted" in str(line.message) for line in told)
+    assert run.t[-1] == pytest.approx(3.0)
 
 
 def test_a_file_that_is_cut_while_driving_ends_the_run_with_its_reason(tmp_path, car):

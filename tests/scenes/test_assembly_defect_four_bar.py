@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from benchmarks.references.assembly_defect import COMPONENTS, reference
-from mbs import simulate
+from mbs import compile, simulate
 from mbs.common.errors import ModelError
-from mbs.compiler import compile
 from mbs.model import Model
 from mbs.scenes import assembly_defect_four_bar as scene
 

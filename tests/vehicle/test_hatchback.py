@@ -89,7 +89,11 @@ def test_the_front_wheels_drive_and_the_chassis_takes_the_reaction():
     # the load goes to the rear by the inertia of the car at its height, the drag there, what turns the wheels, what
     # resists their rolling, and the weight that leans back with the body
     total, height = sum(m for m, _ in masses()), car().vehicle.reference_point[2]
-    turning = 2.0 * (car().front.wheel.spin_inertia + car().rear.wheel.spin_inertia + car().drive.rotor_inertia)
+    turning = 2.0 * (
+        car().front.wheel.spin_inertia
+        + car().rear.wheel.spin_inertia
+        + 0.5 * car().drive.motor_inertia * car().drive.ratio ** 2
+    )
     a, spin_up = (np.polyfit(run.t[late], run[name][late], 1)[0] for name in ("speed", "wheel_RL.omega"))
     moment = (total * a + drag) * height + turning * spin_up
     moment += car().front.tyre.rolling_resistance * total * GRAVITY * car().front.tyre.radius

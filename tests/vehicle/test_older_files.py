@@ -33,6 +33,8 @@ def first_form(name):
     data["schema"] = 1
     for axle in ("front", "rear"):
         del data[axle]["tyre"]["reference_friction"]
+    if "motor_inertia" in data["drive"]:
+        data["drive"]["rotor_inertia"] = 0.5 * data["drive"].pop("motor_inertia") * data["drive"]["ratio"] ** 2
     return data
 
 
@@ -49,7 +51,17 @@ def test_it_is_the_same_car_and_says_so(name):
     (line,) = [line for line in told if "schema is 1" in line]
     for axle in ("front", "rear"):
         assert f"{axle}.tyre.reference_friction = {getattr(load(name), axle).tyre.reference_friction!r}" in line
+    if name == "hatchback":
+        assert f"drive.motor_inertia = {load(name).drive.motor_inertia!r} in place of drive.rotor_inertia" in line
     assert car.model_dump() == load(name).model_dump()
+
+
+def test_a_rotor_without_a_ratio_is_a_sentence():
+    for ratio in (None, "9", 0.0, -9.0, 10**400):
+        data = first_form("hatchback")
+        data["drive"]["ratio"] = ratio
+        with pytest.raises(CarFileError, match=r"drive\.ratio"):
+            read(data, "hatchback")
 
 
 @pytest.mark.parametrize("axle", ["front", "rear"])

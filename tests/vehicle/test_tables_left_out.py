@@ -13,7 +13,7 @@ from mbs.vehicle import CarFileError, CarWarning, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changes import changed_content
 from mbs.vehicle.copy_car import copy_car
-from mbs.vehicle.kinematics.linkage import Linkage, NotReachedError
+from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.springs import Damper, Spring
 from tests.vehicle.content import sentences, tables
 

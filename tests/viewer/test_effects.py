@@ -85,7 +85,7 @@ def test_marks_do_not_appear_in_steady_driving_and_are_not_left_on_grass(drawn):
 
 
 def test_marks_stay_on_the_earth_when_the_focus_goes_far(drawn):
-    """The places of marks are counted anew every 500 m: they are drawn where they were."""
+    """The places of marks are counted again every 500 m: they are drawn where they were."""
     run(drawn, "TyreMarks", "concrete", lambda x: -1.0)
     far = [[10.0 + x, 1, tyre(float(x), **{"wheel.Fz": 0.0})] for x in (900.0, 6.0)]
     drawn.ask(_GO_ON, far)

@@ -256,7 +256,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     field.fill("0.3")
     opened.page.keyboard.press("Tab")
     opened.until("player.time === 0 && player.session.start['spring.free_length'] === 0.3")
-    assert "began anew with spring.free_length = 0.3" in opened.text("banner")
+    assert "began again with spring.free_length = 0.3" in opened.text("banner")
     opened.ask("player.advance(20)")
     assert "spring.free_length=0.3" in opened.ask("player.csv()")
     assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)

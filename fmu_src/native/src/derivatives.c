@@ -9,6 +9,7 @@ static const double PART = 1e-6; /* of a value's range or size: difference of in
 slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order,
                               const double *value) {
   const slave_table *t = &slave_the_table;
+  slave_status worst = SLAVE_OK;
   for (size_t i = 0; i < n; i++) {
     if (reference[i] >= t->n_variables || t->variable[reference[i]].source != SLAVE_INPUT)
       return slave_say(s, SLAVE_ERROR, "Value reference %u is no input; only inputs have derivatives to set.",
@@ -19,16 +20,23 @@ slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, con
     if (order[i] < 1 || order[i] > SLAVE_MOST_ORDERS)
       return slave_say(s, SLAVE_ERROR, "A derivative of order %d of '%s' was set; orders 1 to %d can be.",
                        (int)order[i], t->variable[reference[i]].name, SLAVE_MOST_ORDERS);
-    if (!(fabs(value[i]) < HUGE_VAL))
+    if (!(fabs(value[i]) < HUGE_VAL) && !t->variable[reference[i]].port)
       return slave_say(s, SLAVE_ERROR, "The derivative of '%s' was set to %g; a finite number is needed.",
                        t->variable[reference[i]].name, value[i]);
   }
   for (size_t i = 0; i < n; i++) {
     double *slope = &s->slope[reference[i] * SLAVE_MOST_ORDERS + (uint32_t)order[i] - 1];
-    if (*slope != value[i]) slave_forget_refusal(s);
-    *slope = value[i];
+    const bool finite = fabs(value[i]) < HUGE_VAL;
+    if (!finite && !(s->said[reference[i]] & SLAVE_HELD_FLAT)) {
+      s->said[reference[i]] |= SLAVE_HELD_FLAT;
+      worst = slave_say(s, SLAVE_WARNING, "A derivative of the port '%s' was set to %g; 0 is taken. This is said once.",
+                        t->variable[reference[i]].name, value[i]);
+    }
+    const double taken = finite ? value[i] : 0.0;
+    if (*slope != taken) slave_forget_refusal(s);
+    *slope = taken;
   }
-  return SLAVE_OK;
+  return worst;
 }
 
 slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, const int32_t *order, double *value) {

@@ -21,8 +21,8 @@ static bool take_arrays(slave *s) {
   s->sensors = s->made_slope + t->n_known * SLAVE_MOST_ORDERS;
   s->direction = s->sensors + z.ns;
   s->pending = (unsigned char *)(s->direction + z.nu);
-  s->clamped = s->pending + t->n_known;
-  s->known = s->clamped + t->n_known;
+  s->said = s->pending + t->n_known;
+  s->known = s->said + t->n_known;
   s->text = (slave_text_value *)(s->known + z.ns);
   return true;
 }
@@ -58,9 +58,9 @@ static void start_values(slave *s) {
   s->last_step = SLAVE_OK;
   s->made.n = 0;
   slave_forget_refusal(s);
-  s->outputs_fresh = s->uncomputed_said = s->overturned_said = false;
+  s->outputs_fresh = s->uncomputed_said = s->overturned_said = s->rim_said = false;
   memset(s->pending, 0, t->n_known);
-  memset(s->clamped, 0, t->n_known);
+  memset(s->said, 0, t->n_known);
   memset(s->slope, 0, 2 * t->n_known * SLAVE_MOST_ORDERS * sizeof(double)); /* and made_slope */
   for (size_t i = 0; i < t->n_variables; i++) {
     s->value[i] = t->variable[i].start;

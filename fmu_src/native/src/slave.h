@@ -29,6 +29,7 @@ typedef struct {
   double start, min, max; /* infinite where open */
   bool whole;             /* an integer of FMI */
   bool fixed;             /* a parameter that can be set before the first step only */
+  bool port;              /* an input that another program sets at every step */
   int32_t road;           /* a parameter of the built-in form of this road, without effect on a file; -1: of none */
   uint64_t uncomputed;    /* bits of the fidelities whose System leaves it out */
   double least, most;     /* between which a parameter works; infinite where that is not known */
@@ -76,6 +77,12 @@ typedef char slave_text_value[SLAVE_MOST_TEXT]; /* with zeros behind its end */
 typedef struct slave slave;
 typedef void slave_logger(slave *s, slave_status status, const char *category, const char *text);
 
+enum {
+  SLAVE_GIVEN = 1,
+  SLAVE_HELD_AT_END = 2,
+  SLAVE_HELD_LAST = 4,
+  SLAVE_HELD_FLAT = 8
+}; /* bits of an input: set by the host, said once */
 enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* what was said of limited iterations */
 
 typedef struct { /* what a state is beside the kernel's bytes; numbers only */
@@ -120,11 +127,11 @@ struct slave {
   double *slope; /* per variable and order: derivatives of the inputs from the communication point on */
   double *made_slope; /* those of the last communication step */
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
-  unsigned char *clamped; /* per known variable: said once */
+  unsigned char *said; /* per known variable: SLAVE_GIVEN and what was said once */
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
   bool outputs_fresh, followed; /* followed: with what the follower computes */
   bool uncomputed_said; /* that an output was read which is not computed, once a run */
-  bool overturned_said; /* that the vehicle lies upside down, once a run */
+  bool overturned_said, rim_said; /* once a run: that the vehicle lies upside down, that a rim was pressed in */
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
   size_t step_reference, iterations_reference;
@@ -207,6 +214,7 @@ bool slave_wants_end(const slave *s);
 /* watch.c: what a run says about itself, once */
 slave_status slave_watch(slave *s);
 void slave_watch_outputs(slave *s);
+void slave_watch_ports(slave *s);
 
 /* derivatives.c */
 slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order, const double *value);

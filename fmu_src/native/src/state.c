@@ -73,7 +73,7 @@ static void save(const slave *s, unsigned char *bytes) {
   put(&p, s->slope, n * SLAVE_MOST_ORDERS * sizeof(double));
   put(&p, s->made_slope, n * SLAVE_MOST_ORDERS * sizeof(double));
   put(&p, s->pending, n);
-  put(&p, s->clamped, n);
+  put(&p, s->said, n);
   put(&p, s->text, texts_size());
   memset(p, 0, start_size(&s->fidelity));
   if (s->made.n > 0) memcpy(p, s->fidelity.start, start_size(&s->fidelity));
@@ -189,7 +189,7 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   get(s->slope, &p, n * SLAVE_MOST_ORDERS * sizeof(double));
   get(s->made_slope, &p, n * SLAVE_MOST_ORDERS * sizeof(double));
   get(s->pending, &p, n);
-  get(s->clamped, &p, n);
+  get(s->said, &p, n);
   get(s->text, &p, texts_size());
   s->outputs_fresh = false;
   return SLAVE_OK;

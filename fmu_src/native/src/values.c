@@ -55,7 +55,7 @@ slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *va
   return SLAVE_OK;
 }
 
-/* Whether a value is taken; *clamped where an input is held at an end of its range. */
+/* Whether a value is taken; *clamped where an input is held at an end of its range, or a port at its last value. */
 static slave_status check(slave *s, uint32_t reference, double value, double *clamped) {
   const slave_table *t = &slave_the_table;
   if (reference >= t->n_variables)
@@ -67,18 +67,19 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
   if (!(s->calls.phase & SETTABLE) || (v->fixed && (s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))))
     return slave_say(s, SLAVE_ERROR, "'%s' cannot be set %s%s.", v->name, slave_phase_name(s->calls.phase),
                      v->fixed ? "; it is a fixed parameter" : "");
-  if (!(fabs(value) < HUGE_VAL))
+  const bool finite = fabs(value) < HUGE_VAL;
+  if (!finite && !v->port)
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %g; a finite number is needed, the last value %g%s is kept.",
                      v->name, value, s->value[reference], v->unit);
   if (v->whole && value != floor(value))
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g; it must be a whole number, it keeps %g.", v->name, value,
                      s->value[reference]);
-  *clamped = value;
+  *clamped = finite ? value : s->value[reference];
   if (value >= v->min && value <= v->max) return SLAVE_OK;
   if (v->source != SLAVE_INPUT)
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g%s, outside its range %g to %g; it keeps %g.", v->name,
                      value, v->unit, v->min, v->max, s->value[reference]);
-  *clamped = value < v->min ? v->min : v->max;
+  if (finite) *clamped = value < v->min ? v->min : v->max;
   return SLAVE_WARNING;
 }
 
@@ -116,6 +117,20 @@ slave_status slave_may_set(slave *s, uint32_t reference, double value) {
   return try_parameter(s, reference, clamped) == SLAVE_OK ? status : SLAVE_ERROR;
 }
 
+/* An input that is held at an end of its range, or a port that keeps its value: said once each. */
+static slave_status say_held(slave *s, uint32_t reference, double value, double held) {
+  const slave_variable *v = &slave_the_table.variable[reference];
+  const unsigned char which = fabs(value) < HUGE_VAL ? SLAVE_HELD_AT_END : SLAVE_HELD_LAST;
+  if (s->said[reference] & which) return SLAVE_OK;
+  s->said[reference] |= which;
+  if (which == SLAVE_HELD_LAST)
+    return slave_say(s, SLAVE_WARNING, "The port '%s' was set to %g and holds its last value %g%s. This is said once.",
+                     v->name, value, held, v->unit);
+  return slave_say(s, SLAVE_WARNING,
+                   "'%s' was set to %.10g%s and is held at %g, the end of its range %g to %g. This is said once.",
+                   v->name, value, v->unit, held, v->min, v->max);
+}
+
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value) {
   slave_status worst = SLAVE_OK;
   double clamped;
@@ -124,14 +139,9 @@ slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const doub
     if (status > SLAVE_WARNING) return status;
   }
   for (size_t i = 0; i < n; i++) {
-    const slave_variable *v = &slave_the_table.variable[reference[i]];
     const bool held = check(s, reference[i], value[i], &clamped) == SLAVE_WARNING;
-    if (held && !s->clamped[reference[i]]) {
-      s->clamped[reference[i]] = 1;
-      worst = slave_say(s, SLAVE_WARNING,
-                        "'%s' was set to %.10g%s and is held at %g, the end of its range %g to %g. This is said once.",
-                        v->name, value[i], v->unit, clamped, v->min, v->max);
-    }
+    if (held && say_held(s, reference[i], value[i], clamped) == SLAVE_WARNING) worst = SLAVE_WARNING;
+    s->said[reference[i]] |= SLAVE_GIVEN;
     take(s, reference[i], clamped);
   }
   return worst;

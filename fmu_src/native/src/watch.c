@@ -51,13 +51,23 @@ static slave_status watch_limit(slave *s, const ali3_report *report) {
                    said == SLAVE_CAPPED ? "This is said again only where it is more than 1 mm." : "This is said once.");
 }
 
+/* A wheel that hit a wall: the step converges, so that nothing else tells it. */
+static slave_status watch_rims(slave *s, const ali3_report *report) {
+  char text[SLAVE_TEXT / 2];
+  if (s->rim_said || !(report->rim_pressed > 0.0)) return SLAVE_OK;
+  if (ali3_rim_text(s->fidelity.kernel, text, sizeof text) != ALI3_OK) return SLAVE_OK;
+  s->rim_said = true;
+  return slave_say(s, SLAVE_WARNING, "%s This is said once.", text);
+}
+
 static slave_status larger(slave_status a, slave_status b) { return a > b ? a : b; }
 
 slave_status slave_watch(slave *s) {
   ali3_report report;
   if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   const slave_status modes = watch_modes(s, &report), energy = watch_energy(s, &report);
-  return larger(larger(modes, energy), watch_limit(s, &report));
+  const slave_status rims = watch_rims(s, &report);
+  return larger(larger(modes, energy), larger(rims, watch_limit(s, &report)));
 }
 
 void slave_watch_outputs(slave *s) {
@@ -69,4 +79,22 @@ void slave_watch_outputs(slave *s) {
       "At %.6g s the vehicle has rolled over: %s is %.4g%s, more than a quarter turn. What follows is a vehicle that "
       "slides on its body, as far as points of it touch the ground. This is said once.",
       ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit);
+}
+
+/* After the first step: ports that nobody has set. The step is a good one all the same. */
+void slave_watch_ports(slave *s) {
+  const slave_table *t = &slave_the_table;
+  const slave_variable *first = NULL;
+  size_t silent = 0;
+  for (size_t i = 0; i < t->n_known; i++) {
+    if (!t->variable[i].port || s->said[i] & SLAVE_GIVEN) continue;
+    s->said[i] |= SLAVE_GIVEN;
+    if (silent++ == 0) first = &t->variable[i];
+  }
+  if (silent == 0) return;
+  char more[SLAVE_TEXT / 8] = "";
+  if (silent > 1) snprintf(more, sizeof more, " and %zu more", silent - 1);
+  slave_say(s, SLAVE_WARNING,
+            "The port '%s'%s was not set before the first step and holds %g%s until it is. This is said once.",
+            first->name, more, s->value[first - t->variable], first->unit);
 }

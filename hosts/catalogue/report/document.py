@@ -18,7 +18,6 @@ def document(title: str, main: HtmlElement, style: str = "") -> str:
 
     Parameters
     ----------
-    title : str
     main : HtmlElement
         All that is shown.
     style : str

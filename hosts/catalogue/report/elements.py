@@ -20,8 +20,6 @@ def element(tag: str, /, *content: Content, **attributes: Any) -> HtmlElement:
 
     Parameters
     ----------
-    tag : str
-    *content : HtmlElement or str
     **attributes : object
         A trailing underscore is left out, others become hyphens.
     """
@@ -51,8 +49,6 @@ def table(
 
     Parameters
     ----------
-    caption : str
-    head : list of HtmlElement or str
     rows : list of list of HtmlElement or str
         A cell that is itself a ``td`` is taken as it is.
     groups : dict of int to str, optional

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import re
 
+from hosts.common.numbers import is_round_off
+
 _SMALL = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _POWER = re.compile(r"(?<=[a-zA-Z])(-?\d+)(\.\d+)?")
 NONE = "–"
@@ -39,7 +41,7 @@ def difference(value: float, first: float) -> str:
     change = value - first
     if not math.isfinite(change):
         return ""
-    if change == 0.0:
+    if is_round_off(change, max(abs(value), abs(first))):
         return "same"
     sign = "+" if change > 0.0 else "−"
     text = f"{sign}{shown(abs(change))}"

@@ -131,7 +131,7 @@ def overview(
 
 
 def _measures(record: TestRecord | str | None) -> dict[str, Measure]:
-    return {m.name: m for m in record.measures} if isinstance(record, TestRecord) else {}
+    return {m.name: m.displayed() for m in record.measures} if isinstance(record, TestRecord) else {}
 
 
 def _outcome(record: TestRecord | str | None) -> HtmlElement:

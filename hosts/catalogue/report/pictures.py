@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import io
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import matplotlib
@@ -17,6 +17,7 @@ from matplotlib.ticker import FuncFormatter
 from hosts.catalogue.record import Line, Plot
 from hosts.catalogue.report.numbers import shown
 from hosts.catalogue.report.thinning import thinned
+from hosts.common.display_units import axis_shown
 from hosts.run.result_plots import COLOURS, STYLE
 
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (6, 2, 1, 2)), (0, (9, 3)), (0, (3, 1, 1, 1, 1, 1)))
@@ -38,16 +39,18 @@ class Picture:
 
     Parameters
     ----------
-    title : str
-    source : str
-        As a ``data:`` address.
     words : str
         For who cannot see it.
     """
 
     title: str
-    source: str
+    svg: bytes
     words: str
+
+    @property
+    def source(self) -> str:
+        """The drawing as a ``data:`` address."""
+        return f"data:image/svg+xml;base64,{base64.b64encode(self.svg).decode()}"
 
 
 def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> list[Picture]:
@@ -67,6 +70,7 @@ def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> list[Picture]:
 
 
 def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> Picture:
+    found = {k: (label, _displayed(plot)) for k, (label, plot) in found.items()}
     first = next(iter(found.values()))[1]
     shared = _shared([plot for _, plot in found.values()])
     names = [
@@ -81,6 +85,45 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> P
     # Fixed margins: a layout that is computed takes longer than the drawing.
     figure.subplots_adjust(_LEFT / _WIDTH, below / height, 1.0 - _RIGHT / _WIDTH, 1.0 - _ABOVE / height)
     axes = figure.add_subplot()
+    words = _drawn(axes, found, shared, many)
+    texts = [axes.set_title(title), axes.xaxis.label, axes.yaxis.label]
+    if rows:
+        legend = figure.legend(
+            loc="lower left", bbox_to_anchor=(0.05 / _WIDTH, 0.0), borderaxespad=0.2, ncols=columns, handlelength=3.4
+        )
+        texts += legend.get_texts()
+    for text in texts:
+        text.set_parse_math(False)
+    content = io.BytesIO()
+    figure.savefig(content, format="svg", metadata={"Date": None, "Creator": None})
+    return Picture(title, content.getvalue(), f"{title}: {first.y} over {first.x}. {'; '.join(words) or 'No lines'}.")
+
+
+def draw_plot(axes: Axes, title: str, plots_by_car: Mapping[str, Sequence[Plot]]) -> None:
+    """Draw the plot of a title, as `pictures_of` does, into axes that stand somewhere else.
+
+    Parameters
+    ----------
+    plots_by_car : mapping of str to sequence of Plot
+        By label of the car.
+    """
+    found = {
+        k: (label, _displayed(plot))
+        for k, (label, plots) in enumerate(plots_by_car.items())
+        for plot in plots
+        if plot.title == title
+    }
+    _drawn(axes, found, _shared([plot for _, plot in found.values()]), len(plots_by_car) > 1)
+    texts = [axes.set_title(title), axes.xaxis.label, axes.yaxis.label]
+    if axes.get_legend_handles_labels()[0]:
+        texts += axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5)).get_texts()
+    for text in texts:
+        text.set_parse_math(False)
+
+
+def _drawn(axes: Axes, found: Mapping[int, tuple[str, Plot]], shared: Mapping[str, Line], many: bool) -> list[str]:
+    """Draw lines, labels and scales of a plot; what they show in words."""
+    first = next(iter(found.values()))[1]
     words = []
     for line in shared.values():
         axes.plot(line.x, line.y, color=_SHARED, linewidth=1.2, label=line.label)
@@ -100,18 +143,18 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> P
             axis.set_minor_formatter(FuncFormatter(_two_or_five))
     if first.equal:
         axes.set_aspect("equal", adjustable="datalim")
-    texts = [axes.set_xlabel(first.x), axes.set_ylabel(first.y), axes.set_title(title)]
-    if rows:
-        legend = figure.legend(
-            loc="lower left", bbox_to_anchor=(0.05 / _WIDTH, 0.0), borderaxespad=0.2, ncols=columns, handlelength=3.4
-        )
-        texts += legend.get_texts()
-    for text in texts:
-        text.set_parse_math(False)
-    content = io.BytesIO()
-    figure.savefig(content, format="svg", metadata={"Date": None, "Creator": None})
-    source = f"data:image/svg+xml;base64,{base64.b64encode(content.getvalue()).decode()}"
-    return Picture(title, source, f"{title}: {first.y} over {first.x}. {'; '.join(words) or 'No lines'}.")
+    axes.set_xlabel(first.x)
+    axes.set_ylabel(first.y)
+    return words
+
+
+def _displayed(plot: Plot) -> Plot:
+    """The plot in the units in which reports show its axes."""
+    (x, x_factor), (y, y_factor) = axis_shown(plot.x), axis_shown(plot.y)
+    if x_factor == y_factor == 1.0:
+        return plot
+    lines = [Line(line.label, x_factor * np.asarray(line.x), y_factor * np.asarray(line.y)) for line in plot.lines]
+    return replace(plot, x=x, y=y, lines=lines)
 
 
 def _shared(plots: Sequence[Plot]) -> dict[str, Line]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
 from hosts.catalogue.report.elements import Content, element, table
 from hosts.catalogue.report.numbers import NONE, bounds, unit_shown, with_unit
-from hosts.catalogue.report.pictures import Picture, pictures_of
+from hosts.catalogue.report.pictures import Picture
 from hosts.measures.measure import Measure
 
 if TYPE_CHECKING:
@@ -24,18 +24,20 @@ def section(
     records: Mapping[str, TestRecord | str],
     settings: Mapping[str, float],
     command: Sequence[str],
+    pictures: Sequence[Picture],
 ) -> HtmlElement:
     """All of a test.
 
     Parameters
     ----------
-    test : StandardTest
     records : mapping of str to TestRecord or str
         By label of the car, in the order of the cars.
     settings : mapping of str to float
         Those used.
     command : sequence of str
         That makes the whole report; empty where nobody knows it.
+    pictures : sequence of Picture
+        Of the test.
     """
     done = {label: r for label, r in records.items() if isinstance(r, TestRecord)}
     parts: list[Content] = [element("h2", test.title), *(_standard(s) for s in test.standards)]
@@ -46,10 +48,11 @@ def section(
             parts.append(element("p", element("strong", f"{label}: not done. "), record, class_="note"))
         else:
             parts += [element("p", element("strong", f"{label}: "), note, class_="note") for note in record.notes]
-    drawn = pictures_of({label: r.plots for label, r in done.items()})
-    if drawn:
-        parts.append(element("div", *map(_figure, drawn), class_="plots"))
-    parts += [_measures(label, record.measures) for label, record in done.items() if record.measures]
+    if pictures:
+        parts.append(element("div", *map(_figure, pictures), class_="plots"))
+    parts += [
+        _measures(label, [m.displayed() for m in record.measures]) for label, record in done.items() if record.measures
+    ]
     if test.settings:
         parts.append(_settings(test, settings))
     if command:
@@ -130,7 +133,7 @@ def _measures(label: str, measures: Sequence[Measure]) -> HtmlElement:
                 element("span", word, class_=kind),
                 element("small", f"{bounds(m.limit.lowest, m.limit.highest, m.unit)}; {m.limit.source}"),
             )
-        value = NONE if m.value != m.value else f"{m.value:.10g}"
+        value = NONE if m.value != m.value else f"{m.value:.7g}"
         rows.append(
             [element("code", m.name), element("td", value, class_="value"), unit_shown(m.unit), state, m.text, m.note]
         )

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ali3.files import write_text
+from ali3.files import make_folder, write_text
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.report.document import document
 from hosts.catalogue.report.elements import element
 from hosts.catalogue.report.overview import head, overview
+from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import section
+from hosts.catalogue.report.summary import write_summary
 
 _NOTHING: Mapping[str, Mapping[str, float]] = {}
 
@@ -24,7 +27,7 @@ def write_report(
     settings: Mapping[str, Mapping[str, float]] = _NOTHING,
     command: Sequence[str] = (),
 ) -> None:
-    """Write one HTML file that needs no other.
+    """Write one HTML file that needs no other, each plot as an SVG file of the folder ``plots`` beside it, and a slide.
 
     Parameters
     ----------
@@ -52,6 +55,10 @@ def write_report(
     by_car = {
         test.name: {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None} for test in tests
     }
+    drawn = {
+        name: pictures_of({n: r.plots for n, r in found.items() if isinstance(r, TestRecord)})
+        for name, found in by_car.items()
+    }
     body = element(
         "main",
         element("h1", title),
@@ -59,6 +66,12 @@ def write_report(
         element("nav", element("ul", *links), aria_label="Tests"),
         element("h2", "Overview"),
         *overview(tests, labels, records),
-        *(section(test, by_car[test.name], settings.get(test.name, {}), command) for test in tests),
+        *(section(t, by_car[t.name], settings.get(t.name, {}), command, drawn[t.name]) for t in tests),
     )
     write_text(file, document(title, body))
+    write_summary(file.with_name("summary"), title, tests, labels, by_car)
+    folder = make_folder(file.parent / "plots")
+    for name, pictures in drawn.items():
+        for picture in pictures:
+            stem = re.sub(r"[^A-Za-z0-9]+", "_", f"{name} {picture.title}").strip("_")[:80]
+            write_text(folder / f"{stem}.svg", picture.svg.decode("utf-8"))

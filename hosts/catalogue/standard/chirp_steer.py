@@ -160,14 +160,31 @@ def _measures(q: _Quantity, response: FrequencyResponse, is_angle: bool) -> list
     late = none or "Not within the range of frequencies."
     made = [
         Measure(f"{q.name}.gain", read.low_gain, unit, f"{q.word} over steering angle{lowest}"),
-        Measure(f"{q.name}.gain_bandwidth", read.gain_bandwidth, "Hz", "where the gain has fallen by 3 dB"),
-        Measure(f"{q.name}.phase_bandwidth", read.phase_bandwidth, "Hz", "where the lag is 45°"),
-        Measure(f"{q.name}.equivalent_time", read.equivalent_time, "s", "1 / (2 pi frequency of 45° lag)"),
-        Measure(f"{q.name}.resonance", read.resonance, "Hz", "frequency of the largest gain"),
-        Measure(f"{q.name}.resonance_ratio", read.resonance_ratio, "1", "largest gain over the lowest"),
+        Measure(
+            f"{q.name}.gain_bandwidth",
+            read.gain_bandwidth,
+            "Hz",
+            f"frequency where the gain of the {q.word} is 3 dB lower",
+        ),
+        Measure(f"{q.name}.phase_bandwidth", read.phase_bandwidth, "Hz", f"frequency where the {q.word} lags by 45°"),
+        Measure(
+            f"{q.name}.equivalent_time", read.equivalent_time, "s", f"1 / (2 pi frequency of 45° lag) of the {q.word}"
+        ),
+        Measure(f"{q.name}.resonance", read.resonance, "Hz", f"frequency of the largest gain of the {q.word}"),
+        Measure(
+            f"{q.name}.resonance_ratio",
+            read.resonance_ratio,
+            "1",
+            f"largest gain of the {q.word} over that at the lowest frequency",
+        ),
     ]
     made += [
-        Measure(f"{q.name}.phase_{word}_hz", response.phase_at(f), "rad", f"phase at {f:g} Hz; negative: it lags")
+        Measure(
+            f"{q.name}.phase_{word}_hz",
+            response.phase_at(f),
+            "rad",
+            f"phase of the {q.word} at {f:g} Hz; negative: it lags",
+        )
         for word, f in (("0_5", 0.5), ("1_0", 1.0), ("2_0", 2.0))
     ]
     return [_or(m, late, exists=bool(none)) for m in made]
@@ -180,8 +197,8 @@ def _mode(found: Mapping[_Quantity, FrequencyResponse]) -> list[Measure]:
     words = " and ".join(q.word for q in used)
     text = f"of a system of second order that is fitted to {words or 'nothing'}"
     made = [
-        Measure("mode.natural_frequency", fits[0].natural_frequency, "rad/s", f"undamped, {text}"),
-        Measure("mode.damping_ratio", fits[0].damping_ratio, "1", text),
+        Measure("mode.natural_frequency", fits[0].natural_frequency, "rad/s", f"undamped natural frequency {text}"),
+        Measure("mode.damping_ratio", fits[0].damping_ratio, "1", f"damping ratio {text}"),
         Measure("mode.misfit", max(f.misfit for f in fits), "1", "RMS of that fit over RMS of the response, the worst"),
     ]
     return [_or(m, "The fit does not converge." if used else "There is no response.") for m in made]

@@ -168,7 +168,6 @@ def steering_of(driver: str, course: Course, constants: Mapping[str, float], spe
     ----------
     driver : str
         One of `DRIVERS`.
-    course : Course
     constants : mapping of str to float
         Of the car.
     speed : float
@@ -187,8 +186,6 @@ def drive(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage
 
     Parameters
     ----------
-    car : TestedCar
-    layout : _Layout
     speed : float
         km/h.
     driver : str

@@ -78,16 +78,18 @@ def measures_of(result: Result, settings: Mapping[str, float]) -> list[Measure]:
     late = "" if not math.isnan(settled) or ended else f"not settled after {time[-1]:g} s; take a longer duration"
     at_rest = short or late
     return [
-        Measure("contact.time", contact, "s", "from release to the first wheel's contact", note=within),
+        Measure("contact.time", contact, "s", "time from release to the first wheel's contact", note=within),
         Measure(
             "contact.free_fall_time",
             fall_time(settings["height"], settings["gravity"]),
             "s",
-            "of a point that falls the height; wheels touch earlier by as much as they droop in the air",
+            "time of fall of a point from the height; wheels touch earlier by as much as they droop in the air",
         ),
         _fall(result, contact, weight, settings["gravity"]),
         Measure("load.peak", peak, "N", "largest sum of the loads of the wheels"),
-        Measure("load.peak_ratio", peak / weight, "1", "the same over the weight", note=short),
+        Measure(
+            "load.peak_ratio", peak / weight, "1", "largest sum of the loads of the wheels over the weight", note=short
+        ),
         *(
             Measure(f"load.peak_{wheel}", float(loads[:, k].max()), "N", f"largest load of the wheel {wheel}")
             for k, wheel in enumerate(WHEELS)
@@ -95,7 +97,7 @@ def measures_of(result: Result, settings: Mapping[str, float]) -> list[Measure]:
         _on_chassis(result),
         *_travels(result),
         *_rebounds(result, loads, contact),
-        Measure("settling_time", settled, "s", "from contact until the load stays in the band", note=at_rest),
+        Measure("settling_time", settled, "s", "time from contact until the load stays in the band", note=at_rest),
         Measure("rest.weight", weight, "N", "mean load over the run: momentum is zero at both ends", note=short),
         Measure(
             "rest.load_error",
@@ -109,7 +111,7 @@ def measures_of(result: Result, settings: Mapping[str, float]) -> list[Measure]:
             "rest.front_share",
             float(loads[-1, :2].sum() / loads[-1].sum()) if not at_rest else math.nan,
             "1",
-            "of the load at the end on the front wheels",
+            "share of the front wheels in the load at the end",
             note=at_rest,
         ),
     ]

@@ -41,7 +41,7 @@ class SineSteer:
         ),
     )
     settings = (
-        Setting("speed", 100.0, "km/h", "at the begin; 80 km/h for a car that cannot hold it", 20.0, 300.0),
+        Setting("speed", 100.0, "km/h", "at the beginning; 80 km/h for a car that cannot hold it", 20.0, 300.0),
         Setting("frequency", 0.5, "Hz", "of the steering", 0.1, 4.0),
         Setting("lateral_acceleration", 4.0, "m/s2", "steady, that belongs to the amplitude", 0.2, 20.0),
     )
@@ -70,7 +70,7 @@ class SineSteer:
         notes += sorted(set(filter(None, [run.shortfall(amplitude) for run in sides])))
         angle_unit = "rad" if given.is_angle else "1"
         measures = [
-            Measure("speed", 3.6 * ramp.speed, "km/h", "speed at the begin"),
+            Measure("speed", 3.6 * ramp.speed, "km/h", "speed at the beginning"),
             Measure("steering_wheel_angle", amplitude, angle_unit, f"amplitude, for steady {wanted:g} m/s²"),
         ]
         measures += _measures(
@@ -94,7 +94,7 @@ TEST = SineSteer()
 def _relative(
     run: SteeredRun, values: NDArray[np.float64], period: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Time, steering and a signal from the begin to when the car runs straight again, less their values before."""
+    """Time, steering and a signal from the beginning to when the car runs straight again, less their values before."""
     before, kept = run.time < 0.0, (run.time >= 0.0) & (run.time <= period + _AFTER)
 
     def part(x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -119,12 +119,17 @@ def _measures(
         return mean_of_sides(f"{name}.{end}", value(left), value(right), unit, text)
 
     return [
-        made("lag", lambda p: p.correlation_lag, "s", f"of the {word} behind the steering, by cross-correlation"),
-        made("correlation", lambda p: p.correlation, "1", "coefficient of correlation at that lag"),
+        made("lag", lambda p: p.correlation_lag, "s", f"lag of the {word} behind the steering, by cross-correlation"),
+        made(
+            "correlation",
+            lambda p: p.correlation,
+            "1",
+            f"coefficient of correlation of the {word} and the steering at its lag",
+        ),
         made("first_lag", lambda p: p.first_lag, "s", f"from the first peak of the steering to that of the {word}"),
-        made("second_lag", lambda p: p.second_lag, "s", "from the second peak to the second"),
+        made("second_lag", lambda p: p.second_lag, "s", f"from the second peak of the steering to that of the {word}"),
         made("first_ratio", lambda p: p.first_ratio, unit, f"first peak of the {word} over that of the steering"),
-        made("second_ratio", lambda p: p.second_ratio, unit, "second peak over the second"),
+        made("second_ratio", lambda p: p.second_ratio, unit, f"second peak of the {word} over that of the steering"),
         made(
             "hysteresis", lambda p: p.hysteresis, "1", f"area of the loop of {word} over steering; pure lag: its sine"
         ),

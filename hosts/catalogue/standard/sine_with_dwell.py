@@ -38,7 +38,7 @@ class SineWithDwellTest:
                 Clause("S5.2.1", "Yaw rate 1.00 s after the completion of steer at most 35 % of its second peak."),
                 Clause("S5.2.2", "Yaw rate 1.75 s after the completion of steer at most 20 % of its second peak."),
                 Clause(
-                    "S5.2.3", "Lateral displacement 1.07 s after the begin at least 1.83 m up to 3500 kg, else 1.52 m."
+                    "S5.2.3", "Lateral displacement 1.07 s after the start at least 1.83 m up to 3500 kg, else 1.52 m."
                 ),
                 Clause("S7.6", "A: mean angle at 0.3 g of slow ramps of 13.5 °/s to both sides, by linear regression."),
                 Clause("S7.9", "0.7 Hz with a dwell of 0.5 s, from 1.5 A in steps of 0.5 A to the last amplitude."),

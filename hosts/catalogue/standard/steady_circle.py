@@ -126,17 +126,42 @@ def _measures(
     unknown = missing or ("" if math.isfinite(ratio) else f"The car does not tell its constant {RATIO}.")
     k = mean(understeer)
     left, right = (understeer[side].slope for side in _SIDES)
-    text = "steering-wheel angle over the ratio, less wheelbase over radius, slope"
+    text = "understeer gradient, slope of the steering-wheel angle over the ratio less wheelbase over radius"
     made = [
         Measure("understeer_gradient", k, "rad.s2/m", f"{text} {over}; mean of both sides", None, unknown),
-        Measure("understeer_gradient_deg", math.degrees(k) * _GRAVITY, "deg/g", "the same", None, unknown),
-        Measure("understeer_gradient.left", left, "rad.s2/m", "to the left", None, unknown),
-        Measure("understeer_gradient.right", right, "rad.s2/m", "to the right", None, unknown),
-        Measure("understeer_gradient.difference", left - right, "rad.s2/m", "left less right", None, unknown),
+        Measure(
+            "understeer_gradient_deg",
+            math.degrees(k) * _GRAVITY,
+            "deg/g",
+            "understeer gradient in degrees per g",
+            None,
+            unknown,
+        ),
+        Measure(
+            "understeer_gradient.left", left, "rad.s2/m", "understeer gradient in turns to the left", None, unknown
+        ),
+        Measure(
+            "understeer_gradient.right", right, "rad.s2/m", "understeer gradient in turns to the right", None, unknown
+        ),
+        Measure(
+            "understeer_gradient.difference",
+            left - right,
+            "rad.s2/m",
+            "understeer gradient to the left less that to the right",
+            None,
+            unknown,
+        ),
         Measure("steering_ratio", ratio, "1", "steering-wheel angle over the mean angle of the front wheels, by 3 m/s"),
         _speed("characteristic_speed", k, wheelbase, unknown),
         _speed("critical_speed", -k, wheelbase, unknown),
-        Measure("steering_gradient", mean(steering), "rad.s2/m", f"of the steering-wheel angle {over}", None, missing),
+        Measure(
+            "steering_gradient",
+            mean(steering),
+            "rad.s2/m",
+            f"gradient of the steering-wheel angle {over}",
+            None,
+            missing,
+        ),
     ]
     others: tuple[tuple[str, str, _Signal], ...] = (
         ("sideslip_gradient", "of the sideslip angle at the reference point", lambda run: run.sideslip),
@@ -147,9 +172,9 @@ def _measures(
         unit = "N.s2" if name.startswith("steering") else "rad.s2/m"
         there = all(np.isfinite(values(run)).any() for run in runs.values())
         why = missing if there else "The car has no such output."
-        made.append(Measure(name, mean(fit(values)), unit, f"{what} {over}", None, why))
+        made.append(Measure(name, mean(fit(values)), unit, f"gradient {what} {over}", None, why))
     for side, run in runs.items():
-        words = "largest lateral acceleration, mean over 1 s"
+        words = f"largest lateral acceleration to the {side}, mean over 1 s"
         made.append(Measure(f"lateral_acceleration_max.{side}", run.largest, "m/s2", words, None, run.end))
     return made
 
@@ -157,7 +182,7 @@ def _measures(
 def _speed(name: str, gradient_of: float, wheelbase: float, note: str) -> Measure:
     """Characteristic speed of a car that understeers, critical speed of one that oversteers."""
     kind = "understeer" if name.startswith("characteristic") else "oversteer"
-    text = f"root of wheelbase over {kind} gradient"
+    text = f"{name.replace('_', ' ')}, root of wheelbase over {kind} gradient"
     if not math.isfinite(gradient_of):
         return Measure(name, math.nan, "km/h", text, None, note)
     if gradient_of <= 0.0:

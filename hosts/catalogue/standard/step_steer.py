@@ -47,7 +47,7 @@ class StepSteer:
         Setting("level_3", 6.0, "m/s2", _LEVEL, 0.0, 20.0),
         Setting("steering_rate", 500.0, "deg/s", "of the steering wheel in the step", 50.0, 2000.0),
         Setting(
-            "steady_from", 3.0, "s", "begin of the window of the steady state, after the begin of the step", 0.5, 30.0
+            "steady_from", 3.0, "s", "start of the window of the steady state, after the start of the step", 0.5, 30.0
         ),
         Setting("steady_to", 4.0, "s", "its end", 0.6, 40.0),
     )
@@ -74,7 +74,7 @@ class StepSteer:
         progress(0.2)
         notes = [*ramp.notes, *filter(None, [given.note])]
         runs: dict[str, Result] = {"ramp_left": ramp.run.thinned()}
-        measures = [Measure("speed", 3.6 * ramp.speed, "km/h", "speed at the begin of the step")]
+        measures = [Measure("speed", 3.6 * ramp.speed, "km/h", "speed at the beginning of the step")]
         driven: list[tuple[float, SteppedRun]] = []
         share = 0.8 / len(levels)
         for k, (name, wanted) in enumerate(levels.items()):

@@ -90,7 +90,6 @@ def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, 
 
     Parameters
     ----------
-    car : TestedCar
     settings : mapping of str to float
         Those of the test.
 
@@ -170,7 +169,7 @@ def _unlocked(pedal: float, run: tuple[Result, float] | None, settings: Mapping[
         m = made.get(name, Measure(name, math.nan, "m/s2" if "decel" in name else "m", ""))
         # the demand is on a full pedal or less, as long as no wheel locks
         rows.append(
-            Measure(f"unlocked.{name}", m.value, m.unit, f"the same without a locked wheel: {name}", m.limit, note)
+            Measure(f"unlocked.{name}", m.value, m.unit, f"without a locked wheel: {m.text or name}", m.limit, note)
         )
     return rows
 

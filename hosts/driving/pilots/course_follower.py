@@ -53,13 +53,7 @@ class DriverSettings:
 
 
 class CourseFollower:
-    """Closed loop from the car's position to its pedals and steering.
-
-    Parameters
-    ----------
-    course : Course
-    settings : DriverSettings
-    """
+    """Closed loop from the car's position to its pedals and steering."""
 
     def __init__(self, course: Course, settings: DriverSettings) -> None:
         self.course = course

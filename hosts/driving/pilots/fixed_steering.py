@@ -12,7 +12,6 @@ class FixedSteering:
 
     Parameters
     ----------
-    pilot : Pilot
     fixed_at : float
         s.
     mean_over : float

@@ -13,7 +13,6 @@ class LineFollower:
 
     Parameters
     ----------
-    course : Course
     wheelbase : float
         m.
     wheel_angle_max : float

@@ -21,7 +21,6 @@ class Alias:
     ----------
     ours, theirs : str
         Names.
-    factor, offset : float
     """
 
     ours: str
@@ -36,7 +35,6 @@ class Aliases:
 
     Parameters
     ----------
-    aliases : tuple of Alias
     constants : mapping of str to float
         By our names.
     derived : tuple of Derived
@@ -70,7 +68,7 @@ class Aliases:
     def with_central_rates(
         self, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64], thinned: bool = False
     ) -> None:
-        """Write derived columns of a record anew: a rate that was made during the run did not know the next row.
+        """Write derived columns of a record again: a rate that was made during the run did not know the next row.
 
         Parameters
         ----------

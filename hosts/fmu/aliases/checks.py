@@ -42,7 +42,6 @@ def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
         As it stands in the file.
     variable : Variable, optional
         That has it; its own definition of a unit of that name counts.
-    where : str
 
     Raises
     ------

@@ -30,7 +30,6 @@ class Entry:
 
     Parameters
     ----------
-    ours : str
     value : dict
         As it stands there; a text alone is ``{"name": text}``.
     file : str
@@ -56,10 +55,8 @@ class Content:
 
     Parameters
     ----------
-    file : str
     entries : dict of str to Entry
         By our names.
-    constants : dict of str to float
     needs : dict of str to str
         Constants of the car by name, with a text.
     """

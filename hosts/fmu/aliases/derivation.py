@@ -19,7 +19,6 @@ class Derivation:
 
     Parameters
     ----------
-    derived : sequence of Derived
     names : sequence of str
         Of the values that are there, ours where they have one.
 

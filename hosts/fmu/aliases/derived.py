@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.fmu.aliases.formulas import FORMULAS, Formula
 
@@ -47,7 +47,6 @@ def parse_derived(ours: str, text: str, constants: Mapping[str, float], where: s
 
     Parameters
     ----------
-    ours, text : str
     constants : mapping of str to float
         Their names in `text` become numbers.
     where : str
@@ -63,9 +62,8 @@ def parse_derived(ours: str, text: str, constants: Mapping[str, float], where: s
         raise HostError(f"{where}: from is '{text}'; it must be a formula such as sideslip(chassis.vx, chassis.vy).")
     name, inside = call.groups()
     if name not in FORMULAS:
-        near = difflib.get_close_matches(name, FORMULAS, 3)
-        known = f"did you mean {' or '.join(near)}" if near else f"there are {', '.join(sorted(FORMULAS))}"
-        raise HostError(f"{where}: there is no formula '{name}'; {known}.")
+        hint = did_you_mean(name, FORMULAS, f"there are {', '.join(sorted(FORMULAS))}")
+        raise HostError(f"{where}: there is no formula '{name}'{hint}")
     arguments = tuple(_argument(word.strip(), constants, where) for word in inside.split(","))
     formula = FORMULAS[name]
     if not formula.takes(len(arguments)):
@@ -92,7 +90,6 @@ def in_order(derived: Sequence[Derived], known: Collection[str]) -> tuple[list[D
 
     Parameters
     ----------
-    derived : sequence of Derived
     known : collection of str
         Names that are there.
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.aliases.checks import check_unit, declared, factor_of_unit, is_si
@@ -136,9 +136,7 @@ def _lacks(entry: Entry, names: Collection[str]) -> str:
         return ""
     if entry.partial:
         return f"{entry.file} takes '{entry.ours}' from '{theirs}', which the FMU does not have"
-    near = difflib.get_close_matches(theirs, names, 3)
-    hint = f"; did you mean {' or '.join(near)}" if near else ""
-    raise HostError(f"{entry.where}: the FMU has no variable '{theirs}'{hint}.")
+    raise HostError(f"{entry.where}: the FMU has no variable '{theirs}'{did_you_mean(theirs, names)}")
 
 
 def _alias(entry: Entry, constants: dict[str, float], known: Variables | None) -> Alias:
@@ -197,11 +195,9 @@ def _derived(
     for ours, name in lacking.items():
         entry = content.entries[ours]
         if not entry.partial:
-            near = difflib.get_close_matches(name, there, 3)
-            hint = f"; did you mean {' or '.join(near)}" if near else ""
             raise HostError(
                 f"{entry.where}: '{name}' is neither an input or output of the FMU nor another name or constant of the "
-                f"file{hint}."
+                f"file{did_you_mean(name, there)}"
             )
         why = missing.get(name, "which the FMU does not have")
         missing[ours] = f"{entry.file} computes '{ours}' from '{name}', {why}"

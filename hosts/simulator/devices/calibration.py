@@ -64,7 +64,6 @@ class Calibration:
         ----------
         time : float
             s, of any clock that does not go back.
-        reading : Reading
         """
         axes = reading.axes
         if not self._first:

@@ -28,11 +28,8 @@ class Device:
     ----------
     id, label : str
         For programs and for people; each device has its own.
-    joystick : Joystick
-    mapping : DeviceMapping
     inputs : collection of str
         That the car has, in the words of mappings.
-    steering : Steering
     """
 
     def __init__(

@@ -27,7 +27,6 @@ class ForceLaw:
         torque : float or None
             Of the driver's hands on the car's steering wheel, positive to the left, N m. None or not finite: the car
             does not run.
-        settings : DeviceSettings
         step : float
             Time since the last call, s.
 

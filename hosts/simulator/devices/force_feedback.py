@@ -23,7 +23,6 @@ class ForceFeedback:
 
     Parameters
     ----------
-    sdl : module
     joystick : pointer
         Open until `stop` has returned True.
     torque : callable

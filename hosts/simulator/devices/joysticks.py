@@ -19,7 +19,6 @@ class Joystick:
 
     Parameters
     ----------
-    sdl : module
     handle : pointer
         Of SDL.
     instance : int
@@ -28,7 +27,6 @@ class Joystick:
         The same for all devices of a model.
     serial, path : str
         Empty where the device or the system has none.
-    name : str
     kind : str
         ``wheel``, ``gamepad`` or ``other``.
     bindings : str

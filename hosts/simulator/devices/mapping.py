@@ -60,7 +60,6 @@ class InputMapping:
         ----------
         name : str
             Of the input: whether it has a middle depends on it.
-        reading : Reading
 
         Returns
         -------
@@ -133,13 +132,7 @@ _RANGES = {
 
 @dataclass(frozen=True)
 class DeviceMapping:
-    """All that is kept of a device.
-
-    Parameters
-    ----------
-    inputs : dict of str to InputMapping
-    settings : DeviceSettings
-    """
+    """All that is kept of a device."""
 
     inputs: dict[str, InputMapping] = field(default_factory=dict)
     settings: DeviceSettings = DeviceSettings()
@@ -155,7 +148,6 @@ def read_input(name: str, table: object) -> InputMapping:
 
     Parameters
     ----------
-    name : str
     table : mapping
         What is not in it is as by default.
 

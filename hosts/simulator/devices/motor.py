@@ -19,7 +19,6 @@ class Motor:
 
     Parameters
     ----------
-    sdl : module
     joystick : pointer
         Of SDL; it stays open until this is closed.
 

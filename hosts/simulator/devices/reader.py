@@ -46,12 +46,8 @@ class Reader:
 
     Parameters
     ----------
-    hands : Hands
     inputs : list of str
         That devices can drive, in the words of mappings.
-    steering : Steering
-    tell : callable
-    folder : path
     torque : callable or None
         As of `Devices`.
 
@@ -61,7 +57,6 @@ class Reader:
         Held while `devices` or one of them is looked at or changed.
     devices : dict of str to Device
         Those that are plugged in, by `id`.
-    files : MappingFiles
     """
 
     def __init__(

@@ -22,7 +22,6 @@ class Reading:
         From -1 to 1.
     known : tuple of bool
         Whether the device has told the value of this axis; else it reads 0.
-    buttons : tuple of bool
     hats : tuple of int
         Bits of `WAYS`.
     """
@@ -52,7 +51,6 @@ class Source:
     ----------
     kind : str
         ``axis``, ``button`` or ``hat``.
-    number : int
     way : str
         Of a hat.
     """
@@ -68,7 +66,7 @@ class Source:
         Raises
         ------
         HostError
-            It is none.
+            It is no such word.
         """
         found = _SOURCE.fullmatch(text) if isinstance(text, str) else None
         if found is None:

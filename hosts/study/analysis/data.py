@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from hosts.common.display_units import shown_in
+from hosts.common.numbers import is_round_off
+from hosts.study.limits import limit_ends
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -21,7 +26,6 @@ class Parameter:
 
     Parameters
     ----------
-    name, unit : str
     log : bool
         Whether its range is divided by the logarithm.
     words : tuple of str
@@ -47,8 +51,6 @@ class Response:
     ----------
     measure : str
         Its column.
-    manoeuvre : str
-    unit : str
     rows : ndarray of int, shape (m,)
         Positions in the frame of the runs that yield it.
     values : ndarray of shape (m,)
@@ -57,6 +59,12 @@ class Response:
         Runs that were to yield it.
     several : bool
         Whether the study has more than one manoeuvre, so that the label names it.
+    limits : tuple of float
+        Least and largest value of the study's limits; infinite: there is none.
+
+    Notes
+    -----
+    Units and values are those in which reports show them.
     """
 
     measure: str
@@ -66,6 +74,12 @@ class Response:
     values: NDArray[np.float64]
     asked: int
     several: bool = False
+    limits: tuple[float, float] = (-math.inf, math.inf)
+
+    @property
+    def varies(self) -> bool:
+        """Whether its values differ by more than rounding."""
+        return not is_round_off(float(np.ptp(self.values)), float(np.abs(self.values).max()))
 
     @property
     def label(self) -> str:
@@ -86,10 +100,8 @@ class StudyData:
     ----------
     frame : DataFrame
         One row a run; the index is that of the run.
-    parameters : tuple of Parameter
     x : ndarray of shape (runs, parameters)
         Values; codes where a parameter is no number.
-    responses : tuple of Response
     failed : ndarray of bool, shape (runs,)
     about : mapping
         What is known of the study as a whole: the attrs of the frame.
@@ -134,22 +146,26 @@ def study_data(frame: pd.DataFrame) -> StudyData:
     parameters, columns = [], []
     for name in attrs["parameters"]:
         column, words = _numbers(frame[name])
+        unit, factor = shown_in(units.get(name) or "1", name)
+        column = factor * column
         log = bool(attrs["parameters"][name].get("log")) and bool((column > 0.0).all())
-        parameters.append(Parameter(name, units.get(name) or "1", log, words))
+        parameters.append(Parameter(name, unit, log, words))
         columns.append(column)
     manoeuvres = frame["manoeuvre"].astype(str).to_numpy()
     names = attrs["manoeuvres"]
     responses = []
     for measure in attrs["measures"]:
-        values = frame[measure].to_numpy(dtype=np.float64)
+        unit, factor = shown_in(units.get(measure) or "1", measure)
+        values = factor * frame[measure].to_numpy(dtype=np.float64)
+        ends = [factor * end for end in limit_ends(attrs["limits"].get(measure))]
         for manoeuvre in names:
             mine = manoeuvres == manoeuvre
             rows = np.flatnonzero(mine & np.isfinite(values))
             # The measures of a test are in the rows of its own runs only.
             if len(rows):
-                unit = units.get(measure) or "1"
-                several = len(names) > 1
-                responses.append(Response(measure, manoeuvre, unit, rows, values[rows], int(mine.sum()), several))
+                asked, several = int(mine.sum()), len(names) > 1
+                limits = (ends[0], ends[1])
+                responses.append(Response(measure, manoeuvre, unit, rows, values[rows], asked, several, limits))
     x = np.stack(columns, axis=1) if columns else np.empty((len(frame), 0))
     failed = np.asarray(frame["status"].astype(str) == FAILED)
     return StudyData(frame, tuple(parameters), x, tuple(responses), failed, attrs)

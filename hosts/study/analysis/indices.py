@@ -8,7 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.common.numbers import is_round_off
+
 _FEWEST_BLOCKS = 64
+_BARS = "Bars: bootstrap, 95 %; an index whose bar reaches zero or lies below it is not told from none."
 # Harmonics of RBD-FAST, and the fewest runs from which SALib's bootstrap (of half the runs) can tell them apart.
 _HARMONICS = 10
 _FEWEST_FOR_ESTIMATE, _MOST_FOR_ESTIMATE = 64, 50_000
@@ -83,14 +86,11 @@ def saltelli_indices(
             "given."
         )
     used = blocks[whole].ravel()
-    if np.ptp(used) <= 1e-12 * np.abs(used).max():
+    if is_round_off(float(np.ptp(used)), float(np.abs(used).max())):
         return f"The measure is {used[0]:.6g} in all runs."
     found = sobol.analyze(_problem(names), used, calc_second_order=second_order, seed=seed)
     left_out = f"; blocks with a missing or failed run left out: {len(whole) - whole.sum()}" * (not whole.all())
-    how = (
-        f"Sobol' indices by Saltelli's estimators from {whole.sum()} blocks of {width} runs{left_out}. "
-        "Bars: bootstrap, 95 %."
-    )
+    how = f"Sobol' indices by Saltelli's estimators from {whole.sum()} blocks of {width} runs{left_out}. {_BARS}"
     second = np.asarray(found["S2"]) if second_order else None
     s1, s1_conf, st, st_conf = (np.asarray(found[k], dtype=np.float64) for k in ("S1", "S1_conf", "ST", "ST_conf"))
     return Indices(tuple(names), s1, s1_conf, st, st_conf, how, second)
@@ -120,7 +120,7 @@ def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.flo
     table[places] = y
     table = table.reshape(shape)
     variance = table.var()
-    if np.ptp(y) <= 1e-12 * np.abs(y).max():
+    if is_round_off(float(np.ptp(y)), float(np.abs(y).max())):
         return f"The measure is {y[0]:.6g} in all runs."
     axes = range(len(names))
     first = [table.mean(axis=tuple(k for k in axes if k != i)).var() / variance for i in axes]
@@ -141,7 +141,6 @@ def estimated_indices(
     x : ndarray of shape (n, d)
     y : ndarray of shape (n,)
         Finite.
-    seed : int
 
     Returns
     -------
@@ -157,7 +156,7 @@ def estimated_indices(
 
     if len(y) < _FEWEST_FOR_ESTIMATE:
         return f"{len(y)} runs yield the measure; from {_FEWEST_FOR_ESTIMATE} on indices are estimated."
-    if np.ptp(y) <= 1e-12 * np.abs(y).max():
+    if is_round_off(float(np.ptp(y)), float(np.abs(y).max())):
         return f"The measure is {y[0]:.6g} in all runs."
     if len(y) > _MOST_FOR_ESTIMATE:
         some = np.random.default_rng(seed).choice(len(y), _MOST_FOR_ESTIMATE, replace=False)
@@ -166,7 +165,7 @@ def estimated_indices(
     none = np.full(len(names), np.nan)
     how = (
         f"An estimate by RBD-FAST from {len(y)} runs, of the first order only: for total indices choose the sampling "
-        "method saltelli. Bars: bootstrap, 95 %."
+        f"method saltelli. {_BARS}"
     )
     return Indices(tuple(names), np.asarray(found["S1"]), np.asarray(found["S1_conf"]), none, none, how)
 

@@ -36,17 +36,21 @@ def measure_section(
 
     Parameters
     ----------
-    data : StudyData
-    response : Response
     number : int
         Of the response, for the names of its pictures.
-    pictures : Pictures
-    commands : callable
     numbers : list of dict
         To which the effects are added, a row a parameter.
     """
+    if len(response.values) == 1:
+        words = f"One run yields it: {response.values[0]:.6g} {response.unit if response.unit != '1' else ''}".strip()
+        return [element("h2", response.title), paragraph(f"{words}.", "note")]
+    if not response.varies:
+        least = float(response.values.min())
+        words = f"It is {least:.6g} {response.unit if response.unit != '1' else ''}".strip()
+        words += " in all runs, but for rounding: nothing that was varied changes it."
+        return [element("h2", response.title), paragraph(words, "note")]
     effects = [main_effect(data.x[response.rows, k], response.values) for k in range(len(data.parameters))]
-    indices = _indices(data, response)
+    indices = indices_of(data, response)
     numbers += _numbers(response, data.parameters, effects, indices)
     lost = bool(data.failed.any())
     name, label = f"{number + 1:02d}_{response.label}", response.label
@@ -89,7 +93,8 @@ def _extremes(data: StudyData, response: Response, rows: Sequence[Row], commands
     return table("Highest runs, then lowest", head, cells)
 
 
-def _indices(data: StudyData, response: Response) -> Indices | str:
+def indices_of(data: StudyData, response: Response) -> Indices | str:
+    """Sobol' indices of a measure as the design allows them, or why there are none."""
     names = [p.name for p in data.parameters]
     if not names:
         return "The study has no parameters."

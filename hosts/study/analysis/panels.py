@@ -23,7 +23,6 @@ def parameter_panels(parameters: Sequence[Parameter], label: str, share_y: bool)
 
     Parameters
     ----------
-    parameters : sequence of Parameter
     label : str
         Of the vertical axes.
     share_y : bool

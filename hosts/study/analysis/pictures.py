@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from ali3.files import whole_file
-from hosts.run.result_plots import save_picture
+from hosts.run.result_plots import save_pictures
 from hosts.study.analysis.page import picture
 
 if TYPE_CHECKING:
@@ -18,20 +18,14 @@ if TYPE_CHECKING:
 
 
 class Pictures:
-    """PNG files of a folder, which stand in the report too.
-
-    Parameters
-    ----------
-    folder : Path
-    """
+    """PNG and SVG files of a folder; the former stand in the report too."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
     def add(self, figure: Figure, name: str, what: str) -> HtmlElement:
         """Write a figure, and give its place in the page."""
-        file = self.folder / f"{re.sub(r'[^A-Za-z0-9]+', '_', name).strip('_')[:80]}.png"
-        save_picture(figure, file)
+        _, file = save_pictures(figure, self.folder / re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[:80])
         with Image.open(file) as drawn, whole_file(file) as made:
             # A palette: lines in many colours take a third of the bytes, and look the same.
             drawn.convert("RGB").quantize(256, Image.Quantize.FASTOCTREE).save(made, optimize=True)

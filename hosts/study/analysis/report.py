@@ -14,14 +14,16 @@ from hosts.catalogue.report.elements import element
 from hosts.common.errors import HostError
 from hosts.run.result_plots import STYLE
 from hosts.study.analysis.data import study_data
-from hosts.study.analysis.measure_section import measure_section
+from hosts.study.analysis.measure_section import indices_of, measure_section
 from hosts.study.analysis.page import document, paragraph
 from hosts.study.analysis.pictures import Pictures
+from hosts.study.analysis.slide import main_response, write_study_slide
 from hosts.study.analysis.study_section import (
     MOST_RESPONSES,
     Commands,
     failed_section,
     head_section,
+    limits_section,
     measures_section,
 )
 from hosts.study.analysis.summary_plots import plot_correlations
@@ -70,7 +72,12 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
 
     data = study_data(frame)
     pictures = Pictures(make_folder(folder / "analysis"))
-    body = [*head_section(data), *measures_section(data), *failed_section(data, pictures, commands)]
+    body = [
+        *head_section(data),
+        *limits_section(data),
+        *measures_section(data),
+        *failed_section(data, pictures, commands),
+    ]
     shown = data.responses[:MOST_RESPONSES]
     numbers: list[dict[str, object]] = []
     with plt.rc_context({**STYLE, "font.size": 9, "axes.titlesize": 10}):
@@ -80,6 +87,8 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
             body.append(pictures.add(plot_correlations(data, shown), "correlations", "Rank correlations"))
         for k, response in enumerate(tqdm(shown, desc="report", unit="measure", delay=2.0)):
             body += measure_section(data, response, k, pictures, commands, numbers)
+    main = main_response(data)
+    write_study_slide(data, None if main is None else indices_of(data, main), folder)
     file, rows = folder / "report.html", folder / "analysis" / "effects.csv"
     write_text(file, document(f"Study {data.about['study']}", body))
     _write_numbers(rows, numbers)

@@ -14,6 +14,7 @@ from hosts.study.analysis.effect_plots import plot_failed
 from hosts.study.analysis.page import commands_cell, paragraph, table
 from hosts.study.analysis.pictures import Pictures
 from hosts.study.analysis.tables import reasons, said, statistics
+from hosts.study.limits import share_notes, share_rows, shares
 
 MOST_RESPONSES = 40
 _SHOWN_OF_A_REASON, _SHOWN_REASONS = 3, 20
@@ -64,6 +65,17 @@ def measures_section(data: StudyData) -> list[HtmlElement]:
         (r.label, r.unit, f"{len(r.rows)} of {r.asked}", *(f"{v:.5g}" for v in list(s.values())[1:])) for r, s in found
     ]
     return [element("h2", "Measures"), table("Of all runs", head, rows)]
+
+
+def limits_section(data: StudyData) -> list[HtmlElement]:
+    """Which share of the runs keeps the limits of the study; empty where it has none."""
+    found = shares(data.frame)
+    if not found:
+        return []
+    rows = share_rows(found, data.about)
+    words = " ".join(share_notes(found, data.about))
+    head = ("measure", "limit", "within", "share", "95 % interval")
+    return [element("h2", "Limits"), table("Runs within the limits", head, rows), paragraph(words, "faint")]
 
 
 def failed_section(data: StudyData, pictures: Pictures, commands: Commands) -> list[HtmlElement]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
-from hosts.run.result_plots import BLUE, ORANGE, RED
+from hosts.run.result_plots import BLACK, BLUE, ORANGE, RED
 from hosts.study.analysis.data import Response, StudyData
 from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.panels import WIDTH
@@ -24,26 +25,27 @@ def plot_overview(response: Response, indices: Indices | str) -> Figure:
     """Histogram with percentiles; beside it the indices, where there are some."""
     if isinstance(indices, str):
         figure, axes = plt.subplots(figsize=(0.55 * WIDTH, 2.9), layout="constrained")
-        _histogram(axes, response)
+        plot_histogram(axes, response)
         return figure
     height = max(2.9, 0.9 + 0.42 * len(indices.names))
     figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, height), layout="constrained")
-    _histogram(left, response)
-    _bars(right, indices)
+    plot_histogram(left, response)
+    plot_indices(right, indices)
     return figure
 
 
-def _histogram(axes: Axes, response: Response) -> None:
+def plot_histogram(axes: Axes, response: Response) -> None:
+    """Distribution with percentiles and the limits of the study."""
     y = response.values
-    edges = (
-        np.histogram_bin_edges(y, "auto") if np.ptp(y) > 1e-12 * np.abs(y).max() else np.linspace(-0.5, 0.5, 2) + y[0]
-    )
+    edges = np.histogram_bin_edges(y, "auto")
     if len(edges) > _MOST_BINS + 1:
         edges = np.linspace(y.min(), y.max(), _MOST_BINS + 1)
     axes.hist(y, edges.tolist(), color=BLUE, alpha=0.75)
     for percent, value in zip(PERCENTILES, np.percentile(y, PERCENTILES), strict=True):
         dashes = "-" if percent == 50.0 else "--"
         axes.axvline(float(value), color=RED, linewidth=1.2, linestyle=dashes, label=f"{percent:g} %: {value:.4g}")
+    for end in filter(math.isfinite, response.limits):
+        axes.axvline(end, color=BLACK, linewidth=2.0, label=f"limit: {end:.4g}")
     axes.legend(
         loc="lower right", bbox_to_anchor=(1.0, 0.985), ncols=3, handlelength=1.4, columnspacing=1.0, fontsize=8
     )
@@ -53,7 +55,8 @@ def _histogram(axes: Axes, response: Response) -> None:
     axes.set_title("Distribution")
 
 
-def _bars(axes: Axes, indices: Indices) -> None:
+def plot_indices(axes: Axes, indices: Indices) -> None:
+    """Indices with their intervals; hollow where the interval reaches zero, so that the index may be none."""
     order = np.argsort(np.where(np.isnan(indices.total), indices.first, indices.total))
     at = np.arange(len(order), dtype=float)
     both = bool(np.isfinite(indices.total).any())
@@ -62,17 +65,23 @@ def _bars(axes: Axes, indices: Indices) -> None:
         (indices.total, indices.total_conf, "total", ORANGE, -0.2),
     ):
         if np.isfinite(values).any():
-            error = np.nan_to_num(conf[order])
-            axes.barh(at + shift, values[order], 0.38, xerr=error, color=colour, label=label, ecolor="#444444")
+            value, half = values[order], np.nan_to_num(conf[order])
+            noise = (value - half <= 0.0) & (half > 0.0)
+            for some, fill, words in ((~noise, colour, label), (noise, "white", f"{label}, may be 0")):
+                if some.any():
+                    axes.errorbar(
+                        value[some], at[some] + shift, xerr=half[some], fmt="o", color=colour, markerfacecolor=fill,
+                        markersize=6, capsize=3, linewidth=1.2, label=words,
+                    )  # fmt: skip
     axes.set_yticks(at, [indices.names[k] for k in order])
+    axes.set_ylim(-0.6, len(order) - 0.4)
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
     axes.axvline(0.0, color="#888888", linewidth=0.8)
     axes.set_xlim(min(0.0, axes.get_xlim()[0]), max(1.0, axes.get_xlim()[1]))
     axes.set_xlabel("part of the variance")
-    axes.set_title("Sobol' indices" if both else "Sobol' indices, first order")
-    if both:
-        axes.legend(loc="lower right")
+    axes.set_title("Sobol' indices")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.985), ncols=2, fontsize=8, borderaxespad=0.1)
 
 
 def rank_correlations(data: StudyData, responses: Sequence[Response]) -> NDArray[np.float64]:
@@ -87,7 +96,7 @@ def rank_correlations(data: StudyData, responses: Sequence[Response]) -> NDArray
     for i, response in enumerate(responses):
         for j, parameter in enumerate(data.parameters):
             x = data.x[response.rows, j]
-            if len(parameter.words) <= 2 and len(x) > 2 and np.ptp(x) > 0.0 and np.ptp(response.values) > 0.0:
+            if len(parameter.words) <= 2 and len(x) > 2 and np.ptp(x) > 0.0 and response.varies:
                 table[i, j] = spearmanr(x, response.values).statistic
     return table
 

@@ -43,8 +43,6 @@ def extremes(data: StudyData, response: Response, count: int) -> tuple[list[Row]
 
     Parameters
     ----------
-    data : StudyData
-    response : Response
     count : int
         Of each; fewer where there are not twice as many.
     """

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import difflib
 import hashlib
 import math
 from collections.abc import Mapping
@@ -12,6 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ali3.near_names import MOST, did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import Result
@@ -20,7 +20,6 @@ from hosts.study.measures.grammar import Node, check_form, number_of, signal_nam
 from hosts.study.measures.reductions import REDUCTIONS, Array
 from hosts.study.measures.units import unit_of
 
-_NEAREST = 3
 TIME = "time"
 # Times of a run add up with rounding errors.
 _SAME_TIME = 1e-9
@@ -32,13 +31,7 @@ class _NotYieldedError(Exception):
 
 @dataclass(frozen=True)
 class Expression:
-    """A number of a run by reductions of its signals; make it by `read`.
-
-    Parameters
-    ----------
-    name : str
-    text : str
-    """
+    """A number of a run by reductions of its signals; make it by `read`."""
 
     name: str
     text: str
@@ -162,11 +155,4 @@ def _called(node: ast.Call, result: Result) -> Array | float:
 
 def near(name: str, known: Mapping[str, str]) -> str:
     """What may have been meant, as the rest of a sentence."""
-    same = [n for n in known if n.lower() == name.lower()]
-    found = same or difflib.get_close_matches(name, known, _NEAREST)
-    found = found or [n for n in known if n.rpartition(".")[2] == name.rpartition(".")[2]][:_NEAREST]
-    if found:
-        return f"; did you mean {' or '.join(found)}?"
-    if len(known) <= 2 * _NEAREST:
-        return f"; there are: {', '.join(known) or 'none'}."
-    return "."
+    return did_you_mean(name, known, f"there are: {', '.join(known) or 'none'}" if len(known) <= 2 * MOST else "")

@@ -11,7 +11,6 @@ from hosts.common.numbers import Value
 from hosts.driving.co_simulation import Result
 from hosts.measures.measure import Measure
 from hosts.study.measures.expression import Expression
-from hosts.study.measures.user_function import UserFunction, read_user_function
 
 _FUNCTION = re.compile(r"(.+\.py):\s*([^:\s]*)")
 
@@ -56,7 +55,6 @@ class StudyMeasure(Protocol):
 
         Parameters
         ----------
-        result : Result
         parameters : mapping of str to float, int, bool or str, optional
             What was set before the start.
         """
@@ -82,7 +80,6 @@ def parse_measure(text: str, name: str = "", folder: Path = Path()) -> StudyMeas
     function = _FUNCTION.fullmatch(text.strip())
     if function is None:
         return Expression.read(text, name)
+    from hosts.study.measures.user_function import read_user_function
+
     return read_user_function(folder / function[1], function[2], name)
-
-
-__all__ = ["Expression", "StudyMeasure", "UserFunction", "parse_measure"]

@@ -33,8 +33,6 @@ class UserFunction:
     ----------
     name : str
         Of its column, or what its columns begin with.
-    file : str
-    function : str
     source : str
         Of the file.
     """
@@ -125,8 +123,6 @@ def read_user_function(file: Path, function: str, name: str = "") -> UserFunctio
 
     Parameters
     ----------
-    file : Path
-    function : str
     name : str
         By default that of the function.
 

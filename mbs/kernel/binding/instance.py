@@ -364,6 +364,12 @@ class Instance:
         self._check(self._library.ali3_branch_text(self._handle, text, len(text)))
         return text.value.decode(errors="ignore")
 
+    def rim_text(self) -> str:
+        """A sentence about the deepest that a rim was pressed into a grid road; empty where none was."""
+        text = ctypes.create_string_buffer(1024)
+        self._check(self._library.ali3_rim_text(self._handle, text, len(text)))
+        return text.value.decode(errors="ignore")
+
     @property
     def time(self) -> float:
         """Time of the state, s."""

@@ -9,7 +9,7 @@ from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_size_t, c_ui
 from pathlib import Path
 from typing import Any
 
-from ..header import STRUCTURES, ControlFields, RecordFields, ReportFields, SettingsFields, Sizes
+from ..header import STRUCTURES, ControlFields, LaneFields, RecordFields, ReportFields, SettingsFields, Sizes
 
 _DOUBLES = POINTER(c_double)
 _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
@@ -19,6 +19,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_system_load": (c_int32, [c_char_p, c_size_t, POINTER(c_void_p), c_char_p, c_size_t]),
     "ali3_system_free": (None, [c_void_p]),
     "ali3_system_sizes": (Sizes, [c_void_p]),
+    "ali3_instance_size": (c_size_t, [c_void_p]),
     "ali3_instance_new": (c_int32, [c_void_p, POINTER(c_void_p)]),
     "ali3_instance_free": (None, [c_void_p]),
     "ali3_set_road": (c_int32, [c_void_p, c_int32, c_char_p, c_char_p, c_size_t]),
@@ -45,6 +46,11 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_static_equilibrium": (c_int32, [c_void_p, c_double, c_double, c_int32]),
     "ali3_step": (c_int32, [c_void_p, c_double]),
     "ali3_run": (c_int32, [c_void_p, c_double, c_int64, _DOUBLES, c_int64, _DOUBLES, _DOUBLES, POINTER(c_int64)]),
+    "ali3_widest_lanes": (c_int32, []),
+    "ali3_many_size": (c_size_t, [c_void_p, c_int32]),
+    "ali3_many_new": (c_int32, [c_void_p, c_int32, POINTER(c_void_p)]),
+    "ali3_many_free": (None, [c_void_p]),
+    "ali3_many_run": (c_int32, [c_void_p, c_int32, POINTER(LaneFields), c_double, c_int64, c_int64]),
     "ali3_control_run": (
         c_int32,
         [
@@ -63,6 +69,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
     "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
+    "ali3_rim_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_branch_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_time": (c_double, [c_void_p]),
     "ali3_solver_value": (c_double, [c_void_p, c_int32]),

@@ -25,6 +25,8 @@ class LoadedSystem:
     ----------
     sizes : Sizes
         Numbers of coordinates, rows, inputs, sensors and so on.
+    state_size, instance_size : int
+        Bytes of a saved state and of an instance.
     """
 
     def __init__(self, data: bytes, library: str | os.PathLike[str] | None = None) -> None:
@@ -39,6 +41,7 @@ class LoadedSystem:
         self._handle = handle
         self.sizes: Sizes = self._library.ali3_system_sizes(handle)
         self.state_size: int = self._library.ali3_state_size(handle)
+        self.instance_size: int = self._library.ali3_instance_size(handle)
 
     def __del__(self) -> None:
         if self._handle is not None:

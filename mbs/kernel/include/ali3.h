@@ -111,6 +111,9 @@ typedef struct {
   double speed_peak, velocity_path, predictor_path;
   double fastest_rate; /* where a step was refused as too stiff: largest rate of change of the motion there, 1/s */
   double open_power; /* of forces at the state that (25) left without balance, W; they work in the next step */
+  double energy_floor; /* what gravity does over tolerance_r, J: a smaller energy_error tells nothing */
+  /* deepest that a rim was pressed into a grid road at the start of a step, m, 0: never; when, s, and where, m */
+  double rim_pressed, rim_time, rim_x, rim_y;
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */
@@ -141,6 +144,7 @@ ALI3_API ali3_status ali3_system_load_with(const void *bytes, size_t size, const
 ALI3_API void ali3_system_free(ali3_system *s);
 ALI3_API ali3_sizes ali3_system_sizes(const ali3_system *s);
 
+ALI3_API size_t ali3_instance_size(const ali3_system *s); /* bytes of an instance */
 ALI3_API ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out);
 ALI3_API void ali3_instance_free(ali3_instance *in);
 /* A file (roads/road_file.h, path in UTF-8) in place of a road of the System, for the next ali3_initialise; NULL or an
@@ -154,6 +158,9 @@ ALI3_API const char *ali3_road_lost(const ali3_instance *in);
 /* The first wheel whose centre is half a radius below a road that is a grid, where its contact is lost, as a sentence without its full
  * stop; ALI3_OK and "" if there is none, else ALI3_WHEEL_IN_ROAD. *element: its number, or -1. */
 ALI3_API ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *text, size_t size);
+
+/* A sentence on a wheel that was driven into a face of a grid road so that its rim was pressed in, else "". */
+ALI3_API ali3_status ali3_rim_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API ali3_status ali3_reset(ali3_instance *in); /* back to q0, qd0, y0, default inputs, parameters and settings */
 ALI3_API ali3_settings ali3_default_settings(void);
 ALI3_API ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings);
@@ -220,6 +227,26 @@ ALI3_API ali3_status ali3_step(ali3_instance *in, double h);
    accepted steps. */
 ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every,
                               double *out, double *positions, int64_t *done);
+/* Several instances of one System that advance together, a lane each: every number of a step is a vector of 2, 4 or 8 of
+ * them, by the instructions that the processor has. Each lane has the bits of ali3_run. Steps of ALi3-P with projections
+ * and the linearised update, of rigid Systems without switches, are made together; other Systems, methods and settings,
+ * and what one lane needs and the others do not (halves of a step, a failure), are stepped alone and counted. A group
+ * belongs to one thread at a time. */
+typedef struct ali3_many ali3_many;
+typedef struct {
+  ali3_instance *instance; /* of the System of the lanes, each once, all with the same settings */
+  const double *inputs; /* as of ali3_run; so are out and positions */
+  double *out, *positions;
+  int64_t done, alone; /* accepted steps of the call; steps made alone */
+  int32_t status; /* ALI3_OK, or why this lane stopped; the others go on */
+} ali3_lane;
+ALI3_API int32_t ali3_widest_lanes(void); /* 2, 4 or 8: the most that this processor has instructions for */
+ALI3_API size_t ali3_many_size(const ali3_system *s, int32_t width); /* bytes beside those of the instances */
+ALI3_API ali3_status ali3_many_new(const ali3_system *s, int32_t width, ali3_many **out); /* at most the widest */
+ALI3_API void ali3_many_free(ali3_many *many);
+/* n, at most the width, instances make n_steps of h. */
+ALI3_API ali3_status ali3_many_run(ali3_many *many, int32_t n, ali3_lane *lane, double h, int64_t n_steps,
+                                   int64_t every);
 /* Steps of any length by step doubling, so that their errors add up to the tolerance over the span (error per unit
  * step). Errors of positions are in parts of `length`, those of velocities in parts of length * rate or of the present
  * speed. What is given comes first; the counts start at 0 and go on from call to call. */
@@ -295,8 +322,8 @@ ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);
  * none did. No part of a saved state. */
 ALI3_API double ali3_capped_residual(const ali3_instance *in);
 
-/* Flat, versioned, pointer-free, checksummed; bound to the System and the files of its roads by CRC. Holds all that continues bit for bit,
- * parameters and settings too. */
+/* Flat, versioned, pointer-free, checksummed; bound to the System and the files of its roads by CRC. Holds all that
+ * continues bit for bit, parameters and settings too. */
 ALI3_API size_t ali3_state_size(const ali3_system *s);
 ALI3_API ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size);
 ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size);

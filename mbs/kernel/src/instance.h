@@ -62,12 +62,13 @@ struct ali3_instance {
   size_t n_vector;
   double *input, *input_work, *parameter, *input_middle;
   const double *force_input; /* inputs that elements use: input, or input_middle where the middle is evaluated */
-  double *el_real, *guide_real, *road_real, *payload_mass, *switch_on; /* copies that parameters write to */
+  double *el_real, *guide_real, *road_real, *payload_mass, *switch_on,
+      *armature_ratio; /* copies that parameters write to */
   /* masses.c: mass matrix as mass_val and as the start of every tangent, what else the System has of it, gravity; those
-   * of the System where it has no payloads */
+   * of the System where nothing changes them */
   const double *mass_val, *front_mass, *mass_floor, *mass_floor_inverse, *mass_missing, *gravity_force;
   double gravity_const;
-  ali3_masses own_masses; /* with the payloads; empty where there are none */
+  ali3_masses own_masses; /* with payloads and armatures; empty where there are none */
   ali3_road *road, *own_road; /* in use: the System's own or from files; the System's own */
   int32_t n_roads; /* the System may be gone before its instances */
   bool to_lift; /* the next start is at a place of which it is not known how high its road is */

@@ -7,7 +7,7 @@
 
 /* The arrays of a System file: C type, item type number, name; first those that it need not have: without them nothing
  * is known of assembly modes or of a start in equilibrium, no guide has two inputs, all parameters are tunable and
- * without offset, and there are no payloads. `drawing` is for those who draw: the kernel does not read it. */
+ * without offset, and there are neither payloads nor armatures whose ratio may change. `drawing` is for those who draw: the kernel does not read it. */
 /* clang-format off */
 #define ALI3_OPTIONAL_ARRAYS(X) \
   X(unsigned char, 3, drawing) \
@@ -18,6 +18,7 @@
   X(double, 2, par_offset) X(int32_t, 1, par_fixed) \
   X(double, 2, payload_mass) X(int32_t, 1, payload_signal) X(double, 2, payload_gravity) \
   X(int32_t, 1, tree_payload_body) X(double, 2, tree_payload_place) \
+  X(int32_t, 1, armature_col) X(double, 2, armature_inertia) X(double, 2, armature_ratio) \
   X(int32_t, 1, guide_second) \
   X(int32_t, 1, ported_ptr) X(int32_t, 1, ported_row) X(double, 2, ported_val) X(double, 2, ported_const)
 
@@ -68,6 +69,7 @@ enum { /* par_target: what a parameter writes to */
        ALI3_TARGET_ROAD,
        ALI3_TARGET_PAYLOAD,
        ALI3_TARGET_SWITCH,
+       ALI3_TARGET_ARMATURE,
        ALI3_TARGET_COUNT
 };
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mbs.compiler import compile
+from mbs.compiler.model_to_system import to_system
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model import Model
@@ -52,7 +52,7 @@ def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point)
 
 def _standing(flexible: FlexibleFrame, model: Model) -> np.ndarray:
     """Amplitudes of the car as it stands at the start."""
-    system = compile(model)
+    system = to_system(model)
     names = list(system.meta["coordinates"])
     state = StandingSystem(system).state
     return np.array([state.q[names.index(f"chassis.{mode}")] for mode in flexible.drawn.mode_names])

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from mbs.compiler import compile
+from mbs.compiler.model_to_system import to_system
 from mbs.model import Model
 from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.axle import Axle
@@ -110,7 +110,7 @@ def settled(model: Model, car: CarContent) -> Rest:
     ModelError
         Its parts refuse a number, or it has no equilibrium.
     """
-    at_rest = StandingSystem(compile(model)).sensors
+    at_rest = StandingSystem(to_system(model)).sensors
 
     def mean(name: str, axle: str) -> float:
         return 0.5 * sum(at_rest[name.format(f"{axle[0].upper()}{side}")] for side in "LR")

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
+from mbs.vehicle.tyre import TMeasy
+from mbs.vehicle.tyre_by_file import MagicFormula
 
 LARGEST_DEFLECTION = 0.25  # of the free radius of a tyre at rest
 FRICTION = 0.2, 3.0  # largest force over the load
@@ -37,6 +39,8 @@ def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
         The car at rest.
     """
     for axle, wheels in ((car.front, "front"), (car.rear, "rear")):
+        if isinstance(axle.tyre, MagicFormula):
+            yield from axle.tyre.notes
         load, nominal = rest.load[wheels], axle.tyre.nominal_load
         if not LOADS[0] <= load / nominal <= LOADS[1]:
             yield (
@@ -63,6 +67,9 @@ def _radii(axle: Axle) -> Iterator[str]:
 
 def _friction(axle: Axle) -> Iterator[str]:
     tyre = axle.tyre
+    if not isinstance(tyre, TMeasy):
+        yield from _friction_of_file(tyre)
+        return
     for curve in (tyre.longitudinal, tyre.lateral):
         for k, load in enumerate((tyre.nominal_load, 2.0 * tyre.nominal_load)):
             friction = curve.max_force[k] / load
@@ -72,3 +79,12 @@ def _friction(axle: Axle) -> Iterator[str]:
                     f"({tyre.key('nominal_load')}{', twice' if k else ''}): a friction of {friction:.3g}; it must be "
                     f"between {FRICTION[0]:g} and {FRICTION[1]:g}."
                 )
+
+
+def _friction_of_file(tyre: MagicFormula) -> Iterator[str]:
+    for name, friction in zip(("longitudinal", "lateral"), tyre.friction, strict=True):
+        if not FRICTION[0] <= friction <= FRICTION[1]:
+            yield (
+                f"{tyre.key('file')} has a {name} friction of {friction:.3g}; it must be between {FRICTION[0]:g} and "
+                f"{FRICTION[1]:g}."
+            )

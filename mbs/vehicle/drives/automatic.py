@@ -127,6 +127,9 @@ class Automatic(Section):
         b.tie(self, "creep_torque", element, "creep_torque", value=drive.creep_torque)
         b.m.equilibrium_parameters = {self.key("creep_torque"): 0.0}
 
+    def turning_parts(self, b: CarBuilder, spins: Mapping[str, Spin]) -> None:
+        """Nothing: the inertia of this drive is neglected."""
+
     def outputs(self, b: CarBuilder) -> None:
         """Add the outputs of the drive."""
         b.m.sense_element("engine_speed", "drive", "engine_speed", description="speed of the engine")

@@ -15,9 +15,9 @@ from mbs.vehicle.quantities import (
     FadeSpeed,
     MotorPower,
     MotorSpeed,
-    PartInertia,
     RegenerationTorque,
     ReverseShare,
+    RotorInertia,
     Time,
     Torque,
 )
@@ -50,8 +50,9 @@ class Electric(Section):
     """Speed of the motor over the mean speed of the wheels."""
     limit_speed: MotorSpeed
     """Speed of the motor beyond which its torque fades."""
-    rotor_inertia: PartInertia
-    """Moment of inertia of the rotor as each driven wheel feels it: half of its own times the ratio squared."""
+    motor_inertia: RotorInertia
+    """Moment of inertia of the motor's rotor and of what turns with it, about its axis. Each driven wheel feels half of
+    it times the ratio squared."""
     efficiency: Efficiency = 0.9
     """Efficiency between battery and shaft of the motor, both ways."""
     gear_efficiency: Efficiency = 0.97
@@ -81,17 +82,22 @@ class Electric(Section):
         neutral : bool
             Whether the selector is in neutral.
         """
-        own = ("kind", "wheels", "rotor_inertia")
+        own = ("kind", "wheels", "motor_inertia")
         drive = ElectricDrive(**{name: getattr(self, name) for name in type(self).model_fields if name not in own})
         left, right = (spins[self.wheels[0].upper() + side] for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
         throttle, selector = b.inputs["throttle"].index, b.inputs.get("selector")
         chosen = None if selector is None else selector.index
         element = b.m.add(drive.record("drive", left.coordinate, right.coordinate, z, x, throttle, selector=chosen))
-        for spin in (left, right):
-            b.m.armature(f"rotor at {spin.name}", spin, inertia=self.rotor_inertia)
+        self.turning_parts(b, spins)
         for name in TIED:
             b.tie(self, name, element, name)
+
+    def turning_parts(self, b: CarBuilder, spins: Mapping[str, Spin]) -> None:
+        """Add the inertia of the rotor to the driven wheels."""
+        for spin in (spins[self.wheels[0].upper() + side] for side in "LR"):
+            rotor = b.m.armature(f"rotor at {spin.name}", spin, inertia=0.5 * self.motor_inertia, ratio=self.ratio)
+            b.tie(self, "ratio", rotor, "ratio")
 
     def outputs(self, b: CarBuilder) -> None:
         """Add the outputs of the drive."""

@@ -17,13 +17,12 @@ from numpy.typing import NDArray
 
 from mbs.common.affine import AffineVector
 from mbs.vehicle.car import Car
-from mbs.vehicle.kinematics.linkage import SIDES, Linkage, Position
 from mbs.vehicle.kinematics.wheel_loads import OWN, wheel_loads
 from mbs.vehicle.kinematics.wheel_motion import WheelMotion, steering_axis, wheel_motion
+from mbs.vehicle.linkages.continuation import HEAVE, ROLL
+from mbs.vehicle.linkages.linkage import SIDES, Linkage, Position
 
 Array = NDArray[np.float64]
-
-HEAVE, ROLL = np.array([1.0, 1.0, 0.0]), np.array([1.0, -1.0, 0.0])
 
 
 def wheel_measures(linkage: Linkage, at: Position) -> dict[str, float]:

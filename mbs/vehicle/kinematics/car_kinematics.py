@@ -13,8 +13,8 @@ from mbs.common.checks import instance_of, is_finite, shown
 from mbs.common.errors import ModelError
 from mbs.vehicle.car import Car
 from mbs.vehicle.kinematics.curves import Curve, steer_curve, travel_curve
-from mbs.vehicle.kinematics.linkage import Linkage
 from mbs.vehicle.kinematics.stops import stop_notes
+from mbs.vehicle.linkages.linkage import Linkage
 
 Array = NDArray[np.float64]
 

@@ -1,4 +1,4 @@
-"""Curves of an axle over wheel travel and over steering, continued from the drawing in small steps."""
+"""Curves of an axle over wheel travel and over steering."""
 
 from __future__ import annotations
 
@@ -8,17 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.vehicle.kinematics.axle_measures import HEAVE, ROLL, roll_measures, travel_measures, wheel_measures
-from mbs.vehicle.kinematics.linkage import SIDES, Linkage, NotReachedError, Position
+from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
 from mbs.vehicle.kinematics.quantities import BY_NAME, quantity_of
 from mbs.vehicle.kinematics.steer_measures import steer_measures
 from mbs.vehicle.kinematics.wheel_loads import OWN
+from mbs.vehicle.linkages.continuation import HEAVE, ROLL, ROUND_OFF, reached
+from mbs.vehicle.linkages.linkage import SIDES, Linkage, Position
 
 Array = NDArray[np.float64]
 
-STEP, LEAST_STEP = 0.004, 1e-6  # m: of the continuation
-ROUND_OFF = 1e-9  # m
-STRAY = 0.2  # of a step: farther from its tangent a position may be on another branch
 DIRECTIONS = {"parallel": HEAVE, "opposite": ROLL, "single": OWN[0], "steer": np.array([0.0, 0.0, 1.0])}
 """Motions by their names: rates of the travels of the left and the right wheel, and of the rack."""
 WORDS = {
@@ -113,48 +111,6 @@ def steer_curve(linkage: Linkage, rack: Array, wheel_per_rack: float) -> Curve:
     if wheel_per_rack > 0.0:
         return curve
     return Curve(curve.axle, curve.motion, {n: v[::-1] for n, v in curve.columns.items()}, curve.notes)
-
-
-def reached(linkage: Linkage, direction: Array, values: Array) -> tuple[list[Position], float | None]:
-    """Positions at rising or falling values from zero on.
-
-    Parameters
-    ----------
-    direction : ndarray, shape (3,)
-        Travels of the left and the right wheel and of the rack per value.
-    values : ndarray, shape (n,)
-        All of one sign, farther and farther from zero, m.
-
-    Returns
-    -------
-    list of Position, float or None
-        As many as can be reached, and where the linkage ends if that is before the last value.
-    """
-    found: list[Position] = []
-    at, now = linkage.drawn, 0.0
-    for value in values:
-        step = STEP
-        while now != value:
-            ahead = value if abs(value - now) <= step else now + np.sign(value - now) * step
-            try:
-                there = _next(linkage, at, direction, now, float(ahead))
-            except NotReachedError:
-                step = 0.5 * min(step, abs(float(ahead) - now))
-                if step < LEAST_STEP:
-                    return found, now
-                continue
-            at, now, step = there, float(ahead), min(STEP, 2.0 * step)
-        found.append(at)
-    return found, None
-
-
-def _next(linkage: Linkage, at: Position, direction: Array, now: float, ahead: float) -> Position:
-    """The position at the next value, near the tangent."""
-    change = at.tangent @ direction * (ahead - now)
-    there = linkage.solve(at.q + change, ahead * direction[:2], ahead * float(direction[2]))
-    if np.linalg.norm(there.q - at.q - change) > STRAY * np.linalg.norm(change) + ROUND_OFF:
-        raise NotReachedError(f"the position at {ahead:g} m is not near the tangent")
-    return there
 
 
 def _curve(linkage: Linkage, motion: str, values: Array, measures: Callable[[Position], dict[str, float]]) -> Curve:

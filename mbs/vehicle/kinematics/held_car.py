@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mbs.common.affine import AffineVector
 from mbs.common.errors import ModelError
-from mbs.compiler import compile
+from mbs.compiler.model_to_system import to_system
 from mbs.elements.road import PlaneRoad
 from mbs.model import Model
 from mbs.model.body import Body
@@ -97,7 +97,7 @@ class HeldCar:
 
     def __init__(self, car: Car, fidelity: Fidelity) -> None:
         m, b, carriers = held_model(car, fidelity)
-        system = compile(m)
+        system = to_system(m)
         assert system.frames is not None
         self._T, self._constant = system.frames.T.toarray(), system.frames.constant
         self._evaluator = Evaluator(StandingSystem(system))

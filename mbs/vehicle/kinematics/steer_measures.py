@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from mbs.vehicle.kinematics.linkage import Linkage, Position
 from mbs.vehicle.kinematics.wheel_motion import wheel_motion
+from mbs.vehicle.linkages.linkage import Linkage, Position
 
 STRAIGHT = 1e-4  # rad: below it there is no circle
 

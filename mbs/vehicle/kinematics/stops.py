@@ -1,42 +1,12 @@
-"""Where the stops of an axle's springs begin and end, in wheel travel, and how far its links follow without them."""
+"""Where the stops of an axle's springs begin and end, in wheel travel."""
 
 from __future__ import annotations
-
-from collections.abc import Iterator
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from mbs.vehicle.car import Car
-from mbs.vehicle.kinematics.curves import DIRECTIONS, Curve, reached
-from mbs.vehicle.kinematics.linkage import Linkage
-
-FARTHEST = 0.5  # m: wheel travel that is looked at
-
-
-def notes_without_stops(car: Car) -> Iterator[str]:
-    """A sentence for each axle without stops.
-
-    Parameters
-    ----------
-    car : Car
-        At rest near the drawing.
-    """
-    for name, axle in (("front", car.front), ("rear", car.rear)):
-        if axle.stops is not None:
-            continue
-        linkage = Linkage(car, name)
-        ends = [reached(linkage, DIRECTIONS["parallel"], np.array([far]))[1] for far in (-FARTHEST, FARTHEST)]
-        if ends == [None, None]:
-            continue
-        low, high = (
-            f"{far if end is None else end:+.3f}" for end, far in zip(ends, (-FARTHEST, FARTHEST), strict=True)
-        )
-        yield (
-            f"{axle.key('stops')} is left out: nothing but the spring ends the travel of the {name} wheels, and the "
-            f"links follow from {low} to {high} m of wheel travel from the drawing; beyond, a run fails where they "
-            "would part. Stops that bear before that keep it together."
-        )
+from mbs.vehicle.kinematics.curves import Curve
+from mbs.vehicle.linkages.linkage import Linkage
 
 
 def stop_notes(linkage: Linkage, parallel: Curve) -> list[str]:

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.vehicle.kinematics.linkage import Linkage, Position
 from mbs.vehicle.kinematics.wheel_motion import wheel_motion
+from mbs.vehicle.linkages.linkage import Linkage, Position
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.vehicle.axes import UP
-from mbs.vehicle.kinematics.linkage import Linkage, Position
+from mbs.vehicle.linkages.linkage import Linkage, Position
 
 Array = NDArray[np.float64]
 Z = np.array(UP)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import Literal
 
 from mbs.elements.coordinate_friction import CoordinateFriction
+from mbs.elements.input_force import InputForce
 from mbs.elements.spring_damper import EndStops
 from mbs.elements.torsion_bar import TorsionBar
 from mbs.model import Model
@@ -33,6 +34,7 @@ from mbs.vehicle.steering.rack_section import COLUMN_STICK, RackSection
 from mbs.vehicle.steering.steered import Steered
 
 LARGEST_TORQUE = 100.0  # N m, of the driver's hands
+LARGEST_FORCE = 3e4  # N, of an actuator on the rack
 RACK_STICK = 5e6, 1e4  # N/m, N s/m of a rack that sticks: 300 N give by 0.06 mm
 STOP_STIFFNESS, STOP_LOSS = 2e6, 1.0  # N/m, s/m of the rack's ends
 FAR = 1.0  # m: from the middle of the rack to where the length of its stops is measured from
@@ -106,6 +108,10 @@ class Column(RackSection):
         wheel, pinion = m.shaft("steering wheel", inertia=self.wheel_inertia), m.shaft("pinion")
         held = self._hands(b, wheel, demand, torque)
         self._bar(b, wheel, pinion)
+        if b.ports.steering is not None:
+            text = "force of an actuator on the rack, positive to the left"
+            force = b.port("steering_rack_actuator_force", -LARGEST_FORCE, LARGEST_FORCE, "N", text)
+            m.add(InputForce(force.index, (per_radian,)).record("port rack", (pinion.affine,)))
         racks: list[Body] = []
 
         def end(side: Side, point: Point) -> End:

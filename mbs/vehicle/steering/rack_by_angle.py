@@ -7,6 +7,7 @@ from typing import Literal
 
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.model.ends import End
+from mbs.model.records import Input
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import PrescribedFriction
@@ -37,16 +38,22 @@ class RackByAngle(RackSection):
         Steered
             Ends of the rack, and its outputs.
         """
-        m, steering, per_radian = b.m, b.inputs["steering"], way * self.rack_per_turn / (2.0 * math.pi)
-        demand = angle_demand(m, self.wheel_angle_max)
-        rack = m.guide_inputs(
-            "rack",
-            inputs=(steering, demand),
-            gains=(way * self.rack_travel, per_radian),
-            limits=(-self.rack_travel, self.rack_travel),
-            frequency=self.frequency,
-            unit="m",
-        )
+        m, per_radian = b.m, way * self.rack_per_turn / (2.0 * math.pi)
+        demand: Input | None = None
+        if b.ports.steering is None:
+            demand = angle_demand(m, self.wheel_angle_max)
+            rack = m.guide_inputs(
+                "rack",
+                inputs=(b.inputs["steering"], demand),
+                gains=(way * self.rack_travel, per_radian),
+                limits=(-self.rack_travel, self.rack_travel),
+                frequency=self.frequency,
+                unit="m",
+            )
+        else:
+            most = self.rack_travel
+            port = b.port("steering_rack_demand", -most, most, "m", f"{self.travel_text(way)}, that is asked for")
+            rack = m.guide_input("rack", input=port, frequency=b.ports.rack_frequency, unit="m")
         if self.friction > 0.0:
             wheel = m.shaft("steering wheel")
             m.drive("steering column", wheel.affine * per_radian, rack)
@@ -76,6 +83,7 @@ class RackByAngle(RackSection):
             m.sense_guide(
                 "steering_rack_force", rack, "force", joints=tie_rods(m, rack), scale=-1.0, description=RACK_FORCE
             )
-            demand_outputs(m, demand, rack, 1.0 / per_radian)
+            if demand is not None:
+                demand_outputs(m, demand, rack, 1.0 / per_radian)
 
         return Steered(end, outputs, torque_outputs)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.fmu.aliases import read_aliases
+from hosts.fmu.aliases.file import read_aliases
 
 NAMES = ("StrAng", "Acc_ped", "X", "Psi", "brake")
 GOOD = """
@@ -53,7 +53,7 @@ def test_start_values_keep_their_kind(file):
     ("text", "words"),
     [
         ("steering = ", "is no TOML file: "),
-        ('steering = "StrAngle"', "'steering': the FMU has no variable 'StrAngle'; did you mean StrAng."),
+        ('steering = "StrAngle"', "'steering': the FMU has no variable 'StrAngle'; did you mean 'StrAng'?"),
         ("steering = 3", "'steering' must be a name of the FMU"),
         ('chassis.x = "X"', "a name with a dot needs quotation marks"),
         ('steering = { name = "X", factor = 0 }', "factor is 0"),

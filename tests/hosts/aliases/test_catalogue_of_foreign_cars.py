@@ -11,7 +11,8 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import missing_for, perform
 from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError
-from hosts.fmu.aliases import Aliases, find_aliases
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.file import find_aliases
 from hosts.fmu.fmu import described
 from hosts.fmu.variables import Variables
 
@@ -58,7 +59,7 @@ def file(tmp_path):
     return write
 
 
-SLOW = ("carsim", "osi", "vehicle_interfaces")
+SLOW = ("carmaker", "carsim", "osi", "vehicle_interfaces")
 
 
 @pytest.mark.parametrize("style", [pytest.param(s, marks=pytest.mark.slow if s in SLOW else ()) for s in TOLERANCES])

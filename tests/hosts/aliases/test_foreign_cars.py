@@ -14,7 +14,9 @@ from fmpy import read_model_description
 from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.fmu.aliases import Aliases, find_aliases, shipped_names
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.content import shipped_names
+from hosts.fmu.aliases.file import find_aliases
 from hosts.fmu.fmu import described
 from hosts.fmu.variables import Variables
 
@@ -122,6 +124,7 @@ def test_the_same_car_gives_the_same_record(style, foreign_fmu, alias_file, ours
     assert record["brake"] == pytest.approx(ours["brake"], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_rates_are_as_good_as_the_step_is_short(foreign_fmu, alias_file):
     errors = []
     for step in (0.01, 0.002):

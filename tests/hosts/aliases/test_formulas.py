@@ -7,9 +7,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from hosts.common.errors import HostError
-from hosts.fmu.aliases import read_aliases
 from hosts.fmu.aliases.derivation import Derivation
 from hosts.fmu.aliases.derived import parse_derived
+from hosts.fmu.aliases.file import read_aliases
 from hosts.fmu.aliases.formulas import FORMULAS
 
 TIME = np.linspace(0.0, 2.0, 2001)
@@ -122,7 +122,7 @@ NAMES = ("vx", "vy", "qw", "Throttle")
     ("text", "words"),
     [
         ('sideslip = { from = "sideslip vx, vy" }', "it must be a formula such as sideslip(chassis.vx, chassis.vy)"),
-        ('sideslip = { from = "sidesslip(vx, vy)" }', "there is no formula 'sidesslip'; did you mean sideslip"),
+        ('sideslip = { from = "sidesslip(vx, vy)" }', "there is no formula 'sidesslip'; did you mean 'sideslip'"),
         ('sideslip = { from = "sideslip(vx)" }', "sideslip takes (vx, vy), 2 in number; it is given 1"),
         ('sideslip = { from = "sideslip(vx, )" }', "an argument of the formula is empty"),
         ('sideslip = { from = "sideslip(vx, vz)" }', "'vz' is neither an input or output of the FMU nor another name"),

@@ -12,7 +12,7 @@ import numpy as np
 from hosts.catalogue.car import CarFacts, Pilot
 from hosts.driving.co_simulation import Result
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 
 INPUTS = ("steering_wheel_angle_demand", "throttle", "brake")
 OUTPUTS = (

@@ -85,6 +85,7 @@ def test_prototype_brakes_from_the_circle_that_was_asked_for(left: TestRecord) -
     assert measured["path.deviation"] < 0.0
 
 
+@pytest.mark.slow
 def test_right_is_the_mirror_of_left_and_the_step_does_not_matter(prototype: TestedCar, left: TestRecord) -> None:
     right = values(perform(braking_in_a_turn.TEST, replace(prototype, step=0.002), FEW | {"radius": -100.0}))
     odd = ("steady.yaw_rate", "steady.sideslip")

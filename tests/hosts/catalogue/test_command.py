@@ -88,7 +88,7 @@ def test_no_tests_at_a_time(capsys: pytest.CaptureFixture[str]) -> None:
         (["--test-setting", "steady_circle.radius=3"], "it must be from 30 to 1000 m"),
         (["--test-setting", "steady_circle.radios=50"], "has no setting 'radios'"),
         (["--test-setting", "circle.radius=50"], "it must be TEST.NAME=VALUE"),
-        (["--set", "road.frction=1"], "did you mean road.friction"),
+        (["--set", "road.frction=1"], "did you mean 'road.friction'"),
         (["--set", "initial.speed=3"], "the tests themselves say where a car starts"),
         (["--variant", "none.ssv"], "none.ssv"),
         (["--aliases", "a.toml", "--aliases", "b.toml"], "1 FMUs and 2 alias files"),
@@ -123,6 +123,7 @@ def test_the_list_has_all_tests_with_their_settings(capsys: pytest.CaptureFixtur
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
+@pytest.mark.slow
 def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> None:
     """The drop is soon done, the circle goes on for minutes; then Ctrl-C."""
     out, pipe = tmp_path / "out", subprocess.PIPE

@@ -107,6 +107,7 @@ def driven(prototype: TestedCar) -> TestRecord:
     return perform(double_lane_change.TEST, prototype, OBSTACLE)
 
 
+@pytest.mark.slow
 def test_prototype_has_a_limit_on_the_obstacle_course(driven: TestRecord) -> None:
     measured = values(driven)
     assert 60.0 <= measured["iso_3888_2.speed"] < 75.0

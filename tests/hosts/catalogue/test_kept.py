@@ -1,4 +1,4 @@
-"""The same command takes tests that are done as they are; another test, program or FMU is done anew."""
+"""The same command takes tests that are done as they are; another test, program or FMU is done again."""
 
 from __future__ import annotations
 

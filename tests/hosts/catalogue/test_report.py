@@ -14,12 +14,14 @@ import numpy as np
 import pytest
 
 from ali3.errors import FileError
+from hosts.catalogue.output import print_measures
 from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.report import write_report
 from hosts.catalogue.report.numbers import bounds, difference, shown, unit_shown
 from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import command_of
 from hosts.catalogue.report.thinning import MOST, thinned
+from hosts.catalogue.two_sides import mean_of_sides
 from hosts.measures.measure import Limit, Measure
 from tests.hosts.catalogue.synthetic_records import EVIL, record, synthetic
 
@@ -117,7 +119,7 @@ def test_limits_of_their_own_units_and_notes(fmu, tmp_path):
     row = next(r for r in document.xpath("//tr") if texts(r)[0] == "a a, m")
     assert texts(row)[1:] == [
         "1 m keptone",
-        "0.4 rad kepthere at least 0.3 radin rad, the first in mtwo",
+        "22.92 deg kepthere at least 17.19 degin deg, the first in mtwo",
         "–",
         "at least 0.5 mx",
     ]
@@ -279,3 +281,36 @@ def test_a_large_report_is_written_in_seconds(fmu, tmp_path):
     write_report(tmp_path / "r.html", tests, cars, records)
     assert time.process_time() - begin < 15.0
     assert Path(tmp_path / "r.html").stat().st_size < 5_000_000
+
+
+def test_measures_plots_and_limits_are_in_the_units_of_the_field(fmu, tmp_path, capsys):
+    tests, cars, _ = synthetic(fmu, cars=1, tests=1)
+    measures = [
+        Measure("understeer_gradient", 2.0e-3, "rad.s2/m", "understeer gradient", Limit("x", 1.0e-3, 3.0e-3)),
+        Measure("initial_speed", 25.0, "m/s", "speed", None),
+        Measure("mode.natural_frequency", 2.0 * np.pi, "rad/s", "natural frequency"),
+        mean_of_sides("yaw_rate.peak", 0.1, 0.2, "rad/s", "peak"),
+    ]
+    plot = Plot("Yaw rate", "time, s", "yaw rate, rad/s", [Line("", np.array([0.0, 1.0]), np.array([0.0, np.pi]))])
+    records = {"test_0": {cars[0].label: TestRecord(measures, [plot], {})}}
+    write_report(tmp_path / "r.html", tests, cars, records)
+    text = (tmp_path / "r.html").read_text("utf-8")
+    for words in ("1.124 deg/g", "0.5619 to 1.686 deg/g", "90 km/h", "1 Hz", "Left 5.73, right 11.46 deg/s."):
+        assert words in text
+    assert "largest 180 at 1" in text  # the words of the plot
+    assert not re.search(r"\brad\b", re.sub(r"base64,[^\"]*", "", text.partition("<body>")[2]))
+    slide = (tmp_path / "summary.svg").read_text("utf-8")
+    assert "1.124 deg/g" in slide  # each text stands in a comment beside its outlines
+    (svg,) = (tmp_path / "plots").glob("*.svg")
+    assert svg.name == "test_0_Yaw_rate.svg"
+    assert svg.read_bytes().rstrip().endswith(b"</svg>")
+    print_measures(tests, cars, records)
+    assert re.search(r"understeer_gradient +deg/g +1\.124\n", capsys.readouterr().out)
+
+
+def test_round_off_is_no_difference():
+    assert Measure("asymmetry", 5.6e-13, "1", "").displayed().value == 0.0
+    assert Measure("asymmetry", 5.6e-9, "1", "").displayed().value == 5.6e-9
+    assert difference(1.0 + 1e-13, 1.0) == "same"
+    assert difference(3e-16, -1e-15) == "same"
+    assert difference(1.0 + 1e-6, 1.0).startswith("+1e-6")

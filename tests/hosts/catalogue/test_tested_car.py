@@ -16,7 +16,7 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.pilot import Together
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import SteeringTable
-from hosts.fmu.aliases import Alias, Aliases
+from hosts.fmu.aliases.alias import Alias, Aliases
 
 NAMES = {
     "steering": "Driver.Steer",

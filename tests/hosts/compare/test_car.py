@@ -87,6 +87,7 @@ def values(record: dict, part: str = "measures") -> dict[str, float]:
     return {m["name"]: m["value"] for m in record[part]}
 
 
+@pytest.mark.slow
 def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> None:
     """Units, signs, clock, pose and speed at the start: all must be right for this."""
     start = {"initial.speed": 15.0, "initial.x": 120.0, "initial.y": -40.0, "initial.yaw": 2.0}
@@ -134,6 +135,7 @@ def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
     assert values(record, "fitted_measures")["chassis.wz.rms"] == pytest.approx(0.004, rel=0.15)
 
 
+@pytest.mark.slow
 def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """With another drag the pedals of the log would lose the speed; the driver keeps it."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})

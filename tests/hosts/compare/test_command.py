@@ -128,7 +128,7 @@ class TestCommand:
             (["--signals", "solver.status"], "'solver.status' is not in the log"),
             (
                 ["--fit", "spring.stifness"],
-                "the FMU has no parameter 'spring.stifness'; did you mean spring.st",
+                "the FMU has no parameter 'spring.stifness'; did you mean 'spring.st",
             ),
             (["--fit", "spring.stiffness=200:100"], "the first must be the smaller"),
             (["--fit", "spring.stiffness=1:500"], "the range of the FMU is"),
@@ -174,6 +174,7 @@ class TestCommand:
         assert main([str(tuned), str(file), "--out", str(tmp_path)]) == 2
         assert "the range of the FMU's input is -50 to 50 N" in capsys.readouterr().err
 
+    @pytest.mark.slow
     def test_parameters_that_the_log_does_not_tell(
         self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
     ) -> None:

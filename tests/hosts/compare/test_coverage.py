@@ -13,7 +13,7 @@ from hosts.compare.fit import Fit, fit, overlapping
 from hosts.compare.replay import Replay, inputs_of
 from hosts.compare.residuals import Unknown, nuisances
 from hosts.driving.co_simulation import Result
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 
 STEP = 0.01
 STIFFNESS, DAMPING, DELAY = 123.0, 1.7, 0.043
@@ -78,6 +78,7 @@ def test_coverage_is_near_95_percent(replay: Replay, memory: float) -> None:
     assert hits.sum() < 3 * count  # intervals that always hold are too wide
 
 
+@pytest.mark.slow
 def test_white_noise_would_promise_too_much(replay: Replay) -> None:
     """Neighbours that correlate by 0.8 widen the interval of what they hide by up to sqrt(1.8 / 0.2) = 3."""
     white, slow = fitted(replay, 1, 0.0), fitted(replay, 1, 0.8)

@@ -18,7 +18,7 @@ from hosts.compare.log import Log, log_for
 from hosts.compare.log_aliases import Form, LogAliases, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 
 ROWS = 40
@@ -145,7 +145,7 @@ BAD = [
     ),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\n"spring.damping" = "x"', "is a parameter of Tuned.fmu"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "deg" }', "is in 'deg'; 'pull' of"),
-    ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "kNn" }', "or kN"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "kNn" }', "or 'kN'"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { nam = "F" }', "must be a column of the log"),
     ("time,F,x\n" + rows("{t},{f},{x}"), "[signals]\nbob.x = 'x'", "a name with a dot needs quotation marks"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[time]\nunit = "hours"', "[time] unit is 'hours'; known are"),

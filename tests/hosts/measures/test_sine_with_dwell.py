@@ -57,7 +57,7 @@ def test_yaw_rate_ratios_and_times(side: float, part: float) -> None:
 def test_displacement_is_the_double_integral_from_the_begin() -> None:
     found = sine_with_dwell(T, steering(1.0), yaw_rate(0.0), np.full_like(T, 3.2))
     assert found.displacement == pytest.approx(0.5 * 3.2 * 1.07**2, rel=1e-6)
-    # 6 t from the begin: t³
+    # 6 t from the beginning: t³
     grows = 6.0 * (T - found.begin)
     assert sine_with_dwell(T, steering(1.0), yaw_rate(0.0), grows).displacement == pytest.approx(1.07**3, rel=1e-3)
 

@@ -26,7 +26,8 @@ from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.driving.wild_driver import WildDriver
 from hosts.fmu import built_fmu
-from hosts.fmu.aliases import Aliases, read_aliases
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.file import read_aliases
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.written_tables import ParquetTable
@@ -87,7 +88,7 @@ def test_a_run_without_a_page_ends_with_its_report(fmus, told, tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without asking it")
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+@pytest.mark.parametrize("name", ["SIGTERM", pytest.param("SIGHUP", marks=pytest.mark.slow)])
 def test_a_run_without_a_page_that_is_ended_ends_with_its_report(name, fmus, tmp_path):
     command = [sys.executable, "-m", "hosts.simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
     command += ["--step", "0.005", "--record", str(tmp_path / "drive")]
@@ -105,6 +106,7 @@ def test_a_run_without_a_page_that_is_ended_ends_with_its_report(name, fmus, tmp
 
 
 @pytest.mark.skipif(os.name == "nt", reason="there are no such terminals")
+@pytest.mark.slow
 def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
     ours, theirs = os.openpty()
     command = [sys.executable, "-m", "hosts.simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
@@ -325,6 +327,7 @@ def test_files_that_are_no_fmu_and_an_fmu_of_fmi_3(told, tmp_path):
     assert "simulated" in out
 
 
+@pytest.mark.slow
 def test_without_an_fmu_one_is_built_and_kept(fmus, told, tmp_path, monkeypatch):
     """The build itself is tested elsewhere; here it takes an FMU that is there."""
     monkeypatch.setattr(built_fmu, "cache_folder", lambda *parts: tmp_path.joinpath("cache", *parts))

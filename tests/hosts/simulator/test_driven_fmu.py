@@ -1,4 +1,4 @@
-"""An FMU that goes back, starts anew and is set upright is bit for bit the one that never did."""
+"""An FMU that goes back, starts again and is set upright is bit for bit the one that never did."""
 
 from __future__ import annotations
 
@@ -214,7 +214,7 @@ def test_an_fmu_that_saves_no_state_can_be_reset_and_set_upright_but_not_rewound
     assert car.time == 101 * H
     car.reset(wish=100.0)
     assert np.array_equal(car.values, start)
-    with pytest.raises(HostError, match="starts anew as at first"):
+    with pytest.raises(HostError, match="starts again as at first"):
         car.restart({"step_size": 1e-30}, wish=100.0)
     assert np.array_equal(car.values, start)
     assert (car.time, car.epoch) == (0.0, 3)

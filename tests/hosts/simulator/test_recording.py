@@ -434,6 +434,22 @@ def test_the_command_shows_repeats_and_makes_a_manoeuvre(
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
 
 
+def test_options_of_driving_are_refused_beside_a_recording(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    for option in (
+        ["--world", "hills"],
+        ["--step", "0.001"],
+        ["--headless"],
+        ["--set", "road.friction=0.5"],
+        ["--record", "x"],
+        ["--json", "x.json"],
+        ["--seed", "3"],
+        ["--fidelity", "1"],
+    ):
+        assert main(["--recording", str(tmp_path), *option]) == 2
+        told = capfd.readouterr().err
+        assert f"{option[0]} is for driving; with --recording nothing is driven, so leave it out." in told
+
+
 def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], tmp_path: Path) -> None:
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     wishes = RunWishes(None, None, None, Wishes([], []))

@@ -44,6 +44,6 @@ def frame_of(
         "study": "trial", "units": dict(units), "parameters": {name: {"log": name in log} for name in x},
         "sampling": {"method": method, "second_order": second_order}, "seed": 7, "guid": "{1234}", "model": "Car",
         "fmu": "Car.fmu", "versions": {"ali3": "0.1"}, "runs": count, "points": points, "measures": list(measures),
-        "manoeuvres": list(manoeuvres),
+        "manoeuvres": list(manoeuvres), "limits": {}, "tests": [],
     }  # fmt: skip
     return frame

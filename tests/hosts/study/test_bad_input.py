@@ -44,7 +44,7 @@ def test_a_wrong_file_is_one_sentence(told: Callable[..., str], case: dict[str, 
 def test_unknown_signals_and_odd_intervals(told: Callable[..., str]) -> None:
     signals = '[signals]\nnames = ["bob.w"]\ninterval = 0.05\n'
     assert told(more=signals) == (
-        "study.toml: signals.names: the FMU has no input or output 'bob.w'; did you mean bob.y or bob.x?"
+        "study.toml: signals.names: the FMU has no input or output 'bob.w'; did you mean 'bob.y' or 'bob.x'?"
     )
     assert told(more=signals.replace("bob.w", "bob.y").replace("0.05", "0.015")) == (
         "study.toml: manoeuvres[1]: signals.interval is 0.015 s, no whole multiple of the step of 0.01 s; take 0.02 s."

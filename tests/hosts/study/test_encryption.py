@@ -120,6 +120,7 @@ def test_every_port_is_of_this_machine_and_its_pages_show_nothing(
                 caught.value.close()
 
 
+@pytest.mark.slow
 def test_another_scheduler_with_certificates_of_the_configuration(
     study_file, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -15,7 +15,7 @@ import pytest
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.fmu.aliases import Aliases
+from hosts.fmu.aliases.alias import Aliases
 from hosts.study.campaign import run_study
 from hosts.study.one_run import Bench
 from hosts.study.store import read_study
@@ -107,6 +107,7 @@ def test_a_refused_step_is_a_reason(tmp_path: Path) -> None:
     bench.close()
 
 
+@pytest.mark.slow
 def test_a_study_without_a_measure_is_not_good(
     study_file: Callable[..., Path], tmp_path: Path, scheduler: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

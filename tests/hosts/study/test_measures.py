@@ -114,8 +114,8 @@ def test_forms_that_are_refused(text: str, sentence: str) -> None:
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("max(chasis.ay)", r"'chasis.ay', which is no input or output; did you mean chassis.ay"),
-        ("max(Chassis.AY)", r"did you mean chassis.ay\?"),
+        ("max(chasis.ay)", r"'chasis.ay', which is no input or output; did you mean 'chassis.ay'"),
+        ("max(Chassis.AY)", r"did you mean 'chassis.ay'\?"),
         ("max(chassis.x + chassis.ay)", r"'chassis.x' in m \+ 'chassis.ay' in m/s2; only equal units"),
         ("max(chassis.x, after=2.5)", "needs 2.5 s; the runs end at 2 s"),
         ("value(chassis.x, 2.5)", "needs 2.5 s; the runs end at 2 s"),
@@ -224,7 +224,7 @@ def test_a_function_that_fails_is_nan_with_a_reason(
 @pytest.mark.parametrize(
     ("source", "function", "sentence"),
     [
-        (FUNCTIONS, "peek", "no function 'peek'; did you mean peak"),
+        (FUNCTIONS, "peek", "no function 'peek'; did you mean 'peak'"),
         (FUNCTIONS, "NUMBER", "is int, not a function"),
         (FUNCTIONS, "wants", r"takes \(a, b, c\); it must take"),
         (FUNCTIONS, "wrong_units", "wrong_units.units is 3"),
@@ -245,6 +245,7 @@ def test_no_file(tmp_path: Path) -> None:
         parse_measure("none.py:f", folder=tmp_path)
 
 
+@pytest.mark.slow
 def test_digests_tell_changes(functions: Path) -> None:
     before = parse_measure("mine.py:peak", folder=functions).digest
     (functions / "mine.py").write_text(FUNCTIONS.replace("TWICE *", "TWICE +"))

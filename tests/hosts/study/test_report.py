@@ -9,13 +9,16 @@ import numpy as np
 import pandas as pd
 import pytest
 from matplotlib import image
+from matplotlib import pyplot as plt
 from scipy.stats import qmc
 
 from hosts.common.errors import HostError
 from hosts.study.analysis.data import study_data
 from hosts.study.analysis.effect_plots import failed_share
+from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.report import report_of
-from hosts.study.analysis.summary_plots import rank_correlations
+from hosts.study.analysis.slide import main_response
+from hosts.study.analysis.summary_plots import plot_indices, rank_correlations
 from hosts.study.analysis.tables import extremes, reasons, said, statistics
 from tests.hosts.study.frames import frame_of
 
@@ -36,6 +39,7 @@ def commands(index: int) -> list[str]:
     return [f"ali3 run Car.fmu -m 'a & b' --set x={index}", f"ali3 view Car.fmu {index}"]
 
 
+@pytest.mark.slow
 def test_the_whole_report(frame: pd.DataFrame, tmp_path: Path) -> None:
     files = report_of(frame, tmp_path, commands)
     text = files[0].read_text(encoding="utf-8")
@@ -50,8 +54,11 @@ def test_the_whole_report(frame: pd.DataFrame, tmp_path: Path) -> None:
     assert f"<code>ali3 view Car.fmu {int(frame['peak'].idxmin())}</code>" in text
     assert not re.search(r'(src|href)="(?!data:)', text)  # nothing outside of the file
     assert text.count("data:image/png") == 6
+    assert {f.stem for f in files[1].glob("*.svg")} == {f.stem for f in files[1].glob("*.png")}
     for picture in files[1].glob("*.png"):
         assert len(np.unique(image.imread(picture)[..., :3].reshape(-1, 3), axis=0)) > 20
+    assert b"</svg>" in (tmp_path / "summary.svg").read_bytes()
+    assert image.imread(tmp_path / "summary.png").shape[:2] == (825, 1466)
     table = pd.read_csv(tmp_path / "analysis" / "effects.csv").set_index("parameter")
     # Class means of the stiffness differ by 9/10 of its range that is left; those of the surface by 2.
     assert table.loc["stiffness", "main_effect_span"] == pytest.approx(0.9 * 3.2, abs=0.8)
@@ -79,7 +86,51 @@ def test_all_runs_failed(frame: pd.DataFrame, tmp_path: Path) -> None:
 def test_a_measure_that_never_changes(tmp_path: Path) -> None:
     made = frame_of({"mass": np.arange(100.0)}, {"peak": np.full(100, 3.0)}, UNITS)
     text = report_of(made, tmp_path, commands)[0].read_text(encoding="utf-8")
-    assert "The measure is 3 in all runs." in text
+    assert "It is 3 m/s2 in all runs, but for rounding: nothing that was varied changes it." in text
+
+
+def test_round_off_is_no_effect(tmp_path: Path) -> None:
+    rng = np.random.default_rng(1)
+    peaks = 3.0 * (1.0 + 1e-15 * rng.integers(-2, 3, 100))
+    made = frame_of({"mass": np.arange(100.0)}, {"peak": peaks}, UNITS)
+    data = study_data(made)
+    assert np.isnan(rank_correlations(data, data.responses)).all()
+    assert "It is 3 m/s2 in all runs" in report_of(made, tmp_path, commands)[0].read_text(encoding="utf-8")
+    made["peak"] = 3.0 * (1.0 + 1e-6 * rng.random(100))
+    assert study_data(made).responses[0].varies
+
+
+def test_units_are_those_of_the_field() -> None:
+    x = np.linspace(0.1, 0.2, 20)
+    made = frame_of({"toe": x}, {"roll": 2.0 * x}, {"toe": "rad", "roll": "rad"})
+    made.attrs["limits"] = {"roll": {"min": None, "max": np.pi / 10, "unit": "rad"}}
+    data = study_data(made)
+    assert (data.parameters[0].unit, data.responses[0].unit) == ("deg", "deg")
+    assert data.x[:, 0] == pytest.approx(np.degrees(x))
+    assert data.responses[0].values == pytest.approx(np.degrees(2.0 * x))
+    assert data.responses[0].limits == pytest.approx((-np.inf, 18.0))
+
+
+def test_the_slide_shows_the_measure_with_a_limit() -> None:
+    x = np.linspace(1.0, 2.0, 20)
+    made = frame_of({"mass": x}, {"peak": x, "flat": np.ones(20), "roll": -x}, UNITS)
+    assert getattr(main_response(study_data(made)), "measure", "") == "peak"
+    made.attrs["limits"] = {name: {"min": 0.0, "max": None, "unit": "1"} for name in ("flat", "roll")}
+    assert getattr(main_response(study_data(made)), "measure", "") == "roll"
+    assert main_response(study_data(frame_of({"mass": x}, {"flat": np.ones(20)}, UNITS))) is None
+
+
+def test_indices_that_are_noise_are_hollow_points() -> None:
+    none = np.full(2, np.nan)
+    indices = Indices(("a", "b"), np.array([0.9, -0.02]), np.array([0.05, 0.03]), none, none, "")
+    figure, axes = plt.subplots()
+    plot_indices(axes, indices)
+    assert not axes.patches  # no bars
+    points = {str(c.get_label()): c.lines[0] for c in axes.containers}
+    assert points["first order"].get_xdata().tolist() == [0.9]
+    assert points["first order, may be 0"].get_xdata().tolist() == [-0.02]
+    assert points["first order, may be 0"].get_markerfacecolor() == "white"
+    plt.close(figure)
 
 
 def test_where_runs_fail(frame: pd.DataFrame) -> None:

@@ -73,7 +73,7 @@ def test_an_unknown_measure_is_one_sentence(
     file = study(entry("drop", 'measures = ["load.peek"]'))
     assert main([str(file), "--out", str(tmp_path / "out")]) == 2
     assert capsys.readouterr().err.replace(f"{tmp_path}/", "") == (
-        "error: study.toml: manoeuvres[1].measures: the test drop has no measure 'load.peek'; did you mean load.peak "
-        "or load.peak_RR or load.peak_RL?\n"
+        "error: study.toml: manoeuvres[1].measures: the test drop has no measure 'load.peek'; did you mean 'load.peak' "
+        "or 'load.peak_RR' or 'load.peak_RL'?\n"
     )
     assert not (tmp_path / "out" / "study.json").exists()

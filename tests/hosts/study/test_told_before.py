@@ -10,6 +10,7 @@ import pytest
 from hosts.study.campaign import run_study
 
 
+@pytest.mark.slow
 def test_a_function_that_raises_is_told_before_the_study(
     study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

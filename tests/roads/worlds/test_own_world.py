@@ -76,7 +76,7 @@ def test_the_example_of_the_page_is_a_world_to_drive_in(folder, own_cache, tmp_p
     first = {path.name: path.read_bytes() for path in out.iterdir() if path.suffix != ".png"}
     assert main(["--world", str(folder / "mine.toml"), "--out", str(tmp_path / "again")]) == 0
     assert "kept from before" in capsys.readouterr().out
-    for entry in own_cache.iterdir():  # made anew: the same bytes
+    for entry in own_cache.iterdir():  # made again: the same bytes
         for file in entry.iterdir():
             file.unlink()
         entry.rmdir()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbs.vehicle.kinematics.curves import steer_curve
-from mbs.vehicle.kinematics.linkage import Linkage
+from mbs.vehicle.linkages.linkage import Linkage
 from tests.vehicle.kinematics.planar_wishbones import TRACK_HALF, FourBar
 
 KINGPIN = np.array([0.0, 0.60])

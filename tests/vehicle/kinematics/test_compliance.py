@@ -10,12 +10,12 @@ import pytest
 from mbs import Affine, Simulation, compile
 from mbs.common.errors import ModelError
 from mbs.vehicle import Fidelity, load
-from mbs.vehicle.kinematics.axle_measures import HEAVE, ROLL
 from mbs.vehicle.kinematics.compliance import LOADS, compliance
 from mbs.vehicle.kinematics.curves import steer_curve
 from mbs.vehicle.kinematics.held_car import held_model
-from mbs.vehicle.kinematics.linkage import Linkage
 from mbs.vehicle.kinematics.wheel_loads import wheel_loads
+from mbs.vehicle.linkages.continuation import HEAVE, ROLL
+from mbs.vehicle.linkages.linkage import Linkage
 
 COLUMN = {
     "kind": "column",

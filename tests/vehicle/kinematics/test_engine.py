@@ -9,9 +9,9 @@ import pytest
 
 from benchmarks.car.rig import HEAVE, NEAR, moved, slope
 from mbs.vehicle import load
-from mbs.vehicle.kinematics.axle_measures import HEAVE as BOTH
 from mbs.vehicle.kinematics.axle_measures import travel_measures, wheel_measures
-from mbs.vehicle.kinematics.linkage import Linkage
+from mbs.vehicle.linkages.continuation import HEAVE as BOTH
+from mbs.vehicle.linkages.linkage import Linkage
 
 EVERY = 100
 

@@ -19,7 +19,7 @@ from mbs.common.errors import ModelError
 from mbs.vehicle import load
 from mbs.vehicle.kinematics import kinematics, quantity_of, read_curve
 from mbs.vehicle.kinematics.curves import travel_curve
-from mbs.vehicle.kinematics.linkage import Linkage
+from mbs.vehicle.linkages.linkage import Linkage
 from tests.vehicle.kinematics.planar_wishbones import FourBar
 
 LEVEL = FourBar((0.30, 0.15), (0.60, 0.15), (0.30, 0.385), (0.60, 0.385))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbs.vehicle.kinematics.curves import travel_curve
-from mbs.vehicle.kinematics.linkage import Linkage
+from mbs.vehicle.linkages.linkage import Linkage
 from tests.vehicle.kinematics.planar_wishbones import CENTRE, TRACK_HALF, FourBar
 
 LEVEL = FourBar((0.30, 0.15), (0.60, 0.15), (0.30, 0.385), (0.60, 0.385))

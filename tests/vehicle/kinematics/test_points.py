@@ -9,7 +9,7 @@ import pytest
 
 from mbs.vehicle import load
 from mbs.vehicle.kinematics.curves import steer_curve, travel_curve
-from mbs.vehicle.kinematics.linkage import Linkage
+from mbs.vehicle.linkages.linkage import Linkage
 from tests.vehicle import instant
 from tests.vehicle.kinematics.point_and_link import Beam, Upright
 

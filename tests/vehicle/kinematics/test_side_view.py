@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from mbs.vehicle import load
-from mbs.vehicle.kinematics.axle_measures import HEAVE, travel_measures
-from mbs.vehicle.kinematics.linkage import Linkage
+from mbs.vehicle.kinematics.axle_measures import travel_measures
+from mbs.vehicle.linkages.continuation import HEAVE
+from mbs.vehicle.linkages.linkage import Linkage
 from tests.vehicle import instant
 from tests.vehicle.kinematics.planar_wishbones import FourBar
 

@@ -81,7 +81,7 @@ test("nothing is left by steady slow driving, in the air, with a light load or o
   assert.ok(drive(() => locked, { surface: () => "concrete" }).count > 50);
 });
 
-test("a mark ends where the wheel holds again, and begins anew without a bridge", () => {
+test("a mark ends where the wheel holds again, and begins again without a bridge", () => {
   const seen = marked(drive((x) => ({ "wheel_FL.slip": x < 3 || x > 6 ? -1 : 0 })));
   const begins = seen.filter(({ dark }) => dark === 0);
   assert.deepEqual(begins.map(({ x }) => Math.round(10 * x) / 10), [0, 6.1]);

@@ -128,7 +128,7 @@ test("a lost connection is said and comes back, sooner at first", () => {
   const last = Socket.all.at(-1);
   last.open();
   last.onmessage({ data: '{"type":"hello"}' });
-  link.want("keys", { throttle: [1, 2.5] }); // said anew
+  link.want("keys", { throttle: [1, 2.5] }); // said again
   assert.equal(last.said.length, 1);
   last.lose("");
   assert.equal(words.at(-1).again, 250);

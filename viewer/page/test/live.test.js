@@ -246,7 +246,7 @@ test("a kerb stands where the parameters have it, down as it was drawn", () => {
   assert.deepEqual(movedRoads([kerb], () => 5).roads, [kerb]);
 });
 
-test("an FMU that has broken is loaded again when it begins anew", async () => {
+test("an FMU that has broken is loaded again when it begins again", async () => {
   const loads = [];
   const told = [];
   const runner = new Runner((message) => told.push(message));

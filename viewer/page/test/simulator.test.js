@@ -5,6 +5,7 @@ import { Hands } from "../src/live/hands.js";
 import { Trailing } from "../src/scene/trailing.js";
 import { Beat, Frames } from "../src/simulator/frames.js";
 import { Trail } from "../src/simulator/map.js";
+import { Numbers } from "../src/simulator/numbers.js";
 import { Factor } from "../src/simulator/steps.js";
 import { Surfaces } from "../src/simulator/surfaces.js";
 import { useColour, wheelsOf } from "../src/simulator/tyres.js";
@@ -195,6 +196,19 @@ test("friction of the ground where a world tells it", () => {
   assert.equal(surfaces.friction(11.8, -1), 0.3);
   assert.equal(surfaces.friction(20, 0), 0.3); // beyond the border it goes on
   assert.ok(Number.isNaN(new Surfaces([{ kind: "flat" }]).friction(0, 0)));
+});
+
+test("what a tyre can hold: friction of the road, of its axle's curves on a road of friction 1, and its grip", () => {
+  const variables = Object.entries({ "road.friction": 0.8, "road.friction_factor": 0.5, "rear.tyre.grip": 1.5 });
+  const description = { variables: variables.map(([name, start]) => ({ name, start })) };
+  const constants = { "vehicle.tyre_friction_front": 1.25, "vehicle.tyre_friction_rear": 0.9 };
+  const hello = { scene: {}, columns: ["time"], description, constants };
+  const flat = new Surfaces([{ kind: "flat" }]);
+  const near = (found, expected) => assert.ok(Math.abs(found - expected) < 1e-12, `${found} for ${expected}`);
+  near(new Numbers(hello, flat).friction(0, 0, "wheel_FL"), 0.8 * 0.5 * 1.25);
+  near(new Numbers(hello, flat).friction(0, 0, "wheel_RR"), 0.8 * 0.5 * 0.9 * 1.5);
+  near(new Numbers({ ...hello, constants: {} }, flat).friction(0, 0, "wheel_FR"), 0.8 * 0.5);
+  near(new Numbers({ scene: {}, columns: [] }, flat).friction(0, 0, "left"), 1);
 });
 
 test("a camera on a rope: it follows a turn in its time, stays level, and jumps where the car does", () => {

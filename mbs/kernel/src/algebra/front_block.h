@@ -4,9 +4,19 @@
 #include <math.h>
 
 #include "../instance.h"
+#include "real.h"
 
 enum { PANEL = 4 };
 
+#ifdef ALI3_WIDTH
+/* A lane with a bad pivot is told by in->singular; the others go on. */
+static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate, real d) {
+  const truth good = (ali3_abs(d) > 1e-14 * in->mass_floor[coordinate]) & (ali3_abs(d) < 1e300);
+  *in->singular |= ~good & *in->at_work;
+  *in->report.negative_pivots -= good & (d < 0.0) & *in->at_work;
+  return ALI3_OK;
+}
+#else
 /* A pivot D must neither vanish beside the mass of its coordinate nor be infinite. */
 static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate, double d) {
   if (fabs(d) > 1e-14 * in->mass_floor[coordinate] && fabs(d) < 1e300) {
@@ -16,18 +26,19 @@ static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate
   in->report.worst_coordinate = coordinate;
   return d == d ? ALI3_SINGULAR : ALI3_NOT_FINITE;
 }
+#endif
 
 /* x becomes L^-1 x in the pivots, reduced by them in the rest; two columns at a time. */
-static inline void ali3_front_forward(const double *block, double *restrict x, int32_t n_pivot, int32_t n) {
+static inline void ali3_front_forward(const real *block, real *restrict x, int32_t n_pivot, int32_t n) {
   int32_t p = 0;
   for (; p + 1 < n_pivot; p += 2) {
-    const double *restrict a = block + (int64_t)p * n, *restrict b = a + n;
-    const double first = x[p], second = x[p + 1] - a[p + 1] * first;
+    const real *restrict a = block + (int64_t)p * n, *restrict b = a + n;
+    const real first = x[p], second = x[p + 1] - a[p + 1] * first;
     x[p + 1] = second;
     for (int32_t i = p + 2; i < n; i++) x[i] -= a[i] * first + b[i] * second;
   }
   if (p < n_pivot) {
-    const double *restrict a = block + (int64_t)p * n, first = x[p];
+    const real *restrict a = block + (int64_t)p * n, first = x[p];
     for (int32_t i = p + 1; i < n; i++) x[i] -= a[i] * first;
   }
 }

@@ -4,26 +4,26 @@
 #include "../instance.h"
 #include "front_block.h"
 
-static void subtract(double *restrict target, const double *restrict column, double factor, int32_t from, int32_t n) {
+static void subtract(real *restrict target, const real *restrict column, real factor, int32_t from, int32_t n) {
   for (int32_t i = from; i < n; i++) target[i] -= factor * column[i];
 }
 
 /* Four pivots at once, so that a column is loaded and stored once for eight operations. */
-static void subtract_panel(double *restrict target, const double *restrict c, int32_t n, const double f[PANEL],
+static void subtract_panel(real *restrict target, const real *restrict c, int32_t n, const real f[PANEL],
                            int32_t from) {
-  const double *restrict c1 = c + n, *restrict c2 = c + 2 * (int64_t)n, *restrict c3 = c + 3 * (int64_t)n;
-  const double f0 = f[0], f1 = f[1], f2 = f[2], f3 = f[3];
+  const real *restrict c1 = c + n, *restrict c2 = c + 2 * (int64_t)n, *restrict c3 = c + 3 * (int64_t)n;
+  const real f0 = f[0], f1 = f[1], f2 = f[2], f3 = f[3];
   for (int32_t i = from; i < n; i++) target[i] -= (f0 * c[i] + f1 * c1[i]) + (f2 * c2[i] + f3 * c3[i]);
 }
 
 /* Panels of pivots: first the columns of the panel among themselves, then column j of the rest loses L_jp times the
  * unscaled column p, so that the inner loops run down columns. */
-static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n) {
+static ali3_status eliminate(ali3_instance *in, real *block, int32_t first, int32_t n_pivot, int32_t n) {
   for (int32_t start = 0; start < n_pivot; start += PANEL) {
     const int32_t end = start + PANEL < n_pivot ? start + PANEL : n_pivot;
-    double *panel = block + (int64_t)start * n, inverse[PANEL], factor[PANEL];
+    real *panel = block + (int64_t)start * n, inverse[PANEL], factor[PANEL];
     for (int32_t p = start; p < end; p++) {
-      double *column = block + (int64_t)p * n;
+      real *column = block + (int64_t)p * n;
       for (int32_t k = start; k < p; k++)
         subtract(column, block + (int64_t)k * n, block[(int64_t)k * n + p] * inverse[k - start], p, n);
       const ali3_status status = ali3_check_pivot(in, first + p, column[p]);
@@ -39,7 +39,7 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
           subtract(block + (int64_t)j * n, block + (int64_t)p * n, factor[p - start], j, n);
     }
     for (int32_t p = start; p < end; p++) {
-      double *column = block + (int64_t)p * n;
+      real *column = block + (int64_t)p * n;
       for (int32_t i = p + 1; i < n; i++) column[i] *= inverse[p - start];
       column[p] = inverse[p - start];
     }
@@ -47,22 +47,22 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
   return ALI3_OK;
 }
 
-ali3_status ali3_factorise(ali3_instance *in, double *F) {
+ali3_status ali3_factorise(ali3_instance *in, real *F) {
   const ali3_system *S = in->system;
-  in->report.factorizations++;
-  in->report.negative_pivots = 0;
+  ALI3_COUNT(in, factorizations);
+  ALI3_COUNT_ANEW(in, negative_pivots);
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first,
                   n = S->front_ptr[f + 1] - S->front_ptr[f];
     const int32_t *map = S->front_map + S->front_ptr[f], parent = S->front_parent[f];
-    double *block = F + S->front_off[f];
+    real *block = F + S->front_off[f];
     const ali3_status status = eliminate(in, block, first, n_pivot, n);
     if (status != ALI3_OK) return status;
     if (parent < 0) continue;
     const int32_t parent_n = S->front_ptr[parent + 1] - S->front_ptr[parent];
     for (int32_t j = n_pivot; j < n; j++) {
-      const double *column = block + (int64_t)j * n;
-      double *target = F + S->front_off[parent] + (int64_t)map[j] * parent_n;
+      const real *column = block + (int64_t)j * n;
+      real *target = F + S->front_off[parent] + (int64_t)map[j] * parent_n;
       for (int32_t i = j; i < n; i++) target[map[i]] += column[i];
     }
   }
@@ -70,8 +70,8 @@ ali3_status ali3_factorise(ali3_instance *in, double *F) {
 }
 
 /* Sum of column and x from `from` on, in two sums so that additions need not wait for each other. */
-static double product(const double *restrict column, const double *restrict x, int32_t from, int32_t n) {
-  double even = 0.0, odd = 0.0;
+static real product(const real *restrict column, const real *restrict x, int32_t from, int32_t n) {
+  real even = {0}, odd = {0};
   int32_t i = from;
   for (; i + 1 < n; i += 2) {
     even += column[i] * x[i];
@@ -82,15 +82,15 @@ static double product(const double *restrict column, const double *restrict x, i
 }
 
 /* b becomes the solution. */
-void ali3_solve(ali3_instance *in, const double *F, double *b) {
+void ali3_solve(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
-  double *x = in->local;
-  in->report.solves++;
+  real *x = in->local;
+  ALI3_COUNT(in, solves);
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
     const int32_t *idx = S->front_idx + S->front_ptr[f];
     for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
-    const double *block = F + S->front_off[f];
+    const real *block = F + S->front_off[f];
     ali3_front_forward(block, x, n_pivot, n);
     for (int32_t p = 0; p < n_pivot; p++) x[p] *= block[(int64_t)p * n + p];
     for (int32_t i = 0; i < n; i++) b[idx[i]] = x[i];
@@ -98,7 +98,7 @@ void ali3_solve(ali3_instance *in, const double *F, double *b) {
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {
     const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
     const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-    const double *block = F + S->front_off[f];
+    const real *block = F + S->front_off[f];
     for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
     for (int32_t p = n_pivot - 1; p >= 0; p--) {
       x[p] -= product(block + (int64_t)p * n, x, p + 1, n);

@@ -11,6 +11,7 @@
 #include "../methods/newton.h"
 #include "../methods/steps.h"
 #include "../methods/stiffness.h"
+#include "../methods/whole_step.h"
 #include "../sensors/sensors.h"
 #include "../start/initialise.h"
 #include "../start/start_on_road.h"
@@ -67,46 +68,10 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
 
 /* The inputs go straight to `end` (nu), or are held where it is NULL. */
 static ali3_status step(ali3_instance *in, double h, const double *end) {
-  if (!in->initialised) return ALI3_NOT_INITIALISED;
-  ali3_roads_forgive(in);
-  if (ali3_wheel_in_road(in, NULL, NULL, 0) != ALI3_OK && ali3_roads_status(in) == ALI3_OK) {
-    in->report.last_status = ALI3_WHEEL_IN_ROAD;
-    in->report.failures++;
-    return ALI3_WHEEL_IN_ROAD;
-  }
-  const ali3_status aimed = ali3_inputs_aim(in, h, end);
-  if (aimed != ALI3_OK) return aimed;
-  const double t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
-  const int64_t count = h == in->h_last ? in->count + 1 : 1;
-  const ali3_report before = in->report;
-  in->capped = false;
-  in->capped_residual = 0.0;
-  in->iterations_before = before.iterations;
-  in->backed_up = false; /* only halves and a new owner of the history change in->now before a step is good */
-  in->t_now = ali3_time(in);
-  ali3_branch_before(in);
-  ali3_status status = ali3_advance(in, t_base + (double)count * h, h, in->settings.max_halvings);
-  if (status == ALI3_OK) status = ali3_branch_after(in, t_base + (double)count * h, h);
-  in->report.last_status = (int32_t)status;
-  if (status != ALI3_OK) {
-    if (in->backed_up) ali3_vectors_copy(in, &in->now, &in->start);
-    memcpy(in->input, in->input_from, (size_t)in->system->size.nu * sizeof(double));
-    ali3_balance_restore(&in->report, &before);
-    in->report.failures++;
-    return status;
-  }
-  if (in->report.halvings != before.halvings)
-    ali3_iterations_since(in, before.iterations); /* not of the last half only */
-  in->report.steps++;
-  if (in->capped) {
-    in->report.capped++;
-    in->report.capped_residual = fmax(in->report.capped_residual, in->capped_residual);
-    in->call_residual = fmax(in->call_residual, in->capped_residual);
-  }
-  in->t_base = t_base;
-  in->h_last = h;
-  in->count = count;
-  return ALI3_OK;
+  ali3_whole_step whole;
+  ali3_status status = ali3_step_begin(in, h, end, &whole);
+  if (status != ALI3_OK) return status;
+  return ali3_step_end(in, &whole, ali3_advance(in, whole.t, h, in->settings.max_halvings));
 }
 
 ali3_status ali3_step(ali3_instance *in, double h) {
@@ -129,12 +94,6 @@ static ali3_status give_up(ali3_instance *in, ali3_status status, bool unobserve
   return status;
 }
 
-static void record(const ali3_instance *in, int64_t row, double *out, double *positions) {
-  const ali3_sizes *size = &in->system->size;
-  if (out != NULL) ali3_sensors_evaluate(in, out + row * size->ns);
-  if (positions != NULL) memcpy(positions + row * size->nq, in->now.q, (size_t)size->nq * sizeof *positions);
-}
-
 ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double *inputs, int64_t every, double *out,
                      double *positions, int64_t *done) {
   if (done != NULL) *done = 0;
@@ -153,7 +112,7 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
     unobserved = in->unobserved;
     sampled = in->sampled;
     if (done != NULL) *done = n + 1;
-    if (recorded) record(in, (n + 1) / every - 1, out, positions);
+    if (recorded) ali3_record_row(in, (n + 1) / every - 1, out, positions);
   }
   return ALI3_OK;
 }

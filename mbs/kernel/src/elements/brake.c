@@ -3,8 +3,9 @@
  * about it.
  * Reals: largest torque N m, stick stiffness N m/rad, stick damping N m s/rad; then the share of the torque that is this
  * wheel's and the largest torque of the hand brake N m, or none. Integers: input (0..1); that of the hand brake or -1,
- * where there are five reals. States: wind-up z rad, z' rad/s.
- * Outputs: torque on the wheel N m, 1 while sticking, relative rate w rad/s.
+ * where there are five reals; then 1 where the input is not a pedal but any size that is not negative, as a torque or a
+ * pressure, or none. States: wind-up z rad, z' rad/s.
+ * Outputs: torque on the wheel N m, 1 while sticking, relative rate w rad/s, power of the torque W.
  *
  * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, else
  * tau is at the bound and z' = (tau - k z)/c. With z = a + h z'/2 (trapezoidal rule) and D = c + h k/2:
@@ -15,11 +16,12 @@
 #include "element_math.h"
 
 enum { MAX_TORQUE, STIFFNESS, DAMPING, PLAIN, SHARE = PLAIN, HAND_TORQUE, REALS };
-enum { PEDAL, HAND, INTEGERS };
+enum { PEDAL, HAND, PEDALS, BY_SIZE = PEDALS, INTEGERS };
 
 /* What the pads can hold: both pedals press them. */
 static double capacity(const ali3_element_args *a) {
-  const double *p = a->real, pedal = ali3_clamp(a->input[a->integer[PEDAL]], 0.0, 1.0);
+  const double most = a->nint == INTEGERS && a->integer[BY_SIZE] ? INFINITY : 1.0;
+  const double *p = a->real, pedal = ali3_clamp(a->input[a->integer[PEDAL]], 0.0, most);
   if (a->nreal == PLAIN) return p[MAX_TORQUE] * pedal;
   const double hand = ali3_clamp(ali3_input_or_zero(a->input, a->integer[HAND]), 0.0, 1.0);
   return p[MAX_TORQUE] * p[SHARE] * pedal + p[HAND_TORQUE] * hand;
@@ -48,6 +50,7 @@ static void evaluate(ali3_element_args *a) {
   a->out[0] = -torque;
   a->out[1] = sticks && bound > 0.0;
   a->out[2] = w;
+  a->out[3] = -torque * w;
   if (!a->S) return; /* turning of f, g within the step is left out of the tangent */
   const double slope = sticks ? D : ALI3_SECANT_SHARE * D * (bound / fabs(trial));
   ali3_add_outer(a->S, 7, a->wC * slope, b);
@@ -56,11 +59,13 @@ static void evaluate(ali3_element_args *a) {
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
   (void)nsig, (void)n_roads;
-  if (!(nreal == PLAIN && nint == 1) && !(nreal == REALS && nint == INTEGERS))
-    return "a brake has 3 numbers and an input, or 5 and two inputs";
+  if (!(nreal == PLAIN && nint == 1) && !(nreal == REALS && (nint == PEDALS || nint == INTEGERS)))
+    return "a brake has 3 numbers and an input, or 5 and two inputs, and may say that the first is no pedal";
   if (integer[PEDAL] < 0 || integer[PEDAL] >= n_inputs ||
       (nint > 1 && (integer[HAND] < -1 || integer[HAND] >= n_inputs)))
     return "a brake names an input that does not exist";
+  if (nint == INTEGERS && integer[BY_SIZE] != 0 && integer[BY_SIZE] != 1)
+    return "whether the input of a brake is no pedal must be 0 or 1";
   if (nreal == REALS && (real[SHARE] < 0.0 || real[HAND_TORQUE] < 0.0))
     return "the share and the torque of the hand brake of a brake must not be negative";
   if (real[MAX_TORQUE] < 0.0) return "the largest torque of a brake must not be negative";
@@ -74,6 +79,6 @@ const ali3_element_type ali3_brake = {
     .nreal = -1,
     .nint = -1,
     .nstate = 2,
-    .nout = 3,
+    .nout = 4,
     .check = check,
 };

@@ -38,6 +38,7 @@ typedef void ali3_element_function(ali3_element_args *a);
 typedef struct {
   double excess; /* above 0: no scene is meant to start like this; of two elements the larger one is named */
   double rise;   /* above 0: the height, m, by which the scene must rise at least to be out of the element's way */
+  double pressed; /* above 0: how much deeper than a wheel holds its rim is in the road, m */
 } ali3_start_verdict;
 
 /* What a type of elements is; what is not named is 0 or NULL: not so, or none. */

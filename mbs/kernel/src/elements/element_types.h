@@ -23,6 +23,7 @@
   X(15, lift) \
   X(16, coordinate_friction) \
   X(17, torsion_bar) \
-  X(18, spin_angle)
+  X(18, spin_angle) \
+  X(19, magic_tyre)
 /* clang-format on */
 #endif

@@ -5,33 +5,13 @@
 #include "../instance.h"
 #include "element.h"
 #include "forces.h"
+#include "signals.h"
 
-static void active_signals(ali3_instance *in, const double *q, const double *qd) {
+/* Arguments of element e at its own signals u and their rates ud; f and S live with the caller. */
+static void prepare(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
+                    double *f, double *tangent, ali3_element_args *a) {
   const ali3_system *S = in->system;
-  for (int32_t a = 0; a < S->n_active; a++) {
-    const int32_t i = S->active_signal[a];
-    double u = S->sig_const[i], ud = 0.0;
-    for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) {
-      const double v = S->sig_val[k];
-      u += v * q[S->sig_col[k]];
-      ud += v * qd[S->sig_col[k]];
-    }
-    in->u[i] = u;
-    in->ud[i] = ud;
-  }
-}
-
-/* Local signals and the arguments of element e; f and the local copies live with the caller. */
-static void prepare(ali3_instance *in, const ali3_force_call *call, int32_t e, double *u, double *ud, double *f,
-                    ali3_element_args *a) {
-  const ali3_system *S = in->system;
-  const int32_t first = S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - first;
-  for (int32_t i = 0; i < n; i++) {
-    u[i] = in->u[S->el_sig[first + i]];
-    ud[i] = in->ud[S->el_sig[first + i]];
-    f[i] = 0.0;
-  }
-  a->nsig = n;
+  a->nsig = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
   a->nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e];
   a->nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e];
   a->nstate = S->el_state_ptr[e + 1] - S->el_state_ptr[e];
@@ -48,10 +28,19 @@ static void prepare(ali3_instance *in, const ali3_force_call *call, int32_t e, d
   a->input = in->force_input;
   a->roads = in->road;
   a->f = f;
-  a->S = NULL;
+  a->S = tangent;
   a->out = call->out + S->el_out_ptr[e];
   a->potential = 0.0;
   a->idle = 0;
+}
+
+/* The signals of element e and their rates. */
+static void local(const ali3_instance *in, int32_t e, double *u, double *ud) {
+  const ali3_system *S = in->system;
+  for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
+    *u++ = in->u[S->el_sig[i]];
+    *ud++ = in->ud[S->el_sig[i]];
+  }
 }
 
 /* Power and forces of element e on its n signals, where a sensor asks for its work. */
@@ -67,10 +56,25 @@ static void record(ali3_instance *in, int32_t e, const double *f, const double *
   in->watched[k] = power;
 }
 
+/* Element e at its own signals; f and tangent (NULL: not wanted) belong to it alone. Returns whether both are zero. */
+bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
+                         double *f, double *tangent) {
+  const ali3_system *S = in->system;
+  const ali3_element_type *type = S->el_kind[e];
+  ali3_element_args a;
+  prepare(in, call, e, u, ud, f, tangent, &a);
+  memset(f, 0, (size_t)a.nsig * sizeof(double));
+  if (tangent != NULL) memset(tangent, 0, (size_t)(a.nsig * a.nsig) * sizeof(double));
+  (in->discrete && type->discrete != NULL ? type->discrete : type->evaluate)(&a);
+  call->potential[e] = a.potential;
+  if (S->n_work > 0) record(in, e, f, ud, a.nsig);
+  return a.idle != 0;
+}
+
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
-  active_signals(in, call->q, call->qd);
+  ali3_active_signals(in, call->q, call->qd);
   memcpy(call->Q, in->gravity_force, (size_t)S->size.nq * sizeof(double));
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, call->q);
@@ -79,53 +83,14 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     in->wK = call->wK;
   }
   for (int32_t e = 0; e < S->size.ne; e++) {
-    ali3_element_args a;
-    prepare(in, call, e, u, ud, f, &a);
-    if (call->tangent && S->el_front[e] >= 0) {
-      a.S = in->S + S->el_S_off[e];
-      memset(a.S, 0, (size_t)(a.nsig * a.nsig) * sizeof(double));
-    }
-    const ali3_element_type *type = S->el_kind[e];
-    (in->discrete && type->discrete != NULL ? type->discrete : type->evaluate)(&a);
-    call->potential[e] = a.potential;
-    in->idle[e] = (unsigned char)a.idle;
-    if (S->n_work > 0) record(in, e, f, ud, a.nsig);
-    if (a.idle) continue;
-    for (int32_t i = 0; i < a.nsig; i++) {
+    double *tangent = call->tangent && S->el_front[e] >= 0 ? in->S + S->el_S_off[e] : NULL;
+    local(in, e, u, ud);
+    in->idle[e] = ali3_element_forces(in, call, e, u, ud, f, tangent) ? 1 : 0;
+    if (in->idle[e]) continue;
+    for (int32_t i = 0; i < S->el_sig_ptr[e + 1] - S->el_sig_ptr[e]; i++) {
       const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
       for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++)
         call->Q[S->sig_col[k]] += S->sig_val[k] * f[i];
-    }
-  }
-}
-
-/* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a
- * tangent. */
-void ali3_elements_tangent(ali3_instance *in, double *F) {
-  const ali3_system *S = in->system;
-  double *restrict SB = in->SB; /* a row per signal, a column per coordinate of the element */
-  for (int32_t e = 0; e < S->size.ne; e++) {
-    const int32_t front = S->el_front[e];
-    if (front < 0 || in->idle[e]) continue;
-    const int32_t n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
-    const int32_t m = S->el_coordinate_ptr[e + 1] - S->el_coordinate_ptr[e];
-    const int32_t *loc = S->el_coordinate_loc + S->el_coordinate_ptr[e];
-    const int32_t size = S->front_ptr[front + 1] - S->front_ptr[front];
-    double *block = F + S->front_off[front];
-    memset(SB, 0, (size_t)(n * m) * sizeof(double));
-    for (int32_t k = S->el_entry_ptr[e]; k < S->el_entry_ptr[e + 1]; k++) {
-      const double *row = in->S + S->el_S_off[e] + S->el_entry_signal[k] * n, value = S->el_entry_value[k];
-      for (int32_t i = 0; i < n; i++) SB[i * m + S->el_entry_local[k]] += row[i] * value;
-    }
-    for (int32_t k = S->el_entry_ptr[e]; k < S->el_entry_ptr[e + 1]; k++) {
-      const double *row = SB + S->el_entry_signal[k] * m, value = S->el_entry_value[k];
-      const int32_t j = S->el_entry_local[k];
-      double *restrict column = block + (int64_t)loc[j] * size;
-      if (loc[m - 1] - loc[0] == m - 1) {
-        for (int32_t i = j; i < m; i++) column[loc[0] + i] += value * row[i];
-      } else {
-        for (int32_t i = j; i < m; i++) column[loc[i]] += value * row[i];
-      }
     }
   }
 }
@@ -136,13 +101,19 @@ void ali3_forces_tangent(ali3_instance *in, double *F) {
   ali3_elements_tangent(in, F);
 }
 
+/* Discrete changes of element e after an accepted step, at its own signals. */
+void ali3_element_accept(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud) {
+  double f[ALI3_MAX_SIGNALS] = {0.0};
+  ali3_element_args a;
+  prepare(in, call, e, u, ud, f, NULL, &a);
+  in->system->el_kind[e]->accept(&a);
+}
+
 void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call) {
-  const ali3_system *S = in->system;
-  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
-  for (int32_t e = 0; e < S->size.ne; e++) {
-    if (S->el_kind[e]->accept == NULL) continue;
-    ali3_element_args a;
-    prepare(in, call, e, u, ud, f, &a);
-    S->el_kind[e]->accept(&a);
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
+  for (int32_t e = 0; e < in->system->size.ne; e++) {
+    if (in->system->el_kind[e]->accept == NULL) continue;
+    local(in, e, u, ud);
+    ali3_element_accept(in, call, e, u, ud);
   }
 }

@@ -1,6 +1,6 @@
 /* Linear spring and damper between two points, with optional end stops.
  * Signals: d = p2 - p1 (2 or 3). Reals: as below, then the stops of end_stops.h, linear or not, then two factors or
- * none. Outputs: length m, force N (tension positive), rate m/s. */
+ * none. Outputs: length m, force N (tension positive), rate m/s, force of the damper alone N. */
 #include "element.h"
 #include "end_stops.h"
 #include "line_force.h"
@@ -29,6 +29,7 @@ static void evaluate(ali3_element_args *a) {
   a->out[0] = line.length;
   a->out[1] = tension;
   a->out[2] = line.rate;
+  a->out[3] = c * line.rate;
 }
 
 static void discrete(ali3_element_args *a) {
@@ -69,6 +70,6 @@ const ali3_element_type ali3_spring_damper = {
     .lossy = lossy,
     .nsig = -1,
     .nreal = -1,
-    .nout = 3,
+    .nout = 4,
     .check = check,
 };

@@ -1,7 +1,8 @@
 /* Spring and damper between two points, each by a number or by a table, with optional end stops.
  * Signals: d = p2 - p1 (2 or 3). Reals: as below; then, by columns, the points of the spring's table (stretch from the
  * free length m, tension N, slope, energy from stretch 0) and those of the damper's (rate m/s, tension N, slope).
- * Integers: points of either table, 0: the number. Outputs: length m, force N (tension positive), rate m/s. */
+ * Integers: points of either table, 0: the number. Outputs: length m, force N (tension positive), rate m/s, force of the
+ * damper alone N. */
 #include <stddef.h>
 
 #include "cubic_table.h"
@@ -74,6 +75,7 @@ static void evaluate(ali3_element_args *a) {
   a->out[0] = line.length;
   a->out[1] = tension;
   a->out[2] = line.rate;
+  a->out[3] = damped;
 }
 
 static void discrete(ali3_element_args *a) {
@@ -130,6 +132,6 @@ const ali3_element_type ali3_spring_damper_table = {
     .nsig = -1,
     .nreal = -1,
     .nint = INTEGERS,
-    .nout = 3,
+    .nout = 4,
     .check = check,
 };

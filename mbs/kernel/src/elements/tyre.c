@@ -4,8 +4,9 @@
  * Signals: wheel centre r (3), unit spin axis e pointing left (3), chi with chi' = Omega the absolute rate about e
  * (> 0 rolling forward).
  * Integers: road. States: carcass deflections x, y and their rates. Outputs: Fx, Fy, Fz, Mz, slip, slip angle,
- * deflection, loaded radius, contact point (3), inclination, normal of the road there (3). Of two contacts these are the
- * means by load; in the air they are the point of the road that is nearest within the wheel plane, and its normal.
+ * deflection, loaded radius, contact point (3), inclination, normal of the road there (3), rolling moment My about the
+ * contact point. Of two contacts these are the means by load; in the air they are the point of the road that is nearest
+ * within the wheel plane, and its normal.
  *
  * Two radii are kept apart: the contact patch lies at the loaded radius |rho|; the rolling wheel advances by the
  * larger effective radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity and, for the same power
@@ -24,8 +25,8 @@
 #include "../algebra/elementary.h"
 #include "element.h"
 #include "element_math.h"
-#include "road.h"
 #include "tmeasy.h"
+#include "tyre_contact.h"
 
 enum {
   RADIUS,
@@ -45,85 +46,7 @@ enum {
   FRICTION_FACTOR,
   REALS
 };
-enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, INCLINATION = CONTACT_X + 3, NORMAL_X };
-enum { OUTPUTS = NORMAL_X + 3 };
-
-#define TOUCH_DEPTH 0.005 /* m, over which the radial damping sets in */
-#define SLOW_SPEED 1e-5 /* m/s, added to the transport speed; small so that a parked car creeps by micrometres only */
-#define ROLL_SPEED 1.0 /* m/s, from which effective radius and trail are those of the rolling tyre */
-#define NO_LOAD 1e-9 /* N */
-#define CLEAR 1e-6 /* m: a depth that counts as none at a start */
-#define NO_GRIP 1e-6 /* of the reference friction */
-
-typedef struct {
-  double load, friction; /* sums or load-weighted means of the contacts */
-  double normal[3], rho[3]; /* unit normal; contact patch relative to the wheel centre, in the wheel plane */
-  double near_normal[3], near_rho[3]; /* of the nearest contact, also in the air */
-} patch;
-
-/* Radial forces of all contacts: adds to f, S and potential, returns the mean patch. */
-static patch radial(ali3_element_args *a, const double e[3]) {
-  const double *p = a->real;
-  ali3_contact contact[2];
-  patch mean = {0};
-  double deepest = -INFINITY, between[7] = {0}, switching = 0.0;
-  const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, p[RADIUS], contact);
-  for (int k = 0; k < count; k++) {
-    const ali3_contact *c = &contact[k];
-    const double depth = c->penetration, radius = p[RADIUS] - depth, lean = ali3_dot(e, c->normal);
-    double rho[3], b[7] = {0}, rate = 0.0;
-    for (int i = 0; i < 3; i++) {
-      rho[i] = radius * c->down[i];
-      b[i] = c->normal[i] / c->cosine; /* minus the gradient of the depth */
-      b[3 + i] = -lean * rho[i] / c->cosine * c->leaning;
-    }
-    if (depth > deepest) {
-      deepest = depth;
-      for (int i = 0; i < 3; i++) mean.near_normal[i] = c->normal[i], mean.near_rho[i] = rho[i];
-    }
-    if (k == 0) { /* what slips of a wheel in the air refer to */
-      mean.friction = c->friction;
-      for (int i = 0; i < 3; i++) mean.normal[i] = c->normal[i], mean.rho[i] = rho[i];
-    }
-    if (!(depth > 0.0)) continue;
-    for (int i = 0; i < 6; i++) rate -= b[i] * a->ud[i];
-    const double deep = depth - (p[RADIUS] - p[BOTTOMING_RADIUS]), hard = deep > 0.0 ? p[BOTTOMING_STIFFNESS] : 0.0;
-    const double ramp = depth < TOUCH_DEPTH ? depth / TOUCH_DEPTH : 1.0;
-    const double part = 1.0 - c->yielded;
-    const double force = part * (p[STIFFNESS] * depth + hard * deep + p[DAMPING] * rate * ramp);
-    a->potential += part * (0.5 * (p[STIFFNESS] * depth * depth + hard * deep * deep));
-    if (!(force > 0.0)) continue;
-    const double load = force / c->cosine, total = mean.load + load;
-    for (int i = 0; i < 6; i++) a->f[i] += force * b[i];
-    for (int i = 0; i < 3; i++) { /* load-weighted, so nothing jumps when a contact comes or goes */
-      mean.normal[i] = mean.load > 0.0 ? mean.normal[i] + load * c->normal[i] : load * c->normal[i];
-      mean.rho[i] = (mean.load > 0.0 ? mean.load / total * mean.rho[i] : 0.0) + load / total * rho[i];
-    }
-    mean.friction = (mean.load > 0.0 ? mean.load / total * mean.friction : 0.0) + load / total * c->friction;
-    mean.load = total;
-    if (!a->S) continue;
-    double stiffness = p[STIFFNESS] + hard + (ramp < 1.0 ? p[DAMPING] * rate / TOUCH_DEPTH : 0.0);
-    if (stiffness < 0.0) stiffness = 0.0;
-    ali3_add_outer(a->S, 7, part * (a->wK * stiffness + a->wC * p[DAMPING] * ramp), b);
-    for (int i = 0; i < 7; i++) between[i] += k ? -b[i] : b[i];
-    switching = a->wK * c->switching * (p[STIFFNESS] * depth + hard * deep);
-  }
-  if (a->S && switching > 0.0) ali3_add_outer(a->S, 7, switching, between);
-  const double size = ali3_norm(mean.normal);
-  for (int i = 0; i < 3; i++) mean.normal[i] = size > 0.0 ? mean.normal[i] / size : (i == 2);
-  return mean;
-}
-
-/* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
-static void semidefinite(double C[3]) {
-  const double mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
-  if (mean >= split) return;
-  const double top = mean + split > 0.0 ? mean + split : 0.0;
-  const double cosine = split > 0.0 ? half / split : 0.0, sine = split > 0.0 ? C[1] / split : 0.0;
-  C[0] = 0.5 * top * (1.0 + cosine);
-  C[1] = 0.5 * top * sine;
-  C[2] = 0.5 * top * (1.0 - cosine);
-}
+enum { OUTPUTS = ALI3_TYRE_OUTPUTS };
 
 /* Radial return of F to the largest force of its direction, which in TMeasy is hypot(Fxm cos, Fym sin); J follows. */
 static void limit(const double full[2], double F[2], double J[2][2], double safe[2]) {
@@ -141,25 +64,25 @@ static void limit(const double full[2], double F[2], double J[2][2], double safe
   for (int i = 0; i < 2; i++) F[i] /= use;
 }
 
-static double load_factor(const double *p, const patch *contact) {
+static double load_factor(const double *p, const ali3_tyre_patch *contact) {
   return ali3_clamp(contact->load / p[NOMINAL_LOAD], 0.0, p[MAX_LOAD_FACTOR]);
 }
 
-static double friction_ratio(const double *p, const patch *contact) {
+static double friction_ratio(const double *p, const ali3_tyre_patch *contact) {
   return contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
 }
 
 /* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
  * (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
-static void carcass(const ali3_element_args *a, const patch *contact, const double v[2], double w, double F[2],
-                    double C[3]) {
+static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, const double v[2], double w,
+                    double F[2], double C[3]) {
   const double *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING, q = load_factor(p, contact);
   const double grip = friction_ratio(p, contact);
   const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + CURVE_X, p + CURVE_Y, q, grip);
   const double n[2] = {v[0] / (t.scale[0] * w), v[1] / (t.scale[1] * w)};
   double gradient[2], J[2][2], safe[2], offset[2], D[2], full[2];
   double secant = ali3_tmeasy_secant(&t, n, gradient);
-  if (!(grip > NO_GRIP)) /* else the slope of a grip of next to nothing would hold at rest */
+  if (!(grip > ALI3_TYRE_NO_GRIP)) /* else the slope of a grip of next to nothing would hold at rest */
     secant = gradient[0] = gradient[1] = 0.0;
   for (int i = 0; i < 2; i++) {
     const double per_slip = q / (t.scale[i] * w), g = per_slip * secant;
@@ -173,7 +96,7 @@ static void carcass(const ali3_element_args *a, const patch *contact, const doub
     for (int j = 0; j < 2; j++)
       J[i][j] = by_g * per_slip * (gradient[j] / (t.scale[j] * w)) - (i == j ? g / (g + D[i]) * D[i] : 0.0);
   }
-  if (contact->load > NO_LOAD) limit(full, F, J, safe);
+  if (contact->load > ALI3_TYRE_NO_LOAD) limit(full, F, J, safe);
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
     a->y_new[2 + i] = a->y_old[2 + i];
@@ -183,58 +106,40 @@ static void carcass(const ali3_element_args *a, const patch *contact, const doub
     if (fabs(a->y_new[i]) < 1e-100) a->y_new[i] = a->y_new[2 + i] = 0.0; /* long in the air: no denormals */
   }
   C[0] = -J[0][0] - safe[0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1] - safe[1];
-  semidefinite(C);
+  ali3_tyre_semidefinite(C);
   C[0] += safe[0];
   C[2] += safe[1];
 }
 
 /* Trail over contact length at the lateral slip s. */
-static double trail_share(const double *p, const patch *contact, double s) {
+static double trail_share(const double *p, const ali3_tyre_patch *contact, double s) {
   return ali3_tmeasy_trail(p + TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
 }
 
-/* An iterate of the solver need not be a unit vector. */
-static void unit_axis(const double axis[3], double e[3]) {
-  const double size = ali3_norm(axis);
-  for (int i = 0; i < 3; i++) e[i] = size > 1e-6 ? axis[i] / size : (i == 1);
-}
-
 static void evaluate(ali3_element_args *a) {
-  const double *p = a->real, *rd = a->ud, *ed = a->ud + 3, omega = a->ud[6];
-  double e[3], forward[3], left[3], F[2], C[3], v[2], push[3];
+  const double *p = a->real, omega = a->ud[6];
+  const ali3_tyre_spring spring = {p[RADIUS], p[BOTTOMING_RADIUS], p[STIFFNESS],
+                                   0.0,       p[DAMPING],          p[BOTTOMING_STIFFNESS]};
+  double e[3], F[2], C[3];
   a->potential = 0.0;
-  unit_axis(a->u + 3, e);
-  const patch contact = radial(a, e);
-  const double *rho = contact.rho, *n = contact.normal, loaded = ali3_norm(rho), turn = ali3_dot(ed, rho);
+  ali3_tyre_axis(a->u + 3, e);
+  const ali3_tyre_patch contact = ali3_tyre_radial(a, e, &spring);
+  ali3_tyre_motion m = ali3_tyre_axes(&contact, e);
+  const double *n = contact.normal, loaded = m.loaded;
 
-  ali3_cross(e, n, forward);
-  const double upright = ali3_norm(forward), size = upright < 1e-9 ? 1.0 : upright;
-  if (upright < 1e-9) forward[0] = 1.0, forward[1] = forward[2] = 0.0;
-  for (int i = 0; i < 3; i++) forward[i] /= size;
-  ali3_cross(n, forward, left);
-
-  ali3_cross(e, rho, push); /* velocity of the patch per Omega */
   const double rolling = (2.0 * p[RADIUS] + (loaded < p[RADIUS] ? loaded : p[RADIUS])) / 3.0,
-               transport = rolling * fabs(omega), w = transport + SLOW_SPEED;
-  const double rolls = transport / ROLL_SPEED, moving = rolls < 1.0 ? rolls * rolls * (2.0 - rolls * rolls) : 1.0;
+               transport = rolling * fabs(omega), w = transport + ALI3_TYRE_SLOW;
+  const double moving = ali3_tyre_moving(transport);
   const double ratio =
       loaded > 1e-6 ? 1.0 + moving * (rolling / loaded - 1.0) : 1.0; /* slip radius over loaded radius */
-  const double *along[2] = {forward, left};
-  double row[2][7], travel[2];
-  for (int i = 0; i < 2; i++) {
-    const double *t = along[i], spin = ali3_dot(t, push), lean = ali3_dot(t, e);
-    travel[i] = ali3_dot(t, rd) - lean * turn;
-    v[i] = travel[i] + ratio * spin * omega;
-    for (int k = 0; k < 3; k++) row[i][k] = t[k], row[i][3 + k] = -lean * rho[k];
-    row[i][6] = ratio * spin;
-  }
-  carcass(a, &contact, v, w, F, C);
+  ali3_tyre_velocities(a, &contact, e, ratio, &m);
+  carcass(a, &contact, m.v, w, F, C);
   a->potential +=
       0.5 * (p[CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] + p[CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
-  for (int k = 0; k < 7; k++) a->f[k] += F[0] * row[0][k] + F[1] * row[1][k];
+  for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];
 
   const double deflection = loaded < p[RADIUS] ? p[RADIUS] - loaded : 0.0, length = 2.0 * sqrt(p[RADIUS] * deflection);
-  const double moment = -moving * length * trail_share(p, &contact, fabs(v[1]) / w) * F[1],
+  const double moment = -moving * length * trail_share(p, &contact, fabs(m.v[1]) / w) * F[1],
                resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = ali3_tanh(omega);
   double twist[3];
   ali3_cross(n, e, twist);
@@ -242,44 +147,12 @@ static void evaluate(ali3_element_args *a) {
   a->f[6] += moment * ali3_dot(n, e) - resist * roll;
 
   if (a->S) {
-    ali3_add_outer(a->S, 7, a->wC * C[0], row[0]);
-    ali3_add_symmetric(a->S, 7, 2.0 * a->wC * C[1], row[0], row[1]);
-    ali3_add_outer(a->S, 7, a->wC * C[2], row[1]);
+    ali3_add_outer(a->S, 7, a->wC * C[0], m.row[0]);
+    ali3_add_symmetric(a->S, 7, 2.0 * a->wC * C[1], m.row[0], m.row[1]);
+    ali3_add_outer(a->S, 7, a->wC * C[2], m.row[1]);
     a->S[48] += a->wC * resist * (1.0 - roll * roll);
   }
-  const double drive = -ratio * ali3_dot(forward, push) * omega; /* circumferential speed */
-  const double fastest = ali3_hypot(fabs(drive) > fabs(travel[0]) ? drive : travel[0], 0.01);
-  const double slip = -v[0] / fastest, slip_angle = ali3_atan2(v[1], ali3_hypot(travel[0], 0.01));
-  const double out[] = {F[0], F[1], contact.load, moment, slip, slip_angle, deflection, p[RADIUS] - deflection};
-  for (int i = 0; i < CONTACT_X; i++) a->out[i] = out[i];
-  const double *at = contact.load > 0.0 ? rho : contact.near_rho, *up = contact.load > 0.0 ? n : contact.near_normal;
-  for (int i = 0; i < 3; i++) a->out[CONTACT_X + i] = a->u[i] + at[i], a->out[NORMAL_X + i] = up[i];
-  a->out[INCLINATION] = ali3_atan2(ali3_dot(e, n), upright);
-}
-
-static double depth(const ali3_element_args *a, double raised, double *part) {
-  const double *axis = a->u + 3, length = ali3_norm(axis), radius = a->real[RADIUS];
-  double centre[3], e[3], deepest = -INFINITY;
-  for (int i = 0; i < 3; i++) {
-    centre[i] = a->u[i] + (i == 2 ? raised : 0.0);
-    e[i] = length > 1e-6 ? axis[i] / length : (i == 1);
-  }
-  ali3_contact contact[2];
-  const int count = ali3_road_contacts(&a->roads[a->integer[0]], centre, e, radius, contact);
-  for (int k = 0; k < count; k++)
-    if (contact[k].penetration > deepest) {
-      deepest = contact[k].penetration;
-      *part = contact[k].cosine;
-    }
-  return deepest;
-}
-
-/* A start with the wheel's centre below the surface: the spring of a tyre is not meant for that and would throw the
- * scene up. The rise is the depth along the road's normal; walls are climbed a depth at a time. */
-static ali3_start_verdict start(const ali3_element_args *a, double raised) {
-  double part = 0.0;
-  const double deepest = fmax(depth(a, raised, &part), 0.0);
-  return (ali3_start_verdict){.excess = deepest - a->real[RADIUS], .rise = deepest > CLEAR ? deepest * part : 0.0};
+  ali3_tyre_outputs(a, &contact, e, &m, p[RADIUS], ratio, F, moment, -resist * roll);
 }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
@@ -315,9 +188,9 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 
 const ali3_element_type ali3_tyre = {
     .evaluate = evaluate,
-    .start = start,
-    .start_words = "lies deeper in the road than its radius",
-    .depth = depth,
+    .start = ali3_tyre_start,
+    .start_words = ALI3_TYRE_START_WORDS,
+    .depth = ali3_tyre_depth,
     .nsig = 7,
     .nreal = REALS,
     .nint = 1,

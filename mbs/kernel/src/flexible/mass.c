@@ -3,15 +3,6 @@
 #include "../instance.h"
 #include "flexible_body.h"
 
-void ali3_constant_mass_times(const ali3_instance *in, const double *x, double *out) {
-  const ali3_system *S = in->system;
-  for (int32_t i = 0; i < S->size.nq; i++) {
-    double sum = 0.0;
-    for (int32_t k = S->mass_ptr[i]; k < S->mass_ptr[i + 1]; k++) sum += in->mass_val[k] * x[S->mass_col[k]];
-    out[i] = sum;
-  }
-}
-
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
   ali3_constant_mass_times(in, x, out);
   if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out);

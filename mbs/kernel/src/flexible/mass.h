@@ -1,9 +1,10 @@
 /* Products with the mass matrix. */
 #ifndef ALI3_MASS_H
 #define ALI3_MASS_H
+#include "../algebra/real.h"
 #include "../instance.h"
 
-void ali3_constant_mass_times(const ali3_instance *in, const double *x, double *out);
-void ali3_mass_times(const ali3_instance *in, const double *x, double *out); /* M of the last q prepared */
+void ali3_constant_mass_times(const ali3_instance *in, const real *x, real *out);
+void ali3_mass_times(const ali3_instance *in, const real *x, real *out); /* M of the last q prepared */
 double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work);
 #endif

@@ -2,6 +2,7 @@
  * unsymmetric part (friction depends on the load), which costs a factor per iteration and mostly along one
  * direction. The last two corrections show that direction. Where Newton converges quadratically the corrections
  * shrink faster than SLOW and nothing is mixed. */
+#include "../algebra/real.h"
 #include "../instance.h"
 #include "newton.h"
 
@@ -12,27 +13,31 @@ static const double LEAST = -100.0, MOST = 0.5; /* bounds of a mixing factor; -6
 void ali3_accelerate(ali3_instance *in, int32_t iteration) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  double present = 0.0, last = 0.0, change = 0.0, along = 0.0, theta = 0.0;
+  real present = {0}, last = {0}, change = {0}, along = {0}, theta = {0};
   if (iteration > 0) {
     for (int32_t i = 0; i < nq; i++) {
-      const double m = in->mass_floor[i], difference = in->x[i] - in->correction_q[i];
+      const real m = in->mass_floor[i], difference = in->x[i] - in->correction_q[i];
       present += m * in->x[i] * in->x[i];
       last += m * in->correction_q[i] * in->correction_q[i];
       change += m * difference * difference;
       along += m * in->x[i] * difference;
     }
-    if (present > SLOW * SLOW * last && change > 0.0) theta = along / change;
-    if (!(theta >= LEAST && theta <= MOST)) theta = 0.0;
+    const truth slow = (present > SLOW * SLOW * last) & (change > 0.0);
+    theta = ali3_where(slow, along / change, theta);
+    theta = ali3_where((theta >= LEAST) & (theta <= MOST), theta, ali3_same(0.0));
   }
+  const truth mixed = theta != 0.0;
   for (int32_t i = 0; i < nq; i++) {
-    const double correction = in->x[i];
-    if (theta != 0.0) in->x[i] -= theta * (in->step_q[i] + correction - in->correction_q[i]);
+    const real correction = in->x[i];
+    const real other = correction - theta * (in->step_q[i] + correction - in->correction_q[i]);
+    in->x[i] = ali3_where(mixed, other, correction);
     in->correction_q[i] = correction;
     in->step_q[i] = in->x[i];
   }
   for (int32_t k = 0; k < nc; k++) {
-    const double correction = in->lam[k];
-    if (theta != 0.0) in->lam[k] -= theta * (in->step_lam[k] + correction - in->correction_lam[k]);
+    const real correction = in->lam[k];
+    const real other = correction - theta * (in->step_lam[k] + correction - in->correction_lam[k]);
+    in->lam[k] = ali3_where(mixed, other, correction);
     in->correction_lam[k] = correction;
     in->step_lam[k] = in->lam[k];
   }

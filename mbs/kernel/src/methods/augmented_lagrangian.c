@@ -15,6 +15,7 @@
 #include "../rows/violation.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
+#include "ali3p.h"
 #include "energy_balance.h"
 #include "energy_watch.h"
 #include "generalised_alpha.h"
@@ -23,15 +24,6 @@
 #include "predict.h"
 #include "projection.h"
 #include "steps.h"
-
-enum { MAX_SWEEPS = 3 };
-/* Relative violations at which projections end: velocities at round-off; accelerations only steer the next
- * prediction. */
-static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
-/* A tangent serves the next iteration too where rows are open by at most so many m/s2 (or so) times h^2, no more than at
- * 10 ms, and the last one left at most so much of the residual. What is left open is an error of the multipliers where
- * a row loses its lever. */
-static const double KEPT_VIOLATION = 2e-5, KEPT_RESIDUAL = 0.3;
 
 /* Forces of the present iterate. */
 static void forces(ali3_instance *in, double h, bool tangent) {
@@ -213,7 +205,8 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);
     ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
     ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, MAX_SWEEPS);
-    work += ali3_projection_work(in, h, &kinetic, &end, &open);
+    /* with the work that the forces did in this step which the last (25) left without balance */
+    work += ali3_projection_work(in, &kinetic, &end, &open) + 0.5 * h * in->report.open_power;
     const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic, end, open);
     if (resolved != ALI3_OK) return resolved;
   } else {

@@ -27,13 +27,15 @@ static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
 
 /* The energy of in->now, from which the next step counts. */
 void ali3_balance_open(ali3_instance *in) {
-  in->report.open_power = 0.0;
+  in->report.open_power = in->report.energy_floor = 0.0;
   const ali3_method *method = ali3_method_of(in);
   if (method->has_balance == NULL || !method->has_balance(in)) return;
   ali3_flexible_prepare(in, in->now.q);
   const double kinetic = 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
   double rest = 0.0;
   for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * REST * REST * in->mass_floor[i];
+  for (int32_t i = 0; i < in->system->size.nq; i++)
+    in->report.energy_floor += in->settings.tolerance_r * fabs(in->gravity_force[i]);
   in->report.kinetic_peak = fmax(in->report.kinetic_peak, rest);
   kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now));
 }

@@ -5,12 +5,10 @@
 
 #include "../instance.h"
 #include "../state/vectors.h"
+#include "extrapolation.h"
 #include "history.h"
 
 static const double WELL = 1e-4;   /* squared relative error of a good guess */
-static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
-static const double FAR = 2.0;     /* times the last step that the next may be long */
-static const double CONTROLLED_FAR = 4.5; /* of a controlled one: the last was a half, and steps grow */
 
 /* Number of past steps, at most `most`; a restored state may hold any number there. */
 static int32_t past(const ali3_vectors *v, int32_t most) {
@@ -28,19 +26,6 @@ void ali3_history_own(ali3_instance *in, int32_t method, const double *own) {
   memcpy(in->now.own, own, (size_t)in->system->size.nq * sizeof *own);
 }
 
-/* Weights (Lagrange) with which values at the n times extrapolate to time t. */
-static void lagrange(const double *time, int32_t n, double t, double *weight) {
-  for (int32_t k = 0; k < n; k++) {
-    double above = 1.0, below = 1.0;
-    for (int32_t j = 0; j < n; j++) {
-      if (j == k) continue;
-      above *= t - time[j];
-      below *= time[k] - time[j];
-    }
-    weight[k] = above / below;
-  }
-}
-
 /* How many of `most` past steps to extrapolate from: as many as would have predicted the last one best, and all of them
  * where all that came before it would have, or well enough. In a swing that turns within a few steps old ones
  * mislead. */
@@ -53,7 +38,7 @@ int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
   if (n <= 2) return n;
   for (int32_t m = n - 1; m > 0; m--) {
     double error = 0.0, square = 0.0;
-    lagrange(time + 1, m, time[0], weight);
+    ali3_lagrange(time + 1, m, time[0], weight);
     for (int32_t i = 0; i < nq; i++) {
       const double last = v->past_a[i];
       double miss = -last;
@@ -70,44 +55,18 @@ int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
   return best;
 }
 
-/* Whether the n steps before the last would have predicted the last much better than assuming no change. */
-bool ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
-  const int32_t nq = in->system->size.nq;
-  const double *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a;
-  double weight[ALI3_PAST], error = 0.0, change = 0.0;
-  if (!(history[ALI3_HISTORY_COUNT] > (double)n && h < (in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1])))
-    return false;
-  lagrange(time + 1, n, time[0], weight);
-  for (int32_t i = 0; i < nq; i++) {
-    const double m = in->mass_floor[i], one = a[i] - a[nq + i];
-    double all = a[i];
-    for (int32_t k = 0; k < n; k++) all -= weight[k] * a[(int64_t)(k + 1) * nq + i];
-    error += m * all * all;
-    change += m * one * one;
-  }
-  return error < SMOOTH * SMOOTH * change;
-}
-
 /* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from at most `most` past ones; without a
  * past those of the state. */
 void ali3_history_predict(const ali3_instance *in, double when, int32_t most, double *a, double *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
   const int32_t n = past(v, most);
-  double weight[ALI3_PAST];
   if (n == 0) {
     memcpy(a, v->qdd, (size_t)nq * sizeof *a);
     memcpy(lam, v->lam, (size_t)nc * sizeof *lam);
     return;
   }
-  memset(a, 0, (size_t)nq * sizeof *a);
-  memset(lam, 0, (size_t)nc * sizeof *lam);
-  lagrange(v->history + ALI3_HISTORY_TIME, n, when, weight);
-  for (int32_t k = 0; k < n; k++) {
-    const double *past_a = v->past_a + (int64_t)k * nq, *past_lam = v->past_lam + (int64_t)k * nc;
-    for (int32_t i = 0; i < nq; i++) a[i] += weight[k] * past_a[i];
-    for (int32_t i = 0; i < nc; i++) lam[i] += weight[k] * past_lam[i];
-  }
+  ali3_extrapolate(in, when, n, a, lam);
 }
 
 /* in->next goes on from in->now with the step h just made: its mean acceleration a, its multipliers in->next.lam. */

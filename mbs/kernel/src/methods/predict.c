@@ -6,13 +6,9 @@
 #include <string.h>
 
 #include "../instance.h"
+#include "extrapolation.h"
 #include "history.h"
 #include "predict.h"
-
-enum { PARABOLA = 3 };
-/* Share of the change of the multipliers that is taken: no step corrects what they have along dependent rows or has
- * right about rows that lose their lever, and whole extrapolations of that would grow. */
-static const double SHARE = 0.5;
 
 /* Returns whether past steps were used; `from_past` false ignores them. */
 bool ali3_predict(ali3_instance *in, double h, bool from_past) {
@@ -26,9 +22,9 @@ bool ali3_predict(ali3_instance *in, double h, bool from_past) {
   }
   ali3_history_own(in, in->settings.method, from->qdd);
   const bool goes_on =
-      from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA && ali3_history_smooth(in, PARABOLA, h);
-  ali3_history_predict(in, 0.5 * h, goes_on ? PARABOLA : 0, in->x, lam);
-  for (int32_t k = 0; k < S->size.nc; k++) lam[k] = from->lam[k] + SHARE * (lam[k] - from->lam[k]);
+      from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA && ali3_history_smooth(in, ALI3_PARABOLA, h);
+  ali3_history_predict(in, 0.5 * h, goes_on ? ALI3_PARABOLA : 0, in->x, lam);
+  for (int32_t k = 0; k < S->size.nc; k++) lam[k] = from->lam[k] + ALI3_SHARE * (lam[k] - from->lam[k]);
   for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = h * from->qd[i] + 0.5 * h * h * in->x[i];
   return goes_on;
 }

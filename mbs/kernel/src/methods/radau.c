@@ -10,6 +10,7 @@
 #include "../algebra/finite.h"
 #include "../algebra/fronts.h"
 #include "../elements/forces.h"
+#include "../elements/signals.h"
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"

@@ -1,8 +1,8 @@
 /* Phi, Phi_q, Phi_t, gamma and the geometric term of the rows: short loops over their quadratic terms. */
-#include <math.h>
 #include <string.h>
 
 #include "../algebra/elementary.h"
+#include "../algebra/real.h"
 #include "../instance.h"
 #include "constraints.h"
 #include "switch_rows.h"
@@ -10,66 +10,78 @@
 
 /* A scene that is not tied to the ground does not feel a translation, but its squares of coordinates do lose digits
  * far from the origin: there the rows are evaluated at a shifted copy. */
-static const double *near_origin(ali3_instance *in, const double *q) {
+static const real *near_origin(ali3_instance *in, const real *q) {
   const ali3_system *S = in->system;
   const double *direction[3] = {S->pose_x, S->pose_y, S->pose_z};
   const int32_t witness[3] = {S->shift_x, S->shift_y, S->shift_z};
-  const double *from = q;
+  const real *from = q;
   for (int d = 0; d < 3; d++) {
     if (witness[d] < 0) continue;
-    const double way = 64.0 * floor(q[witness[d]] / direction[d][witness[d]] / 64.0 + 0.5);
-    if (way == 0.0) continue;
-    for (int32_t i = 0; i < S->size.nq; i++) in->shifted[i] = from[i] - way * direction[d][i];
+    const real way = 64.0 * ali3_floor(q[witness[d]] / direction[d][witness[d]] / 64.0 + 0.5);
+    if (!ali3_any(way != 0.0)) continue;
+    for (int32_t i = 0; i < S->size.nq; i++)
+      in->shifted[i] = ali3_where(way != 0.0, from[i] - way * direction[d][i], from[i]);
     from = in->shifted;
   }
   return from;
 }
 
+/* 1 where there is no coordinate. */
+static inline real value_of(const real *q, int32_t coordinate) {
+  return coordinate < 0 ? ali3_same(1.0) : q[coordinate];
+}
+
+static inline real rate_of(const real *qd, int32_t coordinate) {
+  return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
+}
+
 /* w = h s^power and its two rates. */
-static double guide_factor(const ali3_guide_term *g, const double *s) {
-  const double v = s[g->guide];
+static real guide_factor(const ali3_guide_term *g, const real *s) {
+  const real v = s[g->guide];
   return g->power == 1 ? g->term.h * v : g->term.h * v * v;
 }
 
-static double guide_rate(const ali3_guide_term *g, const ali3_vectors *x) {
-  const double vd = x->sd[g->guide];
+static real guide_rate(const ali3_guide_term *g, const ali3_vectors *x) {
+  const real vd = x->sd[g->guide];
   return g->power == 1 ? g->term.h * vd : 2.0 * g->term.h * x->s[g->guide] * vd;
 }
 
-static double guide_second_rate(const ali3_guide_term *g, const ali3_vectors *x) {
-  const double vd = x->sd[g->guide], vdd = x->sdd[g->guide];
+static real guide_second_rate(const ali3_guide_term *g, const ali3_vectors *x) {
+  const real vd = x->sd[g->guide], vdd = x->sdd[g->guide];
   return g->power == 1 ? g->term.h * vdd : 2.0 * g->term.h * (x->s[g->guide] * vdd + vd * vd);
 }
 
-void ali3_constraints(ali3_instance *in, const double *q, const double *s, double *Phi, double *J) {
+void ali3_constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
   const ali3_system *S = in->system;
+  const int32_t *ptr = S->row_ptr, *col = S->row_col, *hess_ptr = S->hess_ptr, *hess_col = S->hess_col;
+  const double *row_lin = S->row_lin, *hess = S->hess_val;
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
-    double value = 0.0;
-    for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) {
-      const double lin = S->row_lin[i];
-      double sum = lin;
-      for (int32_t t = S->hess_ptr[i]; t < S->hess_ptr[i + 1]; t++) sum += S->hess_val[t] * q[S->hess_col[t]];
+    real value = {0};
+    for (int32_t i = ptr[k]; i < ptr[k + 1]; i++) {
+      const double lin = row_lin[i];
+      real sum = ali3_same(lin);
+      for (int32_t t = hess_ptr[i]; t < hess_ptr[i + 1]; t++) sum += hess[t] * q[hess_col[t]];
       J[i] = sum;
-      value += (sum + lin) * q[S->row_col[i]];
+      value += (sum + lin) * q[col[i]];
     }
     Phi[k] = S->row_const[k] + 0.5 * value;
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
     const ali3_guide_term *g = &S->gterm[t];
-    const double qa = g->term.a < 0 ? 1.0 : q[g->term.a], qb = g->term.b < 0 ? 1.0 : q[g->term.b];
-    const double w = guide_factor(g, s);
+    const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b);
+    const real w = guide_factor(g, s);
     Phi[g->row] += w * qa * qb;
     if (g->term.a >= 0) J[g->term.ja] += w * qb;
     if (g->term.b >= 0) J[g->term.jb] += w * qa;
   }
   for (int64_t i = 0; i < S->n_angle_row; i++) {
-    const double theta = q[S->angle_theta_col[i]], cosine = ali3_cos(theta), sine = ali3_sin(theta);
-    double along = 0.0, across = 0.0; /* C and S */
+    const real theta = q[S->angle_theta_col[i]], cosine = ali3_cos(theta), sine = ali3_sin(theta);
+    real along = {0}, across = {0}; /* C and S */
     for (int32_t t = S->angle_ptr[i]; t < S->angle_ptr[i + 1]; t++) {
       const ali3_angle_term *x = &S->angle[t];
-      const double qa = x->a < 0 ? 1.0 : q[x->a], qb = x->b < 0 ? 1.0 : q[x->b];
-      const double h = cosine * x->hs - sine * x->hc;
+      const real qa = value_of(q, x->a), qb = value_of(q, x->b);
+      const real h = cosine * x->hs - sine * x->hc;
       along += x->hc * qa * qb;
       across += x->hs * qa * qb;
       if (x->a >= 0) J[x->ja] += h * qb;
@@ -83,49 +95,50 @@ void ali3_constraints(ali3_instance *in, const double *q, const double *s, doubl
 }
 
 /* Phit = d Phi / dt */
-void ali3_constraint_rate(ali3_instance *in, const double *q, const ali3_vectors *guides, double *Phit) {
+void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *guides, real *Phit) {
   const ali3_system *S = in->system;
   memset(Phit, 0, (size_t)S->size.nc * sizeof *Phit);
   if (S->n_gterm_row == 0) return;
   q = near_origin(in, q);
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
     const ali3_guide_term *g = &S->gterm[t];
-    const double qa = g->term.a < 0 ? 1.0 : q[g->term.a], qb = g->term.b < 0 ? 1.0 : q[g->term.b];
+    const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b);
     Phit[g->row] += guide_rate(g, guides) * qa * qb;
   }
   ali3_switch_values(in, Phit);
 }
 
 /* gamma = d(Phi_q)/dt qd + d(Phi_t)/dt, so that Phi'' = Phi_q qdd + gamma. */
-void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd, const ali3_vectors *guides,
-                           double *gamma) {
+void ali3_constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma) {
   const ali3_system *S = in->system;
+  const int32_t *ptr = S->row_ptr, *col = S->row_col, *hess_ptr = S->hess_ptr, *hess_col = S->hess_col;
+  const double *hess = S->hess_val;
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
-    double value = 0.0;
-    for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) {
-      double sum = 0.0;
-      for (int32_t t = S->hess_ptr[i]; t < S->hess_ptr[i + 1]; t++) sum += S->hess_val[t] * qd[S->hess_col[t]];
-      value += sum * qd[S->row_col[i]];
+    real value = {0};
+    for (int32_t i = ptr[k]; i < ptr[k + 1]; i++) {
+      real sum = {0};
+      for (int32_t t = hess_ptr[i]; t < hess_ptr[i + 1]; t++) sum += hess[t] * qd[hess_col[t]];
+      value += sum * qd[col[i]];
     }
     gamma[k] = value;
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
     const ali3_guide_term *g = &S->gterm[t];
-    const double qa = g->term.a < 0 ? 1.0 : q[g->term.a], qb = g->term.b < 0 ? 1.0 : q[g->term.b];
-    const double va = g->term.a < 0 ? 0.0 : qd[g->term.a], vb = g->term.b < 0 ? 0.0 : qd[g->term.b];
-    const double w = guide_factor(g, guides->s), wd = guide_rate(g, guides), wdd = guide_second_rate(g, guides);
+    const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b);
+    const real va = rate_of(qd, g->term.a), vb = rate_of(qd, g->term.b);
+    const real w = guide_factor(g, guides->s), wd = guide_rate(g, guides), wdd = guide_second_rate(g, guides);
     gamma[g->row] += wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
   }
   for (int64_t i = 0; i < S->n_angle_row; i++) {
-    const double theta = q[S->angle_theta_col[i]], rate = qd[S->angle_theta_col[i]], cosine = ali3_cos(theta),
-                 sine = ali3_sin(theta);
-    double value = 0.0, first = 0.0, second = 0.0; /* of cos S - sin C: with theta's rates, mixed, own */
+    const real theta = q[S->angle_theta_col[i]], rate = qd[S->angle_theta_col[i]], cosine = ali3_cos(theta),
+               sine = ali3_sin(theta);
+    real value = {0}, first = {0}, second = {0}; /* of cos S - sin C: with theta's rates, mixed, own */
     for (int32_t t = S->angle_ptr[i]; t < S->angle_ptr[i + 1]; t++) {
       const ali3_angle_term *x = &S->angle[t];
-      const double qa = x->a < 0 ? 1.0 : q[x->a], qb = x->b < 0 ? 1.0 : q[x->b];
-      const double va = x->a < 0 ? 0.0 : qd[x->a], vb = x->b < 0 ? 0.0 : qd[x->b];
-      const double h = cosine * x->hs - sine * x->hc;
+      const real qa = value_of(q, x->a), qb = value_of(q, x->b);
+      const real va = rate_of(qd, x->a), vb = rate_of(qd, x->b);
+      const real h = cosine * x->hs - sine * x->hc;
       value += h * qa * qb;
       first -= (sine * x->hs + cosine * x->hc) * (va * qb + qa * vb);
       second += 2.0 * h * va * vb;
@@ -137,14 +150,16 @@ void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd,
 }
 
 /* F += weight * sum_k lam_k d2(Phi_k)/dq2, lower triangles. */
-void ali3_geometric(ali3_instance *in, const double *q, const double *s, const double *lam, double weight, double *F) {
+void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight, real *F) {
   const ali3_system *S = in->system;
+  const int32_t *ptr = S->quad_ptr;
+  const ali3_term *quad = S->quad;
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
-    const double factor = weight * lam[k];
-    for (int32_t t = S->quad_ptr[k]; t < S->quad_ptr[k + 1]; t++) {
-      const ali3_term *x = &S->quad[t];
-      const double value = factor * x->h;
+    const real factor = weight * lam[k];
+    for (int32_t t = ptr[k]; t < ptr[k + 1]; t++) {
+      const ali3_term *x = &quad[t];
+      const real value = factor * x->h;
       F[x->pos] += x->a == x->b ? 2.0 * value : value;
     }
   }
@@ -154,13 +169,13 @@ void ali3_geometric(ali3_instance *in, const double *q, const double *s, const d
     F[g->term.pos] += weight * lam[g->row] * guide_factor(g, s) * (g->term.a == g->term.b ? 2.0 : 1.0);
   }
   for (int64_t i = 0; i < S->n_angle_row; i++) {
-    const double theta = q[S->angle_theta_col[i]], factor = weight * lam[S->angle_row[i]];
-    const double cosine = factor * ali3_cos(theta), sine = factor * ali3_sin(theta);
-    double value = 0.0;
+    const real theta = q[S->angle_theta_col[i]], factor = weight * lam[S->angle_row[i]];
+    const real cosine = factor * ali3_cos(theta), sine = factor * ali3_sin(theta);
+    real value = {0};
     for (int32_t t = S->angle_ptr[i]; t < S->angle_ptr[i + 1]; t++) {
       const ali3_angle_term *x = &S->angle[t];
-      const double qa = x->a < 0 ? 1.0 : q[x->a], qb = x->b < 0 ? 1.0 : q[x->b];
-      const double h = cosine * x->hs - sine * x->hc, mixed = -(sine * x->hs + cosine * x->hc);
+      const real qa = value_of(q, x->a), qb = value_of(q, x->b);
+      const real h = cosine * x->hs - sine * x->hc, mixed = -(sine * x->hs + cosine * x->hc);
       value += h * qa * qb;
       if (x->pos >= 0) F[x->pos] += x->a == x->b ? 2.0 * h : h;
       if (x->pos_a >= 0) F[x->pos_a] += mixed * qb;
@@ -172,56 +187,61 @@ void ali3_geometric(ali3_instance *in, const double *q, const double *s, const d
 
 /* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are
  * contiguous. */
-void ali3_rows_square(ali3_instance *in, const double *J, double weight, double *F) {
+void ali3_rows_square(ali3_instance *in, const real *J, double weight, real *F) {
   const ali3_system *S = in->system;
-  double *restrict spread = in->local;
+  const int32_t *ptr = S->row_ptr, *loc = S->row_loc;
+  real *restrict spread = in->local;
   for (int32_t k = 0; k < S->size.nc; k++) {
-    const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = S->row_ptr[k + 1];
-    double *block = F + S->front_off[f];
+    const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = ptr[k + 1];
+    real *block = F + S->front_off[f];
     if (S->row_wide[k]) {
-      const int32_t last = S->row_loc[end - 1] + 1;
-      for (int32_t i = S->row_loc[S->row_ptr[k]]; i < last; i++) spread[i] = 0.0;
-      for (int32_t i = S->row_ptr[k]; i < end; i++) spread[S->row_loc[i]] = J[i];
-      for (int32_t j = S->row_ptr[k]; j < end; j++) {
-        const int32_t from = S->row_loc[j];
-        double *restrict column = block + (int64_t)from * n;
-        const double factor = weight * J[j];
+      const int32_t last = loc[end - 1] + 1;
+      for (int32_t i = loc[ptr[k]]; i < last; i++) spread[i] = ali3_same(0.0);
+      for (int32_t i = ptr[k]; i < end; i++) spread[loc[i]] = J[i];
+      for (int32_t j = ptr[k]; j < end; j++) {
+        const int32_t from = loc[j];
+        real *restrict column = block + (int64_t)from * n;
+        const real factor = weight * J[j];
         for (int32_t i = from; i < last; i++) column[i] += factor * spread[i];
       }
       continue;
     }
-    for (int32_t j = S->row_ptr[k]; j < end; j++) {
-      double *column = block + (int64_t)S->row_loc[j] * n;
-      const double factor = weight * J[j];
-      for (int32_t i = j; i < end; i++) column[S->row_loc[i]] += factor * J[i];
+    for (int32_t j = ptr[k]; j < end; j++) {
+      real *column = block + (int64_t)loc[j] * n;
+      const real factor = weight * J[j];
+      for (int32_t i = j; i < end; i++) column[loc[i]] += factor * J[i];
     }
   }
 }
 
 /* F += weight * A' J, whole blocks. */
-void ali3_rows_product(ali3_instance *in, const double *A, const double *J, double weight, double *F) {
+void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double weight, real *F) {
   const ali3_system *S = in->system;
   for (int32_t k = 0; k < S->size.nc; k++) {
     const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = S->row_ptr[k + 1];
-    double *block = F + S->front_off[f];
+    real *block = F + S->front_off[f];
     for (int32_t j = S->row_ptr[k]; j < end; j++) {
-      double *column = block + (int64_t)S->row_loc[j] * n;
-      const double factor = weight * J[j];
+      real *column = block + (int64_t)S->row_loc[j] * n;
+      const real factor = weight * J[j];
       for (int32_t i = S->row_ptr[k]; i < end; i++) column[S->row_loc[i]] += factor * A[i];
     }
   }
 }
 
-void ali3_rows_times(const ali3_system *S, const double *J, const double *x, double *out) {
+void ali3_rows_times(const ali3_system *S, const real *J, const real *x, real *out) {
+  const int32_t *ptr = S->row_ptr, *col = S->row_col;
   for (int32_t k = 0; k < S->size.nc; k++) {
-    double sum = 0.0;
-    for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) sum += J[i] * x[S->row_col[i]];
+    real sum = {0};
+    for (int32_t i = ptr[k]; i < ptr[k + 1]; i++) sum += J[i] * x[col[i]];
     out[k] = sum;
   }
 }
 
-void ali3_rows_transposed(const ali3_system *S, const double *J, const double *w, double *out) {
+void ali3_rows_transposed(const ali3_system *S, const real *J, const real *w, real *out) {
+  const int32_t *ptr = S->row_ptr, *col = S->row_col;
   memset(out, 0, (size_t)S->size.nq * sizeof *out);
-  for (int32_t k = 0; k < S->size.nc; k++)
-    for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) out[S->row_col[i]] += J[i] * w[k];
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    const real weight = w[k];
+    for (int32_t i = ptr[k]; i < ptr[k + 1]; i++) out[col[i]] += J[i] * weight;
+  }
 }

@@ -1,15 +1,15 @@
 /* Rows, their gradients and second derivatives, and products with them. */
 #ifndef ALI3_CONSTRAINTS_H
 #define ALI3_CONSTRAINTS_H
+#include "../algebra/real.h"
 #include "../instance.h"
 
-void ali3_constraints(ali3_instance *in, const double *q, const double *s, double *Phi, double *J);
-void ali3_constraint_rate(ali3_instance *in, const double *q, const ali3_vectors *guides, double *Phit);
-void ali3_constraint_gamma(ali3_instance *in, const double *q, const double *qd, const ali3_vectors *guides,
-                           double *gamma);
-void ali3_geometric(ali3_instance *in, const double *q, const double *s, const double *lam, double weight, double *F);
-void ali3_rows_square(ali3_instance *in, const double *J, double weight, double *F);
-void ali3_rows_product(ali3_instance *in, const double *A, const double *J, double weight, double *F);
-void ali3_rows_times(const ali3_system *S, const double *J, const double *x, double *out);
-void ali3_rows_transposed(const ali3_system *S, const double *J, const double *w, double *out); /* out = J' w */
+void ali3_constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J);
+void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *guides, real *Phit);
+void ali3_constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma);
+void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight, real *F);
+void ali3_rows_square(ali3_instance *in, const real *J, double weight, real *F);
+void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double weight, real *F);
+void ali3_rows_times(const ali3_system *S, const real *J, const real *x, real *out);
+void ali3_rows_transposed(const ali3_system *S, const real *J, const real *w, real *out); /* out = J' w */
 #endif

@@ -1,9 +1,10 @@
 /* Rows that are switched on or off; one that is off is zero, with its rates and its part of a tangent. */
 #ifndef ALI3_SWITCH_ROWS_H
 #define ALI3_SWITCH_ROWS_H
+#include "../algebra/real.h"
 #include "../instance.h"
 
 bool ali3_row_is_off(const ali3_instance *in, int32_t k);
-void ali3_switch_rows(const ali3_instance *in, double *Phi, double *J);
-void ali3_switch_values(const ali3_instance *in, double *v);
+void ali3_switch_rows(const ali3_instance *in, real *Phi, real *J);
+void ali3_switch_values(const ali3_instance *in, real *v);
 #endif

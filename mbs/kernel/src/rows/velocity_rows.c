@@ -7,20 +7,20 @@
 #include "switch_rows.h"
 
 /* No Phi, and what the coordinates add to A. */
-void ali3_velocity_jacobian(const ali3_instance *in, const double *q, double *Phi, double *J) {
+void ali3_velocity_jacobian(const ali3_instance *in, const real *q, real *Phi, real *J) {
   const ali3_system *S = in->system;
   for (int64_t i = 0; i < S->n_velocity_row; i++) {
-    Phi[S->velocity_row[i]] = 0.0;
+    Phi[S->velocity_row[i]] = ali3_same(0.0);
     for (int32_t t = S->velocity_ptr[i]; t < S->velocity_ptr[i + 1]; t++)
       J[S->velocity[t].jb] += S->velocity[t].h * q[S->velocity[t].a];
   }
 }
 
 /* d(A)/dt qd */
-void ali3_velocity_gamma(const ali3_instance *in, const double *qd, double *gamma) {
+void ali3_velocity_gamma(const ali3_instance *in, const real *qd, real *gamma) {
   const ali3_system *S = in->system;
   for (int64_t i = 0; i < S->n_velocity_row; i++) {
-    double sum = 0.0;
+    real sum = {0};
     for (int32_t t = S->velocity_ptr[i]; t < S->velocity_ptr[i + 1]; t++)
       sum += S->velocity[t].h * qd[S->velocity[t].a] * qd[S->velocity[t].b];
     gamma[S->velocity_row[i]] = sum;
@@ -28,18 +28,18 @@ void ali3_velocity_gamma(const ali3_instance *in, const double *qd, double *gamm
 }
 
 /* Phi = A v / rate */
-void ali3_velocity_values(const ali3_instance *in, const double *A, const double *v, double rate, double *Phi) {
+void ali3_velocity_values(const ali3_instance *in, const real *A, const real *v, double rate, real *Phi) {
   const ali3_system *S = in->system;
   for (int64_t i = 0; i < S->n_velocity_row; i++) {
     const int32_t k = S->velocity_row[i];
-    double sum = 0.0;
+    real sum = {0};
     for (int32_t j = S->row_ptr[k]; j < S->row_ptr[k + 1]; j++) sum += A[j] * v[S->row_col[j]];
     Phi[k] = sum / rate;
   }
 }
 
 /* Over a step that goes D with the A of its middle: Phi = A D, and J its exact derivative A + sum of h D_b / 2. */
-void ali3_velocity_middle(const ali3_instance *in, const double *A, const double *D, double *Phi, double *J) {
+void ali3_velocity_middle(const ali3_instance *in, const real *A, const real *D, real *Phi, real *J) {
   const ali3_system *S = in->system;
   ali3_velocity_values(in, A, D, 1.0, Phi);
   for (int64_t i = 0; i < S->n_velocity_row; i++) {
@@ -52,10 +52,10 @@ void ali3_velocity_middle(const ali3_instance *in, const double *A, const double
 }
 
 /* Rows that positions do not know. */
-void ali3_velocity_release(const ali3_instance *in, double *J) {
+void ali3_velocity_release(const ali3_instance *in, real *J) {
   const ali3_system *S = in->system;
   for (int64_t i = 0; i < S->n_velocity_row; i++) {
     const int32_t k = S->velocity_row[i];
-    for (int32_t j = S->row_ptr[k]; j < S->row_ptr[k + 1]; j++) J[j] = 0.0;
+    for (int32_t j = S->row_ptr[k]; j < S->row_ptr[k + 1]; j++) J[j] = ali3_same(0.0);
   }
 }

@@ -1,5 +1,6 @@
 /* Sensor values of the present state: a function for each type of sensor_types.h, of its integers and reals. */
 #include <math.h>
+#include <string.h>
 
 #include "../algebra/elementary.h"
 #include "../flexible/flexible_body.h"
@@ -240,4 +241,11 @@ void ali3_sensors_evaluate(const ali3_instance *in, double *out) {
   const ali3_system *S = in->system;
   for (int32_t i = 0; i < S->size.ns; i++)
     out[i] = value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], S->sen_real + S->sen_real_ptr[i]);
+}
+
+/* Sensors and coordinates as a row of a record; either may be NULL. */
+void ali3_record_row(const ali3_instance *in, int64_t row, double *out, double *positions) {
+  const ali3_sizes *size = &in->system->size;
+  if (out != NULL) ali3_sensors_evaluate(in, out + row * size->ns);
+  if (positions != NULL) memcpy(positions + row * size->nq, in->now.q, (size_t)size->nq * sizeof *positions);
 }

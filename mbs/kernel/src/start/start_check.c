@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "../elements/road.h"
+#include "../elements/tyre_contact.h"
 #include "../instance.h"
 #include "initialise.h"
 
@@ -59,15 +60,23 @@ double ali3_start_excess(const ali3_instance *in, int32_t *element, const char *
 /* A vehicle that rolls over presses the centre of a wheel some millimetres into the ground; this is a face. */
 static const double DEEP = 0.5; /* radii */
 
-ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *text, size_t size) {
+/* The first wheel whose centre is deep in its grid; what rims meet on the way goes into `report`, if there is one. */
+static ali3_status look(const ali3_instance *in, ali3_report *report, int32_t *element, char *text, size_t size) {
   if (text != NULL && size > 0) text[0] = 0;
   if (element != NULL) *element = -1;
   for (int32_t e = 0; in != NULL && e < in->system->size.ne; e++) {
     const ali3_system *S = in->system;
     double u[ALI3_MAX_SIGNALS] = {0.0}, spacing[2];
-    if (S->el_kind[e] != &ali3_tyre || !ali3_road_spacing(&in->road[S->el_int[S->el_int_ptr[e]]], spacing)) continue;
+    if (S->el_kind[e]->depth != ali3_tyre_depth || !ali3_road_spacing(&in->road[S->el_int[S->el_int_ptr[e]]], spacing))
+      continue;
     const ali3_element_args a = ali3_start_arguments(in, in->road, in->now.q, e, u);
-    const double sunk = S->el_kind[e]->start(&a, 0.0).excess;
+    const ali3_start_verdict v = S->el_kind[e]->start(&a, 0.0);
+    const double sunk = v.excess;
+    if (report != NULL && v.pressed > report->rim_pressed) {
+      report->rim_pressed = v.pressed;
+      report->rim_time = ali3_time(in);
+      report->rim_x = u[0], report->rim_y = u[1];
+    }
     if (!(sunk > DEEP * a.real[0])) continue;
     if (element != NULL) *element = e;
     if (text != NULL)
@@ -78,5 +87,24 @@ ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *
           u[0], u[1], a.real[0], sunk, spacing[0], spacing[1]);
     return ALI3_WHEEL_IN_ROAD;
   }
+  return ALI3_OK;
+}
+
+ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *text, size_t size) {
+  return look(in, NULL, element, text, size);
+}
+
+ali3_status ali3_wheels_watch(ali3_instance *in) { return look(in, &in->report, NULL, NULL, 0); }
+
+ali3_status ali3_rim_text(const ali3_instance *in, char *text, size_t size) {
+  if (in == NULL || text == NULL || size == 0) return ALI3_BAD_ARGUMENT;
+  const ali3_report *r = &in->report;
+  text[0] = 0;
+  if (r->rim_pressed > 0.0)
+    snprintf(text, size,
+             "At %.4g s a wheel at x = %.4g m, y = %.4g m was driven into a face of the road that is too high or too "
+             "steep at its speed: the rim is pressed in by %.2g m more than it holds, so loads from there on are those "
+             "of a stiff spring. Drive slower there, or take a lower face.",
+             r->rim_time, r->rim_x, r->rim_y, r->rim_pressed);
   return ALI3_OK;
 }

@@ -46,16 +46,20 @@ const char *ali3_status_text(ali3_status s) {
 
 uint32_t ali3_version(void) { return ALI3_SYSTEM_VERSION; }
 
+size_t ali3_instance_size(const ali3_system *s) {
+  ali3_instance counted;
+  ali3_pool pool = {.block = NULL, .used = 0};
+  if (s == NULL) return 0;
+  ali3_pool_items(&pool, 1, sizeof counted);
+  ali3_workspace_place(s, &counted, &pool);
+  return pool.used;
+}
+
 ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   if (s == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
   *out = NULL;
-  ali3_instance counted;
-  ali3_pool pool = {.block = NULL, .used = 0};
-  ali3_pool_items(&pool, 1, sizeof counted);
-  ali3_workspace_place(s, &counted, &pool);
-  pool.block = s->memory.allocate(1, pool.used);
+  ali3_pool pool = {.block = s->memory.allocate(1, ali3_instance_size(s)), .used = 0};
   if (pool.block == NULL) return ALI3_NO_MEMORY;
-  pool.used = 0;
   ali3_instance *in = ali3_pool_items(&pool, 1, sizeof *in);
   ali3_workspace_place(s, in, &pool);
   in->system = s;
@@ -145,6 +149,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->guide_real, S->guide_real, S->n_guide_real);
   copy(in->road_real, S->road_real, S->n_road_real);
   copy(in->payload_mass, S->payload_mass, S->n_payload_mass);
+  copy(in->armature_ratio, S->armature_ratio, S->n_armature_ratio);
   for (int32_t g = 0; g < S->size.ng; g++)
     if (ali3_guide_filters(S->guide_type[g])) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
   for (int32_t r = 0; r < S->nr; r++) {

@@ -1,5 +1,7 @@
 /* Masses of an instance. The points of payloads are signals p = C q + c, so that a payload of mass m adds m C'C to the
- * mass matrix, m C'g to the force of gravity and -m g.c to its energy. Whatever reads masses reads these sums. */
+ * mass matrix, m C'g to the force of gravity and -m g.c to its energy. What turns r times as fast as a coordinate adds
+ * J r^2 there; the matrix of the System has it with the ratio r of the drawing. Whatever reads masses reads these sums. */
+#include <math.h>
 #include <string.h>
 
 #include "../system/check.h"
@@ -7,11 +9,14 @@
 #include "../tree/tree.h"
 #include "masses.h"
 
-/* Memory of the sums, where there are payloads. */
+static bool changes(const ali3_system *s) { return s->n_payload_mass > 0 || s->n_armature_ratio > 0; }
+
+/* Memory of the sums, where something changes them. */
 void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
-  const bool loaded = s->n_payload_mass > 0;
+  const bool loaded = changes(s);
   const size_t nq = loaded ? (size_t)s->size.nq : 0;
   in->payload_mass = ali3_pool_array(p, (size_t)s->n_payload_mass);
+  in->armature_ratio = ali3_pool_array(p, (size_t)s->n_armature_ratio);
   in->own_masses.val = ali3_pool_array(p, loaded ? (size_t)s->size.nnz_mass : 0);
   in->own_masses.front = ali3_pool_array(p, loaded ? (size_t)s->size.front_size : 0);
   in->own_masses.floor = ali3_pool_array(p, nq);
@@ -24,7 +29,7 @@ void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
 void ali3_masses_start(ali3_instance *in) {
   const ali3_system *S = in->system;
   const ali3_masses *own = &in->own_masses;
-  const bool loaded = S->n_payload_mass > 0;
+  const bool loaded = changes(S);
   in->mass_val = loaded ? own->val : S->mass_val;
   in->front_mass = loaded ? own->front : S->front_mass;
   in->mass_floor = loaded ? own->floor : S->mass_floor;
@@ -49,6 +54,15 @@ static void add(ali3_instance *in, int32_t signal, double mass, double g) {
   in->gravity_const -= mass * g * S->sig_const[signal];
 }
 
+/* What the ratio of an armature changes, nothing where it is that of the System. */
+static void turn(ali3_instance *in, int64_t k) {
+  const ali3_system *S = in->system;
+  const int32_t row = S->armature_col[k], start = S->mass_ptr[row];
+  double *mass = in->own_masses.val + start + ali3_find(S->mass_col + start, S->mass_ptr[row + 1] - start, row);
+  const double old = S->armature_ratio[k], now = in->armature_ratio[k];
+  *mass = fmax(*mass + S->armature_inertia[k] * (now * now - old * old), 0.0);
+}
+
 /* The same of the tree: what each joint carries. */
 static void carry(ali3_instance *in) {
   const ali3_tree *T = in->system->tree;
@@ -58,17 +72,18 @@ static void carry(ali3_instance *in) {
     for (int32_t b = in->system->tree_payload_body[k]; b > 0; b = T->parent[b]) carried[b] += in->payload_mass[k];
 }
 
-/* After the payloads have changed. */
+/* After payloads or ratios have changed. */
 void ali3_masses_apply(ali3_instance *in) {
   const ali3_system *S = in->system;
   const ali3_masses *own = &in->own_masses;
   if (S->tree != NULL) carry(in);
-  if (S->n_payload_mass == 0) return;
+  if (!changes(S)) return;
   memcpy(own->val, S->mass_val, (size_t)S->size.nnz_mass * sizeof(double));
   memcpy(own->gravity, S->gravity_force, (size_t)S->size.nq * sizeof(double));
   in->gravity_const = S->gravity_const[0];
   for (int64_t i = 0; i < 3 * S->n_payload_mass; i++)
     if (in->payload_mass[i / 3] > 0.0)
       add(in, S->payload_signal[i], in->payload_mass[i / 3], S->payload_gravity[i % 3]);
+  for (int64_t k = 0; k < S->n_armature_ratio; k++) turn(in, k);
   ali3_mass_in_fronts(S, own->val, own->front, own->floor, own->floor_inverse, own->missing);
 }

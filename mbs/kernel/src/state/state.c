@@ -92,9 +92,11 @@ static bool branch_valid(const ali3_system *s, const ali3_report *r) {
 static bool report_valid(const ali3_system *s, const ali3_report *r) {
   return branch_valid(s, r) && magnitude(r->work) && magnitude(r->kinetic_peak) && magnitude(r->speed_peak) &&
          magnitude(r->velocity_path) && magnitude(r->predictor_path) && r->energy - r->energy == 0.0 &&
-         r->open_power - r->open_power == 0.0 && counted(r->steps) && counted(r->iterations) &&
-         counted(r->factorizations) && counted(r->solves) && counted(r->halvings) && counted(r->failures) &&
-         counted(r->capped) && magnitude(r->capped_residual) && r->energy_error - r->energy_error == 0.0;
+         r->open_power - r->open_power == 0.0 && magnitude(r->energy_floor) && magnitude(r->rim_pressed) &&
+         r->rim_time - r->rim_time == 0.0 && r->rim_x - r->rim_x == 0.0 && r->rim_y - r->rim_y == 0.0 &&
+         counted(r->steps) && counted(r->iterations) && counted(r->factorizations) && counted(r->solves) &&
+         counted(r->halvings) && counted(r->failures) && counted(r->capped) && magnitude(r->capped_residual) &&
+         r->energy_error - r->energy_error == 0.0;
 }
 
 /* Vectors, inputs and parameters, one after the other. */

@@ -10,7 +10,7 @@
 #include "vectors.h"
 
 /* Signals times coordinates of the largest element. */
-static size_t signal_work(const ali3_system *s) {
+size_t ali3_signal_work(const ali3_system *s) {
   size_t largest = 0;
   for (int32_t e = 0; e < s->size.ne; e++) {
     const size_t n = (size_t)(s->el_sig_ptr[e + 1] - s->el_sig_ptr[e]);
@@ -95,7 +95,7 @@ static void place_tangents(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->u = ali3_pool_array(p, (size_t)z->nsig);
   in->ud = ali3_pool_array(p, (size_t)z->nsig);
   in->S = ali3_pool_array(p, (size_t)s->el_S_off[z->ne]);
-  in->SB = ali3_pool_array(p, signal_work(s));
+  in->SB = ali3_pool_array(p, ali3_signal_work(s));
   in->local = ali3_pool_array(p, ALI3_RADAU * (size_t)s->max_front);
 }
 

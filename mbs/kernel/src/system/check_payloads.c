@@ -1,4 +1,4 @@
-/* Payloads of a System: point masses at signals, which the mass matrix has room for. */
+/* Payloads of a System, point masses at signals, which the mass matrix has room for, and its armatures. */
 #include "../system.h"
 #include "check.h"
 #include "loading.h"
@@ -23,5 +23,20 @@ ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m) {
   for (int64_t i = 0; i < 3 * n; i++)
     if (!has_room(s, s->payload_signal[i]))
       return ali3_bad(m, "payload %d is at coordinates between which the mass matrix has no entry", (int)(i / 3));
+  return ALI3_OK;
+}
+
+ali3_status ali3_check_armatures(const ali3_system *s, ali3_message m) {
+  const int64_t n = s->n_armature_ratio;
+  CHECK(ali3_check_length(m, "armature_col", s->n_armature_col, n));
+  CHECK(ali3_check_length(m, "armature_inertia", s->n_armature_inertia, n));
+  CHECK(ali3_check_indices(m, "armature_col", s->armature_col, n, 0, s->size.nq));
+  for (int64_t k = 0; k < n; k++) {
+    const int32_t row = s->armature_col[k], first = s->mass_ptr[row];
+    const int32_t at = ali3_find(s->mass_col + first, s->mass_ptr[row + 1] - first, row);
+    const double turns = s->armature_inertia[k] * s->armature_ratio[k] * s->armature_ratio[k];
+    if (!(s->armature_inertia[k] >= 0.0) || at < 0 || !(turns <= (1.0 + 1e-9) * s->mass_val[first + at]))
+      return ali3_bad(m, "the inertia of armature %d is not in that of its coordinate", (int)k);
+  }
   return ALI3_OK;
 }

@@ -14,8 +14,9 @@ ali3_status ali3_check_tree(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_modes(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_start(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m);
+ali3_status ali3_check_armatures(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_ported(const ali3_system *s, ali3_message m);
-/* Data of elements, guides, roads and payloads, in the order of ALI3_TARGET_*: all, or of what target k of a parameter
+/* Data of elements, guides, roads, payloads and armatures, in the order of ALI3_TARGET_*: all, or of what target k of a parameter
  * belongs to. */
 const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_TARGET_COUNT]);
 const char *ali3_check_target(const ali3_system *s, int64_t k, const double *const data[ALI3_TARGET_COUNT]);

@@ -100,17 +100,18 @@ static ali3_status check_fixed(const ali3_system *s, ali3_message m) {
     for (int32_t k = s->par_ptr[p]; k < s->par_ptr[p + 1]; k++)
       if (s->par_target[k] >= ALI3_TARGET_PAYLOAD && (s->n_par_fixed == 0 || !s->par_fixed[p]))
         return ali3_bad(m, "parameter %d writes %s and is not fixed", (int)p,
-                        s->par_target[k] == ALI3_TARGET_PAYLOAD ? "the mass of a payload" : "a switch");
+                        s->par_target[k] == ALI3_TARGET_PAYLOAD  ? "the mass of a payload"
+                        : s->par_target[k] == ALI3_TARGET_SWITCH ? "a switch"
+                                                                 : "the ratio of an armature");
   return ALI3_OK;
 }
 
 static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   const int32_t np = s->size.np;
-  const int64_t length[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = s->n_el_real,
-                                             [ALI3_TARGET_GUIDE] = s->n_guide_real,
-                                             [ALI3_TARGET_ROAD] = s->n_road_real,
-                                             [ALI3_TARGET_PAYLOAD] = s->n_payload_mass,
-                                             [ALI3_TARGET_SWITCH] = s->n_switch_start};
+  const int64_t length[ALI3_TARGET_COUNT] = {
+      [ALI3_TARGET_ELEMENT] = s->n_el_real,     [ALI3_TARGET_GUIDE] = s->n_guide_real,
+      [ALI3_TARGET_ROAD] = s->n_road_real,      [ALI3_TARGET_PAYLOAD] = s->n_payload_mass,
+      [ALI3_TARGET_SWITCH] = s->n_switch_start, [ALI3_TARGET_ARMATURE] = s->n_armature_ratio};
   CHECK(ali3_check_length(m, "par_min", s->n_par_min, np));
   CHECK(ali3_check_length(m, "par_max", s->n_par_max, np));
   CHECK(ali3_check_length(m, "par_index", s->n_par_index, s->n_par_target));
@@ -148,6 +149,10 @@ static const char *check_payload(double mass) {
   return mass >= 0.0 && mass - mass == 0.0 ? NULL : "the mass of a payload must be a number and not negative";
 }
 
+static const char *check_ratio(double ratio) {
+  return ratio > 0.0 && ratio - ratio == 0.0 ? NULL : "the ratio of an armature must be a number above 0";
+}
+
 static const char *check_switch(double on) {
   return on == 0.0 || on == 1.0 ? NULL : "a parameter writes to a switch what is neither 0 nor 1";
 }
@@ -158,6 +163,7 @@ const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_
   for (int32_t g = 0; text == NULL && g < s->size.ng; g++) text = check_guide(s, g, data[ALI3_TARGET_GUIDE]);
   for (int32_t k = 0; text == NULL && k < s->nr; k++) text = check_road(s, k, data[ALI3_TARGET_ROAD]);
   for (int64_t k = 0; text == NULL && k < s->n_payload_mass; k++) text = check_payload(data[ALI3_TARGET_PAYLOAD][k]);
+  for (int64_t k = 0; text == NULL && k < s->n_armature_ratio; k++) text = check_ratio(data[ALI3_TARGET_ARMATURE][k]);
   const double *on = data[ALI3_TARGET_SWITCH]; /* those of a file are 0 or 1 */
   for (int32_t k = 0; text == NULL && on != NULL && k < s->size.n_switch; k++) text = check_switch(on[k]);
   return text;
@@ -182,7 +188,8 @@ const char *ali3_check_target(const ali3_system *s, int64_t k, const double *con
   if (family == ALI3_TARGET_ELEMENT) return check_element(s, owner(s->el_real_ptr, s->size.ne, index), data[family]);
   if (family == ALI3_TARGET_GUIDE) return check_guide(s, owner(s->guide_real_ptr, s->size.ng, index), data[family]);
   if (family == ALI3_TARGET_ROAD) return check_road(s, owner(s->road_real_ptr, s->nr, index), data[family]);
-  return family == ALI3_TARGET_PAYLOAD ? check_payload(data[family][index]) : check_switch(data[family][index]);
+  if (family == ALI3_TARGET_PAYLOAD) return check_payload(data[family][index]);
+  return family == ALI3_TARGET_SWITCH ? check_switch(data[family][index]) : check_ratio(data[family][index]);
 }
 
 ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
@@ -190,6 +197,7 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(check_mass(s, m));
   CHECK(check_signals(s, m));
   CHECK(ali3_check_payloads(s, m));
+  CHECK(ali3_check_armatures(s, m));
   CHECK(check_guides_and_roads(s, m));
   CHECK(check_parameters(s, m));
   CHECK(ali3_check_fronts(s, m));
@@ -206,7 +214,8 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   const double *const data[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = s->el_real,
                                                  [ALI3_TARGET_GUIDE] = s->guide_real,
                                                  [ALI3_TARGET_ROAD] = s->road_real,
-                                                 [ALI3_TARGET_PAYLOAD] = s->payload_mass};
+                                                 [ALI3_TARGET_PAYLOAD] = s->payload_mass,
+                                                 [ALI3_TARGET_ARMATURE] = s->armature_ratio};
   const char *text = ali3_check_data(s, data);
   return text == NULL ? ALI3_OK : ali3_bad(m, "%s", text);
 }

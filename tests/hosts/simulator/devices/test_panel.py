@@ -197,6 +197,7 @@ def test_the_force_is_set_and_tested(panel, start, wheel, monkeypatch):
     panel.until(lambda: panel.run.only()["settings"]["force_inverted"])
 
 
+@pytest.mark.slow
 def test_a_field_that_is_typed_into_is_left_alone(panel, start, wheel):
     panel.run = start()
     panel.show()

@@ -1,7 +1,7 @@
 // Particles that fly, slow down, grow and fade; pure numbers, bounded.
 import { chance } from "../looks/scenery/chance.js";
 
-/** What flies up: seconds of life, size at the begin and at the end in metres, colour, share that is seen, fall in m/s2. */
+/** What flies up: seconds of life, size at the beginning and at the end in metres, colour, share that is seen, fall in m/s2. */
 export const KINDS = {
   grass: { life: 0.9, sizes: [0.15, 0.7], colour: [0.16, 0.13, 0.07], seen: 0.55, fall: 5 },
   dust: { life: 2.2, sizes: [0.3, 2.4], colour: [0.42, 0.37, 0.3], seen: 0.42, fall: 0.4 },

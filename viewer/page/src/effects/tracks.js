@@ -1,7 +1,7 @@
 // The marks that tyres leave, as rings of cross sections; pure numbers.
 import { apart } from "./wheels.js";
 
-/** Metres between two sections, and the way after which a mark begins anew. */
+/** Metres between two sections, and the way after which a mark begins again. */
 export const [STEP, GAP] = [0.12, 6];
 /** Darkness of a mark when the tyre slides altogether under its usual load. */
 const DARKEST = 0.8;

@@ -15,7 +15,7 @@ export class Bar {
     this.element = el(
       "div.a3-bar",
       {},
-      button("reset", "Reset", act.reset, "begin anew (Home)"),
+      button("reset", "Reset", act.reset, "begin again (Home)"),
       button("back", "2 s back", act.back, "two seconds back (Backspace)"),
       this._play,
       button("step", "Step", act.step, "one communication step (.)"),

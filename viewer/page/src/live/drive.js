@@ -110,7 +110,7 @@ class Drive {
     this.draw();
   }
 
-  /** Begin anew. */
+  /** Begin again. */
   async reset() {
     const { running } = this.session;
     await this.session.restart();
@@ -128,14 +128,14 @@ class Drive {
     this.draw();
   }
 
-  /** Set an input or parameter; a fixed one begins the run anew. */
+  /** Set an input or parameter; a fixed one begins the run again. */
   async set(name, value) {
     if (this.inputs.some((v) => v.name === name)) {
       this.hands.hold(name);
       return this.session.want([[name, Number(value)]]);
     }
     const anew = await this.session.set(name, value);
-    this._tell(anew ? `The run began anew with ${name} = ${value}.` : "", 3000);
+    this._tell(anew ? `The run began again with ${name} = ${value}.` : "", 3000);
     this.parameters?.show(name, value);
     if (anew) this.draw();
     return undefined;
@@ -311,7 +311,7 @@ class Drive {
 
   _refused(which, text, alive) {
     const part = this.stage.parts.filter((p) => p.variables)[which];
-    const choices = [button("begin anew", "Begin anew", () => this.reset()), button("go back", "2 s back", () => this.back())];
+    const choices = [button("begin again", "Begin again", () => this.reset()), button("go back", "2 s back", () => this.back())];
     const time = this.session.time.toFixed(3);
     this.stage.tell(part, `Stopped at ${time} s. ${text}`, alive ? [] : choices);
   }

@@ -80,7 +80,7 @@ export class Engine {
   }
 
   /**
-   * Begin anew.
+   * Begin again.
    * @param {Object<string, number|boolean|string>} start - Values that differ from those of the FMUs, by name.
    * @throws {Error} With the FMU's words; the old run is then over too.
    */

@@ -57,7 +57,7 @@ export function parameterPanel(variables, { set, roads }) {
     }
     if (lines.length) parts.push(section(title, title === "start values" && lines.length < 8, ...lines));
   }
-  const hint = "A change takes effect at once; where it says “starts again”, the run begins anew with it.";
+  const hint = "A change takes effect at once; where it says “starts again”, the run begins again with it.";
   return {
     element: section("Parameters", false, el("p.a3-hint", {}, hint), ...parts),
     show: (name, value) => controls.get(name)?.show(value),

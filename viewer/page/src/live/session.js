@@ -74,7 +74,7 @@ export class Session {
     return this._ask("paused", { do: "step", count });
   }
 
-  /** Begin anew, with other start values or another communication step where they are given. */
+  /** Begin again, with other start values or another communication step where they are given. */
   restart(start = this.start, step = this.step) {
     this.start = { ...start };
     this.step = step;
@@ -102,8 +102,8 @@ export class Session {
   }
 
   /**
-   * Set an input, or a parameter: a tunable one at once, a fixed one begins the run anew.
-   * @returns {Promise<boolean>} Whether it began anew.
+   * Set an input, or a parameter: a tunable one at once, a fixed one begins the run again.
+   * @returns {Promise<boolean>} Whether it began again.
    */
   async set(name, value) {
     const variable = this.variables.get(name);

@@ -3,7 +3,7 @@ import * as THREE from "three";
 
 /** So far around the focus it is drawn, in metres. */
 const REACH = 1600;
-/** Metres that the focus goes before it is built anew. */
+/** Metres that the focus goes before it is built again. */
 const STEP = 200;
 
 /**

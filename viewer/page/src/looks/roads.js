@@ -7,7 +7,7 @@ import { alongY, turn } from "../shapes/place.js";
 
 /** Half the side of a road without end, in metres. */
 const ENDLESS = 1500;
-/** Metres that the focus goes before a profile is built about it anew. */
+/** Metres that the focus goes before a profile is built about it again. */
 const STEP = 200;
 /** Cells of a grid in one piece: pieces are left out where they are not in the picture. */
 const PIECE = 64;

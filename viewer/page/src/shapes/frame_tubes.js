@@ -4,7 +4,7 @@ import { across, add, cross, scale, subtract, unit } from "../scene/math.js";
 
 const AROUND = 12;
 
-/** A surface over nodes and beams that is written anew when the nodes move. */
+/** A surface over nodes and beams that is written again when the nodes move. */
 export class FrameTubes {
   /** @param {number[][]} nodes @param {number[][]} beams pairs of nodes @param {number[]} radii of the beams */
   constructor(nodes, beams, radii) {

@@ -134,7 +134,7 @@ export class Cockpit {
     const names = new Set(hello.columns);
     this.cluster = new Cluster(names);
     this.steps = new Steps(hello.step);
-    this.tyres = new Tyres(wheelsOf(names), ([x, y]) => this.numbers.friction(x, y));
+    this.tyres = new Tyres(wheelsOf(names), ([x, y], wheel) => this.numbers.friction(x, y, wheel));
     this._touched = new Set();
     this.levers = levers(inputs, (name, value) => {
       this._touched[value ? "add" : "delete"](name);

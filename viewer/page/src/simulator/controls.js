@@ -1,4 +1,4 @@
-// What one can do with the run: pause, step, slow motion, rewind, set upright, begin anew, go to a place.
+// What one can do with the run: pause, step, slow motion, rewind, set upright, begin again, go to a place.
 import { button, el, select, write } from "../common/dom.js";
 
 /** Simulated seconds per second of the clock. */
@@ -30,7 +30,7 @@ export class Controls {
       { data: "controls" },
       el("div", {}, this._run, button("step", "Step", act.step, "one communication step (.)"), this._speed),
       el("div", {}, this._back, this._saved, this._far, button("upright", "Upright", act.upright, "set the car on its wheels (U)")),
-      el("div", {}, button("reset", "Reset", act.reset, "begin anew (Home)"), this._place),
+      el("div", {}, button("reset", "Reset", act.reset, "begin again (Home)"), this._place),
       el("div", {}, this._camera, this._quality, this._sound, button("panels", "Panels", act.panels, "devices, report, picture (G)")),
       button("help", "?", act.help, "keys (H)"),
     );

@@ -105,7 +105,7 @@ export function readByHost(padId, devices) {
   return devices.some((device) => device.usb === usb);
 }
 
-/** Everything of a device but what moves: where it differs the panel is drawn anew. */
+/** Everything of a device but what moves: where it differs the panel is drawn again. */
 export function shapeOf(device) {
   const mapping = Object.fromEntries(Object.entries(device.mapping).map(([k, m]) => [k, changed(m, {})]));
   const { id, name, kind, force, force_problem, inputs, settings, assigning } = device;

@@ -13,7 +13,7 @@ const KEYS = [
   ["L", "slow motion"],
   ["Backspace", "rewind 2 s; with Shift 10 s"],
   ["U", "set upright"],
-  ["Home", "reset: begin anew"],
+  ["Home", "reset: begin again"],
   ["F, B", "forces as arrows, colours of stress (where the car has them)"],
   ["M", "sound on or off"],
   ["T", "levers for fingers"],

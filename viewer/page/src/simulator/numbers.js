@@ -38,11 +38,16 @@ export class Numbers {
     return { x, y, yaw: this._heading(lookup) };
   }
 
-  /** Coefficient of friction of the road at a place of the earth. @param {number} x @param {number} y */
-  friction(x, y) {
-    const factor = Number(this._fixed.get("road.friction_factor") ?? 1);
+  /**
+   * Largest longitudinal force of a wheel's tyre over its load on the road at a place of the earth.
+   * @param {number} x @param {number} y @param {string} wheel - Its name, which ends as in wheel_FL.
+   */
+  friction(x, y, wheel) {
+    const axle = wheel.at(-2) === "R" ? "rear" : "front";
+    const number = (/** @type {string} */ name, /** @type {number} */ other) => Number(this._fixed.get(name) ?? other);
     const there = this._surfaces.friction(x, y);
-    return factor * (Number.isFinite(there) ? there : Number(this._fixed.get("road.friction") ?? FRICTION));
+    const road = Number.isFinite(there) ? there : number("road.friction", FRICTION);
+    return road * number("road.friction_factor", 1) * number(`vehicle.tyre_friction_${axle}`, 1) * number(`${axle}.tyre.grip`, 1);
   }
 
   _heading(lookup) {

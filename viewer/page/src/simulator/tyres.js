@@ -28,7 +28,7 @@ export function wheelsOf(names) {
 export class Tyres {
   /**
    * @param {string[]} wheels - Their names.
-   * @param {(at: number[]) => number} friction - Coefficient of the road at a place of the earth.
+   * @param {(at: number[], wheel: string) => number} friction - Largest force over the load of a wheel at a place of the earth.
    */
   constructor(wheels, friction) {
     this._friction = friction;
@@ -66,7 +66,7 @@ export class Tyres {
     const [fx, fy] = [lookup(`${name}.Fx`) || 0, lookup(`${name}.Fy`) || 0];
     const size = Math.hypot(fx, fy);
     const at = ["x", "y", "z"].map((axis) => lookup(`${name}.contact_${axis}`));
-    const most = load * this._friction(at);
+    const most = load * this._friction(at, name);
     item.use = most > 0 ? size / most : 0;
     const ratio = this._mean > 0 ? load / this._mean : 0;
     circle.setAttribute("r", (RADIUS * Math.sqrt(Math.min(ratio, 3))).toFixed(1));

@@ -117,7 +117,7 @@ export class FmuInstance {
   /**
    * The same for many calls: what can be prepared is.
    * @param {string[]} names
-   * @returns {() => Float64Array} gives the array that the next call fills anew
+   * @returns {() => Float64Array} gives the array that the next call fills again
    */
   reader(names) {
     const transfer = new Transfer(this, names);

@@ -11,7 +11,7 @@ export class ModuleMemory {
     this.view();
   }
 
-  /** Views of all of the memory; made anew after it grew, which takes the old ones away. */
+  /** Views of all of the memory; made again after it grew, which takes the old ones away. */
   view() {
     const { buffer } = this.exports.memory;
     if (this.buffer !== buffer) {

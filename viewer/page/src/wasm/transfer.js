@@ -30,7 +30,7 @@ export class Transfer {
     return { type, places, n, whole, block, references: block + 8 * n };
   }
 
-  /** @returns {Float64Array} the values, in an array that the next call fills anew */
+  /** @returns {Float64Array} the values, in an array that the next call fills again */
   read() {
     const { instance, values } = this;
     const { fmu, _component: component } = instance;

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 from mbs.common.affine import AffineVector
-from mbs.compiler import compile
+from mbs.compiler.model_to_system import to_system
 from mbs.elements.road import PlaneRoad
 from mbs.model import Model
 from mbs.model.ends import End
@@ -116,7 +116,7 @@ class Linkage:
         ]
         self.springs, self.dampers = (tuple(pair) for pair in lines)
         self.levers = tuple(k for k, c in enumerate(m.coordinates) if c.name.startswith(LINK))
-        system = compile(m)
+        system = to_system(m)
         assert system.frames is not None
         self._T, self._constant = system.frames.T.toarray(), system.frames.constant
         self._evaluator = Evaluator(StandingSystem(system))

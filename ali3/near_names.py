@@ -1,0 +1,54 @@
+"""Names that may be meant by one that is not known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+MOST = 3  # names in a sentence
+_LONGEST = 200  # characters of a name that are compared
+_SHORTEST = 3  # characters of a part of a name that names it
+
+
+def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: float = 0.6) -> list[str]:
+    """The names that one is like, the nearest first; capitals do not count.
+
+    Those that are the same but for capitals; else those that are spelt like it; else those with the same last part,
+    as ``spring.damping`` for ``car.damping``; else those of which it is a part.
+
+    Parameters
+    ----------
+    name : str
+        Which is not among them.
+    known : iterable of str
+        All that there are.
+    most : int
+        Names that are returned.
+    closeness : float
+        Least share of characters that two spellings have in common, see `difflib.get_close_matches`; 0 to 1.
+    """
+    asked = name[:_LONGEST].lower()
+    spelt: dict[str, list[str]] = {}
+    for one in known:
+        spelt.setdefault(one.lower(), []).append(one)
+    near = [asked] if asked in spelt else get_close_matches(asked, spelt, most, closeness)
+    near = near or [one for one in spelt if one.rpartition(".")[2] == asked.rpartition(".")[2]]
+    if not near and len(asked) >= _SHORTEST:
+        near = [one for one in spelt if asked in one]
+    return [one for key in near for one in spelt[key]][:most]
+
+
+def did_you_mean(name: str, known: Iterable[str], otherwise: str = "", most: int = MOST, closeness: float = 0.6) -> str:
+    """The end of a sentence on a name that is not known: ``; did you mean 'a' or 'b'?``.
+
+    Parameters
+    ----------
+    name, known, most, closeness
+        See `near_names`.
+    otherwise : str
+        What the sentence ends with where no name is near, without a full stop.
+    """
+    near = near_names(name, known, most, closeness)
+    if near:
+        return f"; did you mean {' or '.join(map(repr, near))}?"
+    return f"; {otherwise}." if otherwise else "."

@@ -1,0 +1,97 @@
+"""Errors by steps in a period, by speed over a kerb and by acceleration: what limits a run can be trusted in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+import mbs
+from benchmarks.car import manoeuvres, trajectories
+from benchmarks.shared.command import watched
+from benchmarks.shared.pages import Row, table
+
+PERIODS = 20
+IN_A_PERIOD = (100, 50, 20, 10)  # steps
+SPEEDS = (5.0, 10.0, 20.0, 30.0)  # m/s
+STEPS = (0.001, 0.002, 0.005, 0.01)  # s
+FINE = 2e-4  # s
+BEFORE, BEHIND = 0.2, 1.0  # s of the run before and behind the kerb
+HARD = {"launch_and_brake": "vx", "step_steer": "vy", "double_lane_change_replay": "vy", "full_lock": "vy"}
+COLUMNS = {
+    "frequency": {"steps_in_a_period": "d", "frequency_error": ".3g", "closed_form": ".3g"},
+    "kerb": {"speed_m_s": "g"} | {f"{1e3 * h:g} ms": ".2g" for h in STEPS},
+    "acceleration": {"manoeuvre": "", "largest_m_s2": ".1f", "h_s": "g", "path_error": ".1e", "load_error": ".1g"},
+}
+
+
+def frequency(steps: int) -> dict[str, Any]:
+    """Error of the frequency of a mass on a spring by its phase after `PERIODS`, beside (omega h)^2 / 12."""
+    m = mbs.Model("oscillator", dimension=2, gravity=(0.0, 0.0))
+    bob = m.point_mass("bob", mass=1.0, position=(1.0, 0.0))
+    m.spring_damper("x", (m.ground, (-1e4, 0.0)), bob, stiffness=(2.0 * np.pi) ** 2, free_length=1e4)
+    m.sense_position("x", bob, component="x")
+    system = mbs.compile(m)
+    h = 1.0 / steps
+    run = mbs.simulate(system, float(PERIODS), h, progress=False, estimate_error=False)
+    x = run["x"]
+    falls = np.flatnonzero((x[:-1] > 0.0) & (x[1:] <= 0.0))  # a quarter, five quarters ... of a period
+    last = falls[-1]
+    turns = len(falls) - 0.75
+    time = run.t[last] + h * x[last] / (x[last] - x[last + 1])
+    return {
+        "steps_in_a_period": steps,
+        "frequency_error": 1.0 - turns / time,
+        "closed_form": (2.0 * np.pi * h) ** 2 / 12.0,
+    }
+
+
+def kerb(speed: float) -> dict[str, Any]:
+    """Errors of the wheel loads, of their peak, down a kerb of 8 cm straight on."""
+    system, file = manoeuvres.system_of("kerb_drop"), manoeuvres.load("kerb_drop")
+    edge = BEFORE * speed
+    base = system.meta["constants"]
+    wheelbase = next(c["value"] for c in base if c["name"] == "vehicle.wheelbase")
+    end = round(BEFORE + BEHIND + wheelbase / speed, 1)
+    start = file.start | {"initial.speed": speed, "road.kerb_x": edge}
+    manoeuvre = replace(file, start=start, stop_time=end)
+
+    def loads(h: float) -> np.ndarray:
+        run = manoeuvres.run_on(system, manoeuvre, h, every=round(0.01 / h))
+        return np.array([run[name] for name in trajectories.LOADS])
+
+    exact = loads(FINE)
+    errors = {f"{1e3 * h:g} ms": float(np.abs(loads(h) - exact).max() / exact.max()) for h in STEPS}
+    return {"speed_m_s": speed} | errors
+
+
+def acceleration(name: str, h: float) -> dict[str, Any]:
+    """Errors of a hard manoeuvre against its stored reference, and its largest horizontal acceleration."""
+    t, values, length = trajectories.read(name)
+    found = manoeuvres.run(name, h, every=round(manoeuvres.sampling(name) / h))
+    size = values["chassis.ay"] if HARD[name] == "vy" else np.gradient(values["speed"], t)
+    return {
+        "manoeuvre": name.replace("_", " "),
+        "largest_m_s2": float(np.abs(size).max()),
+        "h_s": h,
+        "path_error": trajectories.path_error(found, values) / length,
+        "load_error": trajectories.load_error(found, values),
+    }
+
+
+def measure() -> dict[str, list[dict[str, Any]]]:
+    """All rows by the name of their table."""
+    todo: list[tuple[str, Any, tuple[Any, ...]]] = [("frequency", frequency, (n,)) for n in IN_A_PERIOD]
+    todo += [("kerb", kerb, (v,)) for v in SPEEDS]
+    todo += [("acceleration", acceleration, (name, h)) for name in HARD for h in (0.01, 0.002)]
+    rows: dict[str, list[dict[str, Any]]] = {name: [] for name in COLUMNS}
+    for name, work, arguments in watched(todo):
+        rows[name].append(work(*arguments))
+    return rows
+
+
+def trust_blocks(rows: Mapping[str, Sequence[Row]]) -> dict[str, str]:
+    """The tables of the page."""
+    return {f"trust {name}": table(part, COLUMNS[name]) for name, part in rows.items()}

@@ -1,0 +1,143 @@
+"""Hold figures of the pages against new ones: ``python -m benchmarks.figures [--only TEXT]``; 1 if one differs.
+
+Counts and errors of a part of the tables are made again, in a minute or two; times are not compared. Each difference is
+a sentence with the page, the table, the row and both figures. What the whole commands measure is written into the pages
+by `python -m benchmarks.pages`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Sequence
+
+import mbs
+from ali3.running import run_command
+from benchmarks.car import accuracy, trust
+from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
+from benchmarks.methods import honesty, pages, stability, stability_margins
+from benchmarks.paper import double_four_bar, puma
+from benchmarks.paper.pages import four_bar_blocks, puma_blocks
+from benchmarks.shared.command import watched
+from benchmarks.shared.figures import Again, all_differences, between, read, rows_of
+from benchmarks.shared.pages import DOCS
+from benchmarks.shared.warned import wrong_on_purpose
+from mbs.scenes import double_four_bar as four_bar_scene
+from mbs.scenes import puma as puma_scene
+
+SPEED, PAPER, STABILITY = "docs/speed.md", "docs/speed_and_accuracy.md", "docs/stability.md"
+INSTRUCTIONS = DOCS.parent / "benchmarks" / "data" / "instructions.json"
+
+
+def paper_table_1() -> list[Again]:
+    """Energy, iterations and position errors of the double four-bar at four of its steps."""
+    system = mbs.compile(four_bar_scene.build(2))
+    rows = [double_four_bar.measure(system, 2, "ALi3-P", h, 0.0) for h in (0.05, 0.03, 0.01, 0.005)]
+    blocks = four_bar_blocks({"rows": rows, "meta": {"paper_table_1": double_four_bar.PAPER_ROWS}})
+    return [Again(PAPER, blocks["table 1"], "table 1", ("h s",), ("ours ms",))]
+
+
+def paper_table_2() -> list[Again]:
+    """Errors of the PUMA with the default and the two most exact methods."""
+    system = mbs.compile(puma_scene.build())
+    runs = [(method, h) for method in ("ali3p", "energy_momentum_4", "radau_5") for h in (0.1, 0.05, 0.01)]
+    block = puma_blocks({"rows": [puma.measure(system, method, h, 1) for method, h in runs]})["table 2"]
+    return [Again(PAPER, block, "table 2", ("method", "h s"), ("jump open J",))]
+
+
+def stability_map() -> list[Again]:
+    """The distance of two methods from failure on the double four-bar, whole maps."""
+    eps: list[float | None] = [None, *map(float, stability.EPS)]
+    steps = stability.steps_of("double_four_bar", 10.0 / 0.0009)
+    points = [(m, h, e) for m in ("ali3p", "energy_momentum") for h in steps for e in eps]
+    rows = [stability.kernel_point("double_four_bar", *point) for point in points]
+    text = pages.margin_table(stability_margins.margins(rows))
+    below = ("smallest fine h s", "decades below", "decades above")  # of the smaller steps, too
+    return [Again(STABILITY, text, "margins", ("scene", "method"), below)]
+
+
+def honest_crank() -> list[Again]:
+    """The crank-slider of the modelling page: verdicts at its two largest steps, where the last bits of a step decide
+    how far off a run ends, and the figures of its smallest.
+    """
+    page, key, chaotic = "docs/accuracy.md", ("h s",), ("error", "estimate", "balance", "halvings per step")
+    coarse = [honesty.measure("printed_crank_slider", "ali3p", h) for h in (0.002, 0.001)]
+    fine = [honesty.measure("printed_crank_slider", "ali3p", 2e-5)]
+    return [
+        Again(page, pages.crank_table(coarse), "honesty crank", key, chaotic),
+        Again(page, pages.crank_table(fine), "honesty crank", key),
+    ]
+
+
+def trusted() -> list[Again]:
+    """The tables of the page of trust."""
+    keys = {"frequency": ("steps in a period",), "kerb": ("speed m s",), "acceleration": ("manoeuvre", "h s")}
+    return [
+        Again("docs/trust.md", text, f"trust {name}", keys[name])
+        for name, text in ((n, trust.trust_blocks(rows)[f"trust {n}"]) for rows in (trust.measure(),) for n in keys)
+    ]
+
+
+def car() -> list[Again]:
+    """Errors of three manoeuvres of the prototype in the kernel, and of two of the hatchback."""
+    rows = [accuracy.measure(name, 0.01, None, 1) for name in ("step_steer", "double_lane_change_replay", "drop")]
+    hatchback = [accuracy.measure(name, 0.005, None, 1, "hatchback") for name in ("step_steer", "full_lock")]
+    keys = ("manoeuvre", "h, ms")
+    return [
+        Again(SPEED, car_blocks(rows)["car"], "car", keys, HELD),
+        Again("docs/cars.md", error_table(hatchback), "hatchback", keys),
+    ]
+
+
+def instructions() -> list[Again]:
+    """The table of instructions is that of the file that `benchmarks.instructions` compares steps with."""
+    block = instruction_blocks(json.loads(INSTRUCTIONS.read_text(encoding="utf-8"))["rows"])["instructions"]
+    return [Again(SPEED, block, "instructions", ("scene", "step, ms"))]
+
+
+def readme() -> list[Again]:
+    """Sentences of README.md are those of the tables of its pages."""
+    ratios = [1.0 / float(row["ratio"]) for row in rows_of(between(read(PAPER), "ratios")) if row["ratio"] != "–"]
+    most = float(f"{max(ratios):.2g}")
+    kerb = {next(iter(row.values())): row for row in rows_of(read("docs/flexible_car.md").partition("## The kerb")[2])}
+    time = kerb["time for the 15 s, s"]
+    steps = {(r["scene"], r["step, ms"]): r["instructions"] for r in rows_of(between(read(SPEED), "instructions"))}
+    said = (
+        f"takes {min(ratios):.0f} to {most:.0f} times as long as the best method",
+        f"takes {time['fidelity 3']} s of processor time with 71 modes ({time['paper']} s in the paper)",
+        f"and {time['fidelity 1']} s with a rigid frame",
+        f"{steps['slalom', '5']} instructions a step of 5 ms",
+    )
+    return [Again("README.md", sentence) for sentence in said]
+
+
+MADE: dict[str, Callable[[], list[Again]]] = {
+    "Table 1": paper_table_1,
+    "Table 2": paper_table_2,
+    "stability": stability_map,
+    "honesty": honest_crank,
+    "trust": trusted,
+    "car": car,
+    "instructions": instructions,
+    "README": readme,
+}
+
+
+@wrong_on_purpose()
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.figures", description=__doc__)
+    parser.add_argument("--only", default="", metavar="TEXT", help=f"part of a name: {', '.join(MADE)}")
+    options = parser.parse_args(arguments)
+    chosen = [make for name, make in MADE.items() if options.only.lower() in name.lower()]
+    if not chosen:
+        parser.error(f"no table is called {options.only!r}: {', '.join(MADE)}")
+    made = [again for make in watched(chosen) for again in make()]
+    said = all_differences(made)
+    print("\n".join(said) or f"{len(made)} tables and sentences of the pages are as they are made now.")
+    return 1 if said else 0
+
+
+if __name__ == "__main__":
+    sys.exit(run_command(main))

@@ -1,0 +1,81 @@
+"""Figures of the pages held against figures that are made again: counts and errors, never times."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from benchmarks.shared.pages import DOCS
+
+
+@dataclass(frozen=True)
+class Again:
+    """A table, or a sentence, of a page that was made again.
+
+    Parameters
+    ----------
+    page : str
+        Its path in the repository.
+    text : str
+        Rows of a Markdown table, or the sentence that the page must have.
+    table : str
+        Between which marks the table stands; empty for a sentence.
+    keys : tuple of str
+        Columns by which a row is found.
+    left_out : tuple of str
+        Columns that are not compared: times, and what is round-off.
+    """
+
+    page: str
+    text: str
+    table: str = ""
+    keys: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
+
+
+def read(page: str) -> str:
+    """Text of a page."""
+    return (DOCS.parent / page).read_text(encoding="utf-8")
+
+
+def rows_of(text: str) -> list[dict[str, str]]:
+    """Rows of the first Markdown table in a text, cells by heading."""
+    found = re.search(r"(?:^\|.*\n?)+", text, re.MULTILINE)
+    lines = found[0].splitlines() if found else []
+    cells = [[c.strip() for c in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
+    return [dict(zip(cells[0], row, strict=True)) for row in cells[2:]] if cells else []
+
+
+def between(text: str, table: str) -> str:
+    """What stands between the marks of a table; empty without them."""
+    found = re.search(rf"<!-- begin {re.escape(table)} -->\n(.*?)<!-- end {re.escape(table)} -->", text, re.DOTALL)
+    return found[1] if found else ""
+
+
+def differences(again: Again, text: str) -> list[str]:
+    """A sentence for each figure that the text of the page has otherwise."""
+    if not again.table:
+        there = " ".join(again.text.split()) in " ".join(text.split())
+        return [] if there else [f"{again.page} does not say: {again.text}"]
+    place = f"{again.page}, table '{again.table}'"
+    shown = {tuple(row.get(key) for key in again.keys): row for row in rows_of(between(text, again.table))}
+    said = []
+    for row in rows_of(again.text):
+        key = tuple(row[k] for k in again.keys)
+        page = shown.get(key)
+        name = ", ".join(key)
+        if page is None:
+            said.append(f"{place} has no row {name}.")
+            continue
+        said += [
+            f"{place}, row {name}: {column} is {page.get(column)} on the page and {cell} when it is made again."
+            for column, cell in row.items()
+            if column not in again.left_out and page.get(column) != cell
+        ]
+    return said
+
+
+def all_differences(made: Sequence[Again]) -> list[str]:
+    """Of all pages."""
+    return [line for again in made for line in differences(again, read(again.page))]

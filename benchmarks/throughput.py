@@ -1,0 +1,159 @@
+"""Cars a core: ``python -m benchmarks.throughput [--json FILE]``.
+
+Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms: one after the other, in lanes of each
+width that the processor has, and in the widest lanes on all cores. Each way makes a part of the same steps in turn, so
+that ratios hold on a busy machine; seconds are those in which its threads had a core.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+
+from ali3.running import run_command
+from benchmarks.car import manoeuvres
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from hosts.driving.manoeuvre import Manoeuvre
+from mbs import Settings, Simulation, System
+from mbs.kernel.binding import KernelError
+from mbs.kernel.binding.many import Many, widest_lanes
+from mbs.settings.input_signals import InputSignals
+from mbs.simulation.prepared_system import prepared
+
+SCENES = (("slalom", "slalom", 0.005), ("lane change", "double_lane_change_replay", 0.01))
+CARS = 8
+PARTS, SECONDS = 20, 4.0  # parts of a run, length of it, s
+THOUSAND = 1000
+COLUMNS = {
+    "scene": "",
+    "step_ms": "g",
+    "way": "",
+    "us_a_step": ".1f",
+    "ratio": ".2f",
+    "cars_in_real_time_a_core": ".0f",
+    "steps_alone": "d",
+    "kilobytes_a_car": ".0f",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    options = parser_of("throughput", __doc__).parse_args(arguments)
+
+    def work() -> int:
+        rows = [row for scene in watched(SCENES) for row in measure(*scene)]
+        print_table(rows, COLUMNS)
+        for line in thousand(rows):
+            print(line)
+        save_rows(options.json, describe("throughput", Settings()), rows)
+        return 0
+
+    return run_command(work, (KernelError,))
+
+
+def measure(scene: str, name: str, h: float, seconds: float = SECONDS) -> list[dict[str, Any]]:
+    """Rows of one scene: us of a core for a step of a car, and the ratio to cars one after the other."""
+    manoeuvre, system = manoeuvres.load(name), manoeuvres.system_of(name)
+    loaded, steps = prepared(system)[0], int(seconds / h / PARTS)
+    widths = [w for w in (2, 4, 8) if w <= widest_lanes()]
+    cores = os.cpu_count() or 1
+    threads = f"{widths[-1]} lanes, {cores} threads"
+    ways = ["single", *(f"{w} lanes" for w in widths), threads]
+    cars = {way: [_car(system, manoeuvre, k, h, seconds) for k in range(CARS)] for way in ways}
+    lanes = {w: Many(loaded, w) for w in widths}
+    more = [Many(loaded, widths[-1]) for _ in range(cores)]
+    spent, alone = dict.fromkeys(ways, 0.0), dict.fromkeys(ways, 0)
+
+    def together(many: Many, group: list[Simulation]) -> int:
+        nothing = [None] * len(group)
+        ended = many.run([c.instance for c in group], h, steps, steps, nothing, nothing)
+        for end in ended:
+            if end.error is not None:
+                raise end.error
+        return sum(end.alone for end in ended)
+
+    def on_all_cores(group: list[Simulation]) -> int:
+        size = min(widths[-1], -(-len(group) // cores))
+        parts = [group[i : i + size] for i in range(0, len(group), size)]
+        return sum(pool.map(together, more, parts))
+
+    with ThreadPoolExecutor(cores) as pool:
+        for _ in range(PARTS):
+            spent["single"] += _timed(lambda: [c.instance.run(h, steps) for c in cars["single"]], time.thread_time)
+            for w in widths:
+                way = f"{w} lanes"
+                for first in range(0, CARS, w):
+                    group, many = cars[way][first : first + w], lanes[w]
+                    begin = time.thread_time()
+                    alone[way] += together(many, group)
+                    spent[way] += time.thread_time() - begin
+            begin = time.process_time()
+            alone[threads] += on_all_cores(cars[threads])
+            spent[threads] += time.process_time() - begin
+    for way in ways[1:]:  # a faster run of other numbers would be none
+        if any(a.instance.save() != b.instance.save() for a, b in zip(cars["single"], cars[way], strict=True)):
+            raise RuntimeError(f"{scene}: the cars in {way} are not those one after the other.")
+    made = CARS * PARTS * steps
+    rows = []
+    for way in ways:
+        us = 1e6 * spent[way] / made
+        group_bytes = 0.0 if way == "single" else lanes[int(way.split()[0])].size / int(way.split()[0])
+        rows.append(
+            {
+                "scene": scene,
+                "step_ms": 1e3 * h,
+                "way": way,
+                "us_a_step": us,
+                "ratio": spent["single"] / spent[way],
+                "cars_in_real_time_a_core": h / (1e-6 * us),
+                "steps_alone": alone[way],
+                "kilobytes_a_car": 1e-3 * (loaded.instance_size + group_bytes),
+            }
+        )
+    return rows
+
+
+def thousand(rows: Sequence[dict[str, Any]]) -> list[str]:
+    """What a thousand cars take, from the measured steps."""
+    lines = []
+    for scene, step in dict.fromkeys((row["scene"], row["step_ms"]) for row in rows):
+        ways = {row["way"]: row for row in rows if (row["scene"], row["step_ms"]) == (scene, step)}
+        widest = next(reversed([way for way in ways if way.endswith("lanes")]))
+        lanes = int(widest.split()[0])
+        single, wide = (1e-3 * ways[way]["us_a_step"] / step for way in ("single", widest))
+        lines.append(
+            f"{scene}: a second of {THOUSAND} cars takes {1e3 * single:.1f} ms on {THOUSAND} cores, a car each, "
+            f"{1e3 * wide * lanes:.1f} ms on {-(-THOUSAND // lanes)} cores in {widest}, "
+            f"{THOUSAND * wide:.1f} s on one core (computed from the steps above)."
+        )
+    return lines
+
+
+def _car(system: System, manoeuvre: Manoeuvre, number: int, h: float, seconds: float) -> Simulation:
+    """Cars whose springs and dampers differ by 1 % from one to the next."""
+    parameters, pose = manoeuvres.start_of(manoeuvre, system)
+    factors = dict.fromkeys(("front.spring.factor", "rear.damper.factor"), 1.0 + 0.01 * number)
+    signals = InputSignals(manoeuvres.inputs_of(manoeuvre, system), system.meta["inputs"])
+    first = signals.at(np.zeros(1), 1e-6 * h, after_jump=True)[0].tolist()
+    inputs = {system.meta["inputs"][i]["name"]: v for i, v in zip(signals.columns(), first, strict=True)}
+    car = Simulation(system, inputs=inputs, parameters=parameters | factors, pose=pose)
+    signals.attach(car.instance, 0.0, seconds, 1e-6 * h)
+    return car
+
+
+def _timed(action: Callable[[], object], clock: Callable[[], float]) -> float:
+    begin = clock()
+    action()
+    return clock() - begin
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,50 @@
+"""The units in which reports show what is computed in those of the SI: degrees, deg/g, km/h; tables of data keep SI."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from hosts.common.units import conversion
+
+_SHOWN = {
+    "rad": "deg",
+    "rad/s": "deg/s",
+    "rad/s2": "deg/s2",
+    "rad.s": "deg.s",
+    "rad.s2/m": "deg/g",
+    "m/(s2.rad)": "m/(s2.deg)",
+    "N.s2": "N.m/g",
+    "m/s": "km/h",
+    "Pa": "MPa",
+}
+_RAD_PER_PERIOD = 6.283185307179586
+
+
+class Shown(NamedTuple):
+    """How a unit is shown: its own values times `factor` are in `unit`."""
+
+    unit: str
+    factor: float
+
+
+def shown_in(unit: str, name: str = "") -> Shown:
+    """The unit in which a quantity is shown.
+
+    Parameters
+    ----------
+    unit : str
+        As units of FMI are written.
+    name : str
+        Of the quantity: angular frequencies are shown in Hz, other angular velocities in deg/s.
+    """
+    if unit == "rad/s" and name.endswith("frequency"):
+        return Shown("Hz", 1.0 / _RAD_PER_PERIOD)
+    other = _SHOWN.get(unit, unit)
+    return Shown(other, 1.0 if other == unit else conversion(unit, other))
+
+
+def axis_shown(label: str) -> Shown:
+    """The label of an axis that ends with its unit, such as ``yaw rate, rad/s``, and the factor of its values."""
+    what, comma, unit = label.rpartition(", ")
+    shown = shown_in(unit)
+    return Shown(f"{what}{comma}{shown.unit}", shown.factor)

@@ -1,0 +1,30 @@
+"""The aliases that a command is given, if it is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.variables import Variables
+
+
+def aliases_of(file: str | Path | None, variables: Variables) -> Aliases:
+    """Those of a file, none where none is named.
+
+    Parameters
+    ----------
+    file : str or Path, optional
+        As `hosts.fmu.aliases.file.find_aliases` takes it.
+    variables : Variables
+        Of the FMU.
+
+    Raises
+    ------
+    HostError
+        The file is not right, or is none for this FMU.
+    """
+    if file is None:
+        return Aliases()
+    from hosts.fmu.aliases.file import find_aliases
+
+    return find_aliases(file, variables)

@@ -1,0 +1,226 @@
+"""A car in Python: its FMU, built once and kept, behind arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.built_fmu import fmu_of_car
+from hosts.fmu.fmu import Fmu
+
+Array: TypeAlias = NDArray[np.float64]
+Range: TypeAlias = "Value | tuple[float, float]"
+
+
+@dataclass(frozen=True)
+class Saved:
+    """A state of a car, of `Car.save`.
+
+    Attributes
+    ----------
+    time : float
+        s.
+    steps : int
+        Communication steps since the start.
+    content : bytes
+        As the FMU writes it.
+    """
+
+    time: float
+    steps: int
+    content: bytes
+
+
+class Car:
+    """A car that is stepped from Python, through the slave in C of its FMU.
+
+    All is as in the FMU, to the last bit: names, division of steps, ranges, warnings.
+
+    Parameters
+    ----------
+    car : str or Path
+        A car of the package by its name, a folder with a file ``car.toml``, such a file, or an FMU of a car. What is
+        none is built at the first use, in half a minute, and kept for the next.
+    ports : str, optional
+        Inputs at which other programs take the place of its parts, as ``ali3 build --ports`` takes them.
+    step : float
+        Communication step, s.
+    inputs : sequence of str, optional
+        What `step` takes, in this order; by default all inputs that are numbers.
+    parameters : mapping, optional
+        Those of every start, beside what `reset` is given.
+
+    Attributes
+    ----------
+    inputs : tuple of str
+        What `step` takes.
+    fmu : Fmu
+        The FMU, with its variables and messages.
+
+    Raises
+    ------
+    HostError
+        There is no such car, it cannot be built, or it has no such inputs.
+    """
+
+    def __init__(
+        self,
+        car: str | Path = "prototype",
+        *,
+        ports: str | None = None,
+        step: float = 0.01,
+        inputs: Sequence[str] | None = None,
+        parameters: Mapping[str, Value] | None = None,
+    ) -> None:
+        if not (isinstance(step, (int, float)) and 0.0 < step < np.inf):
+            raise HostError(f"The communication step of a car is {step!r} s; it must be a positive number.")
+        given = Path(car)
+        if given.suffix.lower() == ".fmu" and ports is not None:
+            raise HostError(f"Ports are chosen when an FMU is built; {given} is one.")
+        path = given if given.suffix.lower() == ".fmu" else fmu_of_car(str(car), lambda text: None, ports=ports)
+        self.fmu = Fmu(path)
+        self.step_length = float(step)
+        try:
+            self.inputs = tuple(self._known(self.fmu.names("input") if inputs is None else inputs, ("input",)))
+        except HostError:
+            self.close()
+            raise
+        self._always = dict(parameters or {})
+        self._set = self.fmu.setter(self.inputs)
+        self._readers: dict[tuple[str, ...], Any] = {}
+        self._start_time, self._steps = 0.0, 0
+        self._started = False
+
+    def __enter__(self) -> Car:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Free the instance; the car is of no use then."""
+        self.fmu.__exit__(None, None, None)
+
+    @property
+    def time(self) -> float:
+        """Time of the car, s."""
+        return self._start_time + self._steps * self.step_length
+
+    @property
+    def messages(self) -> list[str]:
+        """What the FMU has said so far, at warning or above."""
+        return self.fmu.messages
+
+    def reset(self, seed: int | None = None, **parameters: Range) -> None:
+        """A new start at the time 0.
+
+        Parameters
+        ----------
+        seed : int, optional
+            Of the numbers that are drawn; the same seed draws the same.
+        **parameters : float, int, str or (float, float)
+            Parameters and start values of inputs by name, as ``**{"initial.speed": 15.0}``; a pair is the range that
+            a number is drawn from, evenly. Those that are not named are as in the description.
+
+        Raises
+        ------
+        HostError
+            There is no such parameter, a value is out of its range, or there is no start with these values.
+        """
+        chosen, random = self._always | parameters, np.random.default_rng(seed)
+        start: dict[str, Value] = {}
+        for name in sorted(chosen):  # the draw does not depend on the order in which they are named
+            value = chosen[name]
+            start[name] = float(random.uniform(*value)) if isinstance(value, (tuple, list)) else value
+        if self._started:
+            self.fmu.reset()
+        self._started = True
+        self.fmu.initialise(start)
+        self._start_time, self._steps = 0.0, 0
+
+    def step(self, inputs: ArrayLike) -> None:
+        """A communication step with inputs that are held.
+
+        Parameters
+        ----------
+        inputs : array_like of float, shape (len(self.inputs),)
+            In the units of the variables.
+
+        Raises
+        ------
+        HostError
+            They are not as many, or one is refused; nothing has changed then.
+        hosts.fmu.fmu.StepRefusedError
+            The FMU refused the step; the state before it is kept.
+        """
+        if not self._started:
+            raise HostError("The car has no start yet; reset() gives it one.")
+        values: list[float] = np.asarray(inputs, dtype=float).ravel().tolist()
+        if len(values) != len(self.inputs):
+            raise HostError(f"{len(values)} inputs are given; the car takes {len(self.inputs)}: {self.inputs}.")
+        self._set(values)
+        self.fmu.step(self.time, self.step_length)
+        self._steps += 1
+
+    def read(self, names: Sequence[str], into: Array | None = None) -> Array:
+        """Values of variables now.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Names that were read before are the quickest as the same tuple.
+        into : ndarray of float, shape (len(names),), optional
+            Takes the values; by default a new array.
+
+        Returns
+        -------
+        ndarray of float, shape (len(names),)
+            In the units of the variables.
+
+        Raises
+        ------
+        HostError
+            There is no such variable that is a number.
+        """
+        key = names if isinstance(names, tuple) else tuple(names)
+        reader = self._readers.get(key)
+        if reader is None:
+            reader = self._readers[key] = self.fmu.reader(self._known(key, ("input", "parameter", "output", "local")))
+        values = np.empty(len(key)) if into is None else into
+        reader(values)
+        return values
+
+    def save(self) -> Saved:
+        """The state now, for `restore` of this or another instance of the same car, also in another process."""
+        return Saved(self.time, self._steps, self.fmu.state_bytes())
+
+    def restore(self, saved: Saved) -> None:
+        """Go on from a state of `save`, to the same bits.
+
+        Raises
+        ------
+        HostError
+            It is of another car or of another build.
+        """
+        self.fmu.restore_bytes(saved.content)
+        self._steps = saved.steps
+        self._start_time = saved.time - saved.steps * self.step_length
+        self._started = True
+
+    def _known(self, names: Sequence[str], causalities: tuple[str, ...]) -> list[str]:
+        have = {n for causality in causalities for n in self.fmu.names(causality)}
+        for name in names:
+            if name not in have:
+                what = "input" if causalities == ("input",) else "variable that is a number"
+                raise HostError(f"The car has no {what} '{name}'.")
+        return list(names)

@@ -1,0 +1,191 @@
+"""Environments of Gymnasium: `gymnasium.make("ali3/LaneKeeping-v0")`, `gymnasium.make("ali3/AntiLockBraking-v0")`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from hosts.driving.course import course_of
+from hosts.fmu.fmu import StepRefusedError
+from hosts.plant.car import Car
+from hosts.plant.lane import Lane
+
+Floats = NDArray[np.float32]
+_WHEELS = ("FL", "FR", "RL", "RR")
+
+
+class _CarEnvironment(gymnasium.Env[Floats, Floats]):
+    """What the environments share: a car, its start, its step.
+
+    An episode that the car's solver refuses to go on with is terminated; `info["refused"]` has its words then.
+    """
+
+    def __init__(self, car: Car, reads: tuple[str, ...], seconds: float) -> None:
+        self.car, self._reads = car, reads
+        self._most = round(seconds / car.step_length)
+        self._steps = 0
+        self._now = np.zeros(len(reads))
+
+    def _start(self, seed: int | None, **ranges: tuple[float, float]) -> None:
+        """A start whose numbers are drawn by the generator of the environment."""
+        super().reset(seed=seed)
+        self.car.reset(int(self.np_random.integers(2**31)), **ranges)
+        self._steps = 0
+        self.car.read(self._reads, self._now)
+
+    def _advance(self, inputs: NDArray[np.float64]) -> str:
+        """A step; the words of the solver where it refuses it."""
+        self._steps += 1
+        try:
+            self.car.step(inputs)
+        except StepRefusedError as error:
+            return str(error)
+        self.car.read(self._reads, self._now)
+        return ""
+
+    def close(self) -> None:
+        """Free the car."""
+        self.car.close()
+
+
+class LaneKeeping(_CarEnvironment):
+    """Keep the middle of the lane of a double lane change by the steering, at a speed that is held roughly.
+
+    Action: steering, -1 to 1, positive to the left. Observation: offset from the middle of the lane m, heading from its
+    direction rad, speed m/s, yaw rate rad/s, sideslip rad, steering as it is now, curvature 5, 15 and 25 m ahead 1/m.
+    Reward a step: 1 less the square of the offset over a half lane, and less a hundredth of the square of the change of
+    the steering. It ends beyond a half lane and is truncated after `seconds` or at the end of the lane.
+
+    Parameters
+    ----------
+    car : str
+        As for `Car`.
+    speed : (float, float)
+        Range of the speed at the start, m/s.
+    seconds : float
+        After which an episode is truncated.
+    """
+
+    AHEAD = (5.0, 15.0, 25.0)
+
+    def __init__(
+        self,
+        car: str = "prototype",
+        speed: tuple[float, float] = (12.0, 18.0),
+        seconds: float = 8.0,
+        step: float = 0.02,
+    ) -> None:
+        inputs = ("steering", "throttle")
+        reads = ("chassis.x", "chassis.y", "chassis.yaw", "speed", "chassis.wz", "sideslip")
+        super().__init__(Car(car, step=step, inputs=inputs), reads, seconds)
+        width = self.car.fmu.constants().get("vehicle.width", 1.6)
+        self.lane = Lane.of_course(course_of("iso_3888_1", width), 200.0)
+        self._speed = speed
+        self.action_space = spaces.Box(-1.0, 1.0, (1,), np.float32)
+        high = np.array([5.0, np.pi, 60.0, 10.0, np.pi, 1.0, *len(self.AHEAD) * [1.0]], np.float32)
+        self.observation_space = spaces.Box(-high, high, dtype=np.float32)
+        self._steering = 0.0
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
+        """A start in the first lane; see `gymnasium.Env.reset`."""
+        self._start(seed, **{"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.02, 0.02)})
+        self.lane.forget()
+        self._steering = 0.0
+        return self._observed(), {}
+
+    def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
+        """A step; see `gymnasium.Env.step`."""
+        steering, before = float(np.clip(action[0], -1.0, 1.0)), self._steering
+        self._steering = steering
+        throttle = np.clip(0.3 * (np.mean(self._speed) - self._now[3]), 0.0, 1.0)
+        refused = self._advance(np.array([steering, throttle]))
+        seen = self._observed()
+        share = float(seen[0]) / (0.5 * self.lane.width)
+        reward = 1.0 - share**2 - 0.01 * (steering - before) ** 2
+        out = abs(share) > 1.0
+        ended = self._steps >= self._most or self._way >= self.lane.length - 1.0
+        return seen, reward, bool(out or refused), bool(ended), {"refused": refused} if refused else {}
+
+    def _observed(self) -> Floats:
+        x, y, yaw, speed, yaw_rate, sideslip = self._now
+        offset, heading, curvature = self.lane.sense(x, y, yaw, self.AHEAD)
+        self._way = self.lane.way
+        seen = np.array([offset, heading, speed, yaw_rate, sideslip, self._steering, *curvature])
+        box = self.observation_space
+        assert isinstance(box, spaces.Box)
+        held: Floats = np.clip(seen, box.low, box.high).astype(np.float32)
+        return held
+
+
+class AntiLockBraking(_CarEnvironment):
+    """Stop on a slippery road by the torques of the four brakes, straight and short.
+
+    Action: share of the torque that a driver in need asks of the brake of each wheel, 0 to 1, in the order FL, FR, RL,
+    RR. Observation: speed m/s, slip of the four wheels, rate of the four wheels rad/s, yaw rate rad/s, acceleration
+    along the car m/s2. Reward a step: less the way, m, and less the square of the yaw angle, rad2. It ends when the car
+    stands or is turned by more than half a radian, and is truncated after `seconds`.
+
+    Parameters
+    ----------
+    car : str
+        As for `Car`; an FMU must have the ports of the brakes by torque.
+    speed, friction : (float, float)
+        Ranges of the speed at the start, m/s, and of the friction of the road.
+    torque : (float, float)
+        Asked of a front and of a rear brake, N m.
+    seconds : float
+        After which an episode is truncated.
+    """
+
+    STANDING = 0.5  # m/s
+
+    def __init__(
+        self,
+        car: str = "prototype",
+        speed: tuple[float, float] = (20.0, 25.0),
+        friction: tuple[float, float] = (0.3, 0.6),
+        torque: tuple[float, float] = (650.0, 450.0),
+        seconds: float = 15.0,
+        step: float = 0.01,
+    ) -> None:
+        inputs = tuple(f"wheel_{w}.brake_torque_demand" for w in _WHEELS)
+        slips = tuple(f"wheel_{w}.slip" for w in _WHEELS)
+        rates = tuple(f"wheel_{w}.omega" for w in _WHEELS)
+        reads = ("speed", *slips, *rates, "chassis.wz", "chassis.ax", "chassis.yaw")
+        ports = None if Path(car).suffix.lower() == ".fmu" else "brakes"
+        made = Car(car, ports=ports, step=step, inputs=inputs, parameters={"selector": 0})
+        super().__init__(made, reads, seconds)
+        self._speed, self._friction = speed, friction
+        self._torque = np.array([torque[0], torque[0], torque[1], torque[1]])
+        self.action_space = spaces.Box(0.0, 1.0, (4,), np.float32)
+        high = np.array([100.0, *4 * [10.0], *4 * [200.0], 20.0, 60.0], np.float32)
+        self.observation_space = spaces.Box(-high, high, dtype=np.float32)
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
+        """A start at speed with free wheels; see `gymnasium.Env.reset`."""
+        self._start(seed, **{"initial.speed": self._speed, "road.friction": self._friction})
+        return self._observed(), {}
+
+    def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
+        """A step; see `gymnasium.Env.step`."""
+        refused = self._advance(np.clip(action, 0.0, 1.0) * self._torque)
+        speed, yaw = self._now[0], self._now[11]
+        reward = -float(speed) * self.car.step_length - float(yaw) ** 2
+        ended = speed < self.STANDING or abs(yaw) > 0.5
+        told = {"refused": refused} if refused else {}
+        return self._observed(), reward, bool(ended or refused), self._steps >= self._most, told
+
+    def _observed(self) -> Floats:
+        box = self.observation_space
+        assert isinstance(box, spaces.Box)
+        held: Floats = np.clip(self._now[:11], box.low, box.high).astype(np.float32)
+        return held
+
+
+gymnasium.register("ali3/LaneKeeping-v0", entry_point="hosts.plant.environments:LaneKeeping")
+gymnasium.register("ali3/AntiLockBraking-v0", entry_point="hosts.plant.environments:AntiLockBraking")

@@ -1,0 +1,128 @@
+"""A lane on the ground, and what a car knows of it: offset, heading error, curvature ahead."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import CubicSpline
+
+from hosts.common.errors import HostError
+from hosts.driving.course import Course
+
+SPACING = 0.5  # m between points of the centre line that the nearest one is looked for among
+REACH = 50.0  # m along the lane, before and behind the last place, within which the nearest point is looked for
+ROUNDS = 3  # of Newton's method from there
+
+
+class Lane:
+    """The centre line of a lane by its length.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 2), n >= 4
+        Of the centre line in the direction of travel, x and y, m; a cubic spline goes through them. Where the last is
+        the first the lane is closed.
+    width : float
+        m.
+
+    Raises
+    ------
+    HostError
+        They are no line.
+    """
+
+    def __init__(self, points: ArrayLike, width: float = 3.5) -> None:
+        p = np.asarray(points, dtype=float)
+        if p.ndim != 2 or p.shape[0] < 4 or p.shape[1] != 2 or not np.isfinite(p).all():
+            raise HostError(f"The points of a lane have the shape {p.shape}; they must be four or more finite (x, y).")
+        chords = np.hypot(*np.diff(p, axis=0).T)
+        if not (chords > 0.0).all():
+            raise HostError(f"Point {int(np.argmin(chords)) + 1} of a lane lies on the one before it.")
+        self.width = float(width)
+        self.closed = bool((p[0] == p[-1]).all())
+        way = np.concatenate([[0.0], np.cumsum(chords)])
+        self.length = float(way[-1])
+        self._line = CubicSpline(way, p, bc_type="periodic" if self.closed else "natural")
+        self._tangent, self._bend = self._line.derivative(), self._line.derivative(2)
+        self._ways = np.linspace(0.0, self.length, max(4, round(self.length / SPACING)) + 1)
+        self._places = self._line(self._ways)
+        self._last: float | None = None  # way of the last place
+
+    @classmethod
+    def of_course(cls, course: Course, length: float, width: float = 3.5) -> Lane:
+        """The lane along the path of a course of cones.
+
+        Parameters
+        ----------
+        length : float
+            Along x, m.
+        """
+        x = np.linspace(0.0, length, max(4, round(length)) + 1)
+        return cls(np.column_stack([x, [course.path(float(each))[0] for each in x]]), width)
+
+    def forget(self) -> None:
+        """Look for the place of the next call along the whole lane."""
+        self._last = None
+
+    def place(self, x: float, y: float) -> float:
+        """Way along the lane of the point of its centre line that is nearest, near that of the last call, m."""
+        away = np.hypot(self._places[:, 0] - x, self._places[:, 1] - y)
+        if self._last is not None:
+            gap = np.abs(self._ways - self._last)
+            gap = np.minimum(gap, self.length - gap) if self.closed else gap
+            away = np.where(gap <= REACH, away, np.inf)
+        s = float(self._ways[int(np.argmin(away))])
+        for _ in range(ROUNDS):
+            offset, tangent = self._line(s) - (x, y), self._tangent(s)
+            slope = float(tangent @ tangent + offset @ self._bend(s))
+            if slope <= 0.0:
+                break
+            s = self._on(s - float(offset @ tangent) / slope)
+        self._last = s
+        return s
+
+    @property
+    def way(self) -> float:
+        """Way along the lane of the last place, m."""
+        return 0.0 if self._last is None else self._last
+
+    def _on(self, s: float) -> float:
+        return s % self.length if self.closed else min(max(s, 0.0), self.length)
+
+    def sense(
+        self, x: float, y: float, yaw: float, ahead: ArrayLike = (10.0, 20.0, 30.0)
+    ) -> tuple[float, float, NDArray[np.float64]]:
+        """What a car at a place knows of the lane.
+
+        Parameters
+        ----------
+        x, y, yaw : float
+            Of the car, m and rad.
+        ahead : array_like of float
+            Distances along the lane from there, m.
+
+        Returns
+        -------
+        offset : float
+            Of the car from the centre line, positive to its left, m.
+        heading : float
+            Of the car from the direction of the lane, positive to the left, between -pi and pi, rad.
+        curvature : ndarray of float
+            Of the lane at the distances ahead, positive to the left, 1/m.
+        """
+        s = self.place(x, y)
+        (lane_x, lane_y), (ahead_x, ahead_y) = self._line(s), self._tangent(s)
+        direction = np.arctan2(ahead_y, ahead_x)
+        offset = np.cos(direction) * (y - lane_y) - np.sin(direction) * (x - lane_x)
+        heading = (yaw - direction + np.pi) % (2.0 * np.pi) - np.pi
+        return float(offset), float(heading), self.curvature(s + np.asarray(ahead, dtype=float))
+
+    def curvature(self, ways: ArrayLike) -> NDArray[np.float64]:
+        """Curvature of the centre line at ways along it, positive to the left, 1/m; beyond an open end that there."""
+        s = np.asarray(ways, dtype=float)
+        s = s % self.length if self.closed else np.clip(s, 0.0, self.length)
+        first, second = self._tangent(s), self._bend(s)
+        found: NDArray[np.float64] = (first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0]) / np.hypot(
+            first[..., 0], first[..., 1]
+        ) ** 3
+        return found

@@ -1,0 +1,257 @@
+"""Limits of measures, and the share of a study's runs that lies within them."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import binomtest
+
+from ali3.files import whole_file, write_text
+from ali3.near_names import did_you_mean
+from hosts.common.display_units import shown_in
+from hosts.common.errors import HostError
+from hosts.common.units import conversion
+from hosts.measures.measure import Limit
+from hosts.study.study_file import LimitEntry
+from hosts.study.work import DONE
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+ALL = "all limits"
+CONFIDENCE = 0.95
+_NO_INTERVAL = {
+    "grid": "the points of a grid are no random sample",
+    "table": "how the rows of a table were chosen is unknown",
+    "saltelli": "runs of a block of the design share values, so that they are no independent sample",
+}
+
+
+@dataclass(frozen=True)
+class Share:
+    """How many runs keep a limit.
+
+    Parameters
+    ----------
+    measure : str
+        Its column; `ALL` for variants, the points of the study, that keep every limit in all their runs.
+    manoeuvre : str
+        Empty for `ALL`.
+    limit : Limit
+        In `unit`.
+    within, outside : int
+        Runs, of `ALL` points.
+    without_result : int
+        Those of `outside` that failed, or did not yield a measure that there should be.
+    absent : int
+        Runs in which there is no such measure, as the critical speed of a car that understeers; neither within nor
+        outside.
+    low, high : float
+        Wilson's score interval of the share, 95 %; NaN where the runs are no random sample.
+    """
+
+    measure: str
+    manoeuvre: str
+    limit: Limit
+    unit: str
+    within: int
+    outside: int
+    without_result: int
+    absent: int
+    low: float
+    high: float
+
+    @property
+    def share(self) -> float:
+        """Part of the runs that count, 0 to 1; NaN where none does."""
+        count = self.within + self.outside
+        return self.within / count if count else math.nan
+
+
+def limits_record(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], file: Path) -> dict[str, Any]:
+    """Limits by the columns of measures, in the units of these, for JSON.
+
+    Parameters
+    ----------
+    entries : mapping of str to LimitEntry
+        As the study file has them; a name may leave out the manoeuvre before it where only one measure ends so.
+    columns : mapping of str to str
+        Units of all measures of the study.
+
+    Raises
+    ------
+    HostError
+        There is no such measure, or the unit is one of another quantity.
+    """
+    found: dict[str, Any] = {}
+    for name, entry in entries.items():
+        where = f"{file}: limits.'{name}'"
+        column = column_of(name, columns, where)
+        if column in found:
+            raise HostError(f"{where} and another limit are both of '{column}'; give one of them.")
+        factor = 1.0 if entry.unit is None else conversion(entry.unit, columns[column], f"{where}.unit")
+        ends = (None if x is None else factor * x for x in (entry.min, entry.max))
+        found[column] = {**dict(zip(("min", "max"), ends, strict=True)), "unit": columns[column]}
+    return found
+
+
+def column_of(name: str, columns: Mapping[str, str], where: str) -> str:
+    """The column that a user means, by its whole name or without the manoeuvre before it; `HostError` if none is."""
+    fits = [name] if name in columns else [c for c in columns if c.endswith(f".{name}")]
+    if len(fits) == 1:
+        return fits[0]
+    if fits:
+        raise HostError(f"{where}: it could be {' or '.join(fits)}; give the whole name.")
+    end = did_you_mean(name, columns, f"there are {', '.join(list(columns)[:8]) or 'none'}")
+    raise HostError(f"{where}: the study has no measure '{name}'{end}")
+
+
+def shares(frame: pd.DataFrame) -> list[Share]:
+    """Shares of the runs that are there, each limit of each manoeuvre, and then all limits together.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        With its attrs, as `hosts.study.store.read_study` gives it.
+
+    Notes
+    -----
+    A run without a result is outside of its limits: nobody knows that it keeps them. A run that lacks another measure
+    is judged by the one that it has.
+    """
+    about, found = frame.attrs, []
+    points = frame["point"].to_numpy(dtype=np.int64)
+    broken, known = (np.zeros(points.max(initial=-1) + 1, dtype=bool) for _ in range(2))
+    lost = broken.copy()
+    manoeuvres, done = frame["manoeuvre"].astype(str).to_numpy(), frame["status"].astype(str).to_numpy() == DONE
+    for column, record in about["limits"].items():
+        limit = Limit("the study file", *limit_ends(record))
+        values = frame[column].to_numpy(dtype=np.float64)
+        for name in _of_column(column, about):
+            mine = manoeuvres == name
+            finite = np.isfinite(values)
+            within = mine & finite & (values >= limit.lowest) & (values <= limit.highest)
+            bare = mine & ~finite & ~done
+            outside = bare | (mine & finite & ~within)
+            absent = int((mine & ~finite & done).sum())
+            broken[points[outside]] = lost[points[bare]] = True
+            known[points[within | outside]] = True
+            found.append(_share(column, name, limit, record["unit"], (within, outside, bare), absent, about))
+    if found:
+        sets = (known & ~broken, broken, lost)
+        absent = len(np.unique(points)) - int(known.sum())
+        found.append(_share(ALL, "", Limit("the study file"), "1", sets, absent, about))
+    return found
+
+
+def limit_ends(record: Mapping[str, Any] | None) -> tuple[float, float]:
+    """Least and largest value of a limit of `limits_record`; infinite where there is none."""
+    low, high = (None, None) if record is None else (record["min"], record["max"])
+    return (-math.inf if low is None else low), (math.inf if high is None else high)
+
+
+def _of_column(column: str, about: Mapping[str, Any]) -> list[str]:
+    """Manoeuvres whose runs have a measure: the test that it is named after, else all that are no tests."""
+    tests = about["tests"]
+    return [n for n in tests if column.startswith(f"{n}.")] or [n for n in about["manoeuvres"] if n not in tests]
+
+
+def _share(
+    measure: str,
+    manoeuvre: str,
+    limit: Limit,
+    unit: str,
+    sets: tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]],
+    absent: int,
+    about: Mapping[str, Any],
+) -> Share:
+    within, outside, bare = (int(s.sum()) for s in sets)
+    low = high = math.nan
+    if within + outside and why_no_interval(about) == "":
+        interval = binomtest(within, within + outside).proportion_ci(CONFIDENCE, method="wilson")
+        low, high = float(interval.low), float(interval.high)
+    return Share(measure, manoeuvre, limit, unit, within, outside, bare, absent, low, high)
+
+
+def why_no_interval(about: Mapping[str, Any]) -> str:
+    """Why the runs of a study say nothing about those that were not made; empty where they are a random sample."""
+    return _NO_INTERVAL.get(str(about["sampling"]["method"]), "")
+
+
+def share_rows(found: Sequence[Share], about: Mapping[str, Any]) -> list[tuple[str, str, str, str, str]]:
+    """Measure, limit, count, share and interval of each, in words and in the units of reports."""
+    rows = []
+    for s in found:
+        several = s.manoeuvre != "" and len(about["manoeuvres"]) > 1 and not s.measure.startswith(f"{s.manoeuvre}.")
+        label = f"{s.measure} ({s.manoeuvre})" if several else s.measure
+        of = "variants" if s.measure == ALL else "runs"
+        count = f"{s.within} of {s.within + s.outside} {of}"
+        if s.without_result:
+            count += f", {s.without_result} without a result"
+        if s.absent:
+            count += f"; {s.absent} more do not have it"
+        share = "–" if math.isnan(s.share) else f"{100.0 * s.share:.1f} %"
+        interval = "–" if math.isnan(s.low) else f"{100.0 * s.low:.1f} to {100.0 * s.high:.1f} %"
+        rows.append((label, _allowed(s), count, share, interval))
+    return rows
+
+
+def _allowed(s: Share) -> str:
+    unit, factor = shown_in(s.unit, s.measure)
+    end = "" if unit == "1" else f" {unit}"
+    low, high = factor * s.limit.lowest, factor * s.limit.highest
+    if s.measure == ALL:
+        return ""
+    if math.isinf(low):
+        return f"at most {high:.5g}{end}"
+    return f"at least {low:.5g}{end}" if math.isinf(high) else f"{low:.5g} to {high:.5g}{end}"
+
+
+def share_notes(found: Sequence[Share], about: Mapping[str, Any]) -> list[str]:
+    """What is to be known of the shares, each in a sentence."""
+    why = why_no_interval(about)
+    notes = [f"There is no interval: {why}." if why else "Interval of the share: Wilson's score interval, 95 %."]
+    if any(s.without_result for s in found):
+        notes.append("Runs that failed or did not yield the measure count as outside of its limits.")
+    if any(s.absent for s in found):
+        notes.append("Runs in which there is no such measure are left out of its count.")
+    return notes
+
+
+def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
+    """Write ``limits.csv`` and ``limits.json`` into the folder of a study, in the units of the measures."""
+    import pandas as pd
+
+    rows = [
+        {
+            "measure": s.measure,
+            "manoeuvre": s.manoeuvre,
+            "lowest": _number(s.limit.lowest),
+            "highest": _number(s.limit.highest),
+            "unit": s.unit,
+            "within": s.within,
+            "outside": s.outside,
+            "without_result": s.without_result,
+            "absent": s.absent,
+            "share": _number(s.share),
+            "share_low": _number(s.low),
+            "share_high": _number(s.high),
+        }
+        for s in found
+    ]
+    table, record = folder / "limits.csv", folder / "limits.json"
+    with whole_file(table) as made:
+        pd.DataFrame(rows).to_csv(made, index=False)
+    write_text(record, json.dumps(rows, indent=1, allow_nan=False) + "\n")
+    return [table, record]
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None

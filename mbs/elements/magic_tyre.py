@@ -1,0 +1,153 @@
+"""Tyre by the Magic Formula on first-order carcass deflections."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import pi, tan
+from typing import Annotated
+
+from mbs.common.affine import Affine, AffineVector
+from mbs.common.checks import number, one_of, positive
+from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals, reals_of
+from mbs.elements.record import ElementRecord, Output, columns
+from mbs.elements.record_checks import index, size
+from mbs.elements.tyre import TYRE_OUTPUTS
+from mbs.kernel.header import MAGIC_COEFFICIENTS, ElementType
+
+VERSIONS = {"PAC2002": 52, "MF52": 52, "MF61": 61, "MF62": 62}
+"""Number of a form of the Magic Formula in the kernel."""
+COMBINATIONS = ("none", "weighting", "ellipse")
+"""How longitudinal and lateral slip act together, in the order of the kernel."""
+SIGNS = {"iso": (1.0, 1.0, 1.0), "sae": (-1.0, 1.0, -1.0), "adapted_sae": (1.0, 1.0, -1.0)}
+"""Signs of slip angle, camber, and lateral force with aligning moment, from ISO axes to those of the coefficients."""
+FACTORS = ("lmux", "lmuy", "lkx", "lky")
+"""Fields that multiply the scaling factors of the file."""
+_MIRRORED = (-1.0, -1.0, -1.0)
+Bounds = Annotated[Pair, Real(number, ("least", "most"))]
+_STEEPEST = 1.5706
+"""rad: a slip angle has a tangent."""
+
+
+@dataclass(frozen=True)
+class MagicTyre:
+    """Tyre of a wheel that meets the road as a disc, with the Magic Formula's forces and moments.
+
+    PAC2002 and MF-Tyre 5.2: H. B. Pacejka, Tire and Vehicle Dynamics, 2nd ed., 2006. MF-Tyre 6.1 and 6.2: 3rd ed.,
+    2012, section 4.3.2; I. J. M. Besselink et al., Vehicle System Dynamics 48(S1), 2010, 337-352. Without turn slip.
+    """
+
+    version: str
+    """Key of `VERSIONS`."""
+    coefficients: Mapping[str, float]
+    """By the names of .tir files; those not named are `MAGIC_COEFFICIENTS`."""
+    radius: Positive
+    """Free radius, m."""
+    bottoming_radius: Positive
+    """Loaded radius below which the rim bears, m."""
+    stiffness: Positive
+    """Vertical, N/m."""
+    nominal_load: Positive
+    """N."""
+    progression: Number = 0.0
+    """Vertical force of the squared deflection, N/m^2."""
+    damping: NotNegative = 0.0
+    """Vertical, N s/m; it sets in over the first 5 mm."""
+    bottoming_stiffness: NotNegative = 0.0
+    """Of the rim, N/m."""
+    reference_friction: Positive = 1.0
+    """Coefficient of friction of the road on which the coefficients hold."""
+    friction_factor: NotNegative = 1.0
+    """Multiplies the friction of the road."""
+    lmux: Positive = 1.0
+    """Multiplies LMUX."""
+    lmuy: Positive = 1.0
+    """Multiplies LMUY."""
+    lkx: Positive = 1.0
+    """Multiplies LKX."""
+    lky: Positive = 1.0
+    """Multiplies LKY."""
+    pressure: Number = 0.0
+    """Inflation pressure over the nominal one, less 1, a ratio."""
+    settling: Positive = 0.006
+    """Damping over stiffness of the carcass at rest, s."""
+    combination: str = "weighting"
+    """One of `COMBINATIONS`."""
+    signs: str = "iso"
+    """Axes of the coefficients: key of `SIGNS`; x forward; ISO: y left, z up; SAE: y right, z down; the adapted SAE
+    axes of Pacejka have a slip angle of the other sign."""
+    mirrored: bool = False
+    """Whether the tyre is mounted on the other side than it was measured."""
+    slip_range: Bounds = (-1.5, 1.5)
+    """Longitudinal slip, a ratio, beyond which forces stay."""
+    angle_range: Bounds = (-pi / 2.0, pi / 2.0)
+    """Likewise, slip angle, rad."""
+    camber_range: Bounds = (-0.5, 0.5)
+    """Likewise, camber, rad."""
+    largest_load: Positive = field(default=1e5)
+    """Likewise, N; the vertical force itself goes on."""
+
+    def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
+        """The force element.
+
+        Parameters
+        ----------
+        centre : AffineVector
+            Centre of the wheel, m.
+        axis : AffineVector
+            Unit spin axis, pointing left.
+        spin : Affine
+            Absolute spin, rad.
+
+        Raises
+        ------
+        ModelError
+            A number or a coefficient is not what it must be.
+        """
+        what = f"the tyre '{name}'"
+        size(centre, (3,), f"The centre of {what}")
+        size(axis, (3,), f"The axis of {what}")
+        version = VERSIONS[one_of(self.version, tuple(VERSIONS), f"The version of {what}")]
+        combination = COMBINATIONS.index(one_of(self.combination, COMBINATIONS, f"The combination of {what}"))
+        reals = self._reals(what)
+        if not self.bottoming_radius < self.radius:
+            raise ValueError(
+                f"The bottoming radius {self.bottoming_radius:g} m of {what} must be less than {self.radius:g} m."
+            )
+        return ElementRecord(
+            name,
+            ElementType.MAGIC_TYRE,
+            (*centre.components, *axis.components, spin),
+            *columns(reals),
+            (index(road, f"The road of {what}"), version, combination),
+            (0.0, 0.0, 0.0, 0.0),
+            (
+                *TYRE_OUTPUTS,
+                Output("overturning_moment", "N m", "moment about the wheel's heading in the plane of the road"),
+                Output("resistance_moment", "N m", "moment of rolling resistance about the wheel's axis"),
+            ),
+        )
+
+    def _reals(self, what: str) -> Reals:
+        """In the order of `mbs/kernel/src/elements/magic_tyre.c`."""
+        first = ("radius", "bottoming_radius", "stiffness", "progression", "damping", "bottoming_stiffness")
+        reals = reals_of(
+            self,
+            what,
+            (*first, "nominal_load", "reference_friction", "friction_factor", *FACTORS, "pressure", "settling"),
+        )
+        signs = SIGNS[one_of(self.signs, tuple(SIGNS), f"The signs of {what}")]
+        for key, sign, turned in zip(("slip", "camber", "force"), signs, _MIRRORED, strict=True):
+            reals[f"sign_{key}"] = (sign * (turned if self.mirrored else 1.0), number)
+        ranges = reals_of(self, what, ("slip_range", "angle_range", "camber_range"))
+        for key in ("angle_range_least", "angle_range_most"):
+            angle, check = ranges[key]
+            ranges[key] = (tan(min(max(angle, -_STEEPEST), _STEEPEST)), check)
+        reals |= ranges | reals_of(self, what, ("largest_load",))
+        for key in self.coefficients:
+            if key not in MAGIC_COEFFICIENTS:
+                raise ValueError(f"The Magic Formula of {what} has no coefficient {key}.")
+        for key, usual in MAGIC_COEFFICIENTS.items():
+            check = positive if key in ("LMUX", "LMUY", "LKX", "LKY", "LFZO", "LONGVL") else number
+            reals[key] = (check(self.coefficients.get(key, usual), f"{key} of {what}"), check)
+        return reals

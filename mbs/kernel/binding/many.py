@@ -1,0 +1,110 @@
+"""Instances of one System that advance together."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from ctypes import POINTER, byref, c_double, c_void_p
+from typing import Any, NamedTuple
+
+from ..header import LaneFields
+from .buffers import buffer
+from .errors import KernelError, status_text
+from .instance import Instance
+from .library import load_library
+from .loaded_system import LoadedSystem
+
+_DOUBLES = POINTER(c_double)
+
+
+class Ended(NamedTuple):
+    """How the run of one instance ended.
+
+    Attributes
+    ----------
+    done : int
+        Accepted steps.
+    alone : int
+        Steps that it made alone.
+    error : KernelError or None
+        Why it stopped.
+    """
+
+    done: int
+    alone: int
+    error: KernelError | None
+
+
+def widest_lanes() -> int:
+    """The most instances that this processor advances together: 2, 4 or 8."""
+    return int(load_library().ali3_widest_lanes())
+
+
+class Many:
+    """Memory to advance several instances of a System together, a lane each.
+
+    Parameters
+    ----------
+    width : int
+        Lanes: 2, 4 or 8, at most `widest_lanes`.
+    """
+
+    def __init__(self, system: LoadedSystem, width: int) -> None:
+        self._handle: c_void_p | None = None
+        self.system, self.width = system, width
+        self._library = system._library
+        handle = c_void_p()
+        self._check(self._library.ali3_many_new(system._handle, width, byref(handle)))
+        self._handle = handle
+
+    def __del__(self) -> None:
+        if self._handle is not None:
+            self._library.ali3_many_free(self._handle)
+            self._handle = None
+
+    def _check(self, status: int) -> None:
+        if status:
+            raise KernelError(status, status_text(self._library, status))
+
+    @property
+    def size(self) -> int:
+        """Bytes beside those of the instances."""
+        return int(self._library.ali3_many_size(self.system._handle, self.width))
+
+    def run(
+        self, instances: Sequence[Instance], h: float, n: int, every: int, out: Sequence[Any], positions: Sequence[Any]
+    ) -> list[Ended]:
+        """`n` steps of `h` seconds of each instance, as `Instance.run` makes them.
+
+        Parameters
+        ----------
+        instances : sequence of Instance
+            At most `width`, with the same settings.
+        out, positions : sequence of writable buffers of float64 or None
+            Per instance, as of `Instance.run`.
+
+        Returns
+        -------
+        list of Ended
+            Per instance; one that stopped leaves the others as they are.
+        """
+        sizes, lanes = self.system.sizes, (LaneFields * len(instances))()
+        kept = []
+        for lane, instance, values, places in zip(lanes, instances, out, positions, strict=True):
+            taken = buffer(values, n // every * sizes.ns, "out", writable=True)
+            where = buffer(places, n // every * sizes.nq, "positions", writable=True)
+            kept.append((taken, where))
+            lane.instance = instance._handle
+            lane.out, lane.positions = (None if b is None else ctypes.cast(b, _DOUBLES) for b in (taken, where))
+        self._check(self._library.ali3_many_run(self._handle, len(lanes), lanes, h, n, every))
+        return [
+            Ended(lane.done, lane.alone, self._error(instance, lane.status))
+            for lane, instance in zip(lanes, instances, strict=True)
+        ]
+
+    def _error(self, instance: Instance, status: int) -> KernelError | None:
+        try:
+            instance._check(status)
+        except KernelError as error:
+            return error
+        return None

@@ -1,0 +1,53 @@
+/* A number of one instance, or of several that advance together: sources written in `real` are compiled once as they
+ * stand and once for each width of lanes (../lanes/), where a real is a vector of one number per instance and a truth a
+ * mask. A choice copies bits and no sum goes across lanes, so that each lane has the bits that it has alone. */
+#ifndef ALI3_REAL_H
+#define ALI3_REAL_H
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef ALI3_WIDTH
+typedef double real __attribute__((vector_size(8 * ALI3_WIDTH)));
+typedef int64_t truth __attribute__((vector_size(8 * ALI3_WIDTH)));
+
+static inline real ali3_same(double x) { return (real){0} + x; }
+static inline real ali3_where(truth c, real a, real b) { return (real)((c & (truth)a) | (~c & (truth)b)); }
+static inline real ali3_add_unless(truth c, real x, real y) { return ali3_where(c, x, x + y); }
+static inline truth ali3_not(truth c) { return ~c; }
+static inline real ali3_abs(real x) { return (real)((truth)x & INT64_MAX); }
+
+static inline bool ali3_any(truth c) {
+  int64_t any = 0;
+  for (int l = 0; l < ALI3_WIDTH; l++) any |= c[l];
+  return any != 0;
+}
+
+static inline real ali3_floor(real x) {
+  for (int l = 0; l < ALI3_WIDTH; l++) x[l] = floor(x[l]);
+  return x;
+}
+
+/* Counters of the report: of the lanes that are at work. */
+#define ALI3_AT_WORK(in, lanes) (*(in)->at_work = (lanes))
+#define ALI3_AT_WORK_OF(in, lanes) (*(in)->at_work & (lanes))
+#define ALI3_COUNT(in, counter) (*(in)->report.counter -= *(in)->at_work)
+#define ALI3_COUNT_ANEW(in, counter) (*(in)->report.counter &= ~*(in)->at_work)
+#else
+typedef double real;
+typedef bool truth;
+
+static inline real ali3_same(double x) { return x; }
+static inline real ali3_where(truth c, real a, real b) { return c ? a : b; }
+static inline real ali3_add_unless(truth c, real x, real y) { return c ? x : x + y; }
+static inline truth ali3_not(truth c) { return !c; }
+static inline real ali3_abs(real x) { return fabs(x); }
+static inline bool ali3_any(truth c) { return c; }
+static inline real ali3_floor(real x) { return floor(x); }
+
+#define ALI3_AT_WORK(in, lanes) ((void)(in))
+#define ALI3_AT_WORK_OF(in, lanes) (lanes)
+#define ALI3_COUNT(in, counter) ((in)->report.counter++)
+#define ALI3_COUNT_ANEW(in, counter) ((in)->report.counter = 0)
+#endif
+#endif

@@ -1,0 +1,185 @@
+/* Runs of several instances of one System that advance together. Between steps each instance is as after ali3_run; a lane
+ * that cannot make a step with the others makes it alone from there. */
+#include <string.h>
+
+#include "../instance.h"
+#include "../lanes/lanes.h"
+#include "../method.h"
+#include "../methods/check_method.h"
+#include "../methods/energy_balance.h"
+#include "../methods/energy_watch.h"
+#include "../methods/history.h"
+#include "../methods/input_jump.h"
+#include "../methods/newton.h"
+#include "../methods/steps.h"
+#include "../methods/stiffness.h"
+#include "../methods/whole_step.h"
+#include "../rows/guides.h"
+#include "../sensors/sensors.h"
+#include "../state/inputs.h"
+#include "../state/vectors.h"
+#include "../state/work.h"
+
+struct ali3_many {
+  ali3_lane_group group;
+  ali3_lane_step *step;
+  void (*release)(void *block);
+};
+
+int32_t ali3_widest_lanes(void) { return ali3_processor_lanes(); }
+
+size_t ali3_many_size(const ali3_system *s, int32_t width) {
+  return s == NULL || width < 2 ? 0 : sizeof(ali3_many) + ali3_group_bytes(s, width);
+}
+
+ali3_status ali3_many_new(const ali3_system *s, int32_t width, ali3_many **out) {
+  if (s == NULL || out == NULL || (width != 2 && width != 4 && width != 8)) return ALI3_BAD_ARGUMENT;
+  *out = NULL;
+  if (width > ali3_processor_lanes()) return ALI3_BAD_ARGUMENT;
+  char *block = s->memory.allocate(1, ali3_many_size(s, width));
+  if (block == NULL) return ALI3_NO_MEMORY;
+  ali3_many *many = (ali3_many *)block;
+  many->release = s->memory.release;
+  many->step = ali3_lane_step_of(width);
+  many->group.system = s;
+  many->group.width = width;
+  ali3_group_place(&many->group, block + sizeof *many);
+  *out = many;
+  return ALI3_OK;
+}
+
+void ali3_many_free(ali3_many *many) {
+  if (many != NULL) many->release(many);
+}
+
+/* Whether lanes make steps of this System with these settings: those of ALi3-P as it is by default. */
+static bool taken(const ali3_system *s, const ali3_settings *settings) {
+  return s->n_flexible == 0 && s->size.n_switch == 0 && settings->method == ALI3_METHOD_ALI3P && settings->project &&
+         settings->update == ALI3_UPDATE_LINEARISED && settings->step_iterations == 0;
+}
+
+/* A step that has begun: lane l of the group from in->now. False: the instance must make it alone. */
+static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
+  ali3_instance *in = g->lane[l];
+  const ali3_sizes *z = &g->system->size;
+  ali3_vectors *from = &in->now, *to = &in->next;
+  in->halves_left = false;
+  if (from->history[ALI3_HISTORY_OWNER] != (double)ALI3_METHOD_ALI3P) return false;
+  if (ali3_inputs_begin(in, step->t, step->h) != ALI3_OK) return false;
+  ali3_vectors_copy(in, to, from);
+  if (ali3_input_jump(in, step->h) != ALI3_OK) return false;
+  ali3_guides_step(in, from, to, step->t, step->h);
+  memcpy(to->used, in->input, (size_t)z->nu * sizeof(double));
+  memcpy(to->y_last, from->y, (size_t)z->ny * sizeof(double));
+  to->h_last[0] = step->h;
+  ali3_group_from(g, l);
+  return true;
+}
+
+/* The end of a step that converged in lane l: in->next becomes the state. */
+static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
+  ali3_instance *in = g->lane[l];
+  ali3_group_to(g, l);
+  ali3_history_append(in, step->h, in->x);
+  ali3_group_multipliers(g, l);
+  ali3_lane_elements_accept(g, l);
+  const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l]);
+  if (resolved != ALI3_OK) return resolved;
+  ali3_work_step(in, 0.5);
+  const ali3_status status = ali3_accept(in);
+  if (status != ALI3_OK) return status;
+  in->t_now = step->t;
+  ali3_balance_step(in, step->h);
+  return ALI3_OK;
+}
+
+/* Back to where the step began, for the instance to make it alone. */
+static ali3_status alone(ali3_instance *in, const ali3_whole_step *step) {
+  if (in->backed_up) ali3_vectors_copy(in, &in->now, &in->start);
+  memcpy(in->input, in->input_from, (size_t)in->system->size.nu * sizeof(double));
+  in->backed_up = false;
+  in->capped = false;
+  in->report = step->before;
+  return ali3_advance(in, step->t, step->h, in->settings.max_halvings);
+}
+
+/* The step that has begun in the lanes of `going`, ended in status[l]. */
+static void step_together(ali3_many *many, int32_t n, const bool *going, bool apart, const ali3_whole_step *step,
+                          ali3_status *status, ali3_lane *lane) {
+  ali3_lane_group *g = &many->group;
+  int32_t entered = 0;
+  for (int32_t l = 0; l < g->width; l++) g->lanes[l] = 0;
+  for (int32_t l = 0; l < n && !apart; l++)
+    if (going[l] && enter(g, l, &step[l])) {
+      g->lanes[l] = -1;
+      entered++;
+    }
+  for (int32_t l = 0; l < g->width; l++) g->good[l] = 0;
+  if (entered > 1) many->step(g);
+  for (int32_t l = 0; l < n; l++) {
+    if (!going[l]) continue;
+    status[l] = ALI3_NOT_CONVERGED;
+    if (g->good[l]) status[l] = leave(g, l, &step[l]);
+    if (status[l] == ALI3_OK) continue;
+    lane[l].alone++;
+    status[l] = alone(g->lane[l], &step[l]);
+  }
+}
+
+/* Whether the n lanes may run together; their group is set up. */
+static ali3_status gather(ali3_many *many, int32_t n, ali3_lane *lane, double h) {
+  ali3_lane_group *g = &many->group;
+  for (int32_t l = 0; l < n; l++) {
+    if (lane[l].instance == NULL || lane[l].instance->system != g->system) return ALI3_BAD_ARGUMENT;
+    for (int32_t k = 0; k < l; k++)
+      if (lane[k].instance == lane[l].instance) return ALI3_BAD_ARGUMENT;
+    if (memcmp(&lane[l].instance->settings, &lane[0].instance->settings, sizeof g->settings) != 0)
+      return ALI3_BAD_ARGUMENT;
+  }
+  for (int32_t l = 0; l < n; l++) {
+    g->lane[l] = lane[l].instance;
+    ali3_group_masses(g, l);
+  }
+  g->settings = lane[0].instance->settings;
+  g->h = h;
+  g->alpha = ali3_penalty(lane[0].instance, h);
+  return ALI3_OK;
+}
+
+ali3_status ali3_many_run(ali3_many *many, int32_t n, ali3_lane *lane, double h, int64_t n_steps, int64_t every) {
+  if (many == NULL || lane == NULL || n < 1 || n > many->group.width || n_steps < 0 || every < 1)
+    return ALI3_BAD_ARGUMENT;
+  if (!(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
+  const ali3_status gathered = gather(many, n, lane, h);
+  if (gathered != ALI3_OK) return gathered;
+  const ali3_system *S = many->group.system;
+  const bool apart = !taken(S, &many->group.settings);
+  bool going[ALI3_MOST_LANES];
+  ali3_whole_step step[ALI3_MOST_LANES];
+  ali3_status status[ALI3_MOST_LANES];
+  for (int32_t l = 0; l < n; l++) {
+    lane[l].status = (int32_t)ali3_check_method(lane[l].instance);
+    lane[l].done = lane[l].alone = 0;
+    lane[l].instance->call_residual = 0.0;
+    lane[l].instance->unobserved = lane[l].instance->sampled = false;
+  }
+  for (int64_t k = 0; k < n_steps; k++) {
+    for (int32_t l = 0; l < n; l++) {
+      going[l] = lane[l].status == ALI3_OK;
+      const double *end = lane[l].inputs != NULL ? lane[l].inputs + k * S->size.nu : NULL;
+      status[l] = going[l] ? ali3_step_begin(lane[l].instance, h, end, &step[l]) : (ali3_status)lane[l].status;
+      going[l] = going[l] && status[l] == ALI3_OK;
+      lane[l].status = (int32_t)status[l];
+    }
+    step_together(many, n, going, apart, step, status, lane);
+    for (int32_t l = 0; l < n; l++) {
+      if (!going[l]) continue;
+      ali3_instance *in = lane[l].instance;
+      lane[l].status = (int32_t)ali3_explain_refusal(in, ali3_step_end(in, &step[l], status[l]), h);
+      if (lane[l].status != ALI3_OK) continue;
+      lane[l].done = k + 1;
+      if ((k + 1) % every == 0) ali3_record_row(in, (k + 1) / every - 1, lane[l].out, lane[l].positions);
+    }
+  }
+  return ALI3_OK;
+}

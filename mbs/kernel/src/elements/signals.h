@@ -1,0 +1,9 @@
+/* Signals of all elements. */
+#ifndef ALI3_SIGNALS_H
+#define ALI3_SIGNALS_H
+#include "../algebra/real.h"
+#include "../instance.h"
+
+void ali3_active_signals(ali3_instance *in, const real *q, const real *qd);
+void ali3_elements_tangent(ali3_instance *in, real *F);
+#endif

@@ -1,0 +1,59 @@
+/* Instances of one System that advance together. A number of a group is one of each lane, side by side; sources written
+ * in `real` see in it what they see of an instance, by the same names (see real.h and kernels.h). */
+#ifndef ALI3_GROUP_H
+#define ALI3_GROUP_H
+#include "../algebra/real.h"
+#include "../instance.h"
+
+enum { ALI3_MOST_LANES = 8 };
+
+#ifdef ALI3_WIDTH
+typedef truth ali3_mask; /* all bits of a lane, or none; counts too */
+#else
+typedef int64_t ali3_mask;
+#endif
+
+typedef struct {
+  real *q, *qd, *qdd, *lam;
+  real *s, *sd, *sdd; /* guides */
+  real *history, *past_a, *past_lam;
+} ali3_lane_vectors;
+
+typedef struct ali3_lane_group {
+  const ali3_system *system;
+  int32_t width;
+  ali3_instance *lane[ALI3_MOST_LANES];
+  ali3_settings settings; /* those of all lanes */
+  ali3_rule rule;
+  double h, alpha;
+  bool controlled; /* false */
+  ali3_lane_vectors now, next;
+  real *mass_val, *mass_floor, *mass_floor_inverse, *gravity_force;
+  real *D, *d0, *r, *x, *w, *hat, *Q, *shifted, *correction_q, *step_q; /* nq, as those of an instance */
+  real *Phi, *Phit, *gamma, *mu, *lam, *drive, *correction_lam, *step_lam; /* nc */
+  real *guide_mean;
+  real *J, *J_tangent, *F, *local;
+  real *F_new; /* of lanes that get a new tangent while others keep theirs */
+  real *u, *ud, *S, *SB;
+  real *f; /* forces of elements on their signals */
+  ali3_mask *idle;
+  real *mean_a, *newton_lam; /* what a step leaves to the history */
+  /* one each: lanes that make the step, those that the sources count, those that evaluate elements, those that ended */
+  ali3_mask *lanes, *at_work, *evaluated, *good, *singular;
+  ali3_mask *iterations, *worst_row, *worst_coordinate;
+  struct {
+    ali3_mask *factorizations, *solves, *negative_pivots;
+  } report;
+  real *residual, *violation, *velocity_violation, *open_power, *work, *end, *open, *size;
+} ali3_lane_group;
+
+/* A step of the lanes in group->lanes to group->next; group->good has those that converged. */
+typedef void ali3_lane_step(ali3_lane_group *group);
+void ali3_step_lanes_2(ali3_lane_group *group);
+void ali3_step_lanes_4(ali3_lane_group *group);
+void ali3_step_lanes_8(ali3_lane_group *group);
+
+/* Elements of the lanes in group->evaluated, one by one. */
+void ali3_lane_elements(ali3_lane_group *group, bool tangent);
+void ali3_lane_elements_accept(ali3_lane_group *group, int32_t lane);
+#endif

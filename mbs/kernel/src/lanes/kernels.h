@@ -1,0 +1,83 @@
+/* The sources of a step, compiled for lanes: included once for each width, with ALI3_WIDTH and the instructions that the
+ * processor then has. An instance is a group there; what a rigid System without switches never asks for is nothing. */
+#ifndef ALI3_KERNELS_H
+#define ALI3_KERNELS_H
+#ifdef ALI3_WIDTH
+#include <math.h>
+#include <string.h>
+
+#if defined(__clang__) && defined(ALI3_INSTRUCTIONS)
+#pragma clang attribute push(__attribute__((target(ALI3_INSTRUCTIONS))), apply_to = function)
+#endif
+
+#include "../algebra/elementary.h"
+#include "../instance.h"
+#include "group.h"
+
+#define ALI3_JOINED(name, width) name##_lanes_##width
+#define ALI3_OF_WIDTH(name, width) ALI3_JOINED(name, width)
+#define ALI3_LANED(name) ALI3_OF_WIDTH(name, ALI3_WIDTH)
+
+static inline real ALI3_LANED(sine)(real x) {
+  for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_sin(x[l]);
+  return x;
+}
+
+static inline real ALI3_LANED(cosine)(real x) {
+  for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_cos(x[l]);
+  return x;
+}
+
+#define ali3_instance ali3_lane_group
+#define ali3_vectors ali3_lane_vectors
+#define ali3_sin ALI3_LANED(sine)
+#define ali3_cos ALI3_LANED(cosine)
+#define ali3_row_is_off(in, row) false
+#define ali3_switch_rows(in, Phi, J) ((void)(J))
+#define ali3_switch_values(in, v) ((void)(v))
+#define ALI3_SWITCH_ROWS_H
+#define ali3_mass_times ali3_constant_mass_times
+#define ali3_constant_mass_times ALI3_LANED(constant_mass_times)
+#define ali3_factorise ALI3_LANED(factorise)
+#define ali3_solve ALI3_LANED(solve)
+#define ali3_constraints ALI3_LANED(constraints)
+#define ali3_constraint_rate ALI3_LANED(constraint_rate)
+#define ali3_constraint_gamma ALI3_LANED(constraint_gamma)
+#define ali3_geometric ALI3_LANED(geometric)
+#define ali3_rows_square ALI3_LANED(rows_square)
+#define ali3_rows_product ALI3_LANED(rows_product)
+#define ali3_rows_times ALI3_LANED(rows_times)
+#define ali3_rows_transposed ALI3_LANED(rows_transposed)
+#define ali3_velocity_jacobian ALI3_LANED(velocity_jacobian)
+#define ali3_velocity_gamma ALI3_LANED(velocity_gamma)
+#define ali3_velocity_values ALI3_LANED(velocity_values)
+#define ali3_velocity_middle ALI3_LANED(velocity_middle)
+#define ali3_velocity_release ALI3_LANED(velocity_release)
+#define ali3_active_signals ALI3_LANED(active_signals)
+#define ali3_elements_tangent ALI3_LANED(elements_tangent)
+#define ali3_accelerate ALI3_LANED(accelerate)
+#define ali3_rates_closed ALI3_LANED(rates_closed)
+#define ali3_project ALI3_LANED(project)
+#define ali3_constraint_work ALI3_LANED(constraint_work)
+#define ali3_projection_work ALI3_LANED(projection_work)
+#define ali3_energy_size ALI3_LANED(energy_size)
+#define ali3_lagrange ALI3_LANED(lagrange)
+#define ali3_history_smooth ALI3_LANED(history_smooth)
+#define ali3_extrapolate ALI3_LANED(extrapolate)
+
+#include "../algebra/fronts.c"
+#include "../elements/signals.c"
+#include "../flexible/constant_mass.c"
+#include "../methods/accelerate.c"
+#include "../methods/constraint_work.c"
+#include "../methods/extrapolation.c"
+#include "../methods/projection.c"
+#include "../rows/constraints.c"
+#include "../rows/velocity_rows.c"
+#include "lane_step.h"
+
+#if defined(__clang__) && defined(ALI3_INSTRUCTIONS)
+#pragma clang attribute pop
+#endif
+#endif
+#endif

@@ -1,0 +1,58 @@
+/* Elements of the lanes, one instance after the other: their laws are those of a single run. */
+#include "../elements/element.h"
+#include "../elements/forces.h"
+#include "group.h"
+
+static ali3_force_call call_of(const ali3_lane_group *g, const ali3_instance *in) {
+  const ali3_vectors *to = &in->next;
+  const ali3_force_call call = {.y_old = in->now.y,
+                                .h = g->h,
+                                .wC = g->rule.wC,
+                                .wK = g->rule.c,
+                                .y_new = to->y,
+                                .out = to->out,
+                                .potential = to->potential};
+  return call;
+}
+
+static void local(const ali3_lane_group *g, int32_t e, int32_t l, double *u, double *ud) {
+  const ali3_system *S = g->system;
+  for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
+    *u++ = g->u[S->el_sig[i] * g->width + l];
+    *ud++ = g->ud[S->el_sig[i] * g->width + l];
+  }
+}
+
+/* f, idle and, where it is wanted, the tangent of element e in lane l. */
+static void one(ali3_lane_group *g, const ali3_force_call *call, int32_t e, int32_t l, bool tangent) {
+  const ali3_system *S = g->system;
+  const int32_t width = g->width, n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS], T[ALI3_MAX_SIGNALS * ALI3_MAX_SIGNALS];
+  const bool wanted = tangent && S->el_front[e] >= 0;
+  local(g, e, l, u, ud);
+  const bool idle = ali3_element_forces(g->lane[l], call, e, u, ud, f, wanted ? T : NULL);
+  g->idle[e * width + l] = idle ? -1 : 0;
+  real *forces = g->f + (int64_t)S->el_sig_ptr[e] * width + l, *to = g->S + (int64_t)S->el_S_off[e] * width + l;
+  for (int32_t i = 0; i < n; i++) forces[i * width] = f[i];
+  for (int32_t i = 0; wanted && i < n * n; i++) to[i * width] = T[i];
+}
+
+void ali3_lane_elements(ali3_lane_group *g, bool tangent) {
+  ali3_force_call call[ALI3_MOST_LANES];
+  for (int32_t l = 0; l < g->width; l++)
+    if (g->evaluated[l]) call[l] = call_of(g, g->lane[l]);
+  for (int32_t e = 0; e < g->system->size.ne; e++)
+    for (int32_t l = 0; l < g->width; l++)
+      if (g->evaluated[l]) one(g, &call[l], e, l, tangent);
+}
+
+void ali3_lane_elements_accept(ali3_lane_group *g, int32_t l) {
+  ali3_instance *in = g->lane[l];
+  const ali3_force_call call = call_of(g, in);
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
+  for (int32_t e = 0; e < g->system->size.ne; e++) {
+    if (g->system->el_kind[e]->accept == NULL) continue;
+    local(g, e, l, u, ud);
+    ali3_element_accept(in, &call, e, u, ud);
+  }
+}

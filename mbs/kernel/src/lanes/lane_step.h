@@ -1,0 +1,198 @@
+/* The step of methods/augmented_lagrangian.c with the control of its iterations by lane: each lane decides alone what
+ * follows, and one that is finished keeps its D, multipliers, tangent and forces, from which the rest comes out the same
+ * again. What fails is told by group->good and made again from its instance. */
+#ifndef ALI3_LANE_STEP_H
+#define ALI3_LANE_STEP_H
+#ifdef ALI3_LANED /* by kernels.h */
+#include "../methods/ali3p.h"
+#include "../methods/energy_watch.h"
+#include "../methods/extrapolation.h"
+#include "../methods/predict.h"
+#include "../methods/projection.h"
+
+static truth all_finite(const real *v, int32_t n) {
+  real sum = {0}; /* v - v is 0 for finite v, NaN else */
+  for (int32_t i = 0; i < n; i++) sum += v[i] - v[i];
+  return sum == 0.0;
+}
+
+/* Elements of these lanes; the others keep theirs. */
+static void elements(ali3_lane_group *in, truth lanes, bool tangent) {
+  *in->evaluated = lanes;
+  ali3_lane_elements(in, tangent);
+}
+
+static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
+  const ali3_system *S = in->system;
+  ali3_active_signals(in, in->next.q, in->next.qd);
+  elements(in, lanes, tangent);
+  const int32_t *ptr = S->sig_ptr, *col = S->sig_col, *el_sig = S->el_sig;
+  const double *val = S->sig_val;
+  real *Q = in->Q;
+  const real *f = in->f;
+  memcpy(Q, in->gravity_force, (size_t)S->size.nq * sizeof *Q);
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    const truth idle = in->idle[e];
+    if (!ali3_any(ali3_not(idle))) continue;
+    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
+      const int32_t signal = el_sig[i];
+      const real force = f[i];
+      for (int32_t k = ptr[signal]; k < ptr[signal + 1]; k++)
+        Q[col[k]] = ali3_add_unless(idle, Q[col[k]], val[k] * force);
+    }
+  }
+}
+
+static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
+  const ali3_system *S = in->system;
+  const double c = in->rule.c, rate = in->rule.rate;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    in->next.q[i] = in->now.q[i] + in->D[i];
+    in->next.qd[i] = rate * in->D[i] + in->hat[i];
+    in->w[i] = in->D[i] - in->d0[i];
+  }
+  ali3_constraints(in, in->next.q, in->next.s, in->Phi, in->J);
+  ali3_velocity_values(in, in->J, in->next.qd, rate, in->Phi);
+  forces(in, lanes, tangent);
+  ali3_mass_times(in, in->w, in->r);
+  for (int32_t i = 0; i < S->size.nq; i++) in->r[i] -= c * in->Q[i];
+}
+
+/* The largest so far with its number; a NaN stays. */
+static void take_larger(real size, int32_t number, real *largest, truth *worst) {
+  const truth larger = ~(size <= *largest) & (*largest == *largest);
+  *largest = ali3_where(larger, size, *largest);
+  *worst = (larger & number) | (~larger & *worst);
+}
+
+/* Residual with the multipliers, and violation; returns the lanes where both are finite. */
+static truth judge(ali3_lane_group *in) {
+  const ali3_system *S = in->system;
+  real residual = {0}, violation = {0};
+  ali3_rows_transposed(S, in->J, in->next.lam, in->x);
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    in->x[i] = in->r[i] + in->rule.c * in->x[i];
+    take_larger(ali3_abs(in->x[i]) * in->mass_floor_inverse[i], i, &residual, in->worst_coordinate);
+  }
+  for (int32_t k = 0; k < S->size.nc; k++)
+    take_larger(ali3_abs(in->Phi[k]) * S->row_measure[k], k, &violation, in->worst_row);
+  *in->residual = residual;
+  *in->violation = violation;
+  return (residual < 1e300) & (violation < 1e300);
+}
+
+static truth closed(const ali3_lane_group *in) {
+  const ali3_system *S = in->system;
+  truth all = {0};
+  for (int32_t k = 0; k < S->size.nc; k++)
+    all |= ~(ali3_abs(in->Phi[k]) * S->row_measure[k] <= in->settings.tolerance_phi + S->row_round[k]);
+  return ~all;
+}
+
+/* The tangent (23) of the present iterate for some lanes, and its factor; the others keep theirs. */
+static void tangent(ali3_lane_group *in, truth lanes, bool first) {
+  const ali3_system *S = in->system;
+  real *F = first ? in->F : in->F_new;
+  *in->at_work = lanes;
+  memset(F, 0, (size_t)S->size.front_size * sizeof *F);
+  for (int64_t k = 0; k < S->n_mass_col; k++)
+    if (S->mass_pos[k] >= 0) F[S->mass_pos[k]] = in->mass_val[k];
+  ali3_rows_square(in, in->J, in->rule.c * in->alpha, F);
+  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, in->rule.c, F);
+  ali3_elements_tangent(in, F);
+  ali3_factorise(in, F);
+  for (int32_t i = 0; i < S->size.nnz_rows; i++)
+    in->J_tangent[i] = first ? in->J[i] : ali3_where(lanes, in->J[i], in->J_tangent[i]);
+  for (int32_t i = 0; !first && i < S->size.front_size; i++) in->F[i] = ali3_where(lanes, F[i], in->F[i]);
+}
+
+/* One Newton correction (21) and the multiplier update of the lanes that are not finished; returns where it is finite. */
+static truth correct(ali3_lane_group *in, truth lanes, truth kept, int32_t iteration) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc;
+  const double c = in->rule.c, alpha = in->alpha;
+  real *lam = in->next.lam;
+  *in->at_work = lanes;
+  for (int32_t k = 0; k < nc; k++) in->mu[k] = ali3_where(kept, ali3_same(0.0), lam[k]) + alpha * in->Phi[k];
+  ali3_rows_transposed(S, in->J_tangent, in->mu, in->w);
+  for (int32_t i = 0; i < nq; i++) in->x[i] = -(ali3_where(kept, in->x[i], in->r[i]) + c * in->w[i]);
+  ali3_solve(in, in->F, in->x);
+  const truth finite = all_finite(in->x, nq);
+  ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
+  for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
+  ali3_accelerate(in, iteration);
+  for (int32_t k = 0; k < nc; k++) lam[k] = ali3_where(lanes, lam[k] + in->lam[k], lam[k]);
+  for (int32_t i = 0; i < nq; i++) in->D[i] = ali3_where(lanes, in->D[i] + in->x[i], in->D[i]);
+  return finite;
+}
+
+static void newton(ali3_lane_group *in) {
+  const double h = in->h;
+  truth active = *in->lanes, kept = {0};
+  real before = ali3_same(HUGE_VAL);
+  *in->good = *in->singular = *in->iterations = kept;
+  evaluate(in, active, true);
+  for (int32_t iteration = 0; iteration < in->settings.max_iterations && ali3_any(active); iteration++) {
+    const truth renewed = active & ~kept;
+    if (ali3_any(renewed)) tangent(in, renewed, iteration == 0);
+    active &= ~*in->singular;
+    active &= correct(in, active, kept, iteration);
+    *in->iterations -= active;
+    evaluate(in, active, false);
+    active &= judge(in);
+    const truth ended = active & (*in->residual <= in->settings.tolerance_r) & closed(in);
+    *in->good |= ended;
+    active &= ~ended;
+    kept = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4)) & (*in->residual <= KEPT_RESIDUAL * before);
+    before = *in->residual;
+    if (ali3_any(active & ~kept)) elements(in, active & ~kept, true);
+  }
+}
+
+/* First guess of D and the multipliers. */
+static void predict(ali3_lane_group *in) {
+  const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
+  const double h = in->h;
+  truth goes_on = {0};
+  if (in->settings.predictor == ALI3_PREDICTOR_PARABOLA) goes_on = ali3_history_smooth(in, ALI3_PARABOLA, h);
+  if (ali3_any(goes_on)) ali3_extrapolate(in, 0.5 * h, ALI3_PARABOLA, in->x, in->next.lam);
+  for (int32_t k = 0; k < nc; k++) {
+    const real lam = in->now.lam[k];
+    in->next.lam[k] = lam + ALI3_SHARE * (ali3_where(goes_on, in->next.lam[k], lam) - lam);
+  }
+  for (int32_t i = 0; i < nq; i++)
+    in->D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(goes_on, in->x[i], in->now.qdd[i]);
+}
+
+void ALI3_LANED(ali3_step)(ali3_lane_group *in) {
+  const int32_t nq = in->system->size.nq;
+  const double h = in->h;
+  const ali3_rule rule = {.c = 0.25 * h * h, .rate = 2.0 / h, .wC = 0.5 * h};
+  const double c = rule.c;
+  in->rule = rule;
+  predict(in);
+  for (int32_t i = 0; i < nq; i++) {
+    in->d0[i] = h * in->now.qd[i] + c * in->now.qdd[i];
+    in->hat[i] = -in->now.qd[i];
+  }
+  newton(in);
+  if (!ali3_any(*in->good)) return;
+  for (int32_t i = 0; i < nq; i++) {
+    in->next.qdd[i] = (in->D[i] - in->d0[i]) / c;
+    in->mean_a[i] = 2.0 * (in->D[i] - h * in->now.qd[i]) / (h * h);
+  }
+  memcpy(in->newton_lam, in->next.lam, (size_t)in->system->size.nc * sizeof *in->newton_lam);
+  ali3_constraint_rate(in, in->next.q, &in->next, in->Phit);
+  real kinetic, work = ali3_constraint_work(in, h);
+  *in->at_work = *in->good;
+  *in->velocity_violation =
+      ali3_project(in, c * in->alpha, in->Phit, in->next.qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);
+  ali3_constraint_gamma(in, in->next.q, in->next.qd, &in->next, in->gamma);
+  *in->at_work = *in->good;
+  ali3_project(in, c * in->alpha, in->gamma, in->next.qdd, in->next.lam, ACCELERATION_TOLERANCE, MAX_SWEEPS);
+  work += ali3_projection_work(in, &kinetic, in->end, in->open) + 0.5 * h * *in->open_power;
+  *in->work = work;
+  *in->size = ali3_energy_size(in, h, kinetic);
+}
+#endif
+#endif

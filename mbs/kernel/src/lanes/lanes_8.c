@@ -1,0 +1,11 @@
+/* Eight lanes. */
+#if defined(__x86_64__)
+#define ALI3_WIDTH 8
+#define ALI3_INSTRUCTIONS "avx512f,avx512dq,avx512vl"
+#if !defined(__clang__)
+#pragma GCC target("avx512f,avx512dq,avx512vl")
+#endif
+#include "kernels.h"
+#else
+#include "group.h" /* no processor of another kind is asked for them */
+#endif

@@ -1,0 +1,74 @@
+/* Energy that a step adds or removes without a force.
+ *
+ * By the trapezoidal rule the kinetic energy changes by D'(f0 + f1)/2, f all forces, -Phi_q' lam among them. With
+ * Phi = 0 at both ends (Phi_q0 + Phi_q1) D = -2 h R to third order, R the mean of Phi_t over the step, and the work of
+ * rows is h R' lam0 - (Phi_q1 D)'(lam1 - lam0)/2, lam1 of Newton's loop. Of this the work of drives is no error: the
+ * integral of lam' Phi_t, w'(lam0 + lam) + h (lam - lam0)'(Phi_t1 - Phi_t0)/12 with w = h R/2, where lam is straight and
+ * Phi_t a parabola. There lam is that after (25), which sensors show: it differs from lam1 by a term of order h where
+ * the rate of a guide bends, and the energy that (24) gives by another; each alone adds up to an error of first order,
+ * and together they cancel. Guides that follow an input begin to move within a step: the mean of Phi_t at both ends
+ * would be wrong by half. */
+#include "../flexible/mass.h"
+#include "../instance.h"
+#include "../rows/constraints.h"
+#include "energy_watch.h"
+
+/* in->drive: w + h (Phi_t1 - Phi_t0)/12. Its product with lam0 - lam is what the rows' h R' lam0 and the work of drives
+ * leave. */
+static void drives(ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  ali3_vectors mean = in->next;
+  mean.sd = in->guide_mean;
+  for (int32_t g = 0; g < S->size.ng; g++) mean.sd[g] = (in->next.s[g] - in->now.s[g]) / h;
+  ali3_constraint_rate(in, in->next.q, &mean, in->mu);
+  ali3_constraint_rate(in, in->now.q, &in->now, in->drive);
+  for (int32_t k = 0; k < S->size.nc; k++) in->drive[k] = h * (0.5 * in->mu[k] + (in->Phit[k] - in->drive[k]) / 12.0);
+}
+
+/* Before the projections: in->J and in->Phit are of the end of the step, in->next.lam those of Newton's loop. The part
+ * of the multipliers after (25) is still to be added. */
+real ali3_constraint_work(ali3_instance *in, double h) {
+  const ali3_system *S = in->system;
+  real work = {0};
+  ali3_rows_times(S, in->J, in->D, in->gamma);
+  for (int32_t k = 0; k < S->size.nc; k++) work -= 0.5 * in->gamma[k] * (in->next.lam[k] - in->now.lam[k]);
+  if (S->n_gterm_row == 0) return work;
+  drives(in, h);
+  for (int32_t k = 0; k < S->size.nc; k++) work += in->drive[k] * in->now.lam[k];
+  return work;
+}
+
+/* After the projections: the kinetic energy that (24) gave to the velocity rate D + hat, less what the multipliers after
+ * (25) give to the work of drives. *kinetic is the kinetic energy of the mean of the velocities before and after (24),
+ * *end that after it but for the square of what (24) changed, *open the power of the forces that (25) leaves without
+ * balance now. */
+real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open) {
+  const ali3_vectors *v = &in->next;
+  const int32_t nq = in->system->size.nq;
+  const bool driven = in->system->n_gterm_row > 0;
+  real given = {0}, power = {0}, twice = {0}, drive = {0};
+  for (int32_t i = 0; i < nq; i++) in->w[i] = 0.5 * (in->rule.rate * in->D[i] + in->hat[i] + v->qd[i]);
+  ali3_mass_times(in, in->w, in->x);
+  for (int32_t i = 0; i < nq; i++) {
+    given += 2.0 * (v->qd[i] - in->w[i]) * in->x[i];
+    twice += in->w[i] * in->x[i];
+  }
+  ali3_mass_times(in, v->qdd, in->x);
+  for (int32_t i = 0; i < nq; i++) power += v->qd[i] * (in->x[i] - in->Q[i]);
+  for (int32_t k = 0; k < in->system->size.nc; k++) power -= v->lam[k] * in->Phit[k];
+  for (int32_t k = 0; driven && k < in->system->size.nc; k++) drive += v->lam[k] * in->drive[k];
+  *kinetic = 0.5 * twice;
+  *end = 0.5 * (twice + given);
+  *open = power;
+  return given - drive;
+}
+
+/* What an error of the energy is judged beside: the kinetic energy, what the forces in in->Q can give in a step and
+ * what the tolerance of the residual leaves open. */
+real ali3_energy_size(const ali3_instance *in, double h, real kinetic) {
+  const double left = 2.0 * in->settings.tolerance_r / h;
+  real size = kinetic;
+  for (int32_t i = 0; i < in->system->size.nq; i++)
+    size += 0.5 * (h * h * in->Q[i] * in->Q[i] * in->mass_floor_inverse[i] + left * left * in->mass_floor[i]);
+  return size;
+}

@@ -1,0 +1,55 @@
+/* Past steps go on: Lagrange's polynomial through what they were. */
+#include "extrapolation.h"
+
+#include <string.h>
+
+static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
+static const double FAR = 2.0;     /* times the last step that the next may be long */
+static const double CONTROLLED_FAR = 4.5; /* of a controlled one: the last was a half, and steps grow */
+
+/* Weights (Lagrange) with which values at the n times extrapolate to time t. */
+void ali3_lagrange(const real *time, int32_t n, real t, real *weight) {
+  for (int32_t k = 0; k < n; k++) {
+    real above = ali3_same(1.0), below = above;
+    for (int32_t j = 0; j < n; j++) {
+      if (j == k) continue;
+      above *= t - time[j];
+      below *= time[k] - time[j];
+    }
+    weight[k] = above / below;
+  }
+}
+
+/* Whether the n steps before the last would have predicted the last much better than assuming no change. */
+truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
+  const int32_t nq = in->system->size.nq;
+  const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a;
+  real weight[ALI3_PAST], error = {0}, change = {0};
+  const truth near =
+      (history[ALI3_HISTORY_COUNT] > (double)n) & ((in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1]) > h);
+  if (!ali3_any(near)) return near;
+  ali3_lagrange(time + 1, n, time[0], weight);
+  for (int32_t i = 0; i < nq; i++) {
+    const real m = in->mass_floor[i], one = a[i] - a[nq + i];
+    real all = a[i];
+    for (int32_t k = 0; k < n; k++) all -= weight[k] * a[(int64_t)(k + 1) * nq + i];
+    error += m * all * all;
+    change += m * one * one;
+  }
+  return near & (error < SMOOTH * SMOOTH * change);
+}
+
+/* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from n > 0 past ones. */
+void ali3_extrapolate(const ali3_instance *in, double when, int32_t n, real *a, real *lam) {
+  const ali3_vectors *v = &in->now;
+  const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
+  real weight[ALI3_PAST];
+  memset(a, 0, (size_t)nq * sizeof *a);
+  memset(lam, 0, (size_t)nc * sizeof *lam);
+  ali3_lagrange(v->history + ALI3_HISTORY_TIME, n, ali3_same(when), weight);
+  for (int32_t k = 0; k < n; k++) {
+    const real *past_a = v->past_a + (int64_t)k * nq, *past_lam = v->past_lam + (int64_t)k * nc;
+    for (int32_t i = 0; i < nq; i++) a[i] += weight[k] * past_a[i];
+    for (int32_t i = 0; i < nc; i++) lam[i] += weight[k] * past_lam[i];
+  }
+}

@@ -1,0 +1,10 @@
+/* Polynomials through past steps. */
+#ifndef ALI3_EXTRAPOLATION_H
+#define ALI3_EXTRAPOLATION_H
+#include "../algebra/real.h"
+#include "../instance.h"
+
+void ali3_lagrange(const real *time, int32_t n, real t, real *weight);
+truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h);
+void ali3_extrapolate(const ali3_instance *in, double when, int32_t n, real *a, real *lam);
+#endif

@@ -1,0 +1,63 @@
+/* The beginning and the end of a step as it is asked for, whatever makes it in between. */
+#include "whole_step.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../start/initialise.h"
+#include "../state/inputs.h"
+#include "../state/road_files.h"
+#include "../state/vectors.h"
+#include "branch_watch.h"
+#include "energy_balance.h"
+#include "newton.h"
+
+/* The inputs go straight to `end` (nu), or are held where it is NULL. */
+ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3_whole_step *step) {
+  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  ali3_roads_forgive(in);
+  if (ali3_wheels_watch(in) != ALI3_OK && ali3_roads_status(in) == ALI3_OK) {
+    in->report.last_status = ALI3_WHEEL_IN_ROAD;
+    in->report.failures++;
+    return ALI3_WHEEL_IN_ROAD;
+  }
+  const ali3_status aimed = ali3_inputs_aim(in, h, end);
+  if (aimed != ALI3_OK) return aimed;
+  step->h = h;
+  step->t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
+  step->count = h == in->h_last ? in->count + 1 : 1;
+  step->t = step->t_base + (double)step->count * h;
+  step->before = in->report;
+  in->capped = false;
+  in->capped_residual = 0.0;
+  in->iterations_before = step->before.iterations;
+  in->backed_up = false; /* only halves and a new owner of the history change in->now before a step is good */
+  in->t_now = ali3_time(in);
+  ali3_branch_before(in);
+  return ALI3_OK;
+}
+
+/* `status` says whether the step was made. */
+ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_status status) {
+  if (status == ALI3_OK) status = ali3_branch_after(in, step->t, step->h);
+  in->report.last_status = (int32_t)status;
+  if (status != ALI3_OK) {
+    if (in->backed_up) ali3_vectors_copy(in, &in->now, &in->start);
+    memcpy(in->input, in->input_from, (size_t)in->system->size.nu * sizeof(double));
+    ali3_balance_restore(&in->report, &step->before);
+    in->report.failures++;
+    return status;
+  }
+  if (in->report.halvings != step->before.halvings)
+    ali3_iterations_since(in, step->before.iterations); /* not of the last half only */
+  in->report.steps++;
+  if (in->capped) {
+    in->report.capped++;
+    in->report.capped_residual = fmax(in->report.capped_residual, in->capped_residual);
+    in->call_residual = fmax(in->call_residual, in->capped_residual);
+  }
+  in->t_base = step->t_base;
+  in->h_last = step->h;
+  in->count = step->count;
+  return ALI3_OK;
+}

@@ -1,0 +1,346 @@
+"""`simulate_many`: runs of many variants of one System, several at once on each core."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mbs.common.checks import instance_of, whole
+from mbs.common.progress import progress_for
+from mbs.kernel.binding import KernelError
+from mbs.kernel.binding.many import Many, widest_lanes
+from mbs.results import accuracy
+from mbs.results.accuracy import AccuracyWarning
+from mbs.results.simulation_error import SimulationError
+from mbs.results.trajectory import Trajectory
+from mbs.roads.steep_faces import RoadWarning
+from mbs.settings.input_signals import InputSignals, Signal
+from mbs.settings.settings import Settings
+from mbs.simulation.arguments import (
+    check_end,
+    check_every,
+    check_progress,
+    check_record,
+    check_settings,
+    check_step,
+    check_system,
+    check_time,
+    check_values,
+    count_steps,
+)
+from mbs.simulation.branch_warning import BranchWarning
+from mbs.simulation.large_bending import BendingWarning
+from mbs.simulation.march import attached, next_chunk, trajectory_of
+from mbs.simulation.position_record import PositionRecord
+from mbs.simulation.prepared_system import prepared
+from mbs.simulation.refusal import refusal
+from mbs.simulation.state import Pose
+from mbs.simulation.stepping import Simulation
+from mbs.system.system import System
+
+METHOD = "ali3p"
+WIDTHS = (2, 4, 8)
+POLL = 0.1  # s between two looks at the progress
+
+
+@dataclass(frozen=True)
+class Variant:
+    """What one of many runs has of its own.
+
+    Parameters
+    ----------
+    parameters : mapping of str to float
+        Values that differ from their declaration.
+    inputs : mapping of str to signal
+        As of `simulate`.
+    pose : Pose, optional
+        Start of a scene that is not tied to the ground.
+    """
+
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    inputs: Mapping[str, Signal] = field(default_factory=dict)
+    pose: Pose | None = None
+
+
+@dataclass(frozen=True)
+class ManyRuns:
+    """The runs of `simulate_many`, in the order of the variants.
+
+    Attributes
+    ----------
+    trajectories : list of Trajectory or None
+        Of a run that failed what was recorded until then; None where its start was refused.
+    failures : dict of int to SimulationError
+        Why a run failed, by the number of its variant.
+    alone : list of int
+        Steps that each run made alone: halved ones, failed ones, those without a neighbour, and all of Systems and
+        settings that are not stepped together.
+    lanes : int
+        Runs of a whole group, which advance together; the last group may have fewer.
+    """
+
+    trajectories: list[Trajectory | None]
+    failures: dict[int, SimulationError]
+    alone: list[int]
+    lanes: int
+
+
+class _Found(NamedTuple):
+    """How the run of a variant ended."""
+
+    trajectory: Trajectory | None
+    failure: SimulationError | None
+    alone: int
+    told: list[tuple[type[Warning], str]]
+
+
+class _Run:
+    """One variant on its way."""
+
+    def __init__(
+        self, system: System, variant: Variant, settings: Settings, t0: float, h: float, steps: int, every: int
+    ) -> None:
+        meta = prepared(system)[1]
+        signals = InputSignals(variant.inputs, meta["inputs"])
+        first = signals.at(np.array([t0]), 1e-6 * h, after_jump=True)[0]
+        names = [meta["inputs"][i]["name"] for i in signals.columns()]
+        self.simulation = Simulation(
+            system,
+            settings=settings,
+            inputs=dict(zip(names, first.tolist(), strict=True)),
+            parameters=variant.parameters,
+            pose=variant.pose,
+            t0=t0,
+        )
+        self.simulation.step_tried = h
+        self.signals, self.h, self.t0, self.every = signals, h, t0, every
+        self.before, self.alone, self.wall = self.simulation.report, 0, 0.0
+        self.values = np.empty((steps // every + 1, len(meta["sensors"])))
+        self.values[0] = list(self.simulation.instance.sensors())
+        self.record = PositionRecord(system, self.simulation.state.q, len(self.values))
+        self.error: KernelError | None = None
+
+    def rows(self, done: int, n: int) -> tuple[int, Any, Any]:
+        """Where n steps after the first `done` are recorded."""
+        row = done // self.every + 1
+        part = self.values[row : (done + n) // self.every + 1]
+        return row, part, self.record.rows(row, len(part))
+
+    def ended(self) -> _Found:
+        """What was recorded, why it is not all, and what it warns of."""
+        time_now = self.simulation.time
+        good = round((time_now - self.t0) / self.h) // self.every + 1 if self.error else len(self.values)
+        interval = self.h * self.every
+        recorded = trajectory_of(
+            self.simulation, self.t0, interval, self.values[:good], self.wall, self.before, self.record
+        )
+        failure = None
+        if self.error is not None:
+            what = f"The step from t = {time_now:g} s with h = {self.h:g} s failed"
+            failure = refusal(self.simulation, what, self.error, recorded)
+        return _Found(recorded, failure, self.alone, self._told(recorded))
+
+    def _told(self, run: Trajectory) -> list[tuple[type[Warning], str]]:
+        system, report = self.simulation.system, run.report
+        driven, told = len(system.arrays["gterm_row"]) > 0, list[tuple[type[Warning], str]]()
+        if report is not None and accuracy.balance_says(report, METHOD, driven):
+            told.append((AccuracyWarning, f"{accuracy.balance_text(report)} The result is wrong; take shorter steps."))
+        told += [(BranchWarning, run.branch_change)] if run.branch_change else []
+        told += [(BendingWarning, self.simulation.bending.message)] if self.simulation.bending.message else []
+        wall = self.simulation.instance.rim_text()
+        told += [(RoadWarning, wall)] if wall else []
+        return told
+
+
+def simulate_many(
+    system: System,
+    variants: Sequence[Variant],
+    t_end: float,
+    h: float,
+    *,
+    settings: Settings | None = None,
+    every: int = 1,
+    t0: float = 0.0,
+    lanes: int | None = None,
+    threads: int | None = None,
+    progress: bool | Callable[[float], None] | None = None,
+) -> ManyRuns:
+    """Run variants of a System in equal steps, several at once on each core.
+
+    Runs of a group advance together, each number of a step being a vector of one number of each run (Flynn's SIMD).
+    Each run has bit for bit the numbers of `simulate` with ``estimate_error=False``. Variants with the same inputs
+    share a group, because runs that need equally many iterations wait for each other least.
+
+    Parameters
+    ----------
+    variants : sequence of Variant
+        Parameters, inputs and the pose of each run.
+    t_end, h, settings, every, t0
+        As of `simulate`; the method is 'ali3p'. Rigid Systems without switches, with projections, the linearised
+        update and no `step_iterations`, are stepped together, others one by one.
+    lanes : int, optional
+        2, 4 or 8 runs at once; by default what the processor has instructions for, and no more than the variants fill.
+    threads : int, optional
+        Groups at once; by default one for each core.
+    progress : bool or callable, optional
+        As of `simulate`.
+
+    Returns
+    -------
+    ManyRuns
+        Trajectories, and why runs failed; a run that fails leaves the others as they are.
+
+    Warns
+    -----
+    AccuracyWarning, BranchWarning, BendingWarning, RoadWarning
+        As `simulate`, with the number of the variant. No run is repeated: where the energy balance is kept, nothing is
+        known of the error but `Trajectory.accuracy`. What `Simulation` warns of at a start has no such number.
+
+    Raises
+    ------
+    ArgumentTypeError, ValueError
+        An argument is not what it must be, the method is another one, or the processor has fewer lanes.
+    """
+    check_system(system, "The system to simulate")
+    t0, h, every = check_time(t0, "The start t0"), check_step(h), check_every(every)
+    steps = count_steps(t0, check_end(t0, t_end), h)
+    check_progress(progress)
+    settings = check_settings(settings)
+    if settings.method != METHOD:
+        raise ValueError(
+            f"The method of runs that advance together is {settings.method!r}; it must be {METHOD!r}. "
+            "Take simulate for other methods."
+        )
+    variants = [_checked(k, v) for k, v in enumerate(variants)]
+    check_record(max(1, len(variants)) * (steps // every + 1), len(prepared(system)[1]["sensors"]))
+    width = _width(lanes, len(variants))
+    workers = os.cpu_count() or 1 if threads is None else whole(threads, "the threads", least=1, error=ValueError)
+    order = _by_inputs(system, variants)
+    groups = [order[i : i + width] for i in range(0, len(order), width)]
+    found: dict[int, _Found] = {}
+    made = [0] * len(groups)
+    stopped = threading.Event()
+
+    def work(number: int) -> None:
+        members = {k: variants[k] for k in groups[number]}
+
+        def told(done: int) -> bool:
+            made[number] = done * len(members)
+            return not stopped.is_set()
+
+        found.update(_run_group(system, members, settings, (t0, h, steps, every), width, told))
+        made[number] = steps * len(members)
+
+    with progress_for(progress) as bar, ThreadPoolExecutor(min(workers, max(1, len(groups)))) as pool:
+        try:
+            waiting = {pool.submit(work, number) for number in range(len(groups))}
+            while waiting:
+                ended, waiting = wait(waiting, POLL, FIRST_COMPLETED)
+                for future in ended:
+                    future.result()
+                bar.update(sum(made) / max(1, steps * len(variants)))
+        finally:
+            stopped.set()
+            for future in waiting:
+                future.cancel()
+    runs = [found[k] for k in range(len(variants))]
+    for k, run in enumerate(runs):
+        for category, text in run.told:
+            warnings.warn(f"Variant {k}: {text}", category, stacklevel=2)
+    failures = {k: run.failure for k, run in enumerate(runs) if run.failure is not None}
+    return ManyRuns([run.trajectory for run in runs], failures, [run.alone for run in runs], width)
+
+
+def _run_group(
+    system: System,
+    members: Mapping[int, Variant],
+    settings: Settings,
+    course: tuple[float, float, int, int],
+    width: int,
+    told: Callable[[int], bool],
+) -> dict[int, _Found]:
+    """The runs of one group, by the number of the variant; `told` returns whether to go on."""
+    t0, h, steps, every = course
+    runs: dict[int, _Run] = {}
+    found: dict[int, _Found] = {}
+    with ExitStack() as stack:
+        for k, variant in members.items():
+            try:
+                run = _Run(system, variant, settings, t0, h, steps, every)
+                stack.enter_context(attached(run.simulation, run.signals, t0, t0 + steps * h, 1e-6 * h))
+                runs[k] = run
+            except SimulationError as error:
+                found[k] = _Found(None, error, 0, [])
+            except ValueError as error:
+                raise ValueError(f"Variant {k}: {error}") from error
+        many, going, done, chunk = Many(prepared(system)[0], width), list(runs.values()), 0, every
+        while done < steps and going and told(done):
+            n = min(chunk, steps - done)
+            parts = [run.rows(done, n) for run in going]
+            begin = time.perf_counter()
+            ended = many.run(
+                [run.simulation.instance for run in going], h, n, every, [p[1] for p in parts], [p[2] for p in parts]
+            )
+            spent = time.perf_counter() - begin
+            for run, (row, _, places), end in zip(going, parts, ended, strict=True):
+                run.record.take(row, places)
+                run.alone += end.alone
+                run.wall += spent / len(going)
+                run.error = end.error
+                run.simulation.bending.look(run.simulation.time, run.simulation.state.q)
+            done += n
+            chunk = next_chunk(chunk, spent, every)
+            going = [run for run in going if run.error is None]
+        for k, run in runs.items():
+            found[k] = run.ended()
+    return found
+
+
+def _checked(number: int, variant: Variant) -> Variant:
+    what = f"Variant {number}"
+    instance_of(Variant, variant, what, "a Variant(...)")
+    check_values(variant.parameters, f"The parameters of variant {number}")
+    check_values(variant.inputs, f"The inputs of variant {number}")
+    return variant
+
+
+def _width(asked: int | None, variants: int) -> int:
+    widest = widest_lanes()
+    if asked is None:
+        return next((w for w in WIDTHS if w >= variants), widest) if variants <= widest else widest
+    if asked not in WIDTHS or isinstance(asked, bool):
+        raise ValueError(f"lanes = {asked!r}; it must be 2, 4 or 8.")
+    if asked > widest:
+        raise ValueError(f"lanes = {asked}; this processor has instructions for {widest}.")
+    return asked
+
+
+def _by_inputs(system: System, variants: Sequence[Variant]) -> list[int]:
+    """Numbers of the variants, those with the same inputs side by side, in the order in which inputs first appear."""
+    groups: dict[Any, list[int]] = {}
+    declared = prepared(system)[1]["inputs"]
+    for k, variant in enumerate(variants):
+        try:
+            InputSignals(variant.inputs, declared)
+        except ValueError as error:
+            raise ValueError(f"Variant {k}: {error}") from error
+        key = tuple(sorted((name, _key(signal)) for name, signal in variant.inputs.items()))
+        groups.setdefault(key, []).append(k)
+    return [k for group in groups.values() for k in group]
+
+
+def _key(signal: Signal) -> Any:
+    if callable(signal):
+        return ("function", str(id(signal)))
+    if isinstance(signal, tuple):
+        return ("table", repr([np.asarray(part, float).tobytes() for part in signal]))
+    return ("constant", repr(float(signal)))

@@ -1,0 +1,26 @@
+"""The warning about a value of a parameter with which the model does not do what it is made for."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+from mbs.settings.input_signals import unit_text
+
+
+class ParameterWarning(UserWarning):
+    """A parameter has a value with which no such model works: which one, and which values do."""
+
+
+def tell_unworkable(entry: Mapping[str, Any], value: float, stacklevel: int) -> None:
+    """Warn of a value that is not between those of the entry of the parameter in `System.meta`."""
+    least, most = entry.get("works", (value, value))
+    if not least <= value <= most:
+        unit = unit_text(entry["unit"])
+        warnings.warn(
+            f"Parameter {entry['name']!r} is set to {value:g}{unit}, with which no such model works; from {least:.4g} "
+            f"to {most:.4g}{unit} it does.",
+            ParameterWarning,
+            stacklevel=stacklevel + 1,
+        )

@@ -1,0 +1,341 @@
+"""A Magic Formula tyre from its property file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mbs.common.checks import one_of
+from mbs.elements.magic_tyre import SIGNS, MagicTyre
+from mbs.kernel.header import MAGIC_COEFFICIENTS
+from mbs.tyre_files.property_text import PropertyText, TyreFileError, read_properties
+from mbs.tyre_files.units import in_si
+
+FITS = {5: "MF52", 6: "MF52", 51: "MF52", 52: "MF52", 61: "MF61", 62: "MF62"}
+"""Version by FITTYP."""
+FORMATS = {"MF_05": "MF52", "MF05": "MF52", "MF52": "MF52", "MF61": "MF61", "MF62": "MF62"}
+"""Version by PROPERTY_FILE_FORMAT where FITTYP is missing, without separators but that of MF_05."""
+_BY_FIT = ("MF-TYRE", "MFTYRE", "MF-SWIFT", "MFSWIFT", "USER", "MF_05", "MF05")
+SIDES = ("left", "right")
+SIDE_OF_FILE = "file"
+_ALIASES = {
+    "QV1": "Q_V1",
+    "QV2": "Q_V2",
+    "QREO": "Q_RE0",
+    "QRE0": "Q_RE0",
+    "QFZ1": "Q_FZ1",
+    "QFZ2": "Q_FZ2",
+    "QPFZ1": "PFZ1",
+    "QPX1": "PPMX1",
+    "QPZ1": "PPZ1",
+    "QPZ2": "PPZ2",
+    "LFZ0": "LFZO",
+    "LKYG": "LKYC",
+    "LKG": "LKYC",
+    "IP": "INFLPRES",
+    "IP_NOM": "NOMPRES",
+}
+_SECTIONS = ("UNITS", "MODEL", "DIMENSION", "VERTICAL", "LONGITUDINAL_COEFFICIENTS", "LATERAL_COEFFICIENTS")
+_NEEDED = ("UNLOADED_RADIUS", "FNOMIN", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1", "PKY2", "QBZ1", "QCZ1", "QDZ1")
+_WEIGHTS = ("RBX1", "RCX1", "RBY1", "RCY1")
+_ONE_SIDED = (  # 0 for a tyre whose sides are alike
+    *("PHY1", "PHY2", "PVY1", "PVY2", "PEY3", "RHX1", "RBY3", "RVY1", "RVY2"),
+    *("QBZ4", "QDZ6", "QDZ7", "QEZ4", "QHZ1", "QHZ2", "SSZ1", "QSX1"),
+)
+_ONE_SIDED_OLD = ("QDZ3",)  # up to 5.2 a factor of the camber angle, from 6.1 on of its magnitude
+_NEW = (  # from 6.1 on
+    *(
+        "PPX1",
+        "PPX2",
+        "PPX3",
+        "PPX4",
+        "PPY1",
+        "PPY2",
+        "PPY3",
+        "PPY4",
+        "PPY5",
+        "PPZ1",
+        "PPZ2",
+        "PPMX1",
+        "PFZ1",
+        "NOMPRES",
+    ),
+    *("PEY5", "PKY4", "PKY5", "PKY6", "PKY7", "RBX3", "RBY4", "QBZ6", "QDZ10", "QDZ11", "LKYC", "LKZC", "LMUV", "LVMX"),
+    *(f"QSX{k}" for k in range(4, 15)),
+    *("QSY5", "QSY6", "QSY7", "QSY8", "Q_RE0", "Q_V1", "Q_V2"),
+    *("LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS", "PCFX1", "PCFX2", "PCFX3", "PCFY1", "PCFY2", "PCFY3"),
+)
+_OLD = ("PHY3", "PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "LGAX", "LGAY", "LGAZ", "LSGKP", "LSGAL", "QBZ4")
+_STIFFNESS = (1e3, 1e8)  # N/m
+_RIM = 0.010  # m of rubber under a tyre that bottoms
+_BOTTOMS = 5.0  # stiffness of the rim over that of the tyre, where a file has none
+_LEAST = 0.05  # of friction and slip stiffness at the nominal load: below it a fit has left its range
+_LOADS = 400  # at which that is seen
+_MOST_LOAD = 5.0  # nominal loads, where a file has no range
+
+
+@dataclass(frozen=True)
+class TyreFile:
+    """A Magic Formula tyre as its file has it.
+
+    Attributes
+    ----------
+    name : str
+        Of the file, for messages.
+    values : dict
+        Arguments of `MagicTyre` but for side, signs and pressure.
+    side : str
+        "left" or "right": where it was measured; "symmetric".
+    pressure, nominal_pressure : float
+        Pa; 0 where the file has none.
+    notes : tuple of str
+        What the file lacks or what is not used, a sentence each.
+    """
+
+    name: str
+    values: Mapping[str, Any]
+    side: str
+    pressure: float
+    nominal_pressure: float
+    notes: tuple[str, ...]
+
+    def tyre(
+        self, mounted: str = SIDE_OF_FILE, signs: str = "iso", pressure: float | None = None, **more: float
+    ) -> MagicTyre:
+        """The tyre of the engine.
+
+        Parameters
+        ----------
+        mounted : {"file", "left", "right"}
+            Side of the vehicle; on the other side than in the file it is mirrored.
+        signs : {"iso", "sae", "adapted_sae"}
+            Axes of the coefficients.
+        pressure : float, optional
+            Of inflation, Pa; by default that of the file.
+        more
+            Other fields of `MagicTyre`, such as `friction_factor`.
+
+        Raises
+        ------
+        TyreFileError
+            The coefficients are not of these axes, or the file knows no pressure.
+        """
+        one_of(mounted, (SIDE_OF_FILE, *SIDES), f"{self.name}: the side of the tyre", TyreFileError)
+        slip, _, force = SIGNS[one_of(signs, tuple(SIGNS), f"{self.name}: the signs of the tyre", TyreFileError)]
+        slope = self.values["coefficients"]["PKY1"]
+        if slope * slip * force > 0.0:
+            wanted = "negative" if signs != "adapted_sae" else "positive"
+            raise TyreFileError(
+                f"{self.name}: PKY1 is {slope:g}; with the signs '{signs}' it must be {wanted}, else the lateral force "
+                "goes with the slip. 'adapted_sae' are the axes of Pacejka's book, 'iso' those of most files."
+            )
+        given = self.pressure if pressure is None else pressure
+        if pressure is not None and not self.nominal_pressure > 0.0:
+            raise TyreFileError(f"{self.name} has no NOMPRES, so it knows nothing of a pressure of {pressure:g} Pa.")
+        relative = given / self.nominal_pressure - 1.0 if self.nominal_pressure > 0.0 and given > 0.0 else 0.0
+        harder = 1.0 + self.values["coefficients"].get("PFZ1", 0.0) * relative
+        if not harder >= _LEAST:
+            raise TyreFileError(f"{self.name}: at {given:g} Pa PFZ1 leaves {harder:.2g} of the vertical stiffness.")
+        mirrored = mounted in SIDES and self.side in SIDES and mounted != self.side
+        return MagicTyre(**{**self.values, **more}, signs=signs, pressure=relative, mirrored=mirrored)
+
+
+def read_tyre(file: str | Path) -> TyreFile:
+    """A tyre from a property file of PAC2002 or MF-Tyre 5.2, 6.1 or 6.2.
+
+    Parameters
+    ----------
+    file : path
+        Usually with the extension .tir.
+
+    Raises
+    ------
+    TyreFileError
+        It cannot be read, is of another format, lacks what is needed or holds what cannot be; one sentence.
+    """
+    text = read_properties(file)
+    missing = [section for section in _SECTIONS if section not in text.sections]
+    if missing:
+        raise text.fault(f"it has no section [{missing[0]}]; it may be cut, or no tyre property file.")
+    version = _version(text)
+    given = {_ALIASES.get(key, key): value for key, value in text.numbers().items()}
+    numbers = in_si(text, given)
+    lacking = [key for key in _NEEDED if not numbers.get(key)]
+    if lacking:
+        raise text.fault(f"{', '.join(lacking)} {'is' if len(lacking) == 1 else 'are'} missing or 0; it may be cut.")
+    if numbers["PKX1"] < 0.0:
+        raise text.fault(
+            f"PKX1 is {numbers['PKX1']:g}; it must be positive, else the longitudinal force goes with the slip."
+        )
+    notes: list[str] = []
+    coefficients = {key: numbers[key] for key in MAGIC_COEFFICIENTS if key in numbers}
+    if text.word("TYRESIDE", "MODEL") in ("SYMMETRIC", "SYMMETRICAL"):
+        old = _ONE_SIDED_OLD if version in ("PAC2002", "MF52") else ()
+        coefficients |= dict.fromkeys((*_ONE_SIDED, *old), 0.0)
+    absent = [
+        key
+        for key in MAGIC_COEFFICIENTS
+        if key not in numbers and key not in (_NEW if version in ("PAC2002", "MF52") else _OLD)
+    ]
+    if version == "MF61":
+        absent = [key for key in absent if key not in ("QSX12", "QSX13", "QSX14")]
+    if absent:
+        notes.append(f"it lacks {', '.join(absent)}; shape and shifts are then 0 and factors 1.")
+    values = {
+        "version": version,
+        "coefficients": coefficients,
+        "combination": _combination(text, numbers, notes),
+        **_vertical(text, numbers, notes),
+        **_ranges(text, numbers, notes),
+    }
+    values["largest_load"] = _largest_load(text, coefficients, numbers, notes)
+    if not any(numbers.get(key) for key in ("PTY1", "LATERAL_STIFFNESS")):
+        notes.append("it has no relaxation; lengths of 0.5 and 1 free radius at the nominal load are assumed.")
+    side = text.word("TYRESIDE", "MODEL").lower().removesuffix("al")
+    if side not in (*SIDES, "symmetric"):
+        given_side = f"is '{side}'" if side else "is missing"
+        notes.append(f"TYRESIDE {given_side}: coefficients of a left tyre are assumed, and a right one is mirrored.")
+        side = "left"
+    nominal = numbers.get("NOMPRES", 0.0)
+    return TyreFile(
+        text.name,
+        values,
+        side,
+        numbers.get("INFLPRES", nominal),
+        nominal,
+        tuple(notes),
+    )
+
+
+def _version(text: PropertyText) -> str:
+    form = text.word("PROPERTY_FILE_FORMAT", "MODEL")
+    fit = text.sections["MODEL"].get("FITTYP")
+    if form == "PAC2002":
+        return form
+    if isinstance(fit, float) and (form in _BY_FIT or form.startswith("MF")):
+        if fit in FITS:
+            return FITS[int(fit)]
+        known = ", ".join(map(str, FITS))
+        raise text.fault(f"FITTYP is {fit:g}; Magic Formulas that are known have {known}.")
+    plain = form.replace("-", "").replace("_", "").replace("TYRE", "")
+    if form in FORMATS or plain in FORMATS:
+        return FORMATS.get(form) or FORMATS[plain]
+    given = f"is '{form}'" if form else "is missing"
+    raise text.fault(
+        f"PROPERTY_FILE_FORMAT in [MODEL] {given}; read are PAC2002, and MF-Tyre 5.2, 6.1 and 6.2 (FITTYP 6, 61, 62)."
+    )
+
+
+def _combination(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> str:
+    """USE_MODE 3 does not combine; without coefficients, or as FE_METHOD says, the friction ellipse does."""
+    mode = abs(numbers.get("USE_MODE", 4.0)) % 10.0
+    if mode in (0.0, 1.0, 2.0, 3.0):
+        notes.append(f"USE_MODE is {numbers['USE_MODE']:g}; slips are combined nevertheless, by what the file has.")
+    lacking = [key for key in _WEIGHTS if not numbers.get(key)]
+    if text.word("FE_METHOD", "MODEL") != "YES" and not lacking:
+        return "weighting"
+    if lacking:
+        notes.append(f"{', '.join(lacking)} missing or 0: slips are combined by the friction ellipse of PAC2002.")
+    return "ellipse"
+
+
+def _vertical(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> dict[str, float]:
+    """Spring, damper and rim."""
+    radius, load = numbers["UNLOADED_RADIUS"], numbers["FNOMIN"]
+    if not (0.05 < radius < 3.0 and 10.0 < load < 1e6):
+        raise text.fault(
+            f"UNLOADED_RADIUS is {radius:g} m and FNOMIN {load:g} N; they must lie between 0.05 and 3 m and between "
+            "10 and 1e6 N."
+        )
+    stiffness, scale = numbers.get("VERTICAL_STIFFNESS", 0.0), numbers.get("LCZ", 1.0)
+    if stiffness and not _STIFFNESS[0] < stiffness < _STIFFNESS[1]:
+        raise text.fault(f"VERTICAL_STIFFNESS is {stiffness:g} N/m; it must lie between 1e3 and 1e8 N/m.")
+    first, second = numbers.get("Q_FZ1", 0.0), numbers.get("Q_FZ2", 0.0)
+    if second and not first:
+        first = math.sqrt(max((stiffness * radius / load) ** 2 - 4.0 * second, 0.0))
+    if first:
+        stiffness = first * load / radius
+    if not stiffness * scale > 0.0:
+        raise text.fault("VERTICAL_STIFFNESS is missing or not positive, and Q_FZ1 too.")
+    for table in ("DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"):
+        if table in text.tables:
+            notes.append(f"the table [{table}] is not used; VERTICAL_STIFFNESS and the rim are.")
+    for key in ("Q_FCX", "Q_FCY", "QFCX1", "QFCY1", "Q_FZ3"):
+        if numbers.get(key):
+            notes.append(f"{key} is not used: horizontal forces and camber do not change the vertical stiffness.")
+    rim = numbers.get("BOTTOMING_RADIUS") or (
+        numbers["RIM_RADIUS"] + _RIM if numbers.get("RIM_RADIUS") else 0.6 * radius
+    )
+    if not 0.0 < rim < radius:
+        raise text.fault(f"the rim bears at {rim:g} m; that must be below UNLOADED_RADIUS, {radius:g} m.")
+    progression = second * load / radius**2 * scale
+    if not stiffness * scale + 2.0 * progression * (radius - rim) > 0.0:
+        raise text.fault(f"Q_FZ2 is {second:g}: the spring of the tyre becomes soft before the rim bears at {rim:g} m.")
+    damping = numbers.get("VERTICAL_DAMPING", 0.0)
+    if damping < 0.0:
+        raise text.fault(f"VERTICAL_DAMPING is {damping:g}; it must not be negative.")
+    return {
+        "radius": radius,
+        "bottoming_radius": rim,
+        "stiffness": stiffness * scale,
+        "progression": progression,
+        "damping": damping,
+        "bottoming_stiffness": numbers.get("BOTTOM_STIFF", _BOTTOMS * stiffness),
+        "nominal_load": load,
+    }
+
+
+def _ranges(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> dict[str, tuple[float, float]]:
+    """Ranges of the slips; one of one side is widened to both."""
+    found = {}
+    for name, first, last, usual in (
+        ("slip_range", "KPUMIN", "KPUMAX", 1.5),
+        ("angle_range", "ALPMIN", "ALPMAX", math.pi / 2.0),
+        ("camber_range", "CAMMIN", "CAMMAX", 0.5),
+    ):
+        low, high = numbers.get(first, -usual), numbers.get(last, usual)
+        if not (low <= 0.0 <= high and low < high):
+            raise text.fault(f"{first} is {low:g} and {last} {high:g}; 0 must lie between them.")
+        if low * high == 0.0:
+            notes.append(f"{first} is {low:g} and {last} {high:g}: the other side is taken as wide.")
+            low, high = -max(-low, high), max(-low, high)
+        found[name] = (low, high)
+    return found
+
+
+def _largest_load(text: PropertyText, given: dict[str, float], numbers: dict[str, float], notes: list[str]) -> float:
+    """FZMAX, or less where friction or slip stiffness fade or turn round before it."""
+    c = {**MAGIC_COEFFICIENTS, **given}
+    most = numbers.get("FZMAX", 0.0) or _MOST_LOAD * numbers["FNOMIN"]
+    nominal = numbers["FNOMIN"] * c["LFZO"]
+    for key in ("LFZO", "LMUX", "LMUY", "LKX", "LKY", "LCX", "LCY", "LONGVL"):
+        if not c[key] > 0.0:
+            raise text.fault(f"{key} is {given[key]:g}; it must be positive.")
+
+    def shares(load: float) -> dict[str, float]:
+        dfz = load / nominal - 1.0
+        turn = c["PKY4"] * math.atan2(load / nominal, c["PKY2"])
+        return {
+            "the longitudinal friction": 1.0 + c["PDX2"] / c["PDX1"] * dfz,
+            "the lateral friction": 1.0 + c["PDY2"] / c["PDY1"] * dfz,
+            "the longitudinal slip stiffness": 1.0 + c["PKX2"] / c["PKX1"] * dfz,
+            "the cornering stiffness": math.sin(turn)
+            / abs(math.sin(c["PKY4"] * math.atan2(1.0, c["PKY2"])) or 1.0)
+            / (load / nominal),
+        }
+
+    for k in range(1, _LOADS + 1):
+        load = most * k / _LOADS
+        for what, share in shares(load).items():
+            if share >= _LEAST:
+                continue
+            if load < nominal:
+                raise text.fault(
+                    f"{what} is {share:.2g} of that at the nominal load at {load:.0f} N; it must be positive."
+                )
+            notes.append(f"{what} fades at {load:.0f} N; above it the forces stay, FZMAX is {most:.0f} N.")
+            return most * (k - 1) / _LOADS
+    return most

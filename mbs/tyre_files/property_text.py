@@ -1,0 +1,151 @@
+"""The text of a tyre property file: sections of keys and values, comments, tables."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ali3.reading import read_bytes
+from ali3.words import brief
+from mbs.common.errors import ModelError
+
+LARGEST = 1_000_000
+"""Bytes; such files have some ten thousand."""
+_LONGEST = 1000  # characters of a line
+_SECTION = re.compile(r"\[\s*([A-Za-z0-9_]+)\s*\]")
+_ENTRY = re.compile(r"([A-Za-z][A-Za-z0-9_]*)\s*=\s*(.*)")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?")
+
+
+class TyreFileError(ModelError):
+    """A tyre property file that cannot be read or describes no tyre: one sentence with the file."""
+
+
+@dataclass(frozen=True)
+class PropertyText:
+    """Sections of a tyre property file.
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for messages.
+    sections : dict
+        Of keys to words or numbers, all in capitals; words without quotation marks.
+    tables : frozenset of str
+        Sections with lines of numbers.
+    """
+
+    name: str
+    sections: dict[str, dict[str, str | float]] = field(default_factory=dict)
+    tables: frozenset[str] = frozenset()
+
+    def fault(self, sentence: str) -> TyreFileError:
+        """An error that names the file."""
+        return TyreFileError(f"{self.name}: {sentence}")
+
+    def word(self, key: str, section: str) -> str:
+        """A word in capitals; empty where there is none."""
+        return str(self.sections.get(section, {}).get(key, "")).upper()
+
+    def numbers(self) -> dict[str, float]:
+        """All numbers by their keys.
+
+        Raises
+        ------
+        TyreFileError
+            A key has two values in two sections.
+        """
+        found: dict[str, float] = {}
+        for entries in self.sections.values():
+            for key, value in entries.items():
+                if not isinstance(value, float):
+                    continue
+                if found.setdefault(key, value) != value:
+                    raise self.fault(f"{key} is {found[key]:g} in one section and {value:g} in another.")
+        return found
+
+
+def read_properties(file: str | Path) -> PropertyText:
+    """Sections of a tyre property file.
+
+    Parameters
+    ----------
+    file : path
+        Text in UTF-8 or Latin-1; what counts is ASCII.
+
+    Raises
+    ------
+    TyreFileError
+        It is no such text; the message has file and line.
+    """
+    data = read_bytes(file, LARGEST, TyreFileError)
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in data:
+        raise TyreFileError(f"{file} is no text of single bytes; it must be in UTF-8 or Latin-1.")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    if not text.strip():
+        raise TyreFileError(f"{file} is empty; it must be a tyre property file.")
+    return _parsed(text, str(file))
+
+
+def _parsed(text: str, name: str) -> PropertyText:
+    sections: dict[str, dict[str, str | float]] = {}
+    tables: set[str] = set()
+    here = ""
+    for k, raw in enumerate(text.splitlines(), 1):
+        where = f"{name}, line {k}"
+        if len(raw) > _LONGEST:
+            raise TyreFileError(f"{where} has {len(raw)} characters; it must have at most {_LONGEST}.")
+        line = _without_comment(raw)
+        if not line or line.startswith("{"):
+            continue
+        if found := _SECTION.fullmatch(line):
+            here = found[1].upper()
+            if here in sections and here not in ("SHAPE", "DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"):
+                raise TyreFileError(f"{where}: the section [{here}] stands twice.")
+            sections.setdefault(here, {})
+            continue
+        if not here:
+            raise TyreFileError(f"{where}: {brief(line)} stands before any section; a section begins as [UNITS].")
+        entry = _ENTRY.fullmatch(line)
+        if entry is None:
+            if not all(_NUMBER.fullmatch(part) for part in re.split(r"[\s,;]+", line)):
+                raise TyreFileError(f"{where}: {brief(line)} is neither a section, a key with its value nor a comment.")
+            tables.add(here)
+            continue
+        key, value = entry[1].upper(), _value(entry[2].strip(), f"{where}: {entry[1].upper()}")
+        if sections[here].setdefault(key, value) != value:
+            raise TyreFileError(f"{where}: {key} stands twice in [{here}], with another value.")
+    return PropertyText(name, sections, frozenset(tables))
+
+
+def _without_comment(line: str) -> str:
+    """A line up to its comment: `$` and `!` outside of quotation marks begin one."""
+    quoted = ""
+    for k, c in enumerate(line):
+        if quoted:
+            quoted = "" if c == quoted else quoted
+        elif c in "'\"":
+            quoted = c
+        elif c in "$!":
+            return line[:k].strip()
+    return line.strip()
+
+
+def _value(text: str, what: str) -> str | float:
+    if text[:1] in ("'", '"'):
+        if len(text) < 2 or text[-1] != text[0]:
+            raise TyreFileError(f"{what} is {brief(text)}; its quotation mark is not closed.")
+        return text[1:-1].strip()
+    if not _NUMBER.fullmatch(text):
+        raise TyreFileError(
+            f"{what} is {brief(text) if text else 'empty'}; it must be a number, or a word in quotation marks."
+        )
+    number = float(re.sub("[dD]", "e", text))
+    if not math.isfinite(number):
+        raise TyreFileError(f"{what} is {brief(text)}; it must be finite.")
+    return number

@@ -1,0 +1,55 @@
+"""Positions of a linkage along a motion, continued from the drawing in small steps."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbs.vehicle.linkages.linkage import Array, Linkage, NotReachedError, Position
+
+HEAVE, ROLL = np.array([1.0, 1.0, 0.0]), np.array([1.0, -1.0, 0.0])
+"""Motions: rates of the travels of the left and the right wheel and of the rack."""
+STEP, LEAST_STEP = 0.004, 1e-6  # m: of the continuation
+ROUND_OFF = 1e-9  # m
+STRAY = 0.2  # of a step: farther from its tangent a position may be on another branch
+
+
+def reached(linkage: Linkage, direction: Array, values: Array) -> tuple[list[Position], float | None]:
+    """Positions at rising or falling values from zero on.
+
+    Parameters
+    ----------
+    direction : ndarray, shape (3,)
+        Travels of the left and the right wheel and of the rack per value.
+    values : ndarray, shape (n,)
+        All of one sign, farther and farther from zero, m.
+
+    Returns
+    -------
+    list of Position, float or None
+        As many as can be reached, and where the linkage ends if that is before the last value.
+    """
+    found: list[Position] = []
+    at, now = linkage.drawn, 0.0
+    for value in values:
+        step = STEP
+        while now != value:
+            ahead = value if abs(value - now) <= step else now + np.sign(value - now) * step
+            try:
+                there = _next(linkage, at, direction, now, float(ahead))
+            except NotReachedError:
+                step = 0.5 * min(step, abs(float(ahead) - now))
+                if step < LEAST_STEP:
+                    return found, now
+                continue
+            at, now, step = there, float(ahead), min(STEP, 2.0 * step)
+        found.append(at)
+    return found, None
+
+
+def _next(linkage: Linkage, at: Position, direction: Array, now: float, ahead: float) -> Position:
+    """The position at the next value, near the tangent."""
+    change = at.tangent @ direction * (ahead - now)
+    there = linkage.solve(at.q + change, ahead * direction[:2], ahead * float(direction[2]))
+    if np.linalg.norm(there.q - at.q - change) > STRAY * np.linalg.norm(change) + ROUND_OFF:
+        raise NotReachedError(f"the position at {ahead:g} m is not near the tangent")
+    return there

@@ -1,0 +1,106 @@
+"""What stands in the model in place of the parts of a car that ports replace, and the outputs that their loops need."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+from mbs.elements.spin_torque import SpinTorque
+from mbs.model import Model
+from mbs.model.carried import Spin
+from mbs.model.records import Input
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.drives import Drive
+from mbs.vehicle.ports import Ports
+
+LARGEST_TORQUE = 1e4  # N m on a wheel: end of the range of the port
+
+
+def driver_inputs(m: Model, ports: Ports) -> dict[str, Input]:
+    """The inputs of a driver, without those of the parts that ports replace.
+
+    Parameters
+    ----------
+    m : Model
+        Gets the inputs.
+    """
+    inputs = {}
+    if ports.steering != "rack_position":
+        inputs["steering"] = m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left")
+    if ports.torque is None:
+        inputs["throttle"] = m.input("throttle", min=0.0, max=1.0, description="throttle pedal")
+    if ports.brakes is None:
+        inputs["brake"] = m.input("brake", min=0.0, max=1.0, description="brake pedal")
+    text = "hand brake on the rear wheels"
+    inputs["hand_brake"] = m.input("hand_brake", min=0.0, max=1.0, description=text)
+    if ports.torque is None:
+        text = "selector: -1 reverse, 0 neutral, 1 drive"
+        inputs["selector"] = m.input("selector", start=1.0, min=-1.0, max=1.0, description=text, whole=True)
+    return inputs
+
+
+def torque_ports(
+    b: CarBuilder, spins: Mapping[str, Spin], drive: Drive, kind: Literal["half_shafts", "hub_motors"]
+) -> None:
+    """Torques on the wheels in place of a drive.
+
+    Parameters
+    ----------
+    spins : mapping of str to Spin
+        Of the wheels, by their names.
+    drive : Drive
+        What they replace; with half shafts its parts that turn with the wheels stay.
+    kind : {"half_shafts", "hub_motors"}
+        With half shafts the reaction is about the lateral axis of the chassis, as that of `drive` is; with hub motors
+        about the axis of the wheel on its carrier.
+    """
+    taker = "chassis" if kind == "half_shafts" else "carrier of the wheel"
+    text = f"torque on the wheel about its axis, positive forward, with its reaction on the {taker}"
+    for w, spin in spins.items():
+        channel = b.port(f"wheel_{w}.drive_torque", -LARGEST_TORQUE, LARGEST_TORQUE, "N.m", text)
+        axes = b.chassis.drive_axes if kind == "half_shafts" else (spin.f, spin.g)
+        b.m.add(SpinTorque(channel.index).record(f"port drive {w}", *axes, spin.coordinate))
+    if kind == "half_shafts":
+        drive.turning_parts(b, spins)
+
+
+def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
+    """What loops through ports need beside the outputs that every car has.
+
+    Parameters
+    ----------
+    spins : mapping of str to Spin
+        Of the wheels, by their names.
+    """
+    m = b.m
+    for channel in b.port_inputs:
+        m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
+    reference = b.chassis.frame.point(car.vehicle.reference_point)
+    for k, c in enumerate("xyz"):
+        text = f"velocity of the reference point along the earth's {c} axis"
+        m.sense_coordinate(f"chassis.earth_v{c}", reference[k], order=1, unit="m/s", description=text)
+    named = {element.name: element for element in m.elements}
+    for w, spin in spins.items():
+        if car.ports.torque is not None:
+            m.sense_element(f"wheel_{w}.drive_power", f"port drive {w}", "power")
+        m.sense_element(f"wheel_{w}.brake_power", f"brake {w}", "power")
+        m.sense_element(f"wheel_{w}.loaded_radius", f"tyre {w}", "loaded_radius")
+        if "overturning_moment" in {output.name for output in named[f"tyre {w}"].outputs}:
+            m.sense_element(f"wheel_{w}.Mx", f"tyre {w}", "overturning_moment")
+        else:
+            text = "overturning moment of the tyre about the contact point: 0, as its disc has no width"
+            m.sense_constant(f"wheel_{w}.Mx", 0.0, unit="N.m", description=text)
+        m.sense_element(f"wheel_{w}.My", f"tyre {w}", "rolling_moment")
+        for k, c in enumerate("xyz"):
+            text = f"velocity of the centre of the wheel along the earth's {c} axis"
+            m.sense_coordinate(f"wheel_{w}.earth_v{c}", spin.centre[k], order=1, unit="m/s", description=text)
+        damper = f"damper {w}" if f"damper {w}" in named else f"spring {w}"
+        text = "rate of the length of the damper, positive in rebound"
+        m.sense_element(f"damper_{w}.speed", damper, "rate", description=text)
+        text = "force of the damper without spring and stops, tension positive"
+        m.sense_element(f"damper_{w}.force", damper, "damper_force", description=text)
+    elements = [element for element in m.elements if element.name.startswith("port ")]
+    text = "work of the ports since the start; that of the brakes is in energy.brakes"
+    if elements:
+        m.sense_energy("energy.ports", "nonconservative", elements, description=text)

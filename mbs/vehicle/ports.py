@@ -1,0 +1,60 @@
+"""Ports of a car: inputs at which other programs take the place of its drive, its brakes or its steering wheel."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from mbs.vehicle.quantities import BrakePressure, Frequency
+from mbs.vehicle.section import Section
+
+
+class Ports(Section):
+    """Inputs at which other programs take the place of parts of the car; without any it is driven by its pedals.
+
+    What a port replaces is left out of the model, with its inputs, outputs and parameters; of an electric drive at
+    half shafts the rotor stays with the wheels, and its ratio with it.
+    """
+
+    torque: Literal["half_shafts", "hub_motors"] | None = None
+    """Torques on the wheels in place of the drive: their reaction is on the chassis, or on the wheels' carriers."""
+    brakes: Literal["torque", "pressure"] | None = None
+    """Torques, or pressures of brakes in the wheels, in place of the brake pedal; the hand brake stays."""
+    steering: Literal["rack_position", "rack_force"] | None = None
+    """Travel of a `rack_by_angle` in place of the driver's demands, or force on the rack of a `column` beside them."""
+    full_pressure: BrakePressure = 10e6
+    """Pressure in the brakes of the wheels at which they have the torque of the full pedal."""
+    rack_frequency: Frequency = 50.0
+    """Of the critically damped follower between the port of the rack's travel and the rack."""
+
+    @property
+    def any(self) -> bool:
+        """Whether there is a port."""
+        return not (self.torque is None and self.brakes is None and self.steering is None)
+
+
+def chosen_ports(text: str) -> dict[str, str]:
+    """The keys of `Ports` that a list such as ``torque,brakes=pressure`` asks for; of each the first kind by default.
+
+    Raises
+    ------
+    ValueError
+        It is no such list; the message names the ports and their kinds.
+    """
+    known = {name: _kinds(name) for name in ("torque", "brakes", "steering")}
+    chosen: dict[str, str] = {}
+    for word in text.split(","):
+        name, equals, kind = (part.strip() for part in word.partition("="))
+        kind = kind if equals else next(iter(known.get(name, ("",))))
+        if name not in known or kind not in known[name] or name in chosen:
+            offered = ", ".join(f"{port} ({' or '.join(kinds)})" for port, kinds in known.items())
+            twice = f", where {name} stands twice" if name in chosen else ""
+            raise ValueError(
+                f"The ports are '{text}'{twice}; they must be a list as torque,brakes=pressure out of {offered}."
+            )
+        chosen[name] = kind
+    return chosen
+
+
+def _kinds(name: str) -> tuple[str, ...]:
+    items = Ports.model_json_schema()["properties"][name]["anyOf"][0]["enum"]
+    return tuple(items)

@@ -1,0 +1,157 @@
+"""Tyres of a car file by the Magic Formula, from a tyre property file beside it."""
+
+from __future__ import annotations
+
+from math import atan, sqrt
+from pathlib import Path
+from typing import ClassVar, Literal
+
+from pydantic import PrivateAttr
+
+from mbs.elements.magic_tyre import FACTORS, MagicTyre
+from mbs.tyre_files import TyreFile, TyreFileError, read_tyre
+from mbs.vehicle.errors import CarFileError
+from mbs.vehicle.files import beside
+from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
+from mbs.vehicle.section import Section
+
+_IN_FILE = {"radius": "UNLOADED_RADIUS", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
+
+
+class MagicFormula(Section):
+    """Tyre by the Magic Formula: PAC2002, MF-Tyre 5.2, 6.1 or 6.2.
+
+    On a road of another friction than `reference_friction`, LMUX and LMUY of the file are multiplied by the friction of
+    the road times `grip` over `reference_friction`. `ali3 car` says what the file lacks.
+    """
+
+    kind: Literal["magic_formula"]
+    """Names the tyre formula."""
+    file: str
+    """Name of the tyre property file (.tir)."""
+    signs: Literal["iso", "sae", "adapted_sae"] = "iso"
+    """Axes of the coefficients: ISO, SAE, or those of Pacejka's book."""
+    pressure: InflationPressure | None = None
+    """Inflation pressure; by default that of the file."""
+    reference_friction: ReferenceFriction = 1.0
+    """Friction of the road on which the coefficients hold."""
+    grip: Factor = 1.0
+    """Factor on the friction of the road under the tyres of this axle."""
+    lmux: ScalingFactor = 1.0
+    """Factor on LMUX of the file, the largest longitudinal force."""
+    lmuy: ScalingFactor = 1.0
+    """Factor on LMUY of the file, the largest lateral force."""
+    lkx: ScalingFactor = 1.0
+    """Factor on LKX of the file, the longitudinal slip stiffness."""
+    lky: ScalingFactor = 1.0
+    """Factor on LKY of the file, the cornering stiffness."""
+
+    _read: TyreFile | None = PrivateAttr(None)
+    _tyre: MagicTyre | None = PrivateAttr(None)
+
+    parameters: ClassVar[dict[str, str]] = {"grip": "friction_factor", **{name: name for name in FACTORS}}
+    """Fields that a parameter may change, and the real of the element that they are."""
+
+    def open(self, folder: Path) -> None:
+        """Read the file; done once by the reader of the car.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car.
+
+        Raises
+        ------
+        CarFileError
+            There is no such file, or it is none.
+        """
+        try:
+            self._read = read_tyre(beside(folder, self.file, self.key("file")))
+            self._tyre = self.tyre("left")
+        except TyreFileError as error:
+            raise CarFileError(f"{self.key('file')}: {error}") from None
+
+    def key(self, field: str) -> str:
+        """Key path of a field, and of what the tyre property file gives."""
+        if field in type(self).model_fields:
+            return super().key(field)
+        return f"{_IN_FILE.get(field, field)} of {super().key('file')}"
+
+    def tyre(self, side: str) -> MagicTyre:
+        """The tyre of the engine.
+
+        Parameters
+        ----------
+        side : {"left", "right"}
+            Of the car.
+        """
+        assert self._read is not None, "the file is opened with the car"
+        more = {name: getattr(self, name) for name in FACTORS}
+        return self._read.tyre(
+            side,
+            self.signs,
+            self.pressure,
+            reference_friction=self.reference_friction,
+            friction_factor=self.grip,
+            **more,
+        )
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the file lacks or what of it is not used, a sentence each."""
+        assert self._read is not None
+        return tuple(f"{self.key('file')} ({self.file}): {note}" for note in self._read.notes)
+
+    @property
+    def _left(self) -> MagicTyre:
+        assert self._tyre is not None, "the file is opened with the car"
+        return self._tyre
+
+    @property
+    def radius(self) -> float:
+        """Free radius, m."""
+        return self._left.radius
+
+    @property
+    def bottoming_radius(self) -> float:
+        """Loaded radius below which the rim bears, m."""
+        return self._left.bottoming_radius
+
+    @property
+    def stiffness(self) -> float:
+        """Radial stiffness at the nominal load and pressure of the car, N/m."""
+        t = self._left
+        first = t.stiffness * (1.0 + t.coefficients.get("PFZ1", 0.0) * t.pressure)
+        second = t.progression * first / t.stiffness
+        return sqrt(first**2 + 4.0 * second * t.nominal_load)
+
+    @property
+    def nominal_load(self) -> float:
+        """Load of the file, N."""
+        return self._left.nominal_load
+
+    @property
+    def friction(self) -> tuple[float, float]:
+        """Largest longitudinal and lateral force over the load, at the nominal load on the road of the reference."""
+        return self._friction("X"), self._friction("Y")
+
+    def _friction(self, axis: str) -> float:
+        c, dfz = self._left.coefficients, 1.0 / self._left.coefficients.get("LFZO", 1.0) - 1.0
+        largest = abs(c[f"PD{axis}1"] + c.get(f"PD{axis}2", 0.0) * dfz) * c.get(f"LMU{axis}", 1.0)
+        return largest * (self.lmux if axis == "X" else self.lmuy)
+
+    def rolling_radius(self, loaded: float) -> float:
+        """Way of a free wheel per radian, m, at rest with a loaded radius.
+
+        Parameters
+        ----------
+        loaded : float
+            m
+        """
+        t, c = self._left, self._left.coefficients
+        free = t.radius * c.get("Q_RE0", 1.0)
+        depth, unit = free - loaded, t.nominal_load / (t.stiffness * (1.0 + c.get("PFZ1", 0.0) * t.pressure))
+        if not (c.get("DREFF") or c.get("FREFF")):
+            return free - depth / 3.0
+        part = c.get("DREFF", 0.0) * atan(c.get("BREFF", 0.0) * depth / unit)
+        return free - unit * (part + c.get("FREFF", 0.0) * depth / unit)

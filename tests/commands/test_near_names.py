@@ -1,0 +1,38 @@
+"""Names that may be meant by one that is not known, and the end of the sentence that names them."""
+
+from __future__ import annotations
+
+import pytest
+
+from ali3.near_names import did_you_mean, near_names
+
+KNOWN = ("spring.stiffness", "spring.damping", "Chassis.ay", "chassis.AY", "bob.x")
+
+
+@pytest.mark.parametrize(
+    ("name", "near"),
+    [
+        ("CHASSIS.AY", ["Chassis.ay", "chassis.AY"]),
+        ("spring.stifness", ["spring.stiffness", "spring.damping"]),
+        ("Spring.Stifness", ["spring.stiffness", "spring.damping"]),
+        ("gearbox.ratios.damping", ["spring.damping"]),
+        ("bob", ["bob.x"]),
+        ("b", []),
+        ("wheel", []),
+        ("", []),
+        ("spring.damping" + 100_000 * "g", []),
+    ],
+)
+def test_near_names(name: str, near: list[str]) -> None:
+    assert near_names(name, KNOWN) == near
+
+
+def test_no_more_than_asked_and_the_nearest_first() -> None:
+    assert near_names("wheel_F", ["wheel_FLx", "wheel_FL", "wheel_FR"], 2) == ["wheel_FR", "wheel_FL"]
+
+
+def test_the_end_of_a_sentence() -> None:
+    assert did_you_mean("Bob.x", KNOWN, "there are many") == "; did you mean 'bob.x'?"
+    assert did_you_mean("chassis.ay", KNOWN) == "; did you mean 'Chassis.ay' or 'chassis.AY'?"
+    assert did_you_mean("wheel", KNOWN, "there are many") == "; there are many."
+    assert did_you_mean("wheel", KNOWN) == "."

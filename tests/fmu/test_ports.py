@@ -1,0 +1,124 @@
+"""Ports: a value that is not finite holds the last one with one warning, one that nobody sets is told."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+from fmu_src.description.fmi3 import terminals
+from fmu_src.variables.arrays import scalars
+from fmu_src.variables.variables import variable_table
+from tests.fmu.native import compile_host, unpack
+
+OK, ERROR = 0, 3  # FMPy makes one of good answers and warnings
+PORTS = ("left.push", "right.push")
+
+
+@pytest.fixture
+def towed(build, kind) -> Path:
+    """A body that two ports push."""
+    return build("towed", kind)
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_what_is_not_finite_holds_the_last_value_with_one_warning(host, towed, bad) -> None:
+    h = host(towed).start({"left.push": 3.0, "right.push": 0.0})
+    assert h.set("left.push", bad) == OK
+    assert h.messages == [f"The port 'left.push' was set to {bad:g} and holds its last value 3 N. This is said once."]
+    assert h.step(0.0, 0.01) == OK
+    assert h.set("left.push", bad) == OK
+    assert len(h.messages) == 1
+    assert h.get("left.push") == 3.0
+    assert h.set("left.push", 4.0) == OK
+    assert h.step(0.01, 0.01) == OK
+    assert h.get("used") == 4.0
+
+
+def test_a_value_beyond_the_range_is_held_at_its_end(host, towed) -> None:
+    h = host(towed).start({"right.push": 0.0})
+    assert h.set("left.push", 1e6) == OK
+    assert h.get("left.push") == 10.0
+    assert h.step(0.0, 0.01) == OK
+
+
+def test_a_port_that_nobody_sets_is_told_after_the_first_step(host, towed) -> None:
+    h = host(towed).start()
+    assert h.step(0.0, 0.01) == OK
+    assert h.messages == [
+        "The port 'left.push' and 1 more was not set before the first step and holds 0 N until it is. This is said "
+        "once."
+    ]
+    assert h.step(0.01, 0.01) == OK
+    one = host(towed).start({"left.push": 1.0})
+    assert one.step(0.0, 0.01) == OK
+    assert "'right.push' was not set" in one.messages[0]
+
+
+def test_other_inputs_refuse_what_is_not_finite(host, towed) -> None:
+    assert host(towed).start().set("brake", math.nan) == ERROR
+
+
+def test_ports_under_random_values_keep_the_motion_finite(host, towed) -> None:
+    h, random, time = host(towed).start(), np.random.default_rng(4), 0.0
+    for _ in range(200):
+        for port in PORTS:
+            if random.random() < 0.7:
+                value = random.choice([math.nan, math.inf, 1e6, -1e6, random.normal()])
+                assert h.set(port, float(value)) == OK
+        assert h.step(time, 0.01) == OK
+        time += 0.01
+        assert math.isfinite(h.get("x"))
+        assert abs(h.get("used")) <= 10.0
+    assert len(h.messages) <= 1 + 2 * len(PORTS)
+
+
+def test_libcosim_and_the_host_in_c_get_the_same_bits(host, build, tmp_path) -> None:
+    cosim = pytest.importorskip("libcosimpy.CosimExecution")
+    from libcosimpy.CosimManipulator import CosimManipulator
+    from libcosimpy.CosimObserver import CosimObserver
+    from libcosimpy.CosimSlave import CosimLocalSlave
+
+    towed = build("towed", "native")
+    references = {v.name: v.valueReference for v in fmpy.read_model_description(str(towed)).modelVariables}
+    execution = cosim.CosimExecution.from_step_size(10_000_000)
+    index = execution.add_local_slave(CosimLocalSlave(str(towed), "towed"))
+    observer, manipulator = CosimObserver.create_last_value(), CosimManipulator.create_override()
+    execution.add_observer(observer)
+    execution.add_manipulator(manipulator)
+    manipulator.slave_real_values(index, [references[p] for p in PORTS], [4.0, math.nan])
+    assert execution.step(20)
+    driven = host(towed).start()
+    for port, value in zip(PORTS, (4.0, math.nan), strict=True):
+        driven.set(port, value)
+    driven.run(20, 0.01)
+    assert driven.get("x") > 0.01
+    assert list(observer.last_real_values(index, [references["x"]])) == [driven.get("x")]
+
+    unpack(towed, tmp_path / "fmu")
+    library = next((tmp_path / "fmu" / "binaries" / fmpy.platform).iterdir())
+    words = [str(compile_host(tmp_path)), str(library), (tmp_path / "fmu" / "resources").as_uri()]
+    words += [driven.description.guid, "20", "0.01", *2 * [str(references["x"])]]
+    at_start = host(towed).start({"left.push": 4.0, "right.push": -1.0})
+    at_start.run(20, 0.01)
+    done = subprocess.run(
+        [*words, "--set", "left.push=4", "--set", "right.push=-1"], capture_output=True, text=True, check=True
+    )
+    assert float.fromhex(done.stdout.split()[-1]) == at_start.get("x")
+
+
+def test_flows_have_a_terminal_with_their_kinds() -> None:
+    def entry(name: str, **more: object) -> dict[str, object]:
+        return {"name": name, "unit": "N.m", "description": "", "start": 0.0, "min": -1.0, "max": 1.0} | more
+
+    sensors = [{"name": "wheel_FL.omega", "unit": "rad/s"}]
+    for port in (True, False):
+        meta = {"inputs": [entry("wheel_FL.drive_torque", port=port)], "parameters": [], "sensors": sensors}
+        text = terminals(scalars(variable_table(meta, pose=False, step_size=0.01))).decode()
+        plug = '<Terminal name="wheel_FL.drive_torque_port" matchingRule="plug">'
+        assert (plug in text) == port
+    assert 'variableName="wheel_FL.omega"' in text

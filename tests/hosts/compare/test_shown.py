@@ -1,0 +1,63 @@
+"""What a comparison shows: units of the field, and no rating where there is none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from hosts.compare.comparison import Comparison, compare
+from hosts.compare.curve import Curve
+from hosts.compare.log import Signal
+from hosts.compare.page import comparison_figure, write_picture, write_summary
+from hosts.compare.words import table, with_unit
+from hosts.driving.co_simulation import Result
+
+TIME = np.linspace(0.0, 2.0, 201)
+
+
+@pytest.fixture(scope="module")
+def comparison() -> Comparison:
+    """A yaw rate that is simulated 0.01 rad/s too large, and a constant measured number without a unit."""
+    measured = {"chassis.wz": np.sin(3.0 * TIME), "gear": np.ones(201)}
+    units = {"chassis.wz": "rad/s", "gear": "1"}
+    values = np.column_stack([measured["chassis.wz"] + 0.01, measured["gear"] + 0.2])
+    result = Result(list(measured), units, TIME, values, 1.0, 2.0, 0, [])
+    signals = {n: Signal(n, n, units[n], TIME, y) for n, y in measured.items()}
+    return compare(signals, {n: Curve(result, n) for n in measured}, 0.1)
+
+
+def test_deviations_are_in_degrees(comparison: Comparison) -> None:
+    head, yaw, gear = table(comparison).splitlines()
+    assert head.split()[:3] == ["signal", "unit", "rms"]
+    assert yaw.split()[:3] == ["chassis.wz", "deg/s", "0.573"]
+    assert gear.split()[:2] == ["gear", "0.2"]
+
+
+def test_the_picture_has_no_rating_that_is_none(comparison: Comparison, tmp_path: Path) -> None:
+    figure = comparison_figure(comparison, None, "a drive", {})
+    titles = [axes.get_title(loc) for axes in figure.axes for loc in ("left", "center")]
+    assert "chassis.wz, deg/s" in titles
+    assert any(t.startswith("simulated − measured: rms 0.573 deg/s; rating ") for t in titles)
+    assert "simulated − measured: rms 0.2" in titles
+    lines = figure.axes[0].get_lines()
+    assert max(lines[0].get_ydata()) == pytest.approx(np.degrees(1.0), rel=1e-3)
+    assert max(lines[1].get_ydata()) == pytest.approx(np.degrees(1.01), rel=1e-3)
+    write_picture(figure, tmp_path / "a.b.png")
+    assert sorted(f.name for f in tmp_path.iterdir()) == ["a.b.png", "a.b.svg"]
+    plt.close(figure)
+
+
+def test_the_slide(comparison: Comparison, tmp_path: Path) -> None:
+    write_summary(comparison, None, "a drive", tmp_path / "log_summary")
+    text = (tmp_path / "log_summary.svg").read_text(encoding="utf-8")
+    assert "<!-- 0.573 -->" in text
+    assert "<!-- chassis.wz, deg/s -->" in text
+    assert "nan" not in text
+
+
+def test_a_number_without_a_unit_has_none() -> None:
+    assert with_unit(1.2, "1") == "1.2"
+    assert with_unit(1.2, "kg") == "1.2 kg"

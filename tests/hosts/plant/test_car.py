@@ -1,0 +1,116 @@
+"""A car in Python: the bits of its FMU, starts by a seed, arrays, states that come back."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.fmi2 import FMU2Slave
+
+from hosts.common.errors import HostError
+from hosts.plant import Car
+
+INPUTS = ("steering", "throttle")
+READS = ("chassis.x", "chassis.y", "speed", "wheel_FL.Fz", "solver.iterations")
+SPEED = {"initial.speed": 15.0}
+
+
+def drive(car: Car, steps: int) -> np.ndarray:
+    rows = []
+    for k in range(steps):
+        car.step([0.3 * np.sin(0.1 * k), 0.4])
+        rows.append(car.read(READS))
+    return np.array(rows)
+
+
+def by_fmpy(path: Path, steps: int) -> np.ndarray:
+    description = fmpy.read_model_description(str(path))
+    reference = {v.name: v.valueReference for v in description.modelVariables}
+    folder, rows = fmpy.extract(str(path)), []
+    name = description.coSimulation.modelIdentifier
+    slave = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=name, instanceName="car")
+    slave.instantiate()
+    slave.setupExperiment(startTime=0.0)
+    slave.setReal([reference["initial.speed"]], [15.0])
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    for k in range(steps):
+        slave.setReal([reference[n] for n in INPUTS], [0.3 * np.sin(0.1 * k), 0.4])
+        slave.doStep(k * 0.01, 0.01)
+        rows.append([slave.getReal([reference[n]])[0] for n in READS[:-1]])
+    slave.terminate()
+    slave.freeInstance()
+    shutil.rmtree(folder)
+    return np.array(rows)
+
+
+@pytest.fixture
+def car(rigid_fmu: Path):
+    with Car(rigid_fmu, inputs=INPUTS) as made:
+        yield made
+
+
+def test_its_bits_are_those_of_the_fmu_by_a_plain_host(car: Car, rigid_fmu: Path) -> None:
+    car.reset(**SPEED)
+    assert (drive(car, 60)[:, :-1] == by_fmpy(rigid_fmu, 60)).all()
+    assert car.time == pytest.approx(0.6)
+
+
+def test_a_new_start_and_a_saved_state_give_the_same_bits(car: Car, rigid_fmu: Path) -> None:
+    car.reset(**SPEED)
+    first = drive(car, 20)
+    saved = car.save()
+    on = drive(car, 20)
+    car.restore(saved)
+    assert car.time == pytest.approx(0.2)
+    assert (drive(car, 20) == on).all()
+    car.reset(**SPEED)
+    assert (drive(car, 20) == first).all()
+    with Car(rigid_fmu, inputs=INPUTS) as other:
+        other.restore(saved)
+        assert (drive(other, 20) == on).all()
+
+
+def test_ranges_are_drawn_by_the_seed(car: Car) -> None:
+    ranges = {"initial.speed": (10.0, 20.0), "road.friction": (0.5, 0.9)}
+    drawn = []
+    for seed, order in ((1, ranges), (1, dict(reversed(ranges.items()))), (2, ranges)):
+        car.reset(seed, **order)
+        drawn.append(car.read(("initial.speed", "road.friction")))
+    assert (drawn[0] == drawn[1]).all()
+    assert (drawn[0] != drawn[2]).all()
+    assert all(10.0 <= a <= 20.0 and 0.5 <= b <= 0.9 for a, b in drawn)
+
+
+def test_values_go_into_an_array_that_is_given(car: Car) -> None:
+    car.reset(**SPEED)
+    row = np.zeros(2)
+    assert car.read(("speed", "chassis.x"), row) is row
+    assert row[0] == pytest.approx(15.0, rel=1e-6)
+
+
+def test_warnings_are_those_of_the_fmu(car: Car) -> None:
+    car.reset(**SPEED)
+    car.step([3.0, 0.0])
+    assert [m for m in car.messages if "'steering' was set to 3 and is held at 1" in m]
+
+
+def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
+    cases = {
+        "no start yet": lambda: car.step([0.0, 0.0]),
+        "no input 'pedal'": lambda: Car(rigid_fmu, inputs=("pedal",)),
+        "Ports are chosen": lambda: Car(rigid_fmu, ports="brakes"),
+        "positive number": lambda: Car(rigid_fmu, step=0.0),
+        "no parameter or input 'mass'": lambda: car.reset(mass=3.0),
+    }
+    for words, call in cases.items():
+        with pytest.raises(HostError, match=words):
+            call()
+    car.reset()
+    with pytest.raises(HostError, match="3 inputs are given; the car takes 2"):
+        car.step([0.0, 0.0, 0.0])
+    with pytest.raises(HostError, match="no variable that is a number 'sped'"):
+        car.read(("sped",))

@@ -1,0 +1,85 @@
+"""Environments of Gymnasium: its checker, seeds, several at once, and a controller that does what it should."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+from hosts.plant import environments  # registers them
+
+LANE, BRAKES = "ali3/LaneKeeping-v0", "ali3/AntiLockBraking-v0"
+
+
+@pytest.fixture(params=[LANE, BRAKES])
+def named(request: pytest.FixtureRequest) -> tuple[str, str]:
+    return request.param, request.getfixturevalue("rigid_fmu" if request.param == LANE else "braked_fmu")
+
+
+def test_they_pass_the_checker(named: tuple[str, Path]) -> None:
+    name, path = named
+    made = gymnasium.make(name, car=str(path)).unwrapped
+    made.spec = None  # else the checker makes a second one by its name, of the car of the package
+    check_env(made, skip_render_check=True)
+    made.close()
+
+
+def test_a_seed_gives_the_same_episode(named: tuple[str, Path]) -> None:
+    name, path = named
+    episodes = []
+    for seed in (3, 3, 4):
+        with gymnasium.make(name, car=str(path)) as made:
+            rows = [made.reset(seed=seed)[0]]
+            made.action_space.seed(1)
+            rows += [made.step(made.action_space.sample())[0] for _ in range(10)]
+            episodes.append(np.array(rows))
+    assert (episodes[0] == episodes[1]).all()
+    assert (episodes[0] != episodes[2]).any()
+
+
+def test_several_run_beside_each_other(rigid_fmu: Path) -> None:
+    made = gymnasium.make_vec(LANE, 2, vectorization_mode="sync", car=str(rigid_fmu))
+    seen, _ = made.reset(seed=1)
+    assert seen.shape == (2, 9)
+    assert (seen[0] != seen[1]).any()
+    for _ in range(5):
+        seen, reward, *_ = made.step(np.zeros((2, 1), np.float32))
+    assert np.isfinite(seen).all()
+    assert reward.shape == (2,)
+    made.close()
+
+
+def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
+    ends = {}
+    for gain in (1.0, 0.0):
+        made = environments.LaneKeeping(str(rigid_fmu), speed=(12.0, 12.0), seconds=12.0)
+        seen, _ = made.reset(seed=0)
+        ended = left = False
+        while not (ended or left):
+            offset, heading, bend = seen[0], seen[1], seen[6]
+            steering = gain * (9.0 * bend - 0.25 * offset - 1.2 * heading)
+            seen, _, left, ended, _ = made.step(np.array([steering], np.float32))
+        ends[gain] = bool(left)
+        made.close()
+    assert ends == {1.0: False, 0.0: True}
+
+
+def test_brakes_that_let_go_stop_earlier_than_locked_ones(braked_fmu: Path) -> None:
+    ways = {}
+    for controlled in (True, False):
+        made = environments.AntiLockBraking(str(braked_fmu), speed=(15.0, 15.0), friction=(0.5, 0.5))
+        seen, _ = made.reset(seed=0)
+        action, way, ended, cut = np.zeros(4, np.float32), 0.0, False, False
+        while not (ended or cut):
+            slips = -seen[1:5]
+            change = np.where(slips > 0.1, -0.2, 0.05) if controlled else 0.2
+            action = np.clip(action + change, 0.0, 1.0).astype(np.float32)
+            seen, reward, ended, cut, _ = made.step(action)
+            way -= reward
+        assert ended
+        ways[controlled] = way
+        made.close()
+    assert ways[True] < 0.97 * ways[False]

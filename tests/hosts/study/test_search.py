@@ -1,0 +1,77 @@
+"""The search for a value of a measure, on functions whose solutions are known."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import pytest
+
+from hosts.study.search import Found, seek
+
+
+def sought(function: Callable[[float], float], wanted: float, low: float, high: float, **more: float) -> Found:
+    found = seek(lambda x: (function(x), "" if math.isfinite(function(x)) else "failed"), wanted, low, high, **more)
+    assert len({run.x for run in found.runs}) == len(found.runs)  # no run twice
+    return found
+
+
+def test_a_monotone_measure_is_met_by_few_runs() -> None:
+    found = sought(lambda x: x**3, 20.0, 1.0, 4.0)
+    assert found.met
+    assert found.best is not None
+    assert found.best.x == pytest.approx(20.0 ** (1 / 3), rel=1e-3)
+    assert len(found.runs) <= 8
+    assert found.slope == pytest.approx(3.0 * 20.0 ** (2 / 3), rel=0.05)
+    assert (found.rises, found.falls) == (True, False)
+
+
+def test_the_slope_has_its_sign() -> None:
+    found = sought(lambda x: 5.0 - 2.0 * x, 1.0, 0.0, 5.0)
+    assert found.met
+    assert found.slope == pytest.approx(-2.0)
+
+
+def test_two_solutions_inside_the_range_and_the_one_near_the_start() -> None:
+    for start, x in ((0.5, 1.0), (3.5, 3.0)):
+        found = sought(lambda x: (x - 2.0) ** 2, 1.0, 0.0, 4.0, start=start)
+        assert found.met
+        assert found.best is not None
+        assert found.best.x == pytest.approx(x, abs=2e-3)
+        assert found.rises
+        assert found.falls
+
+
+def test_a_value_that_is_not_reached_gives_the_nearest() -> None:
+    found = sought(lambda x: 2.0 + (x - 1.0) ** 2, 1.0, 0.0, 4.0)
+    assert (found.met, found.crossed) == (False, False)
+    assert found.best is not None
+    assert found.best.x == pytest.approx(1.0, abs=0.1)
+    assert found.best.y == pytest.approx(2.0, abs=0.01)
+    end = sought(lambda x: x, 5.0, 0.0, 4.0)
+    assert end.best is not None
+    assert end.best.x == 4.0
+    assert not end.met
+
+
+def test_a_jump_is_not_taken_for_a_solution() -> None:
+    found = sought(lambda x: -1.0 if x < math.pi / 4 else 3.0, 1.0, 0.0, 1.0)
+    assert (found.met, found.crossed) == (False, True)
+    assert found.best is not None
+    assert found.best.x == pytest.approx(math.pi / 4, abs=1e-3)
+
+
+def test_runs_that_fail_at_the_ends_and_between() -> None:
+    found = sought(lambda x: math.nan if x < 0.5 or abs(x - 2.0) < 0.3 else x, 3.0, 0.0, 4.0)
+    assert found.met
+    assert found.runs[0].reason == "failed"
+    nothing = sought(lambda x: math.nan, 3.0, 0.0, 4.0)
+    assert nothing.best is None
+    assert len(nothing.runs) == 4
+
+
+def test_zero_is_wanted_with_a_range_by_the_logarithm() -> None:
+    found = sought(lambda x: math.log10(x), 0.0, 0.01, 1000.0, log=True)
+    assert found.met
+    assert found.best is not None
+    assert found.best.x == pytest.approx(1.0, rel=0.02)

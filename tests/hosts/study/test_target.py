@@ -1,0 +1,106 @@
+"""`ali3 study --target`: the value of a parameter that gives a wanted measure."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from ali3.read_parameter_set import read_parameter_set
+from hosts.common.units import conversion
+from hosts.run.command import main as run
+from hosts.study.command import main
+from tests.hosts.study.test_study import GRAVITY
+
+STEM = "lowest_by_spring_stiffness"
+
+
+@pytest.fixture
+def seek(study_file: Callable[..., Path], tmp_path: Path) -> Callable[..., int]:
+    def command(*options: str, by: str = "spring.stiffness") -> int:
+        return main([str(study_file()), "--by", by, "--out", str(tmp_path / "out"), *options])
+
+    return command
+
+
+def test_the_stiffness_for_a_lowest_place(
+    seek: Callable[..., int], spring: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """At rest at y = -1 the mass swings about -(free length + m g / k), as far on the other side."""
+    assert seek("--target", "lowest=-1200 mm") == 0
+    words = capsys.readouterr().out
+    record = json.loads((tmp_path / "out" / f"{STEM}.json").read_text(encoding="utf-8"))
+    assert record["value"] == pytest.approx(2.0 * GRAVITY / 0.3, rel=0.01)
+    assert record["reached"] == pytest.approx(-1.2, abs=1.2e-3)
+    assert record["wanted"] == pytest.approx(-1.2)
+    # d lowest / d k = 2 m g / k^2
+    assert record["sensitivity"] == pytest.approx(4.0 * GRAVITY / record["value"] ** 2, rel=0.05)
+    assert len(record["runs"]) <= 6
+    assert "spring.stiffness = 65." in words
+    assert " mm" in words
+    assert f"{len(record['runs'])} runs of fall" in words
+    assert sum(line.startswith("run ") for line in words.splitlines()) == len(record["runs"])
+    for suffix in (".svg", ".png"):
+        assert (tmp_path / "out" / f"{STEM}{suffix}").stat().st_size > 5000
+    # the parameter set has what was found and what the study sets, and another command takes it
+    file = tmp_path / "out" / f"{STEM}.ssv"
+    assert {e.name: float(e.value) for e in read_parameter_set(file).entries} == {
+        "spring.stiffness": record["value"],
+        "spring.damping": 0.0,
+    }
+    given = ["--stop-time", "2", "--step", "0.01", "--parameters", str(file), "--out", str(tmp_path / "again")]
+    assert run([str(spring), *given]) == 0
+    table = (tmp_path / "again" / f"{spring.stem}.csv").read_text(encoding="utf-8").splitlines()
+    place = next(k for k, name in enumerate(table[0].split(",")) if name.strip('"').startswith("bob.y"))
+    assert min(float(row.split(",")[place]) for row in table[1:]) == pytest.approx(record["reached"], abs=1e-9)
+
+
+def test_a_value_that_cannot_be_met(
+    seek: Callable[..., int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / f"{STEM}.ssv").write_text("of an earlier search")
+    assert seek("--target", "lowest=-3") == 1
+    words = capsys.readouterr().out
+    assert "lowest = -3 m is not met with spring.stiffness from 50 N/m to 80 N/m." in words
+    assert "The nearest is -1.38" in words
+    assert ", at 50 N/m" in words
+    assert (
+        "only rises with it and has no crossing in the range; try a wider range, --between (the FMU allows 10 to 900"
+        in words
+    )
+    assert not (tmp_path / "out" / f"{STEM}.ssv").exists()
+    assert not json.loads((tmp_path / "out" / f"{STEM}.json").read_text(encoding="utf-8"))["met"]
+
+
+@pytest.mark.parametrize(
+    ("options", "by", "words"),
+    [
+        (("--target", "lowest=-1.2 deg"), "spring.stiffness", "'deg' is no unit of what is measured in m"),
+        (("--target", "lowst=-1.2"), "spring.stiffness", "the study has no measure 'lowst'; did you mean 'lowest'?"),
+        (("--target", "lowest"), "spring.stiffness", "it must be MEASURE=VALUE"),
+        (("--target", "lowest=-1.2"), "spring.stiffnes", "did you mean 'spring.stiffness' or"),
+        (("--target", "lowest=-1.2", "--between", "80:50"), "spring.stiffness", "the smaller number first"),
+        (("--target", "lowest=-1.2", "--between", "1:50"), "spring.stiffness", "its range is 10 to 900 N/m"),
+        (("--target", "lowest=-1.2", "--jobs", "2"), "spring.stiffness", "--jobs does not go with --target"),
+        (("--between", "1:50"), "spring.stiffness", "--by and --between go with --target"),
+    ],
+)
+def test_what_cannot_be_sought_is_one_sentence(
+    seek: Callable[..., int], capsys: pytest.CaptureFixture[str], options: tuple[str, ...], by: str, words: str
+) -> None:
+    assert seek(*options, by=by) == 2
+    error = capsys.readouterr().err
+    assert words in error
+    assert error.count("\n") == 1
+
+
+def test_a_turn_is_two_pi_radians() -> None:
+    """Frequencies are measured in rad/s and shown in Hz."""
+    assert conversion("Hz", "rad/s") == pytest.approx(2.0 * math.pi)
+    assert conversion("rad/s", "Hz") == pytest.approx(0.5 / math.pi)
+    assert conversion("rpm", "Hz") == pytest.approx(1.0 / 60.0)
+    assert conversion("Hz", "Hz") == 1.0

@@ -1,0 +1,122 @@
+"""Lanes have the bits of single runs: the whole saved state, with its counters, after every part of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from mbs import Model, Settings, Simulation, System, compile
+from mbs.kernel.binding import KernelError, Status
+from mbs.kernel.binding.many import Many, widest_lanes
+from mbs.scenes import bicycle, bricard, double_four_bar, flyball, kerb_test, prototype_car, spatial_chain, squeezer
+from mbs.simulation.prepared_system import prepared
+from tests.simulation.many_cars import CARS, attach, car
+
+# Two of the cars have springs with which no car works, so that their steps are halved and refused.
+pytestmark = pytest.mark.filterwarnings("ignore:Parameter:mbs.ParameterWarning")
+
+WIDTHS = [w for w in (2, 4, 8) if w <= widest_lanes()]
+SCENES: dict[str, tuple[Callable[[], Model], float]] = {
+    "double four-bar": (double_four_bar.build, 5e-3),
+    "Bricard": (bricard.build, 5e-3),
+    "flyball": (flyball.build, 5e-3),
+    "spatial chain": (spatial_chain.build, 5e-3),
+    "squeezer": (squeezer.build, 2e-5),
+    "bicycle": (bicycle.build, 5e-3),
+}
+
+
+def run_alone(simulation: Simulation, h: float, n: int) -> tuple[int, int]:
+    """Steps done and the status."""
+    steps = simulation.instance.report()["steps"]
+    try:
+        simulation.instance.run(h, n)
+    except KernelError as error:
+        return int(simulation.instance.report()["steps"] - steps), error.status
+    return n, Status.OK
+
+
+def compare(many: Many, single: list[Simulation], together: list[Simulation], h: float, n: int) -> tuple[int, set[int]]:
+    """Steps that were made alone, and how the runs ended; asserts the bits."""
+    nothing = [None] * len(together)
+    ended = many.run([s.instance for s in together], h, n, n, nothing, nothing)
+    for k, (one, other, end) in enumerate(zip(single, together, ended, strict=True)):
+        status = Status.OK if end.error is None else end.error.status
+        assert run_alone(one, h, n) == (end.done, status), k
+        assert one.instance.save() == other.instance.save(), f"lane {k} after t = {one.time}"
+    return sum(end.alone for end in ended), {0 if e.error is None else e.error.status for e in ended}
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_cars_have_the_bits_of_single_runs(width: int) -> None:
+    """Wild driving, kerbs, a fall and a launch beside each other; at 40 ms steps are halved, or refused without halves.
+
+    The neighbours of a car that halves, fails or stands still go on with their bits.
+    """
+    alone, statuses = dict.fromkeys((0.002, 0.01, 0.04), 0), set[int]()
+    for h, halvings in ((0.002, 8), (0.01, 8), (0.04, 8), (0.04, 0)):
+        settings = Settings(max_halvings=halvings)
+        for first in range(0, len(CARS), width):
+            names = list(CARS)[first : first + width]
+            single, together = ([car(name, settings) for name in names] for _ in range(2))
+            for name, s in [*zip(names, single, strict=True), *zip(names, together, strict=True)]:
+                attach(name, s)
+            many = Many(prepared(single[0].system)[0], width)
+            for _ in range(4):
+                part, ended = compare(many, single, together, h, 25)
+                alone[h] += part
+                statuses |= ended
+    assert (alone[0.002], alone[0.01]) == (0, 0)  # a step that lanes get wrong is refused there and right alone
+    assert alone[0.04] > 0
+    assert statuses > {Status.OK}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_mechanisms_have_the_bits_of_single_runs(name: str) -> None:
+    """Angle, guided and velocity rows too; the lanes are at different times of the motion."""
+    build, h = SCENES[name]
+    system = compile(build())
+    single, together = ([_after(system, 7 * k, h) for k in range(WIDTHS[-1])] for _ in range(2))
+    alone, statuses = compare(Many(prepared(system)[0], WIDTHS[-1]), single, together, h, 60)
+    assert (alone, statuses) == (0, {0})
+
+
+def _after(system: System, steps: int, h: float) -> Simulation:
+    simulation = Simulation(system)
+    simulation.instance.run(h, steps)
+    return simulation
+
+
+@pytest.mark.parametrize(
+    ("system", "settings"),
+    [
+        (lambda: compile(kerb_test.build(3)), Settings()),
+        (lambda: compile(double_four_bar.build()), Settings(update="paper")),
+        (lambda: compile(prototype_car.build()), Settings(method="ali3p_generalised_alpha")),
+        (lambda: compile(prototype_car.build()), Settings(step_iterations=2)),
+    ],
+    ids=["flexible", "update (16)", "generalised-alpha", "limited steps"],
+)
+def test_what_is_not_for_lanes_is_stepped_alone(system: Callable[[], System], settings: Settings) -> None:
+    compiled, h, n = system(), 0.005, 5
+    single, together = ([Simulation(compiled, settings=settings) for _ in range(2)] for _ in range(2))
+    assert compare(Many(prepared(compiled)[0], 2), single, together, h, n)[0] == 2 * n
+
+
+def test_groups_refuse_what_they_cannot_step() -> None:
+    system = compile(double_four_bar.build())
+    loaded, other = prepared(system)[0], prepared(compile(double_four_bar.build(windows=2)))[0]
+    one, two = Simulation(system), Simulation(system, settings=Settings(tolerance_r=1e-9))
+    for width in (1, 3, 16, 2 * widest_lanes()):
+        with pytest.raises(KernelError):
+            Many(loaded, width)
+    many, before = Many(loaded, 2), one.instance.save()
+    for group in ([one, one], [one, two]):
+        with pytest.raises(KernelError):
+            many.run([s.instance for s in group], 0.01, 1, 1, [None, None], [None, None])
+    with pytest.raises(KernelError):
+        Many(other, 2).run([one.instance], 0.01, 1, 1, [None], [None])
+    assert one.instance.save() == before
+    assert np.isfinite(one.time)

@@ -1,0 +1,118 @@
+"""Many variants of a System at once: each with the numbers of a run of its own."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from mbs import (
+    AccuracyWarning,
+    Pose,
+    Settings,
+    SimulationError,
+    Variant,
+    compile,
+    simulate,
+    simulate_many,
+)
+from mbs.common.errors import ArgumentTypeError
+from mbs.kernel.binding.many import widest_lanes
+from mbs.scenes import double_four_bar
+from tests.simulation.many_cars import CARS, SLALOM, system
+
+# Two of the cars have springs with which no car works, so that their steps are halved and refused.
+pytestmark = pytest.mark.filterwarnings("ignore:Parameter:mbs.ParameterWarning")
+
+VARIANTS = list(CARS.values())
+
+
+def test_trajectories_are_those_of_single_runs() -> None:
+    """Two threads, groups that are not full, a record of every third step and times, units and counters."""
+    runs = simulate_many(system(), VARIANTS, 0.5, 0.01, every=3, threads=2, progress=False)
+    assert runs.failures == {}
+    assert runs.alone == [0] * len(VARIANTS)
+    assert runs.lanes == min(widest_lanes(), 8)
+    for variant, run in zip(VARIANTS, runs.trajectories, strict=True):
+        one = simulate(
+            system(),
+            0.5,
+            0.01,
+            variant.inputs,
+            parameters=variant.parameters,
+            pose=variant.pose,
+            every=3,
+            estimate_error=False,
+        )
+        assert run is not None
+        assert run.report == one.report
+        assert run.units == one.units
+        np.testing.assert_array_equal(run.t, one.t)
+        for name in run.units:
+            np.testing.assert_array_equal(run[name], one[name], err_msg=name)
+
+
+def test_a_failed_run_tells_why_and_leaves_the_others() -> None:
+    """A start below the road and a step that is refused, beside a slalom that goes on to its end."""
+    high = CARS["stiff tyre at a kerb"]
+    variants = [Variant(inputs=SLALOM, pose=Pose(speed=15.0)), Variant(pose=Pose(z=-2.0)), high]
+    settings = Settings(max_halvings=0)
+    runs = simulate_many(system(), variants, 4.0, 0.04, settings=settings, progress=False)
+    assert set(runs.failures) == {1, 2}
+    assert runs.trajectories[1] is None
+    whole, part = runs.trajectories[0], runs.trajectories[2]
+    assert whole is not None
+    assert part is not None
+    assert len(whole.t) == 101
+    with pytest.raises(SimulationError) as alone:
+        simulate(system(), 4.0, 0.04, high.inputs, settings, high.parameters, pose=high.pose, estimate_error=False)
+    assert str(runs.failures[2]) == str(alone.value)
+    assert alone.value.trajectory is not None
+    np.testing.assert_array_equal(part.t, alone.value.trajectory.t)
+    assert runs.failures[2].trajectory is part
+    assert runs.alone[2] >= 1
+
+
+def test_a_wrong_run_is_told() -> None:
+    """Steps of 0.1 s violate the energy balance of the double four-bar, in the single run too."""
+    four_bar = compile(double_four_bar.build())
+    with pytest.warns(AccuracyWarning, match="Variant 0: Constraint forces and projections did"):
+        simulate_many(four_bar, [Variant()], 10.0, 0.1, progress=False)
+
+
+def test_progress_reaches_the_end() -> None:
+    shares: list[float] = []
+    simulate_many(system(), VARIANTS[:3], 0.1, 0.01, progress=shares.append)
+    assert shares[-1] == 1.0
+    assert shares == sorted(shares)
+
+
+def test_no_variants_are_no_runs() -> None:
+    runs = simulate_many(system(), [], 0.1, 0.01)
+    assert (runs.trajectories, runs.failures, runs.alone) == ([], {}, [])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"settings": Settings(method="radau_5")}, "'radau_5'; it must be 'ali3p'"),
+        ({"lanes": 3}, "lanes = 3; it must be 2, 4 or 8"),
+        ({"threads": 0}, "The threads is 0"),
+        ({"h": 0.0}, "must be positive"),
+        ({"t_end": math.nan}, "The end t_end"),
+        ({"variants": [Variant(inputs={"stering": 0.1})]}, "Variant 0: There is no input 'stering'"),
+        ({"variants": [Variant(), Variant({"road.kerb_x": 1e9})]}, "Variant 1: "),
+        ({"variants": [Variant(), Variant(inputs={"steering": ([0.0, 1.0], [0.0, 5.0])})]}, "Variant 1: Input 'steer"),
+    ],
+)
+def test_bad_arguments_are_refused(arguments: dict[str, object], words: str) -> None:
+    given = {"variants": [Variant()], "t_end": 1.0, "h": 0.01} | arguments
+    with pytest.raises(ValueError, match=re.escape(words)):
+        simulate_many(system(), **given)  # type: ignore[arg-type]
+
+
+def test_a_variant_is_a_variant() -> None:
+    with pytest.raises(ArgumentTypeError, match=r"Variant 0 .* a Variant"):
+        simulate_many(system(), [{}], 1.0, 0.01)  # type: ignore[list-item]

@@ -1,0 +1,258 @@
+"""Ports of a car: what they replace is left out, loops through them converge to the closed car, works are booked."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.vehicle import CarFileError, load
+from mbs.vehicle.car import Car, car_from
+from mbs.vehicle.ports import chosen_ports
+from tests.elements.harness import Element
+from tests.vehicle.column_car import column_car
+
+WHEELS = ("FL", "FR", "RL", "RR")
+STEP = 0.002
+
+
+@cache
+def rigid() -> Car:
+    """The prototype without the flexible frame."""
+    prototype = load("prototype")
+    data = copy.deepcopy(prototype._data)
+    del data["chassis"]["frame"]
+    return car_from(data, prototype.folder, "car 'prototype'")
+
+
+@cache
+def hatchback() -> Car:
+    return load("hatchback")
+
+
+def with_ports(car: Car, **ports: object) -> Car:
+    return car.changed({f"ports.{name}": kind for name, kind in ports.items()})
+
+
+@cache
+def system(make: Callable[[], Car], ports: tuple[tuple[str, object], ...]) -> mbs.System:
+    return mbs.compile(with_ports(make(), **dict(ports)).model())
+
+
+def simulation(make: Callable[[], Car], speed: float = 10.0, **ports: object) -> mbs.Simulation:
+    return mbs.Simulation(system(make, tuple(ports.items())), pose=mbs.Pose(speed=speed))
+
+
+def names(car: Car) -> tuple[list[str], list[str]]:
+    m = car.model()
+    return [i.name for i in m.inputs], [s.name for s in m.sensors]
+
+
+class SecondDrive:
+    """A copy of the drive of a car in another place, which knows the speeds of the wheels alone."""
+
+    def __init__(self, car: Car) -> None:
+        record = next(e for e in car.model().elements if e.name == "drive")
+        self.wheels = car.drive.wheels[0].upper()
+        inputs = car.model().inputs
+        self.element = Element(record, n_inputs=len(inputs))
+        self.throttle = next(i.index for i in inputs if i.name == "throttle")
+        self.selector = next(i.index for i in inputs if i.name == "selector")
+        self.states = np.array(record.states)
+
+    def torque(self, left: float, right: float, throttle: float, h: float) -> float:
+        """On each driven wheel after a step."""
+        inputs = np.zeros(self.element.n_inputs)
+        inputs[self.throttle], inputs[self.selector] = throttle, 1.0
+        u = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0])
+        ud = np.array([left, right, *6 * [0.0]])
+        result = self.element(u, ud, self.states, h, 0.5 * h, 0.25 * h * h, inputs, True)
+        self.states = result.y
+        return float(result.f[0])
+
+
+def throttle_at(t: float) -> float:
+    return 0.2 + 0.6 * np.sin(1.5 * t) ** 2
+
+
+@pytest.mark.parametrize("make", [rigid, hatchback])
+def test_a_copy_of_the_drive_in_a_second_place_gives_the_closed_car(make: Callable[[], Car]) -> None:
+    """At 2 ms: wheel loads below 1 % of their mean, path below 0.2 % of its length."""
+    closed, loop, drive = simulation(make), simulation(make, torque="half_shafts"), SecondDrive(make())
+    loads: list[list[float]] = []
+    for _ in range(1000):
+        throttle, now = throttle_at(closed.time), loop.sensors
+        for s in (closed, loop):
+            s.set_input("steering", 0.15 * np.sin(3.0 * s.time))
+        closed.set_input("throttle", throttle)
+        torque = drive.torque(*(now[f"wheel_{drive.wheels}{side}.omega"] for side in "LR"), throttle, STEP)
+        for side in "LR":
+            loop.set_input(f"wheel_{drive.wheels}{side}.drive_torque", torque)
+        for s in (closed, loop):
+            s.step(STEP)
+        first = closed.sensors
+        loads.append([each[f"wheel_{w}.Fz"] for w in WHEELS for each in (first, now)])
+    pairs = np.array(loads).reshape(-1, 4, 2)
+    pairs = np.stack([pairs[:-1, :, 0], pairs[1:, :, 1]], axis=-1)  # the second was read before its step
+    ends = [s.sensors for s in (closed, loop)]
+    away = [np.array([end[f"chassis.{c}"] for c in "xy"]) for end in ends]
+    assert ends[0]["speed"] > 10.3, "the drive has worked"
+    assert np.sqrt(np.mean(np.diff(pairs) ** 2)) < 1e-2 * pairs.mean()
+    assert np.linalg.norm(away[0] - away[1]) < 2e-3 * np.linalg.norm(away[0])
+
+
+def test_what_a_port_replaces_is_left_out_and_all_else_stays_in_its_order() -> None:
+    inputs, sensors = names(rigid())
+    faults = []
+    gone = {
+        "torque": ({"throttle", "selector"}, {"engine_speed", "gear", "drive_torque"}),
+        "brakes": ({"brake"}, set()),
+        "steering": ({"steering", "steering_wheel_angle_demand"}, {"steering_demand_excess"}),
+    }
+    kinds = {"torque": "hub_motors", "brakes": "pressure", "steering": "rack_position"}
+    for port, (no_inputs, no_sensors) in gone.items():
+        mine, senses = names(with_ports(rigid(), **{port: kinds[port]}))
+        no_sensors = no_sensors | {f"used.{name}" for name in no_inputs}
+        if [n for n in mine if n in inputs] != [n for n in inputs if n not in no_inputs]:
+            faults.append((port, mine))
+        if [n for n in senses if n in sensors] != [n for n in sensors if n not in no_sensors]:
+            faults.append((port, set(sensors) - set(senses) ^ no_sensors))
+    assert not faults
+    parameters = [p.name for p in with_ports(rigid(), torque="half_shafts", brakes="torque").model().parameters]
+    assert not [n for n in parameters if n.startswith("drive.") or n in ("brakes.torque", "brakes.balance")]
+
+
+@pytest.mark.parametrize("kind", ["half_shafts", "hub_motors"])
+def test_works_of_ports_close_the_balance(kind: str) -> None:
+    """To 1e-6 of the largest work, beside the step's own error."""
+    s = simulation(rigid, torque=kind, brakes="pressure")
+    start = s.sensors
+    for k in range(1000):
+        s.set_input("wheel_RL.drive_torque", 250.0 * np.sin(k / 60))
+        s.set_input("wheel_FR.drive_torque", 80.0)
+        s.set_input("wheel_FL.brake_pressure", 1e6 if k > 600 else 0.0)
+        s.step(STEP)
+    end = s.sensors
+    stored = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
+    works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in stored}
+    assert {"energy.ports", "energy.brakes"} <= set(works)
+    assert works["energy.ports"] > 1e3
+    assert works["energy.brakes"] < -1e2
+    change = end["energy.total"] - start["energy.total"]
+    own = abs(s.instance.report()["energy_error"])
+    assert abs(change - sum(works.values())) < 1e-6 * max(map(abs, works.values())) + own
+
+
+def test_the_reaction_of_hub_motors_is_on_the_carriers() -> None:
+    """They turn the twist beam on its pivots, which half shafts do not."""
+    travels = {}
+    for kind in ("half_shafts", "hub_motors"):
+        s = simulation(hatchback, 15.0, torque=kind)
+        for side in "LR":
+            s.set_input(f"wheel_R{side}.drive_torque", 200.0)
+        s.step(STEP, 300)
+        now = s.sensors
+        travels[kind] = now["wheel_RL.travel"]
+        assert now["wheel_RL.drive_power"] == pytest.approx(200.0 * now["wheel_RL.omega"], rel=0.01)
+    assert abs(travels["half_shafts"] - travels["hub_motors"]) > 1e-3
+
+
+def test_a_pressure_gives_the_torque_of_the_pedal_at_the_same_share() -> None:
+    pedal, port = simulation(rigid), simulation(rigid, brakes="pressure", full_pressure=8e6)
+    pedal.set_input("brake", 0.25)
+    torque = simulation(rigid, brakes="torque")
+    for w in WHEELS:
+        port.set_input(f"wheel_{w}.brake_pressure", 2e6)
+        brakes = rigid().brakes
+        share = brakes.balance if w[0] == "F" else 1.0 - brakes.balance
+        torque.set_input(f"wheel_{w}.brake_torque_demand", 0.25 * share * brakes.torque)
+    for s in (pedal, port, torque):
+        s.step(STEP, 250)
+    first = pedal.sensors
+    for s in (port, torque):
+        now = s.sensors
+        for name in ("speed", "chassis.x", "wheel_FL.Fx", "wheel_RR.brake_torque"):
+            assert now[name] == pytest.approx(first[name], rel=1e-9), name
+    assert now["wheel_FL.brake_power"] == pytest.approx(now["wheel_FL.brake_torque"] * now["wheel_FL.omega"], rel=1e-2)
+
+
+def test_a_brake_by_torque_holds_the_standing_car() -> None:
+    """It is what the brake can hold, not a torque that turns the wheel backwards."""
+    s = simulation(rigid, 3.0, brakes="torque")
+    for w in WHEELS:
+        s.set_input(f"wheel_{w}.brake_torque_demand", 600.0)
+    s.step(STEP, 1000)
+    before = s.sensors
+    s.step(STEP, 250)
+    now = s.sensors
+    assert all(abs(now[f"wheel_{w}.x"] - before[f"wheel_{w}.x"]) < 1e-3 for w in WHEELS)
+    assert all(abs(now[f"wheel_{w}.brake_torque"]) < 600.0 for w in WHEELS)
+
+
+def test_the_rack_follows_its_port() -> None:
+    s = simulation(rigid, steering="rack_position")
+    s.set_input("steering_rack_demand", 0.01)
+    s.step(STEP, 50)
+    now = s.sensors
+    w = 2.0 * np.pi * 50.0
+    assert now["steering_rack"] == pytest.approx(0.01 * (1.0 - (1.0 + w * 0.1) * np.exp(-w * 0.1)), rel=1e-6)
+
+
+def test_a_force_on_the_rack_relieves_the_steering_wheel() -> None:
+    """In a standing start of a turn the force that the rods ask for is that of the actuator and of the pinion."""
+    car, held = column_car(), {}
+    for force in (0.0, 100.0):
+        s = simulation(column_car, steering="rack_force")
+        s.set_input("steering_wheel_angle_demand", 0.3)
+        s.set_input("steering_rack_actuator_force", force)
+        s.step(STEP, 1000)
+        held[force] = s.sensors
+    per_radian = car.steering.rack_per_turn / (2.0 * np.pi)
+    relief = held[0.0]["steering_wheel_torque"] - held[100.0]["steering_wheel_torque"]
+    rods = held[100.0]["steering_rack_force"] - held[0.0]["steering_rack_force"]
+    way = car.rack_way
+    assert abs(relief) > 0.1
+    assert abs(relief - way * per_radian * (100.0 + rods)) < 0.3 * abs(relief)
+
+
+def test_outputs_that_loops_need_agree_with_others() -> None:
+    s = simulation(hatchback, torque="half_shafts")
+    s.set_input("steering", 0.2)
+    s.set_input("wheel_FL.drive_torque", 300.0)
+    s.step(STEP, 400)
+    now = s.sensors
+    yaw = now["chassis.yaw"]
+    forward = np.cos(yaw) * now["chassis.earth_vx"] + np.sin(yaw) * now["chassis.earth_vy"]
+    assert forward == pytest.approx(now["chassis.vx"], rel=1e-3)
+    before = now
+    s.step(STEP)
+    now = s.sensors
+    for w in WHEELS:
+        radius = np.linalg.norm([now[f"wheel_{w}.{c}"] - now[f"wheel_{w}.contact_{c}"] for c in "xyz"])
+        assert radius == pytest.approx(now[f"wheel_{w}.loaded_radius"], abs=1e-4), w
+        moved = (now[f"wheel_{w}.x"] - before[f"wheel_{w}.x"]) / STEP
+        assert moved == pytest.approx(now[f"wheel_{w}.earth_vx"], rel=1e-3), w
+        assert now[f"wheel_{w}.Mx"] == 0.0
+    # a free wheel that rolls evenly: of its Fx and My nothing is left about the axle
+    lever = now["wheel_RL.Fx"] * now["wheel_RL.loaded_radius"]
+    assert now["wheel_RL.My"] == pytest.approx(lever, abs=0.1 * abs(lever) + 1.0)
+
+
+def test_ports_that_do_not_fit_are_one_sentence() -> None:
+    cases = {
+        "torque": lambda: with_ports(rigid(), torque="axles"),
+        "full_pressure": lambda: with_ports(rigid(), brakes="pressure", full_pressure=100.0),
+        "rack_force": lambda: with_ports(rigid(), steering="rack_force"),
+        "rack_position": lambda: with_ports(column_car(), steering="rack_position"),
+    }
+    for word, make in cases.items():
+        with pytest.raises(CarFileError, match=word):
+            make()
+    assert chosen_ports("torque, brakes=pressure") == {"torque": "half_shafts", "brakes": "pressure"}
+    for text in ("", "tyre", "torque=axle", "torque,torque=hub_motors", "brakes="):
+        with pytest.raises(ValueError, match=r"torque \(half_shafts or hub_motors\)"):
+            chosen_ports(text)

@@ -1,0 +1,157 @@
+"""Cars whose tyres are files of the Magic Formula."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fmu_src.build.car_registry import car_files
+from mbs import Pose, compile, simulate
+from mbs.kernel.header import ElementType
+from mbs.vehicle import load
+from mbs.vehicle.car_file import CARS
+from mbs.vehicle.errors import CarFileError, CarWarning
+from tests.vehicle.content import sentences
+
+DATA = Path(__file__).parents[1] / "tyre_files" / "data"
+
+
+def folder_with(folder: Path, tyre: Path = DATA / "assumed_61.tir", more: str = "") -> Path:
+    """The hatchback on tyres by a file."""
+    shutil.copytree(CARS / "hatchback", folder, ignore=shutil.ignore_patterns("__pycache__"))
+    text = (folder / "car.toml").read_text(encoding="utf-8")
+    for axle in ("front", "rear"):
+        section = re.compile(rf"(?ms)^\[{axle}\.tyre\].*?^\[{axle}\.tyre\.lateral\].*?\n\n")
+        text, count = section.subn(f'[{axle}.tyre]\nkind = "magic_formula"\nfile = "tyre.tir"\n{more}\n', text)
+        assert count == 1
+    (folder / "car.toml").write_text(text, encoding="utf-8")
+    shutil.copy(tyre, folder / "tyre.tir")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def car(tmp_path_factory):
+    return load(folder_with(tmp_path_factory.mktemp("cars") / "car"))
+
+
+def test_the_car_has_the_tyres_of_the_file_each_on_its_side(car):
+    tyres = {e.name: e for e in car.model().elements if e.type == ElementType.MAGIC_TYRE}
+    assert sorted(tyres) == ["tyre FL", "tyre FR", "tyre RL", "tyre RR"]
+    for name, tyre in tyres.items():
+        reals = dict(zip(tyre.real_names, tyre.real, strict=True))
+        assert (reals["PKY1"], reals["nominal_load"]) == (-17.5, 3000.0)
+        assert reals["sign_force"] == (1.0 if name.endswith("L") else -1.0)
+    assert set(car_files(car)) >= {"resources/car/car.toml", "resources/car/tyre.tir"}
+
+
+def test_it_runs_straight_and_turns_left_to_the_left(car):
+    system = compile(car.model())
+    run = {
+        way: simulate(
+            system,
+            1.5,
+            0.005,
+            {"steering": lambda t, way=way: 0.1 * way if t > 0.2 else 0.0},
+            None,
+            pose=Pose(speed=20.0),
+            progress=False,
+            estimate_error=False,
+        )
+        for way in (-1.0, 0.0, 1.0)
+    }
+    assert abs(run[0.0]["chassis.y"][-1]) < 0.01  # left and right tyres are images of each other
+    assert run[1.0]["chassis.y"][-1] > 0.3
+    np.testing.assert_allclose(run[1.0]["chassis.y"], -run[-1.0]["chassis.y"], atol=2e-3)
+    assert run[1.0]["energy.tyres"][-1] < -100.0
+
+
+def test_scaling_factors_are_parameters_that_change_the_tyre(car):
+    values = car.values()
+    names = [f"{axle}.tyre.{name}" for axle in ("front", "rear") for name in ("grip", "lmux", "lmuy", "lkx", "lky")]
+    assert all(values[name] == 1.0 for name in names)
+    changed = car.changed({"front.tyre.lky": 0.8, "rear.tyre.lmuy": 0.7, "front.tyre.grip": 0.9})
+    assert changed.front.tyre.tyre("left").lky == 0.8
+    assert changed.rear.tyre.friction[1] == pytest.approx(0.7 * car.rear.tyre.friction[1])
+    h, t = 0.005, 0.6
+    by_file = simulate(
+        compile(changed.model()),
+        t,
+        h,
+        {"steering": lambda t: 0.3},
+        None,
+        progress=False,
+        pose=Pose(speed=15.0),
+        estimate_error=False,
+    )
+    by_parameter = simulate(
+        compile(car.model()),
+        t,
+        h,
+        {"steering": lambda t: 0.3},
+        None,
+        {"front.tyre.lky": 0.8, "rear.tyre.lmuy": 0.7, "front.tyre.grip": 0.9},
+        progress=False,
+        pose=Pose(speed=15.0),
+        estimate_error=False,
+    )
+    np.testing.assert_array_equal(by_file["chassis.y"], by_parameter["chassis.y"])
+
+
+def test_friction_and_radii_of_the_section_are_those_of_the_tyre(car):
+    tyre = car.front.tyre
+    made = tyre.tyre("left")
+    assert (tyre.radius, tyre.bottoming_radius, tyre.nominal_load) == (0.31075, 0.2005, 3000.0)
+    deflection = tyre.radius - car.front.wheel.centre[2]
+    assert 0.2 * deflection < tyre.radius - tyre.rolling_radius(tyre.radius - deflection) < deflection
+    assert made.stiffness < tyre.stiffness < 1.3 * made.stiffness
+    assert tyre.friction[0] == pytest.approx(1.13 * 0.98 * (1.0 + 0.08 / 1.13 * (1.0 - 1.0 / 1.02)))
+
+
+@pytest.mark.parametrize(
+    ("more", "text", "sentence"),
+    [
+        ("", None, "front.tyre.file is 'tyre.tir'; there is no such file"),
+        ("", "[UNITS]\nLENGTH = 'meter'\n", "it has no section [MODEL]"),
+        ('signs = "adapted_sae"\n', "", "PKY1 is -17.5"),
+        ("pressure = 5.0\n", "", "front.tyre.pressure is 5"),
+        ("lmuy = 0.0\n", "", "front.tyre.lmuy is 0"),
+    ],
+)
+def test_what_cannot_be_is_a_sentence(tmp_path, more, text, sentence):
+    folder = folder_with(tmp_path / "car", more=more)
+    if text is None:
+        (folder / "tyre.tir").unlink()
+    elif text:
+        (folder / "tyre.tir").write_text(text)
+    with pytest.raises(CarFileError) as error:
+        load(folder)
+    assert any(sentence in line for line in sentences(error.value, str(folder / "car.toml")))
+
+
+def test_what_the_file_lacks_is_a_warning(tmp_path):
+    text = (DATA / "assumed_61.tir").read_text()
+    folder = folder_with(tmp_path / "car")
+    (folder / "tyre.tir").write_text(re.sub(r"(?m)^QHZ[34] = .*\n", "", text))
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        load(folder)
+    assert any(
+        issubclass(w.category, CarWarning) and "front.tyre.file (tyre.tir): it lacks QHZ3, QHZ4" in str(w.message)
+        for w in told
+    )
+
+
+def test_wheels_of_a_tyre_that_is_larger_than_its_drawing_start_without_slip(tmp_path):
+    """Q_RE0 makes the free radius of 6.1 larger, and so the way of the wheel per radian."""
+    text = (DATA / "assumed_61.tir").read_text()
+    assert re.search(r"(?m)^Q_RE0 .*$", text)
+    tyre = tmp_path / "larger.tir"
+    tyre.write_text(re.sub(r"(?m)^Q_RE0 .*$", "Q_RE0 = 1.02", text))
+    system = compile(load(folder_with(tmp_path / "car", tyre)).model())
+    run = simulate(system, 0.1, 0.005, pose=Pose(speed=20.0), progress=False, estimate_error=False)
+    assert abs(run["wheel_FL.slip"][0]) < 5e-3  # 0.02 by the radius of the file alone
