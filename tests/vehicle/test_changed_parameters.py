@@ -57,6 +57,7 @@ def rebuilt(car: Any) -> Callable[[Mapping[str, float]], mbs.System]:
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::mbs.ParameterWarning")  # values far from those of the car, to be seen
 @pytest.mark.parametrize("name", ["prototype", "hatchback"])
 def test_an_fmu_with_a_changed_parameter_is_a_car_rebuilt(name: str, tmp_path: Path) -> None:
     car = load(name)
