@@ -43,7 +43,7 @@ def paper_table_2() -> list[Again]:
     system = mbs.compile(puma_scene.build())
     runs = [(method, h) for method in ("ali3p", "energy_momentum_4", "radau_5") for h in (0.1, 0.05, 0.01)]
     block = puma_blocks({"rows": [puma.measure(system, method, h, 1) for method, h in runs]})["table 2"]
-    return [Again(PAPER, block, "table 2", ("method", "h s"), ("jump open J",))]
+    return [Again(PAPER, block, "table 2", ("method", "h s"), ("jump open J", "jump close J"))]
 
 
 def stability_map() -> list[Again]:

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks import figures
 from benchmarks.pages import PAGES
-from benchmarks.shared.figures import Again, between, differences, read, rows_of
+from benchmarks.shared.figures import Again, between, differences, read, rows_of, same
 
 MADE = "| method | h s | error | ms |\n| --- | --- | --- | --- |\n| a | 0.1 | 2.5 | 9 |\n| b | 0.1 | 1e-05 | 8 |"
 PAGE = f"text\n<!-- begin t -->\n{MADE}\n| c | 0.1 | 3 | 7 |\n<!-- end t -->\nThe car takes 0.36 s\nof time.\n"
@@ -19,6 +19,13 @@ def test_a_page_with_the_same_figures_has_no_difference():
     assert differences(AGAIN, PAGE) == []
     assert differences(AGAIN, PAGE.replace("| 9 |", "| 11 |")) == []  # a time
     assert differences(Again("docs/x.md", "takes 0.36 s of time"), PAGE) == []
+
+
+def test_only_the_last_of_three_digits_may_be_one_off():
+    assert same("0.887", "0.886")
+    assert same("-1.20e-05", "-1.21e-05")
+    for shown, made in (("0.887", "0.885"), ("2.5", "2.6"), ("0.887", "0.0886"), ("117", "118"), ("1.00", "-1.00")):
+        assert not same(shown, made)
 
 
 @pytest.mark.parametrize(
