@@ -12,6 +12,7 @@ from ali3.reading import LARGEST_JSON, read_json
 from hosts.common.commands import run_module
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.common.world_record import world_beside
 from viewer.errors import SceneError
 from viewer.scene import read_scene
 
@@ -27,7 +28,8 @@ def scene_of(path: Path, settings: Mapping[str, Value] | None = None) -> dict[st
     path : Path
         FMU.
     settings : mapping of str to float, int, bool or str, optional
-        What was set in it: a road of a file is drawn from the file that its parameter names.
+        What was set in it: a road of a file is drawn from the file that its parameter names, that of a world with the
+        scenery that its record beside the file has.
 
     Returns
     -------
@@ -47,12 +49,13 @@ def scene_of(path: Path, settings: Mapping[str, Value] | None = None) -> dict[st
                 raise HostError(f"{RESOURCE} of {path} has more than {LARGEST_JSON} bytes.")
             content = fmu.read(RESOURCE)
             scene = read_scene(content, f"{RESOURCE} of {path}")
-            roads, missing = _roads(scene, fmu, settings or {})
+            roads, missing, scenery = _roads(scene, fmu, settings or {})
     except (OSError, zipfile.BadZipFile, KeyError, RuntimeError) as error:
         raise HostError(f"{path} is not an FMU that can be read: {error}.") from None
     except SceneError as error:
         raise HostError(str(error)) from None
-    return scene | {"roads": roads, "missing": [*scene.get("missing", []), *missing]}
+    more = {"scenery": [*scene.get("scenery", []), *scenery]} if scenery else {}
+    return scene | {"roads": roads, "missing": [*scene.get("missing", []), *missing]} | more
 
 
 def scene_from(path: Path, settings: Mapping[str, Value] | None = None) -> dict[str, Any] | None:
@@ -69,9 +72,9 @@ def scene_from(path: Path, settings: Mapping[str, Value] | None = None) -> dict[
 
 def _roads(
     scene: Mapping[str, Any], fmu: zipfile.ZipFile, settings: Mapping[str, Value]
-) -> tuple[list[Any], list[dict[str, str]]]:
-    """Roads with those of files read and with the values that were set; what cannot be drawn, and why."""
-    roads, missing = [], []
+) -> tuple[list[Any], list[dict[str, str]], list[Any]]:
+    """Roads with those of files read and with the values that were set; what cannot be drawn, and why; scenery."""
+    roads, missing, scenery = list[Any](), list[dict[str, str]](), list[Any]()
     for road in scene.get("roads", []):
         variables = road.get("variables") or {}
         given = str(settings.get(variables.get("file", road.get("variable", "")), ""))
@@ -80,10 +83,15 @@ def _roads(
             roads.append(_moved(road, variables, settings))
         elif name:
             try:
-                roads.append(_part(name, fmu))
+                world = world_beside(Path(name.removeprefix("file://")))
+                if world is None:
+                    roads.append(_part(name, fmu))
+                else:
+                    roads += world["roads"]
+                    scenery += world["scenery"]
             except HostError as error:
                 missing.append({"name": f"the road {name}", "why": str(error).rstrip(".")})
-    return roads, missing
+    return roads, missing, scenery
 
 
 def _moved(road: dict[str, Any], variables: Mapping[str, str], settings: Mapping[str, Value]) -> dict[str, Any]:

@@ -97,7 +97,7 @@ def _run(options: argparse.Namespace) -> int:
     outline = (driver.settings.vehicle_length, driver.settings.vehicle_width) if driver is not None else (0.0, 0.0)
     rows = summary(result, step, course, outline)
     write_csv(result, table)
-    write_record(fmu, manoeuvre, step, settings, result, record)
+    write_record(fmu, manoeuvre, step, settings, result, record, driver)
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, course)
     return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))

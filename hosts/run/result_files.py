@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ali3.files import check_writable, whole_file, write_text
 from hosts.driving.co_simulation import Result
+from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_table import write_state
 from hosts.fmu.fmu import Fmu
@@ -46,7 +47,15 @@ def write_csv(result: Result, file: Path) -> None:
             writer.writerow([t, *row])
 
 
-def write_record(fmu: Fmu, manoeuvre: Manoeuvre, step: float, settings: Settings, result: Result, file: Path) -> None:
+def write_record(
+    fmu: Fmu,
+    manoeuvre: Manoeuvre,
+    step: float,
+    settings: Settings,
+    result: Result,
+    file: Path,
+    driver: Driver | None = None,
+) -> None:
     """What was run, and what was set in the FMU, as JSON.
 
     Parameters
@@ -57,7 +66,12 @@ def write_record(fmu: Fmu, manoeuvre: Manoeuvre, step: float, settings: Settings
         Communication step, s.
     file : Path
         Its folder is made if it is not there.
+    driver : Driver, optional
+        Who has steered; with its course the view draws its cones.
     """
+    course = None
+    if driver is not None:
+        course = {"name": manoeuvre.driver["course"], "vehicle_width": driver.settings.vehicle_width}
     state = None
     if manoeuvre.state is not None:
         state = {"file": write_state(manoeuvre.state, file).name, "time": manoeuvre.state_time}
@@ -74,6 +88,7 @@ def write_record(fmu: Fmu, manoeuvre: Manoeuvre, step: float, settings: Settings
         "held": result.held,
         "jumps": {k: [float(result.time[k]), *before] for k, before in result.jumps.items()},
         "state": state,
+        "course": course,
         "outputs_from": next(iter(fmu.names("output")), ""),
     }
     write_text(file, json.dumps(record, indent=2, ensure_ascii=False) + "\n")

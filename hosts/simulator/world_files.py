@@ -9,14 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from ali3.cache import cache_folder
-from ali3.reading import read_json
 from hosts.common.commands import run_module
-from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.common.world_record import FORMAT, VERSION, read_world_record
 
 DEFAULT_WORLD = "proving_ground"
 _GOING_ON = "..."
-_FORMAT = ("ALi3 world", 1)
 _START = {"x": "initial.x", "y": "initial.y", "yaw": "initial.yaw"}
 
 
@@ -48,8 +46,8 @@ class World:
 def no_world(roads: list[Any]) -> World:
     """The FMU's own roads, without places and scenery."""
     content = {
-        "format": _FORMAT[0],
-        "version": _FORMAT[1],
+        "format": FORMAT,
+        "version": VERSION,
         "name": "",
         "places": [],
         "bounds": [-1e3, -1e3, 1e3, 1e3],
@@ -83,7 +81,5 @@ def make_world(given: str, tell: Callable[[str], None]) -> World:
             tell(line)
 
     run_module("ali3", "road", "--world", given, "--out", str(folder), hear=hear)
-    content = read_json(folder / f"{file.stem}.json", HostError)
-    if (content.get("format"), content.get("version")) != _FORMAT:
-        raise HostError(f"{folder / file.stem}.json is no world of version {_FORMAT[1]}; remove it and start again.")
+    content = read_world_record(folder / f"{file.stem}.json")
     return World(str(content["name"]), folder / content["road"], content)

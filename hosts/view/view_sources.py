@@ -20,6 +20,7 @@ from viewer.recording import Recording
 
 # What a car without inputs of the user's is driven through.
 _CAR_MANOEUVRE = "double_lane_change"
+_WIDEST = 10.0  # m, of a vehicle
 
 
 @dataclass(frozen=True)
@@ -134,6 +135,8 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         scene = scene_of(fmu, settings)
         if scene is None:
             told.append(_foreign(fmu))
+        else:
+            scene = _with_course(scene, record, record_file)
         if not same:
             told.append(f"{fmu} was built again since {name} was recorded; what is drawn is that of the new build.")
     else:
@@ -158,6 +161,20 @@ def _record(file: Path) -> dict[str, Any] | None:
     if not isinstance(entries, list) or not all(isinstance(e, dict) and {"name", "new"} <= set(e) for e in entries):
         raise HostError(f"{file}, the record of the result, does not say by 'set' what was set in the FMU.")
     return record | {"set": entries}
+
+
+def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> dict[str, Any]:
+    """The scene with the cones that a driver went between, where the record names his course."""
+    course = record.get("course")
+    if course is None:
+        return scene
+    from hosts.driving.course import course_of
+    from hosts.driving.course_scenery import with_course
+
+    name, width = (course.get(key) if isinstance(course, dict) else None for key in ("name", "vehicle_width"))
+    if not isinstance(name, str) or not isinstance(width, (int, float)) or not 0.0 < width < _WIDEST:
+        raise HostError(f"{file}, the record of the result, does not say by 'course' a name and a vehicle_width, m.")
+    return with_course(scene, course_of(name, float(width)))
 
 
 def _fmu_of(record: dict[str, Any], file: Path) -> Path:
@@ -193,6 +210,7 @@ def _foreign(path: Path) -> str:
 def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[str]]:
     """Run an FMU: through a manoeuvre, or for its default experiment."""
     from hosts.driving.co_simulation import check_columns, communication_step, driver_of, run_with_bar
+    from hosts.driving.course_scenery import with_course
     from hosts.driving.driver import ACTS, SENSES
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
@@ -214,6 +232,8 @@ def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[s
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, wanted.step), driver)
     if scene is None:
         told.append(_foreign(path))
+    elif driver is not None:
+        scene = with_course(scene, driver.course)
     told += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
     if result.failed_steps:
         told.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.iso_3888 import lanes
+from ali3 import iso_3888
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.layers import CourseLayer
 from mbs.worlds.terrain import Terrain
@@ -68,20 +68,10 @@ def cone_places(cones: Cones) -> list[tuple[float, float]]:
         local = [(cones.distance * k, 0.0) for k in range(cones.slalom)]
     else:
         assert cones.lane_change is not None
-        local = [
-            (float(u), v)
-            for lane in lanes(cones.lane_change, cones.vehicle_width)
-            for u in np.linspace(lane.x_start, lane.x_end, _count(lane.x_end - lane.x_start))
-            for v in (lane.y_right, lane.y_left)
-        ]
+        local = iso_3888.cone_places(iso_3888.lanes(cones.lane_change, cones.vehicle_width))
     x, y, yaw = cones.start
     c, s = math.cos(math.radians(yaw)), math.sin(math.radians(yaw))
     return [(x + c * u - s * v, y + s * u + c * v) for u, v in local]
-
-
-def _count(length: float) -> int:
-    """Cones along a lane: at its ends and about every 5 m."""
-    return max(2, round(length / 5.0) + 1)
 
 
 def _on_ground(terrain: Terrain, places: Float) -> list[list[float]]:

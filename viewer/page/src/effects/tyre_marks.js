@@ -51,8 +51,7 @@ export class TyreMarks {
    * @param {(name: string) => number | undefined} lookup @param {number} time @param {number} epoch
    */
   update(lookup, time, epoch) {
-    if (this.problem) return;
-    this.tracks.update(this.wheels.contacts(lookup), time, epoch);
+    this.take(lookup, time, epoch);
     if (this.mesh === undefined) return;
     const { origin } = this.view;
     if (this.#base === null || Math.hypot(...subtract(origin, this.#base)) > FAR) {
@@ -61,6 +60,11 @@ export class TyreMarks {
     }
     if (this.#drawn !== this.tracks.changes) this.#draw();
     this.mesh.position.fromArray(subtract(this.#base, origin));
+  }
+
+  /** Take the numbers of an instant that is not drawn. @param {(name: string) => number | undefined} lookup @param {number} time @param {number} epoch */
+  take(lookup, time, epoch) {
+    if (!this.problem) this.tracks.update(this.wheels.contacts(lookup), time, epoch);
   }
 
   #draw() {

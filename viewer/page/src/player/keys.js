@@ -26,6 +26,7 @@ export function playerKeys(player, signal) {
     c: nextCamera,
     f: () => player.fullScreen(),
     l: () => player.loop(!clock.loop),
+    p: () => player.has.path && player.set({ path: !player.look.path }),
     s: () => player.side(!player.sideOpen),
     Escape: () => player.settings.toggle(false),
   };

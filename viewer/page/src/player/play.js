@@ -9,6 +9,7 @@ import { fromHash, toHash } from "./link.js";
 import { Plots } from "./plots.js";
 import { Sampler } from "./sampler.js";
 import { Settings } from "./settings.js";
+import { Traces } from "./traces.js";
 import style from "./style.css";
 
 const TINTS = ["#3f7fd0", "#d08a2f", "#3f9f6c", "#b0569b"];
@@ -50,6 +51,7 @@ export class Player {
       arrowScale: this.options.arrow_scale ?? 1,
       stress: this.options.stress ?? true,
       deformation: this.options.deformation ?? 1,
+      path: this.options.path ?? true,
     };
     this.samplers = runs.map((run) => new Sampler(run));
     this.themeName = this.options.theme ?? "auto";
@@ -143,10 +145,15 @@ export class Player {
     return "";
   }
 
-  /** @param {{arrows?: boolean, arrowScale?: number, stress?: boolean, deformation?: number}} look */
+  /** @param {{arrows?: boolean, arrowScale?: number, stress?: boolean, deformation?: number, path?: boolean}} look */
   set(look) {
     Object.assign(this.look, look);
     this.view?.set?.(look);
+    if (look.deformation !== undefined && this.solid >= 0) {
+      this.#scan(); // the floor lies below what is drawn
+      this.#show();
+    }
+    if (look.path !== undefined) for (const { traces } of this.drawnRuns) traces.show(look.path);
     this.settings?.refresh(look);
     this.dirty = true;
   }
@@ -158,6 +165,7 @@ export class Player {
       ghost.drawn?.remove();
       ghost.drawn = undefined;
     }
+    this.drawnRuns.find(({ sampler }) => sampler === ghost.sampler)?.traces.show(on && this.look.path);
     this.#show();
   }
 
@@ -204,6 +212,7 @@ export class Player {
     clearTimeout(this.later);
     this.observer.disconnect();
     this.plots?.dispose();
+    for (const { traces } of this.drawnRuns) traces.dispose();
     this.view?.dispose();
     this.dark.onchange = null;
     this.root.remove();
@@ -223,24 +232,38 @@ export class Player {
     this.solid = this.runs.findIndex(({ scene }) => scene !== null && scene !== undefined);
     this.ghosts = [];
     this.cameras = [];
+    /** @type {{traces: Traces, sampler: Sampler}[]} */
+    this.drawnRuns = [];
     this.has = {};
     if (this.solid < 0) return;
     const { scene } = this.runs[this.solid];
     this.view = new SceneView(this.viewBox, scene, { words: this.options.controls !== false, keep: this.options.controls === false });
+    this.view.set?.(this.look);
     this.#scan();
     this.has = this.view.has ?? { arrows: scene.arrows?.length > 0, stress: scene.flexible?.some(({ stress }) => stress), deformation: scene.flexible?.length > 0 };
-    this.view.set?.(this.look);
-    this.cameras = this.view.cameraNames;
-    this.cameraName = this.cameras[0];
+    this.#trace(this.solid);
     for (const [k, run] of this.runs.entries()) {
       if (k === this.solid || !run.scene || this.problem) continue;
       const options = { name: run.name, tint: TINTS[this.ghosts.length % TINTS.length] };
       this.ghosts.push({ name: run.name, run, options, sampler: this.samplers[k], drawn: this.view.addGhost(run.scene, options) });
+      this.#trace(k, options.tint);
     }
+    const { way } = this.drawnRuns[0].traces;
+    if (way.length > 0) this.view.stand(way);
+    this.has.path = this.drawnRuns.some(({ traces }) => traces.paths.length > 0);
+    this.cameras = this.view.cameraNames;
+    this.cameraName = this.cameras[0];
     if (this.options.camera !== undefined) this.wrong = this.camera(this.options.camera);
     for (const event of ["pointerdown", "pointermove", "wheel", "touchmove", "pointerup"]) {
       this.viewBox.addEventListener(event, () => (this.dirty = true), { passive: true });
     }
+  }
+
+  /** What a run leaves on the ground. @param {number} k of the run @param {string} [tint] of a ghost */
+  #trace(k, tint) {
+    const traces = new Traces(this.view, this.runs[k], tint);
+    traces.show(this.look.path);
+    this.drawnRuns.push({ traces, sampler: this.samplers[k] });
   }
 
   /** Lets the view look through the run, so that floor, arrows and colours keep one scale. */
@@ -299,6 +322,7 @@ export class Player {
     if (this.solid >= 0) {
       this.view.update(this.samplers[this.solid].lookup);
       for (const { drawn, sampler } of this.ghosts) drawn?.update(sampler.lookup);
+      for (const { traces, sampler } of this.drawnRuns) traces.update(this.clock.time, sampler.place[0]);
       this.view.render();
     }
     this.bar?.now();

@@ -53,6 +53,7 @@ export class Settings {
       this.shown.arrows = check("forces as arrows (a)", look.arrows, (arrows) => player.set({ arrows }));
       factor("length of the arrows", "arrowScale", 0.1, 10);
     }
+    if (player.has.path) this.shown.path = check("path over the ground (p)", look.path, (path) => player.set({ path }));
     if (player.has.stress) this.shown.stress = check("colours of the stress", look.stress, (stress) => player.set({ stress }));
     if (player.has.deformation) {
       const deform = factor("deformation", "deformation", 1, 1000);

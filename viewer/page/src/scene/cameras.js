@@ -8,7 +8,9 @@ import { Trailing } from "./trailing.js";
 const EYES = [0.48, 0.24];
 /** Least height of the camera behind above the ground, beside the size of the drawing. */
 const CLEARANCE = 0.14;
-const VIEW_ANGLES = { orbit: 34, chase: 42, driver: 66, wheel: 40, side: 30, top: 40 };
+const VIEW_ANGLES = { orbit: 34, chase: 42, driver: 66, wheel: 40, side: 30, top: 40, fixed: 40, trackside: 30 };
+/** Cameras beside the track stand so far apart and aside, beside the size of what is followed. */
+const [POSTS, ASIDE] = [10, 3];
 
 /** The cameras of a view; places are relative to the origin of the picture. */
 export class Cameras {
@@ -45,6 +47,47 @@ export class Cameras {
   #names(focus) {
     const wheels = this.wheels.length <= 6 ? this.wheels.map((frame) => this.#wheelName(frame)) : [];
     return ["orbit", ...(focus ? ["chase"] : []), ...(focus && this.seat ? ["driver"] : []), ...(focus ? wheels : []), "side", "top"];
+  }
+
+  /**
+   * Cameras that stand still: one that sees the whole way, and several beside it.
+   * @param {number[][]} way earth positions of what is followed
+   */
+  stand(way) {
+    const { up } = this.view;
+    const extent = Math.min(this.view.extent, 2 * this.view.radius);
+    const [low, high] = [Math.min, Math.max].map((most) => [0, 1, 2].map((k) => way.reduce((a, point) => most(a, point[k]), way[0][k])));
+    const whole = subtract(way[way.length - 1], way[0]);
+    const ahead = unit(subtract(whole, scale(up, dot(whole, up)))) ?? across(up);
+    const right = cross(ahead, up);
+    const reach = Math.hypot(...subtract(high, low)) / 2 + extent;
+    const centre = scale(add(low, high), 0.5);
+    const far = reach / Math.tan((VIEW_ANGLES.fixed / 2) * (Math.PI / 180));
+    this.fixed = { at: centre, from: add(centre, add(scale(right, 0.8 * far), scale(up, 0.6 * far))) };
+    this.posts = [];
+    let last = null;
+    for (const point of way) {
+      if (last !== null && Math.hypot(...subtract(point, last)) < POSTS * extent) continue;
+      const sign = this.posts.length % 2 === 0 ? 1 : -1;
+      this.posts.push(add(point, add(scale(right, sign * ASIDE * extent), scale(up, 0.5 * extent))));
+      last = point;
+    }
+    this.names = [...this.names, ...["fixed", "trackside"].filter((name) => !this.names.includes(name))];
+  }
+
+  /** From the nearest place beside the way. */
+  #watchFromTrack(extent) {
+    const { up, origin } = this.view;
+    const from = this.posts.map((post) => subtract(post, origin)).reduce((a, b) => (Math.hypot(...a) <= Math.hypot(...b) ? a : b));
+    const angle = (2 * Math.atan(extent / Math.hypot(...from)) * 180) / Math.PI;
+    this.#angle(Math.min(60, Math.max(6, angle)));
+    this.#look(from, [0, 0, 0], up);
+  }
+
+  #angle(degrees) {
+    if (this.rig.fov === degrees) return;
+    this.rig.fov = degrees;
+    this.rig.updateProjectionMatrix();
   }
 
   #wheelName(frame) {
@@ -84,8 +127,7 @@ export class Cameras {
     this.current = name === "orbit" ? this.free : this.rig;
     this.controls.enabled = name === "orbit";
     this.view.parts.materials.clear(name === "driver");
-    this.rig.fov = VIEW_ANGLES[name] ?? VIEW_ANGLES.wheel;
-    this.rig.updateProjectionMatrix();
+    this.#angle(VIEW_ANGLES[name] ?? VIEW_ANGLES.wheel);
     this.follow();
   }
 
@@ -101,6 +143,8 @@ export class Cameras {
     else if (this.name === "side") this.#look(mix(0, -2.1, 0.14), [0, 0, 0], up);
     else if (this.name === "top") this.#look(scale(up, 4 * extent), [0, 0, 0], north);
     else if (this.name === "driver") this.#drive();
+    else if (this.name === "fixed") this.#look(...[this.fixed.from, this.fixed.at].map((point) => subtract(point, this.view.origin)), up);
+    else if (this.name === "trackside") this.#watchFromTrack(extent);
     else this.#watchWheel(this.wheels.find((frame) => this.#wheelName(frame) === this.name));
   }
 

@@ -99,18 +99,26 @@ export class SceneView {
   scan(lookupAt, count) {
     const { parts } = this;
     const every = Math.max(1, Math.floor(count / 40));
-    let box = null;
+    let [box, floor] = [null, Infinity];
     for (let i = 0; i < count; i++) {
       parts.update(lookupAt(i));
-      if (this.scene.focus || i % every !== 0) continue;
+      if (i % every !== 0) continue;
       const [low, high] = parts.bounds() ?? this.bounds;
+      floor = Math.min(floor, this.#lowest([low, high]));
+      if (this.scene.focus) continue;
       box = box ? [low.map((a, k) => Math.min(a, box[0][k])), high.map((a, k) => Math.max(a, box[1][k]))] : [low, high];
     }
     if (box !== null) {
       this.#fit(box);
       this.resize();
     }
+    this.floor = Math.min(this.floor, floor);
     this.update(count > 0 ? lookupAt(0) : null);
+  }
+
+  /** Adds cameras that stand still beside a way. @param {number[][]} way earth positions of what is followed */
+  stand(way) {
+    this.cameras?.stand(way);
   }
 
   /** What a scene has that `set` can change. @returns {{arrows: boolean, stress: boolean, deformation: boolean}} */
@@ -271,9 +279,14 @@ export class SceneView {
     this.radius = Math.max(Math.hypot(...sides), 0.5 * this.extent) / 2;
     const { position, rotation, shown } = this.parts.frames.pose(this.scene.focus || "ground");
     const centre = middle(low, high);
-    this.floor = Math.min(...[low, high].map((corner) => dot(corner, this.up))) - 0.002 * this.extent;
+    this.floor = this.#lowest(bounds);
     this.centre = shown ? rotate(transpose(rotation), subtract(centre, position)) : centre;
     this.origin = centre;
+  }
+
+  /** Height of a floor that lies just below a box. @param {number[][]} box low and high corner */
+  #lowest(box) {
+    return Math.min(...box.map((corner) => dot(corner, this.up))) - 0.002 * this.extent;
   }
 
   #fail(sentence) {

@@ -1,0 +1,49 @@
+"""The JSON file that ``ali3 road --world`` writes beside the road of a world: what is drawn of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ali3.reading import read_json
+from hosts.common.errors import HostError
+
+FORMAT, VERSION = "ALi3 world", 1
+
+
+def read_world_record(file: Path) -> dict[str, Any]:
+    """Read the record of a world.
+
+    Returns
+    -------
+    dict
+        With ``name``, ``road``, ``bounds``, ``places``, ``roads`` and ``scenery``.
+
+    Raises
+    ------
+    HostError
+        It cannot be read, or is no world of this version.
+    """
+    content = read_json(file, HostError)
+    found = (content.get("format"), content.get("version")) if isinstance(content, dict) else (None, None)
+    if found != (FORMAT, VERSION):
+        remedy = "make it again with: ali3 road --world NAME-or-FILE --out FOLDER"
+        raise HostError(f"{file} is no world of version {VERSION}, which this version of ali3 reads; {remedy}.")
+    return content
+
+
+def world_beside(road: Path) -> dict[str, Any] | None:
+    """The record of the world that a road file is of; None where none of that name lies beside it.
+
+    Raises
+    ------
+    HostError
+        It is a world that cannot be read.
+    """
+    file = road.with_suffix(".json")
+    if not file.is_file():
+        return None
+    content = read_json(file, HostError)
+    if not isinstance(content, dict) or content.get("format") != FORMAT or content.get("road") != road.name:
+        return None
+    return read_world_record(file)

@@ -1,0 +1,89 @@
+// The path of a point over the ground: a ribbon up to the instant that is shown.
+import * as THREE from "three";
+import { lift, LIFT, MARKS } from "../looks/lifted.js";
+import { cross, scale, subtract, unit } from "../scene/math.js";
+
+/**
+ * Both edges of a ribbon, relative to its first point.
+ * @param {number[][]} points earth @param {number} half of its width, m @param {number[]} up unit vector
+ * @returns {Float32Array} right and left of each point in turn; where nothing moves the ribbon keeps its direction
+ */
+export function ribbonEdges(points, half, up) {
+  const edges = new Float32Array(6 * points.length);
+  const sides = points.map((_, k) => unit(cross(up, subtract(points[Math.min(k + 1, points.length - 1)], points[Math.max(k - 1, 0)]))));
+  let side = sides.find((found) => found !== null) ?? [0, 1, 0];
+  points.forEach((point, k) => {
+    side = sides[k] ?? side;
+    const from = subtract(point, points[0]);
+    for (const way of [0, 1]) edges.set(from.map((value, axis) => value + (2 * way - 1) * half * side[axis] + LIFT * up[axis]), 6 * k + 3 * way);
+  });
+  return edges;
+}
+
+/** A path that is known before it is driven, drawn up to an instant. */
+export class Path {
+  /**
+   * @param {import("../scene/scene_view.js").SceneView} view
+   * @param {{times: ArrayLike<number>, points: number[][]}} way not decreasing times, and earth positions
+   * @param {{colour: string, width: number, opacity?: number}} look width: m
+   */
+  constructor(view, { times, points }, { colour, width, opacity = 0.85 }) {
+    this.times = times;
+    this.start = points[0];
+    this.geometry = new THREE.BufferGeometry();
+    this.geometry.setAttribute("position", new THREE.BufferAttribute(ribbonEdges(points, width / 2, view.up), 3));
+    this.geometry.setIndex(points.slice(1).flatMap((_, k) => [2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 1, 2 * k + 2, 2 * k + 3]));
+    const material = new THREE.MeshBasicMaterial({ color: colour, transparent: true, opacity, depthWrite: false, side: THREE.DoubleSide, toneMapped: false });
+    material.onBeforeCompile = (shader) => lift(shader, MARKS);
+    material.customProgramCacheKey = () => "ali3-path";
+    this.mesh = new THREE.Mesh(this.geometry, material);
+    this.mesh.frustumCulled = false; // its box would be that of the whole path
+    this.mesh.renderOrder = 1;
+    view.world.add(this.mesh);
+  }
+
+  /** Show it up to a time. @param {number} time s @param {number[]} origin of the picture, earth */
+  update(time, origin) {
+    let [low, high] = [0, this.times.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.times[middle] <= time) low = middle + 1;
+      else high = middle;
+    }
+    this.geometry.setDrawRange(0, 6 * Math.max(0, low - 1));
+    this.mesh.position.fromArray(subtract(this.start, origin));
+  }
+
+  /** @param {boolean} on */
+  show(on) {
+    this.mesh.visible = on;
+  }
+
+  dispose() {
+    this.mesh.removeFromParent();
+    this.geometry.dispose();
+    this.mesh.material.dispose();
+  }
+}
+
+/**
+ * Where points of frames are over time, put down to the ground.
+ * @param {(i: number) => void} move brings `frames` to an instant @param {number[]} instants indices
+ * @param {import("../scene/frames.js").Frames} frames
+ * @param {{frame: string, below: number}[]} feet below: of the origin of the frame, against `up`, m
+ * @param {number[]} up
+ * @returns {{points: number[][], at: number[]}[]} one a foot; without instants at which it is not known
+ */
+export function waysOf(move, instants, frames, feet, up) {
+  const ways = feet.map(() => ({ points: [], at: [] }));
+  for (const i of instants) {
+    move(i);
+    feet.forEach(({ frame, below }, k) => {
+      const { position, shown } = frames.pose(frame);
+      if (!shown) return;
+      ways[k].points.push(subtract(position, scale(up, below)));
+      ways[k].at.push(i);
+    });
+  }
+  return ways;
+}

@@ -1,0 +1,81 @@
+// What a run leaves on the ground: the paths of its reference point and its wheels, tyre marks and dust.
+import { Dust } from "../effects/dust.js";
+import { Path, waysOf } from "../effects/path.js";
+import { TyreMarks } from "../effects/tyre_marks.js";
+import { Frames } from "../scene/frames.js";
+import { dot, length, subtract } from "../scene/math.js";
+
+const MOST = 4000; // points of a path
+const [BODY, WHEEL] = ["#ffd24a", "#10161c"];
+
+/** The traces of one run in a view; those of a ghost have its colour, and neither marks nor dust. */
+export class Traces {
+  /**
+   * @param {import("../scene/scene_view.js").SceneView} view
+   * @param {import("./decode.js").Run} run
+   * @param {string} [tint] of a ghost
+   */
+  constructor(view, run, tint) {
+    this.view = view;
+    this.run = run;
+    /** @type {Path[]} */
+    this.paths = [];
+    /** Earth positions of the reference point, from which cameras beside the way are placed. @type {number[][]} */
+    this.way = [];
+    const { scene } = run;
+    this.lookups = (i) => (name) => run.columns[name]?.data[i];
+    this.taken = -1;
+    if (!scene.focus || scene.planar || view.problem) return;
+    this.#paths(scene, tint);
+    if (tint !== undefined || (scene.roads ?? []).length === 0) return;
+    this.marks = new TyreMarks(view, {});
+    this.dust = new Dust(view, {});
+  }
+
+  /** @param {Data} scene @param {string | undefined} tint */
+  #paths(scene, tint) {
+    const { view, run } = this;
+    const frames = new Frames(scene);
+    const count = Math.min(run.t.length, MOST);
+    const instants = Array.from({ length: count }, (_, k) => (count > 1 ? Math.round((k * (run.t.length - 1)) / (count - 1)) : 0));
+    const move = (i) => frames.update(this.lookups(i));
+    const wheels = new Map((scene.shapes ?? []).filter(({ kind }) => kind === "wheel").map(({ frame, radius }) => [frame, radius]));
+    const rolling = [...wheels].map(([frame, radius]) => ({ frame, below: radius }));
+    move(0);
+    const height = (frame) => dot(frames.pose(frame).position, view.up);
+    const ground = rolling.length > 0 ? Math.min(...rolling.map(({ frame, below }) => height(frame) - below)) : view.floor;
+    const feet = [{ frame: scene.focus, below: height(scene.focus) - ground }, ...rolling];
+    const ways = waysOf(move, instants, frames, feet, view.up);
+    const gone = ways[0].points.reduce((most, point) => Math.max(most, length(subtract(point, ways[0].points[0]))), 0);
+    if (gone < view.extent) return; // it stays where it is
+    this.way = ways[0].points;
+    ways.forEach(({ points, at }, k) => {
+      if (points.length < 2) return;
+      const look = k === 0 ? { colour: tint ?? BODY, width: 0.03 * view.extent } : { colour: tint ?? WHEEL, width: 0.008 * view.extent, opacity: 0.5 };
+      this.paths.push(new Path(view, { times: at.map((i) => run.t[i]), points }, look));
+    });
+  }
+
+  /**
+   * Everything up to an instant; to be called after the view has been updated to it.
+   * @param {number} time s @param {number} index of the sample before it
+   */
+  update(time, index) {
+    for (const path of this.paths) path.update(time, this.view.origin);
+    if (this.marks === undefined) return;
+    if (index < this.taken) this.taken = -1; // marks of later times go when an earlier one comes
+    for (let i = this.taken + 1; i < index; i++) this.marks.take(this.lookups(i), this.run.t[i], 0);
+    this.taken = index;
+    this.marks.update(this.lookups(index), this.run.t[index], 0);
+    this.dust.update(this.lookups(index), this.run.t[index], 0);
+  }
+
+  /** @param {boolean} on the paths; marks and dust are part of the world */
+  show(on) {
+    for (const path of this.paths) path.show(on);
+  }
+
+  dispose() {
+    for (const part of [...this.paths, this.marks, this.dust]) part?.dispose();
+  }
+}
