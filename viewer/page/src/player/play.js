@@ -240,7 +240,7 @@ export class Player {
     this.view = new SceneView(this.viewBox, scene, { words: this.options.controls !== false, keep: this.options.controls === false });
     this.view.set?.(this.look);
     this.#scan();
-    this.has = this.view.has ?? { arrows: scene.arrows?.length > 0, stress: scene.flexible?.some(({ stress }) => stress), deformation: scene.flexible?.length > 0 };
+    const has = this.view.has ?? { arrows: scene.arrows?.length > 0, stress: scene.flexible?.some(({ stress }) => stress), deformation: scene.flexible?.length > 0 };
     this.#trace(this.solid);
     for (const [k, run] of this.runs.entries()) {
       if (k === this.solid || !run.scene || this.problem) continue;
@@ -250,7 +250,7 @@ export class Player {
     }
     const { way } = this.drawnRuns[0].traces;
     if (way.length > 0) this.view.stand(way);
-    this.has.path = this.drawnRuns.some(({ traces }) => traces.paths.length > 0);
+    this.has = { ...has, path: this.drawnRuns.some(({ traces }) => traces.paths.length > 0) };
     this.cameras = this.view.cameraNames;
     this.cameraName = this.cameras[0];
     if (this.options.camera !== undefined) this.wrong = this.camera(this.options.camera);

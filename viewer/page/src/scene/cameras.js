@@ -57,29 +57,35 @@ export class Cameras {
     const { up } = this.view;
     const extent = Math.min(this.view.extent, 2 * this.view.radius);
     const [low, high] = [Math.min, Math.max].map((most) => [0, 1, 2].map((k) => way.reduce((a, point) => most(a, point[k]), way[0][k])));
-    const whole = subtract(way[way.length - 1], way[0]);
-    const ahead = unit(subtract(whole, scale(up, dot(whole, up)))) ?? across(up);
-    const right = cross(ahead, up);
-    const reach = Math.hypot(...subtract(high, low)) / 2 + extent;
+    const rightOf = (from, to) => unit(cross(subtract(to, from), up)) ?? across(up);
+    const right = rightOf(way[0], way[way.length - 1]);
     const centre = scale(add(low, high), 0.5);
-    const far = reach / Math.tan((VIEW_ANGLES.fixed / 2) * (Math.PI / 180));
-    this.fixed = { at: centre, from: add(centre, add(scale(right, 0.8 * far), scale(up, 0.6 * far))) };
+    const reach = Math.hypot(...subtract(high, low)) / 2 + extent;
+    this.fixed = { centre, reach, from: add(scale(right, 0.94), scale(up, 0.34)) };
     this.posts = [];
     let last = null;
     for (const point of way) {
       if (last !== null && Math.hypot(...subtract(point, last)) < POSTS * extent) continue;
-      const sign = this.posts.length % 2 === 0 ? 1 : -1;
-      this.posts.push(add(point, add(scale(right, sign * ASIDE * extent), scale(up, 0.5 * extent))));
+      const aside = (this.posts.length % 2 === 0 ? 1 : -1) * ASIDE * extent;
+      this.posts.push(add(point, add(scale(last === null ? right : rightOf(last, point), aside), scale(up, 0.5 * extent))));
       last = point;
     }
     this.names = [...this.names, ...["fixed", "trackside"].filter((name) => !this.names.includes(name))];
+  }
+
+  /** The whole way, from one place. */
+  #watchAll() {
+    const { centre, reach, from } = this.fixed;
+    const at = subtract(centre, this.view.origin);
+    const far = reach / (Math.tan((VIEW_ANGLES.fixed / 2) * (Math.PI / 180)) * Math.max(1, this.aspect));
+    this.#look(add(at, scale(from, far)), at, this.view.up);
   }
 
   /** From the nearest place beside the way. */
   #watchFromTrack(extent) {
     const { up, origin } = this.view;
     const from = this.posts.map((post) => subtract(post, origin)).reduce((a, b) => (Math.hypot(...a) <= Math.hypot(...b) ? a : b));
-    const angle = (2 * Math.atan(extent / Math.hypot(...from)) * 180) / Math.PI;
+    const angle = (2 * Math.atan((0.7 * extent) / Math.hypot(...from)) * 180) / Math.PI;
     this.#angle(Math.min(60, Math.max(6, angle)));
     this.#look(from, [0, 0, 0], up);
   }
@@ -143,7 +149,7 @@ export class Cameras {
     else if (this.name === "side") this.#look(mix(0, -2.1, 0.14), [0, 0, 0], up);
     else if (this.name === "top") this.#look(scale(up, 4 * extent), [0, 0, 0], north);
     else if (this.name === "driver") this.#drive();
-    else if (this.name === "fixed") this.#look(...[this.fixed.from, this.fixed.at].map((point) => subtract(point, this.view.origin)), up);
+    else if (this.name === "fixed") this.#watchAll();
     else if (this.name === "trackside") this.#watchFromTrack(extent);
     else this.#watchWheel(this.wheels.find((frame) => this.#wheelName(frame) === this.name));
   }

@@ -102,7 +102,7 @@ export class SceneView {
     let [box, floor] = [null, Infinity];
     for (let i = 0; i < count; i++) {
       parts.update(lookupAt(i));
-      if (i % every !== 0) continue;
+      if (i % every !== 0 && i !== count - 1) continue;
       const [low, high] = parts.bounds() ?? this.bounds;
       floor = Math.min(floor, this.#lowest([low, high]));
       if (this.scene.focus) continue;

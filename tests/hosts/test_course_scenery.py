@@ -1,0 +1,71 @@
+"""Cones of a driver's course in the scene: where ISO 3888 has its lanes, on the ground of the road."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ali3.iso_3888 import cone_places, lanes
+from hosts.common.errors import HostError
+from hosts.common.world_record import world_beside
+from hosts.driving.course import course_of
+from hosts.driving.course_scenery import with_course
+
+WIDTH = 1.6
+COURSE = course_of("iso_3888_1", WIDTH)
+LEVEL = {"kind": "flat", "height": 0.2}
+
+
+def test_cones_stand_at_the_edges_of_the_lanes_and_at_their_ends() -> None:
+    gates = lanes("ISO 3888-1", WIDTH, 15.0)
+    places = np.array(cone_places(gates))
+    for gate in gates:
+        inside = places[(places[:, 0] >= gate.x_start) & (places[:, 0] <= gate.x_end)]
+        assert set(inside[:, 1]) == {gate.y_right, gate.y_left}
+        assert (inside[:, 0].min(), inside[:, 0].max()) == (gate.x_start, gate.x_end)
+    assert len(places) == 2 * (4 + 6 + 7)  # lanes of 15, 25 and 30 m
+    assert set(np.round(np.diff(np.unique(places[:, 0])), 9)) == {5.0, 30.0, 25.0}  # and the ways between them
+
+
+PLANE = {"kind": "plane", "point": [1.0, 0.0, 0.5], "normal": [-0.1, 0.2, 1.0]}
+KERB = {"kind": "profile", "stations": [-1.0, 1.0], "heights": [0.0, -0.1], "origin": [50.0, 0.0, 0.0]}
+
+
+@pytest.mark.parametrize(
+    ("road", "height"),
+    [
+        (LEVEL, lambda x, y: 0.2),
+        (PLANE, lambda x, y: 0.5 + 0.1 * (x - 1.0) - 0.2 * y),
+        (KERB, lambda x, y: -0.1 * np.clip((x - 49.0) / 2.0, 0.0, 1.0)),
+    ],
+)
+def test_cones_stand_on_the_road(road, height) -> None:
+    cones = with_course({"roads": [road]}, course_of("iso_3888_2", WIDTH))["scenery"]
+    assert len(cones) == 2 * 3 * 3  # lanes of 12, 11 and 12 m
+    for cone in cones:
+        x, y, z = cone["at"]
+        assert z == pytest.approx(height(x, y), abs=1e-12)
+
+
+def test_on_a_road_of_heights_they_are_left_out_with_a_word() -> None:
+    made = with_course(
+        {"roads": [{"kind": "grid"}], "missing": [{"name": "a", "why": "b"}]}, course_of("iso_3888_1", WIDTH)
+    )
+    assert "scenery" not in made
+    assert [item["name"] for item in made["missing"]] == ["a", "cones of ISO 3888-1"]
+
+
+def test_the_world_of_a_road_file_lies_beside_it(tmp_path: Path) -> None:
+    road = tmp_path / "test.road"
+    record = {"format": "ALi3 world", "version": 1, "road": "test.road", "roads": [LEVEL], "scenery": []}
+    assert world_beside(road) is None
+    road.with_suffix(".json").write_text(json.dumps(record))
+    assert world_beside(road) == record
+    road.with_suffix(".json").write_text(json.dumps(record | {"road": "other.road"}))
+    assert world_beside(road) is None  # the record of another road
+    road.with_suffix(".json").write_text(json.dumps(record | {"version": 2}))
+    with pytest.raises(HostError, match=r"test\.json is no world of version 1, which this version of ali3 reads"):
+        world_beside(road)

@@ -1,0 +1,157 @@
+"""What a run leaves on the ground, and the cameras that stand still: pixels against places that are known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.viewer.hand_scenes import floats, moving
+from tests.viewer.test_player import Opened
+from tests.viewer.test_player import browser as browser
+from tests.viewer.test_player import launch as launch
+from tests.viewer.test_player import opened as opened
+from viewer.recording import Recording
+
+RADIUS, SPEED, BEND = 0.3, 10.0, 20.0
+_EYE = """() => {
+  const { cameras, origin } = window.player.view;
+  return cameras.rig.position.toArray().map((p, k) => p + origin[k]);
+}"""
+T = np.linspace(0.0, 4.0, 401)
+YAW = SPEED * T / BEND
+"""Along a circle of `BEND` m to the left; the reference point 0.5 m, the wheel's centre its radius above the road."""
+
+
+def way(t: float, height: float = 0.0) -> list[float]:
+    angle = SPEED * t / BEND
+    return [BEND * np.sin(angle), BEND * (1.0 - np.cos(angle)), height]
+
+
+def run(name: str, t: np.ndarray = T, **parts: Any) -> Recording:
+    frames = {
+        "body": moving("body"),
+        "wheel": {"parent": "body", "at": [0.0, 0.25, RADIUS - 0.5], "axis": [0.0, 1.0, 0.0], "angle": "turn"},
+    }
+    shapes = [
+        {"kind": "box", "frame": "body", "size": [1.0, 0.4, 0.2], "color": "#2040ff"},
+        {"kind": "wheel", "frame": "wheel", "radius": RADIUS, "width": 0.2},
+    ]
+    scene = {"format": "ALi3 scene", "version": 1, "name": name, "up": [0, 0, 1], "planar": False, "extent": 2.0}
+    scene |= {"focus": "body", "frames": frames, "shapes": shapes, "roads": [{"kind": "flat"}]} | parts
+    angle = SPEED * t / BEND
+    values = (BEND * np.sin(angle), BEND * (1.0 - np.cos(angle)), np.full_like(t, 0.5))
+    turn = (np.cos(angle / 2), 0 * t, 0 * t, np.sin(angle / 2))
+    columns = [f"body.{part}" for part in ("x", "y", "z", "qw", "qx", "qy", "qz")]
+    return Recording(
+        scene, t, dict(zip(columns, (*values, *turn), strict=True)) | {"turn": SPEED * t / RADIUS}, name=name
+    )
+
+
+@pytest.fixture(scope="module")
+def seen(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
+    from viewer.page_file import write_page
+
+    file = tmp_path_factory.mktemp("paths") / "run.html"
+    cones = [{"kind": "cone", "at": [way(1.9)[0], way(1.9)[1] - 0.6, 0.0]}]
+    write_page(file, [run("one", scenery=cones)], options={"camera": "top"})
+    opened = Opened(browser, file)
+    yield opened
+    opened.page.close()
+
+
+def yellow(opened: Opened, point: list[float]) -> bool:
+    x, y = opened.place(point)
+    red, green, blue = opened.picture()[y, x]
+    return bool(red > 150 and green > 120 and blue < 0.7 * green)
+
+
+def test_the_path_lies_on_the_ground_where_the_run_has_been(seen: Opened) -> None:
+    seen.seek(2.0)
+    assert [yellow(seen, way(t)) for t in (1.84, 1.87, 1.9)] == [True] * 3
+    assert not yellow(seen, way(2.12))  # where it goes next
+    x, y = seen.place(way(1.87))
+    picture = seen.picture()
+    rows = [row for row in range(y - 12, y + 13) if picture[row, x, 0] > 150 and picture[row, x, 2] < 130]
+    assert abs(np.mean(rows) - y) < 1.0  # its middle
+
+
+def test_the_path_goes_and_comes_with_its_key(seen: Opened) -> None:
+    seen.seek(2.0)
+    seen.page.keyboard.press("p")
+    seen("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    assert not yellow(seen, way(1.87))
+    seen.page.keyboard.press("P")
+    seen("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    assert yellow(seen, way(1.87))
+
+
+def test_a_cone_of_the_scene_stands_beside_the_path(seen: Opened) -> None:
+    seen.seek(2.0)
+    x, y = seen.place([way(1.9)[0], way(1.9)[1] - 0.6, 0.05])
+    red, _, blue = np.moveaxis(seen.picture()[y - 12 : y + 13, x - 12 : x + 13], 2, 0)
+    assert ((red > 120) & (red > 2.0 * blue)).sum() > 20
+
+
+def test_the_fixed_camera_sees_the_whole_way_and_does_not_move(seen: Opened) -> None:
+    places = []
+    for t in (0.5, 3.5):
+        seen("() => window.player.camera('fixed')")
+        seen.seek(t)
+        places.append([seen.place(way(s)) for s in (0.0, 2.0, 4.0)])
+    assert np.abs(np.subtract(*places)).max() <= 1
+    assert all(0 <= x < 640 and 0 <= y < 360 for x, y in places[0])
+
+
+def test_the_camera_beside_the_track_looks_at_what_moves_past(seen: Opened) -> None:
+    seen("() => window.player.camera('trackside')")
+    eyes = []
+    for t in (1.0, 1.05):
+        seen.seek(t)
+        x, y = seen.place(way(t, 0.5))
+        assert abs(x - 320) <= 90
+        assert abs(y - 180) <= 90
+        eyes.append(seen(_EYE))
+    assert np.allclose(*eyes, atol=1e-6)
+    seen("() => window.player.camera('top')")
+
+
+def test_what_stays_where_it_is_has_no_path_and_no_camera_beside_it(opened: Callable[..., Opened]) -> None:
+    page = opened(run("still", 1e-3 * T))
+    assert page("() => [window.player.player.has.path, window.player.player.cameras.includes('trackside')]") == [False, False]
+
+
+def test_a_ghost_has_a_path_of_its_colour(opened: Callable[..., Opened]) -> None:
+    page = opened(run("one"), run("two"), camera="top")
+    colours = page(
+        "() => window.player.player.drawnRuns.map(({ traces }) => '#' + traces.paths[0].mesh.material.color.getHexString())"
+    )
+    assert len(set(colours)) == 2
+    page.seek(2.0)
+    assert page("() => window.player.player.drawnRuns[1].traces.paths[0].geometry.drawRange.count") > 0
+
+
+def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(opened: Callable[..., Opened]) -> None:
+    """A beam along y whose middle sinks by 2 cm, drawn thirtyfold: 0.6 m."""
+    nodes = [[0.0, -1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+    modes = np.zeros((3, 3, 1))
+    modes[1, 2, 0] = -1.0
+    flexible = {"frame": "ground", "nodes": nodes, "beams": [[0, 1], [1, 2]], "radii": [0.02, 0.02]}
+    flexible |= {"amplitudes": ["q"], "modes": floats(modes)}
+    scene = {"format": "ALi3 scene", "version": 1, "name": "beam", "up": [0, 0, 1], "planar": False, "extent": 2.0}
+    scene |= {"focus": "", "frames": {}, "shapes": [], "flexible": [flexible]}
+    t = np.linspace(0.0, 1.0, 101)
+    page = opened(Recording(scene, t, {"q": 0.02 * np.sin(np.pi * t)}), deformation=30)
+    assert page("() => window.player.view.floor") < -0.6
+    assert page("() => { window.player.set({ deformation: 60 }); return window.player.view.floor }") < -1.2
+    assert page("() => { window.player.set({ deformation: 1 }); return window.player.view.floor }") > -0.2
+
+
+def test_a_body_that_falls_stays_above_the_floor(opened: Callable[..., Opened], tmp_path: Path) -> None:
+    falling = run("falls", T, roads=[])
+    falling.columns["body.z"] = 0.5 - 4.9 * T**2
+    page = opened(falling)
+    assert page("() => window.player.view.floor") < -77.0
