@@ -30,7 +30,7 @@ SIZE = (1280, 720)
 def in_world(name: str) -> dict[str, Any]:
     """The prototype car in a world, as drawn."""
     with tempfile.TemporaryDirectory() as folder:
-        if world_command.main([name, "--out", folder]) != 0:
+        if world_command.main(["--world", name, "--out", folder]) != 0:
             raise RuntimeError(f"the world {name} cannot be made")
         world = json.loads(Path(folder, f"{name}.json").read_text(encoding="utf-8"))
     return compile(prototype_car.build()).scene | {"roads": world["roads"], "scenery": world["scenery"]}

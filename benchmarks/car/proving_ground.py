@@ -37,7 +37,7 @@ def jump(stop_time: float = 6.5) -> Recording:
     """
     with TemporaryDirectory() as folder:
         with redirect_stdout(StringIO()):
-            code = world_command.main([WORLD, "--out", folder])
+            code = world_command.main(["--world", WORLD, "--out", folder])
         if code != 0:
             raise UserError(f"The world {WORLD} cannot be made.")
         car = mbs.compile(load("prototype").model())

@@ -11,6 +11,8 @@ import numpy as np
 
 import mbs
 from benchmarks.car import fidelity_runs, manoeuvres, proving_ground
+from hosts.driving.course import course_of
+from hosts.driving.course_scenery import with_course
 from mbs.model import Model
 from mbs.scenes import (
     bicycle,
@@ -25,11 +27,13 @@ from mbs.scenes import (
     spatial_slider_crank,
     squeezer,
 )
-from mbs.vehicle import Fidelity
+from mbs.vehicle import Fidelity, load
 from viewer.recording import Recording
 from viewer.video import WrittenFilm, write_mp4
 
 SIZE = (384, 216)
+FILM = (720, 405)
+"""Of the films of README.md."""
 FPS = 15.0
 
 
@@ -114,6 +118,15 @@ def _manoeuvre(name: str, car: str = manoeuvres.PROTOTYPE) -> Callable[[], Recor
     return lambda: recording_of(manoeuvres.run(name, 0.002, car=car, every=5))
 
 
+def _lane_change() -> Recording:
+    """The replay of a drive through the lanes of ISO 3888-1, with their cones."""
+    found = _manoeuvre("double_lane_change_replay")()
+    assert found.scene is not None
+    width = load(manoeuvres.PROTOTYPE).vehicle.width
+    scene = with_course(found.scene, course_of("iso_3888_1", width))
+    return Recording(scene, found.t, found.columns, found.units, found.name)
+
+
 def _kerb_test() -> Recording:
     return recording_of(fidelity_runs.run("kerb_test", Fidelity.DYNAMIC, 0.005))
 
@@ -141,14 +154,14 @@ ANIMATIONS = {
     "cart_pole": Animation("The cart-pole with a light cart", _scene(cart_pole.build, 1.0, 2e-5), 0.0, 1.0, 0.25),
     "spatial_chain": Animation("A chain of ten links", _scene(spatial_chain.build, 5.0, 0.005), 0.0, 5.0),
     "double_lane_change": Animation(
-        "The prototype car, double lane change", _manoeuvre("double_lane_change_replay"), 1.0, 6.0, size=(480, 270)
+        "The prototype car, double lane change", _lane_change, 1.0, 6.0, camera="chase", size=FILM
     ),
     "proving_ground": Animation(
         "The proving ground of the simulator: a jump from a metre, a sudden turn",
         proving_ground.jump,
         1.4,
         5.4,
-        size=(480, 270),
+        size=FILM,
     ),
     "kerb_test": Animation(
         "The car falls from the kerb; stress in the frame, its deformation 30 times larger",
@@ -161,7 +174,7 @@ ANIMATIONS = {
     ),
     "drop": Animation("The car is dropped", _manoeuvre("drop"), 0.0, 2.5, 0.5),
     "hatchback_slalom": Animation(
-        "The hatchback, slalom", _manoeuvre("slalom", "hatchback"), 2.0, 7.0, size=(480, 270)
+        "The hatchback, slalom", _manoeuvre("slalom", "hatchback"), 2.0, 7.0, camera="trackside", size=FILM
     ),
 }
 """By the name of their file."""

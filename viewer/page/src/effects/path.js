@@ -1,7 +1,7 @@
 // The path of a point over the ground: a ribbon up to the instant that is shown.
 import * as THREE from "three";
 import { lift, LIFT, MARKS } from "../looks/lifted.js";
-import { cross, scale, subtract, unit } from "../scene/math.js";
+import { cross, subtract, unit } from "../scene/math.js";
 
 /**
  * Both edges of a ribbon, relative to its first point.
@@ -67,21 +67,19 @@ export class Path {
 }
 
 /**
- * Where points of frames are over time, put down to the ground.
- * @param {(i: number) => void} move brings `frames` to an instant @param {number[]} instants indices
- * @param {import("../scene/frames.js").Frames} frames
- * @param {{frame: string, below: number}[]} feet below: of the origin of the frame, against `up`, m
- * @param {number[]} up
+ * Where points are over time.
+ * @param {(i: number) => void} move brings what `feet` look at to an instant @param {number[]} instants indices
+ * @param {(() => number[] | null)[]} feet earth positions at that instant; null where one is not known
  * @returns {{points: number[][], at: number[]}[]} one a foot; without instants at which it is not known
  */
-export function waysOf(move, instants, frames, feet, up) {
+export function waysOf(move, instants, feet) {
   const ways = feet.map(() => ({ points: [], at: [] }));
   for (const i of instants) {
     move(i);
-    feet.forEach(({ frame, below }, k) => {
-      const { position, shown } = frames.pose(frame);
-      if (!shown) return;
-      ways[k].points.push(subtract(position, scale(up, below)));
+    feet.forEach((foot, k) => {
+      const point = foot();
+      if (point === null) return;
+      ways[k].points.push(point);
       ways[k].at.push(i);
     });
   }

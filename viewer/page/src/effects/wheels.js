@@ -35,7 +35,7 @@ export class Wheels {
       .map(({ tyre }) => {
         const prefix = tyre.forces[0].replace(/\.[^.]*$/, "");
         const shape = shapes.find(({ frame }) => frame.replace(/\W|_/g, "") === prefix.replace(/\W|_/g, "")) ?? shapes[0];
-        return { tyre, prefix, width: shape?.width ?? 0.18, radius: shape?.radius ?? 0.3 };
+        return { tyre, prefix, frame: shape?.frame, width: shape?.width ?? 0.18, radius: shape?.radius ?? 0.3 };
       });
     /** One sentence where a scene has no tyres, else empty. */
     this.problem = this.list.length > 0 ? "" : "The scene has no tyres, so there are no marks and no dust.";

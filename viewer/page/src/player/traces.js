@@ -2,8 +2,9 @@
 import { Dust } from "../effects/dust.js";
 import { Path, waysOf } from "../effects/path.js";
 import { TyreMarks } from "../effects/tyre_marks.js";
+import { Wheels } from "../effects/wheels.js";
 import { Frames } from "../scene/frames.js";
-import { dot, length, subtract } from "../scene/math.js";
+import { add, dot, finite, length, scale, subtract } from "../scene/math.js";
 
 const MOST = 4000; // points of a path
 const [BODY, WHEEL] = ["#ffd24a", "#10161c"];
@@ -35,17 +36,11 @@ export class Traces {
   /** @param {Data} scene @param {string | undefined} tint */
   #paths(scene, tint) {
     const { view, run } = this;
-    const frames = new Frames(scene);
     const count = Math.min(run.t.length, MOST);
     const instants = Array.from({ length: count }, (_, k) => (count > 1 ? Math.round((k * (run.t.length - 1)) / (count - 1)) : 0));
-    const move = (i) => frames.update(this.lookups(i));
-    const wheels = new Map((scene.shapes ?? []).filter(({ kind }) => kind === "wheel").map(({ frame, radius }) => [frame, radius]));
-    const rolling = [...wheels].map(([frame, radius]) => ({ frame, below: radius }));
-    move(0);
-    const height = (frame) => dot(frames.pose(frame).position, view.up);
-    const ground = rolling.length > 0 ? Math.min(...rolling.map(({ frame, below }) => height(frame) - below)) : view.floor;
-    const feet = [{ frame: scene.focus, below: height(scene.focus) - ground }, ...rolling];
-    const ways = waysOf(move, instants, frames, feet, view.up);
+    const { move, feet } = feetOf(scene, this.lookups, view);
+    const ways = waysOf(move, instants, feet);
+    if (ways[0].points.length < 2) return;
     const gone = ways[0].points.reduce((most, point) => Math.max(most, length(subtract(point, ways[0].points[0]))), 0);
     if (gone < view.extent) return; // it stays where it is
     this.way = ways[0].points;
@@ -78,4 +73,35 @@ export class Traces {
   dispose() {
     for (const part of [...this.paths, this.marks, this.dust]) part?.dispose();
   }
+}
+
+/**
+ * The points whose paths are drawn: the reference point, put down to the ground, and where wheels touch it.
+ * @param {Data} scene @param {(i: number) => (name: string) => number | undefined} lookups @param {import("../scene/scene_view.js").SceneView} view
+ * @returns {{move: (i: number) => void, feet: (() => number[] | null)[]}}
+ */
+function feetOf(scene, lookups, { up, floor }) {
+  const frames = new Frames(scene);
+  const touched = new Wheels(scene).list;
+  const wheels = new Map((scene.shapes ?? []).filter(({ kind }) => kind === "wheel").map(({ frame, radius }) => [frame, radius]));
+  let lookup = lookups(0);
+  const under = [...wheels].map(([frame, radius]) => () => {
+    const { position, shown } = frames.pose(frame);
+    const tyre = touched.find((wheel) => wheel.frame === frame)?.tyre;
+    const contact = tyre !== undefined && lookup(tyre.forces[2]) > 0 ? tyre.contact.map((name) => lookup(name)) : [NaN];
+    if (finite(contact)) return contact;
+    return shown ? subtract(position, scale(up, radius)) : null;
+  });
+  const body = () => {
+    const { position, shown } = frames.pose(scene.focus);
+    if (!shown) return null;
+    const heights = under.map((foot) => foot()).filter((point) => point !== null).map((point) => dot(point, up)); // prettier-ignore
+    const ground = heights.length > 0 ? heights.reduce((sum, height) => sum + height, 0) / heights.length : floor;
+    return add(position, scale(up, ground - dot(position, up)));
+  };
+  const move = (i) => {
+    lookup = lookups(i);
+    frames.update(lookup);
+  };
+  return { move, feet: [body, ...under] };
 }
