@@ -119,8 +119,8 @@ def draw(result: Result, step: float, file: Path) -> None:
     """Moments as differences from rest, as gauges measure them."""
     from matplotlib import pyplot as plt
 
+    from ali3.charts import BLACK, BLUE, RED, save_picture
     from hosts.measures.low_pass import low_pass
-    from hosts.run.result_plots import BLACK, BLUE, RED, save_picture
 
     figure, panels = plt.subplots(2, 2, figsize=(15, 8), sharex=True, layout="constrained")
     for axes, gauge in zip(panels.T.flat, GAUGES, strict=True):

@@ -24,8 +24,7 @@ from hosts.fmu.fmu_file import FoundFmu, find_fmu
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import Settings
 from hosts.fmu.variables import Variables
-from hosts.recordings.format import DESCRIPTION
-from hosts.recordings.recording import check_new
+from hosts.recordings.format import DESCRIPTION, check_new
 from hosts.simulator.drivable import not_drivable
 from hosts.simulator.world_files import DEFAULT_WORLD, World, make_world, no_world
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.manoeuvre_file import write_manoeuvre
+from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.study.folder import read_record
 
 if TYPE_CHECKING:

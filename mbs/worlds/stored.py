@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from ali3.cache import cache_folder, forget_oldest
-from ali3.files import make_folder, whole_file, whole_folder
+from ali3.files import make_folder, whole_file
+from ali3.folders import whole_folder
 
 ROOT = Path(__file__).parents[2]
 CODE = (

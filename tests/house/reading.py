@@ -14,27 +14,40 @@ from tests.house.test_circles import FACADES, PACKAGES, ROOT
 
 CAR = {"CAR": "hosts.fmu.built_fmu"}
 RECORDING = {"--manoeuvre RECORDING": "hosts.recordings.last_drive"}
+PARAMETERS = {"--parameters": "hosts.fmu.parameter_file_settings"}
+OLD = {"--manoeuvre FILE.ini": "hosts.driving.old_manoeuvre"}
 ALIASES = {"--aliases": "hosts.fmu.aliases.file"}
 WAYS = {
     "build": {"--kernel": "mbs.kernel.build"},
     "car": {"--kinematics": "mbs.vehicle.kinematics.report"},
-    "run": {**CAR, **RECORDING, "--kerb": "hosts.run.kerb"},
-    "view": {"RESULT": "hosts.view.show", "--live": "hosts.view.live"},
+    "run": {**CAR, **RECORDING, **PARAMETERS, **OLD, "--kerb": "hosts.run.kerb"},
+    "view": {"RESULT": "hosts.view.show", "--live": "hosts.view.live", **PARAMETERS},
     "simulator": {
         **CAR,
         **RECORDING,
         **ALIASES,
+        **PARAMETERS,
+        "--record": "hosts.recordings.recording",
         "--recording": "hosts.recordings.show",
         "--headless": "hosts.simulator.headless",
         "wheels and gamepads": "hosts.simulator.devices",
     },
-    "check": {**CAR, **RECORDING, "--show-parameters": "hosts.check.parameters", "--soak": "hosts.soak.soak"},
+    "check": {
+        **CAR,
+        **RECORDING,
+        **PARAMETERS,
+        **OLD,
+        "--show-parameters": "hosts.check.parameters",
+        "--soak": "hosts.soak.soak",
+    },
     "catalogue": {**CAR, **ALIASES},
     "compare": {**CAR, **ALIASES},
     "study": {
         **CAR,
         **RECORDING,
         **ALIASES,
+        **OLD,
+        "--target": "hosts.study.target",
         "FILE.py:FUNCTION": "hosts.study.measures.user_function",
         "--run": "hosts.study.repeat",
         "--report": "hosts.study.analysis.report",

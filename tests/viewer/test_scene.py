@@ -14,7 +14,8 @@ import pytest
 
 from tests.viewer.hand_scenes import everything, floats, octets
 from viewer.errors import SceneError
-from viewer.scene import SCHEMA_FILE, check_scene, json_schema, read_scene, scene_errors, schema_text
+from viewer.scene import check_scene, read_scene, scene_errors
+from viewer.scene_schema import SCHEMA_FILE, json_schema, schema_text
 from viewer.scene_values import NAME, UNIT
 
 VALIDATOR = jsonschema.Draft202012Validator(json_schema())

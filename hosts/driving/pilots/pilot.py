@@ -1,4 +1,4 @@
-"""What a pilot is, and several as one."""
+"""What a pilot is."""
 
 from __future__ import annotations
 
@@ -12,23 +12,3 @@ class Pilot(Protocol):
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """Inputs for the coming communication step; `senses` are all outputs by our names, until that step is made."""
         ...
-
-
-class Together:
-    """Pilots that share a car, such as one who steers and one who holds the speed.
-
-    Parameters
-    ----------
-    *pilots : Pilot
-        Where two act on an input the later one does.
-    """
-
-    def __init__(self, *pilots: Pilot) -> None:
-        self.pilots = pilots
-
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `Pilot.act`."""
-        acts: dict[str, float] = {}
-        for pilot in self.pilots:
-            acts |= pilot.act(time, senses)
-        return acts
