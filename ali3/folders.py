@@ -1,11 +1,13 @@
-"""Folders that are written whole or not at all, and folders that one program has for itself."""
+"""Folders that are written whole or not at all, and those of a cache that are used no more."""
 
 from __future__ import annotations
 
 import os
+import shutil
 import tempfile
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ali3.errors import FileError
@@ -49,32 +51,23 @@ def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
         raise FileError(f"{folder} cannot be written: {reason(error)}.") from error
 
 
-@contextmanager
-def locked(folder: str | os.PathLike[str], busy: str = "") -> Iterator[None]:
-    """A folder, made if it is not there, that no other program has locked.
-
-    The lock goes with the process that holds it, however it ends.
+def forget_oldest(room: Path, kept: int, in_use: float = 0.0) -> None:
+    """Remove the folders that were not used for the longest time, while another program may do the same.
 
     Parameters
     ----------
-    busy : str, optional
-        What is said where another program has locked it; by default its end is waited for.
-
-    Raises
-    ------
-    FileError
-        Another program has locked it, or it cannot be written.
+    room : Path
+        Of the cache.
+    kept : int
+        How many stay.
+    in_use : float
+        Those that were used in so many seconds stay too, s.
     """
-    from filelock import FileLock, Timeout
-
-    lock = FileLock(make_folder(folder) / ".lock", timeout=0 if busy else -1)
-    try:
-        lock.acquire()
-    except Timeout:
-        raise FileError(busy) from None
-    except OSError as error:
-        raise FileError(f"The folder {folder} cannot be written: {reason(error)}.") from None
-    try:
-        yield
-    finally:
-        lock.release()
+    used: dict[Path, float] = {}
+    for folder in room.iterdir():
+        with suppress(FileNotFoundError):
+            if folder.is_dir() and not folder.name.startswith("."):
+                used[folder] = folder.stat().st_mtime
+    for folder in sorted(used, key=used.__getitem__, reverse=True)[kept:]:
+        if used[folder] <= time.time() - in_use:
+            shutil.rmtree(folder, ignore_errors=True)

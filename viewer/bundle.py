@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from ali3.folders import locked
+from ali3.locks import locked
 
 HERE = Path(__file__).resolve().parent
 SCRIPT = "ali3-viewer.js"

@@ -68,9 +68,11 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from hosts.driving.co_simulation import check_columns, communication_step, driver_of, run_with_bar
+    from hosts.driving.co_simulation import run_with_bar
+    from hosts.driving.driver import driver_of
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
+    from hosts.driving.run_checks import check_columns, communication_step
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
     from hosts.recordings.load_manoeuvre import manoeuvre_of

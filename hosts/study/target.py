@@ -22,12 +22,13 @@ from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.variables import Variable, Variables
 from hosts.study.campaign import fmu_of_study, out_folder
 from hosts.study.isolated import IsolatedBench
+from hosts.study.job import Job
 from hosts.study.limits import column_of
 from hosts.study.parameters import Parameter
 from hosts.study.plan import Plan, make_plan
 from hosts.study.search import TOLERANCE, Found, Run, seek
 from hosts.study.study_file import ParameterEntry, SamplingEntry, StudyFile, read_study_file
-from hosts.study.work import Job, Outcome, seed_of
+from hosts.study.work import Outcome, seed_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from ali3.cache import cache_folder, forget_oldest
+from ali3.cache import cache_folder
 from ali3.files import make_folder, whole_file
-from ali3.folders import whole_folder
+from ali3.folders import forget_oldest, whole_folder
 
 ROOT = Path(__file__).parents[2]
 CODE = (

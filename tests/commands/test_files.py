@@ -12,7 +12,8 @@ import pytest
 
 import mbs
 from ali3.files import FileError, check_writable, whole_file
-from ali3.folders import locked, whole_folder
+from ali3.folders import whole_folder
+from ali3.locks import locked
 from fmu_src.native.archive import write_zip
 from mbs.scenes import pendulum
 

@@ -16,7 +16,7 @@ CAR = {"CAR": "hosts.fmu.built_fmu"}
 RECORDING = {"--manoeuvre RECORDING": "hosts.recordings.last_drive"}
 PARAMETERS = {"--parameters": "hosts.fmu.parameter_file_settings"}
 OLD = {"--manoeuvre FILE.ini": "hosts.driving.old_manoeuvre"}
-ALIASES = {"--aliases": "hosts.fmu.aliases.file"}
+ALIASES = {"--aliases": "hosts.fmu.aliases.file", "from = FORMULA": "hosts.fmu.aliases.formulas"}
 WAYS = {
     "build": {"--kernel": "mbs.kernel.build"},
     "car": {"--kinematics": "mbs.vehicle.kinematics.report"},
@@ -47,6 +47,7 @@ WAYS = {
         **RECORDING,
         **ALIASES,
         **OLD,
+        "test = NAME": "hosts.study.catalogue_tests",
         "--target": "hosts.study.target",
         "FILE.py:FUNCTION": "hosts.study.measures.user_function",
         "--run": "hosts.study.repeat",
