@@ -54,7 +54,7 @@ def _lathe(part: Part, lengths: Lengths) -> Solid:
 
 def _box(part: Part, lengths: Lengths) -> Solid:
     across, along = lengths[part["across"]], lengths[part["along"]]
-    return solids.box(np.array(part["size"]) * (across, along, across))
+    return solids.box([s * by for s, by in zip(part["size"], (across, along, across), strict=True)])
 
 
 def _sphere(part: Part, lengths: Lengths) -> Solid:

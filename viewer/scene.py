@@ -9,9 +9,10 @@ from typing import Any
 from pydantic import ValidationError
 
 from ali3.reading import LARGEST_JSON, json_of, read_bytes
+from ali3.words import value_words
 from viewer.errors import SceneError
 from viewer.scene_relations import relation_errors
-from viewer.scene_sentences import sentences, value_words
+from viewer.scene_sentences import sentences
 from viewer.scene_types import Scene
 
 

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
-from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.run_checks import check_columns
@@ -72,7 +71,7 @@ class Result:
         return np.asarray(self.values[:, self.names.index(name)])
 
 
-def run_with_bar(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Driver | None = None) -> Result:
+def run_with_bar(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Pilot | None = None) -> Result:
     """`run` with a progress bar on the terminal."""
     from tqdm import tqdm
 

@@ -9,10 +9,11 @@ from ali3.decimal_number import parse_number
 from hosts.common.errors import HostError
 from hosts.driving.course import course_of
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.pilots.course_follower import ACTS, SENSES, CourseFollower, DriverSettings
+from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
+from hosts.driving.pilots.pilot import ACTS, SENSES
 from hosts.driving.simulated_fmu import SimulatedFmu
 
-__all__ = ["ACTS", "CONSTANTS", "SENSES", "Driver", "DriverSettings", "make_driver"]
+__all__ = ["CONSTANTS", "Driver", "DriverSettings", "make_driver"]
 
 Driver = CourseFollower
 _POSITIVE = ("speed", "wheelbase", "wheel_angle_max", "vehicle_length", "vehicle_width")

@@ -15,7 +15,6 @@ from ali3.reading import LARGEST_TEXT, read_toml
 from hosts.common.errors import HostError
 from hosts.common.numbers import text_of
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.manoeuvre_table import read_table
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
 from hosts.driving.state_file import read_state
 
@@ -59,6 +58,8 @@ def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
     else:
         if not path.is_file():
             raise HostError(f"There is no file {path}.")
+        from hosts.driving.manoeuvre_table import read_table
+
         made = read_table(path)
     if not made.stop_time > 0.0:
         raise HostError(f"{path} does not say how long it lasts; give a later time in the table or a stop_time.")

@@ -10,8 +10,9 @@ from typing import Protocol
 from tqdm import tqdm
 
 from hosts.common.errors import HostError
-from hosts.driving.driver import ACTS, SENSES, Driver, make_driver
+from hosts.driving.driver import Driver, make_driver
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.pilot import ACTS, SENSES
 from hosts.driving.wild_driver import WildDriver
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.simulator.aliased_car import AliasedCar

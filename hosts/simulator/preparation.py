@@ -13,8 +13,7 @@ from fmpy.model_description import ModelDescription
 from ali3.files import check_writable, make_folder
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.options import Wishes
-from hosts.common.road import PARAMETER as ROAD
+from hosts.common.options import ROAD, Wishes
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.of_file import aliases_of

@@ -12,10 +12,11 @@ import numpy as np
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.driver import ACTS, driver_of
+from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_file import SUFFIXES
 from hosts.driving.manoeuvres import manoeuvre_names
+from hosts.driving.pilots.pilot import ACTS
 from hosts.driving.run_checks import check_columns, communication_step
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.study.job import Job

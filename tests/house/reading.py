@@ -15,12 +15,17 @@ from tests.house.test_circles import FACADES, PACKAGES, ROOT
 CAR = {"CAR": "hosts.fmu.built_fmu"}
 RECORDING = {"--manoeuvre RECORDING": "hosts.recordings.last_drive"}
 PARAMETERS = {"--parameters": "hosts.fmu.parameter_file_settings"}
-OLD = {"--manoeuvre FILE.ini": "hosts.driving.old_manoeuvre"}
+TABLES = {
+    "--manoeuvre FILE.csv": "hosts.driving.manoeuvre_table",
+    "--manoeuvre FILE.ini": "hosts.driving.old_manoeuvre",
+}
+DRIVER = {"a manoeuvre's driver": "hosts.driving.driver"}
+NEW_ROAD = {"--road": "hosts.common.road"}
 ALIASES = {"--aliases": "hosts.fmu.aliases.file", "from = FORMULA": "hosts.fmu.aliases.formulas"}
 WAYS = {
     "build": {"--kernel": "mbs.kernel.build"},
     "car": {"--kinematics": "mbs.vehicle.kinematics.report"},
-    "run": {**CAR, **RECORDING, **PARAMETERS, **OLD, "--kerb": "hosts.run.kerb"},
+    "run": {**CAR, **RECORDING, **PARAMETERS, **TABLES, **DRIVER, **NEW_ROAD, "--kerb": "hosts.run.kerb"},
     "view": {"RESULT": "hosts.view.show", "--live": "hosts.view.live", **PARAMETERS},
     "simulator": {
         **CAR,
@@ -36,7 +41,7 @@ WAYS = {
         **CAR,
         **RECORDING,
         **PARAMETERS,
-        **OLD,
+        **TABLES,
         "--show-parameters": "hosts.check.parameters",
         "--soak": "hosts.soak.soak",
     },
@@ -46,7 +51,7 @@ WAYS = {
         **CAR,
         **RECORDING,
         **ALIASES,
-        **OLD,
+        **TABLES,
         "test = NAME": "hosts.study.catalogue_tests",
         "--target": "hosts.study.target",
         "FILE.py:FUNCTION": "hosts.study.measures.user_function",

@@ -5,6 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Protocol
 
+SENSES = ("chassis.x", "chassis.y", "chassis.yaw", "speed")
+"""Outputs without which a course cannot be followed."""
+ACTS = ("steering", "throttle", "brake")
+"""Inputs without which it cannot."""
+
 
 class Pilot(Protocol):
     """Who drives: from what the car senses to its inputs."""
