@@ -15,7 +15,8 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ali3.charts import BLUE, COLOURS, RED, STYLE, save_pictures
+from ali3.chart_style import BLUE, COLOURS, RED, STYLE
+from ali3.charts import save_pictures
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import ComparedSignal, Comparison
 from hosts.compare.log import Signal

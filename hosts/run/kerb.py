@@ -120,7 +120,8 @@ def draw(result: Result, step: float, file: Path) -> None:
     """Moments as differences from rest, as gauges measure them."""
     from matplotlib import pyplot as plt
 
-    from ali3.charts import BLACK, BLUE, RED, save_picture
+    from ali3.chart_style import BLACK, BLUE, RED
+    from ali3.charts import save_picture
     from hosts.measures.low_pass import low_pass
 
     figure, panels = plt.subplots(2, 2, figsize=(15, 8), sharex=True, layout="constrained")

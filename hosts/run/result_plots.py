@@ -13,7 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ali3.charts import BLACK, BLUE, COLOURS, GREEN, ORANGE, RED, SKY, STYLE, save_picture
+from ali3.chart_style import BLACK, BLUE, COLOURS, GREEN, ORANGE, RED, SKY, STYLE
+from ali3.charts import save_picture
 from hosts.driving.co_simulation import Result
 from hosts.driving.course import Course
 from hosts.run.run_summary import WHEELS

@@ -366,7 +366,7 @@ def _pictures(search: _Search, found: Found, stem: Path) -> list[Path]:
 def _figure(search: _Search, found: Found) -> Figure:
     from matplotlib import pyplot as plt
 
-    from ali3.charts import BLUE, RED, STYLE
+    from ali3.chart_style import BLUE, RED, STYLE
 
     factor, unit = search.shown.factor, search.shown.unit
     known = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
-from ali3.charts import COLOURS, STYLE
+from ali3.chart_style import COLOURS, STYLE
 from hosts.catalogue.record import Line, Plot
 from hosts.catalogue.report.numbers import shown
 from hosts.catalogue.report.thinning import thinned

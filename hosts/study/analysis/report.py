@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from matplotlib import pyplot as plt
 
-from ali3.charts import STYLE
+from ali3.chart_style import STYLE
 from ali3.files import make_folder, whole_file, write_text
 from hosts.catalogue.report.elements import element
 from hosts.common.errors import HostError

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from matplotlib import pyplot as plt
 
-from ali3.charts import STYLE
+from ali3.chart_style import STYLE
 from hosts.catalogue.report.elements import Content, element
 from hosts.study.analysis.data import FAILED, StudyData
 from hosts.study.analysis.effect_plots import plot_failed
