@@ -5,10 +5,7 @@ from __future__ import annotations
 import atexit
 import functools
 import os
-import shutil
 import tempfile
-import time
-from contextlib import suppress
 from pathlib import Path
 
 from ali3.errors import FileError
@@ -60,25 +57,3 @@ def _passing(name: str) -> Path:
     temporary = tempfile.TemporaryDirectory(prefix=f"{name}-", ignore_cleanup_errors=True)
     atexit.register(temporary.cleanup)
     return Path(temporary.name)
-
-
-def forget_oldest(room: Path, kept: int, in_use: float = 0.0) -> None:
-    """Remove the folders that were not used for the longest time, while another program may do the same.
-
-    Parameters
-    ----------
-    room : Path
-        Of the cache.
-    kept : int
-        How many stay.
-    in_use : float
-        Those that were used in so many seconds stay too, s.
-    """
-    used: dict[Path, float] = {}
-    for folder in room.iterdir():
-        with suppress(FileNotFoundError):
-            if folder.is_dir() and not folder.name.startswith("."):
-                used[folder] = folder.stat().st_mtime
-    for folder in sorted(used, key=used.__getitem__, reverse=True)[kept:]:
-        if used[folder] <= time.time() - in_use:
-            shutil.rmtree(folder, ignore_errors=True)

@@ -7,9 +7,10 @@ import importlib
 import sys
 from collections.abc import Sequence
 
-from ali3.commands import BEFORE, COMMANDS, Command
+from ali3.commands import COMMANDS, Command
 from ali3.extras import command_needs
 from ali3.near_names import did_you_mean
+from ali3.old_commands import BEFORE
 from ali3.options import Parser
 from ali3.running import WRONG_USE, run_command, typed_as
 from ali3.search_path import forget_current_folder

@@ -1,9 +1,7 @@
-"""The subcommands of ali3: name, module, the extra that it needs; and what those of before are now."""
+"""The subcommands of ali3: name, module, and the extra that it needs."""
 
 from __future__ import annotations
 
-import shlex
-from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 
@@ -74,45 +72,3 @@ COMMANDS = (
     ),
     Command("road", "mbs.worlds.command", "", "make, check and show road files and worlds to drive in"),
 )
-
-
-class Before(NamedTuple):
-    """A command of before, which is a part of another one now.
-
-    Parameters
-    ----------
-    words : str
-        What stands in place of its name.
-    options : mapping of str to str
-        New words for its options; empty, the word is left out.
-    """
-
-    words: str
-    options: Mapping[str, str] = {}
-
-    def line(self, arguments: Sequence[str]) -> str:
-        """What the same arguments are now."""
-        words = [self._new(word) for word in arguments]
-        return shlex.join([*self.words.split(), *filter(None, words)])
-
-    def _new(self, word: str) -> str:
-        old, equals, value = word.partition("=")
-        new = self.options.get(old, old)
-        return f"{new}{equals}{value}" if new else value
-
-
-BEFORE = {
-    "drive": Before("run"),
-    "page": Before("view --live", {"--beside": ""}),
-    "parameters": Before("check --show-parameters", {"--out": "--save-parameters"}),
-    "kinematics": Before("car --kinematics"),
-    "kerb": Before("run --kerb"),
-    "recording": Before(
-        "simulator --recording",
-        {"replay": "--replay", "manoeuvre": "--save-manoeuvre", "--begin": "--from", "--end": "--to", "--fmu": ""},
-    ),
-    "soak": Before("check --soak", {"--seconds": "--stop-time"}),
-    "world": Before("road --world"),
-    "kernel": Before("build --kernel"),
-}
-"""Commands of before by name."""

@@ -21,9 +21,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, Generic, TypeAlias, TypeVar
 
+from ali3.children import how_ended, ignore_stopping
 from ali3.errors import UserError
 from ali3.running import module_command, sentence
-from ali3.signals import how_ended, ignore_stopping
 
 _START = 20.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
 from ali3.decimal_number import number, short
-from ali3.running import WRONG_USE
 from ali3.words import brief, shortened
 
 
@@ -139,18 +138,6 @@ def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", *
     parser.add_argument(name, *option.short, help=words, **more)
 
 
-def add_old_names(parser: argparse.ArgumentParser, names: Mapping[str, str]) -> None:
-    """Let options of before end the command with one sentence.
-
-    Parameters
-    ----------
-    names : mapping of str to str
-        What stands in place of the old name, by old name.
-    """
-    for old, new in names.items():
-        parser.add_argument(old, nargs="?", action=_Renamed, const=new, help=argparse.SUPPRESS)
-
-
 def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> list[str]:
     """Those of these arguments that differ from their defaults, as the user writes them.
 
@@ -164,16 +151,3 @@ def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names
     given = [name for name in names if getattr(options, name) != parser.get_default(name)]
     actions = {action.dest: action for action in parser._actions}
     return [next(iter(actions[name].option_strings), name.upper()) for name in given]
-
-
-class _Renamed(argparse.Action):
-    """An option that has another name now."""
-
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: str | Sequence[Any] | None,
-        option_string: str | None = None,
-    ) -> None:
-        parser.exit(WRONG_USE, f"error: {option_string} is now {self.const}; {parser.prog} --help describes it.\n")

@@ -7,8 +7,9 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
-from ali3.parameter_set import Entry, ParameterSet, ParameterSetError, UnitDefinition
+from ali3.parameter_set import Entry, ParameterSet, ParameterSetError
 from ali3.reading import read_bytes
+from ali3.unit_definition import UnitDefinition
 
 LARGEST = 10_000_000
 """Bytes that a file may have."""

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-import warnings
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ali3.errors import UserError
@@ -107,16 +105,3 @@ def _os_words(error: OSError) -> str:
     if error.filename is None or error.strerror is None:
         return str(error)
     return f"{error.filename}: {reason(error)}."
-
-
-@contextmanager
-def told_warnings() -> Iterator[None]:
-    """A context in which warnings for a user are lines like errors are, without the place in the source."""
-
-    def show(message: Warning | str, *_: object) -> None:
-        print(f"warning: {shortened(str(message))}", file=sys.stderr, flush=True)
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("always", UserWarning)
-        warnings.showwarning = show  # type: ignore[assignment]
-        yield

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import math
 import re
 from collections.abc import Iterable, Mapping
 
@@ -60,3 +61,19 @@ def place_words(path: Iterable[int | str]) -> str:
         else:
             text += f"[{brief(part)}]"
     return text
+
+
+def range_words(low: float, high: float, unit: str) -> str:
+    """A range for a person, empty where both ends are open.
+
+    Parameters
+    ----------
+    low, high : float
+        Infinite where open.
+    unit : str
+        "1" where there is none.
+    """
+    end = "" if unit == "1" else f" {unit}"
+    if math.isinf(low):
+        return "" if math.isinf(high) else f"up to {high:.10g}{end}"
+    return f"from {low:.10g}{end}" if math.isinf(high) else f"{low:.10g} to {high:.10g}{end}"

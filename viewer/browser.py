@@ -1,17 +1,13 @@
-"""Browsers: the user's, which shows a page, and a Chromium without a window, which makes pictures of it."""
+"""A Chromium without a window, which makes pictures of a page."""
 
 from __future__ import annotations
 
 import os
 import shutil
-import sys
-import webbrowser
 from collections.abc import Generator, Iterable, Iterator
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3 import html
 from ali3.errors import UserError
 from ali3.extras import missing_package
 
@@ -78,51 +74,6 @@ def find_chromium() -> Path:
         "There is no Chromium, Chrome or Edge on this machine, which pictures need; install one, or name its program "
         f"in the environment variable {VARIABLE}."
     )
-
-
-def open_in_browser(path: str | os.PathLike[str]) -> bool:
-    """Show a page in the user's browser.
-
-    Parameters
-    ----------
-    path : path
-        The HTML file.
-
-    Returns
-    -------
-    bool
-        Whether there is one: on a machine without a screen there is none.
-    """
-    return open_address(Path(path).resolve().as_uri())
-
-
-def open_address(address: str) -> bool:
-    """Show what is at an address in the user's browser; whether there is one, as for `open_in_browser`."""
-    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-        return False  # a browser in the terminal would draw nothing
-    try:
-        return webbrowser.open(address)
-    except webbrowser.Error:
-        return False
-
-
-def open_secretly(address: str, folder: str | os.PathLike[str]) -> bool:
-    """Show what is at an address that nobody else may know; see `open_address`.
-
-    The command line of a browser is seen by all users of a machine; it names a page that leads on.
-
-    Parameters
-    ----------
-    folder : path
-        That only this user can read; it must stay until the browser has read the page.
-    """
-    target = escape(address, quote=True)
-    page = html.page(
-        "ALi3", f'<a href="{target}">Go on</a>', head=f'<meta http-equiv="refresh" content="0;url={target}">'
-    )
-    file = Path(folder, "open.html")
-    file.write_text(page, encoding="utf-8")
-    return open_in_browser(file)
 
 
 def screenshot(

@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from ali3.files import locked
+from ali3.locks import locked
 
 HERE = Path(__file__).resolve().parent
 SCRIPT = "ali3-viewer.js"
@@ -160,7 +160,7 @@ def _hash(page: Path) -> str:
     """Digest of the names and contents of all sources."""
     digest = hashlib.sha256()
     sources = [page / name for name in ("package.json", "package-lock.json", "build.mjs")]
-    sources.append(page.parent / "looks.json")
+    sources += [page.parent / name for name in ("looks.json", "shapes.json")]
     sources += sorted(path for path in (page / "src").rglob("*") if path.is_file())
     for path in sources:
         content = path.read_bytes()

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
 from ali3.reading import LARGEST_JSON, json_of, read_bytes
+from ali3.words import value_words
 from viewer.errors import SceneError
 from viewer.scene_relations import relation_errors
-from viewer.scene_sentences import sentences, value_words
+from viewer.scene_sentences import sentences
 from viewer.scene_types import Scene
-
-SCHEMA_FILE = Path(__file__).with_name("scene.schema.json")
 
 
 def scene_errors(scene: Any) -> list[str]:
@@ -103,24 +100,6 @@ def plain_scene(scene: Any) -> Any:
     return _plain(scene, False)
 
 
-def json_schema() -> dict[str, Any]:
-    """JSON Schema (draft 2020-12) of a scene; what holds between several places is not in it."""
-    made = Scene.model_json_schema()
-    head = {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "Scene of ALi3",
-        "$comment": "Written by python -m viewer.scene from viewer/scene_types.py.",
-    }
-    schema = {key: value for key, value in made.items() if key != "title"}
-    plain: dict[str, Any] = _without_nulls(schema)
-    return head | plain
-
-
-def schema_text() -> str:
-    """The schema as the file in the package has it."""
-    return json.dumps(json_schema(), indent=2, ensure_ascii=False) + "\n"
-
-
 def _plain(value: Any, by_name: bool) -> Any:
     """Tables whose keys are names of the user's keep them all."""
     if isinstance(value, Mapping):
@@ -129,29 +108,3 @@ def _plain(value: Any, by_name: bool) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(item, False) for item in value]
     return value
-
-
-def _without_nulls(schema: Any) -> Any:
-    """Without null, which a scene does not have, and the titles that types give to keys."""
-    if isinstance(schema, list):
-        return [_without_nulls(item) for item in schema]
-    if not isinstance(schema, dict):
-        return schema
-    kept = {key: value for key, value in schema.items() if key != "discriminator" and not _title(key, value)}
-    choices = [choice for choice in kept.get("anyOf", []) if choice != {"type": "null"}]
-    if "anyOf" in kept and len(choices) < len(kept["anyOf"]):
-        del kept["anyOf"]
-        kept = ({"anyOf": choices} if len(choices) > 1 else choices[0]) | kept
-        if kept.get("default", 0) is None:
-            del kept["default"]
-    return {key: _without_nulls(value) for key, value in kept.items()}
-
-
-def _title(key: str, value: object) -> bool:
-    return key == "title" and isinstance(value, str)
-
-
-if __name__ == "__main__":
-    from ali3.files import write_text
-
-    write_text(SCHEMA_FILE, schema_text())

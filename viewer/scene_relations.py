@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ali3.words import value_words
 from viewer.base64_numbers import decoded, octets
 from viewer.scene_parts import GROUND, anchors_of, frames_of
-from viewer.scene_sentences import place, value_words
+from viewer.scene_sentences import place
 
 _UNIT = 1e-3  # by how much the axes of a shape may miss those of a turn
 

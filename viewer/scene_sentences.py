@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from ali3.near_names import near_names
-from ali3.words import place_words
+from ali3.words import brief, place_words, value_words
 from viewer import road_types, scenery_types
 from viewer import scene_types as types
 from viewer.scene_values import NAME, UNIT, Part
 
 UNKNOWN, MISSING = "extra_forbidden", "missing"
-_LONGEST = 60
 _PATTERNS = {
     NAME: "a name without control characters, '<' and '>'",
     UNIT: "a unit such as 'N.m', without control characters, quotes, '&', '<' and '>', of at most 40 characters",
@@ -89,24 +87,6 @@ def place(path: Sequence[str | int]) -> str:
     return place_words(path) or "the scene"
 
 
-def value_words(value: object) -> str:
-    """A value as a sentence shows it."""
-    if isinstance(value, Mapping):
-        return "a table"
-    if isinstance(value, (list, tuple)) and any(isinstance(item, (list, tuple, Mapping)) for item in value):
-        return f"a list of {len(value)} lists or tables"
-    try:
-        text = json.dumps(value, ensure_ascii=False)
-    except (TypeError, ValueError):
-        text = repr(value)
-    return _cut(text)
-
-
-def _cut(text: str) -> str:
-    text = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
-    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
-
-
 def _sentence(
     scene: Mapping[str, Any], item: Any, path: tuple[str | int, ...], lengths: Mapping[tuple[str | int, ...], int]
 ) -> str:
@@ -118,7 +98,7 @@ def _sentence(
         given = item["input"]
         if not isinstance(given, Mapping):
             return f"{place(path)} is {value_words(given)}; it must be a table."
-        unknown = [f"'{_cut(str(key))}' is not known" for key in given if key not in ("name", "unit", "start")]
+        unknown = [f"{brief(str(key))} is not known" for key in given if key not in ("name", "unit", "start")]
         hint = f" ({unknown[0]})" if unknown else ""
         return f"{place(path)} must have {_CHOICES[path[:1]]}{hint}."
     if kind in ("union_tag_invalid", "union_tag_not_found"):

@@ -123,25 +123,48 @@ def sphere(radius: float, rings: int = 16) -> Solid:
     return lathe(profile.tolist(), 2 * rings)
 
 
-def torus(radius: float, thickness: float, sections: int = 48, sides: int = 12) -> Solid:
-    """A ring about the y axis."""
+def torus(radius: float, thickness: float, sections: int = 48, sides: int = 12, arc: float | None = None) -> Solid:
+    """A ring about the y axis; or an open arc of it about the z axis, of an angle in rad."""
+    if arc is not None:
+        turn = np.linspace(-0.5 * arc, 0.5 * arc, sections + 1)
+        out = np.column_stack([np.sin(turn), np.zeros(len(turn)), np.cos(turn)])
+        return swept(radius * out, out, np.tile([0.0, 1.0, 0.0], (len(turn), 1)), thickness, sides)
     angle = np.linspace(0.0, 2.0 * np.pi, sides + 1)
     profile = np.column_stack([radius + thickness * np.cos(angle), thickness * np.sin(angle)])
     profile[-1] = profile[0]
     return lathe(profile.tolist(), sections)
 
 
-def helix(radius: float, wire: float, length: float, coils: float) -> Solid:
-    """A wire of a thickness, wound about the y axis at a mean radius, from y = 0 to `length`."""
-    reach = max(length - wire, 0.1 * length)
-    count = max(int(24 * coils), 24)
-    turn = np.linspace(0.0, 2.0 * np.pi * coils, count + 1)
-    y = 0.5 * (length - reach) + reach * turn / turn[-1]
-    out = np.column_stack([np.sin(turn), np.zeros(count + 1), np.cos(turn)])
-    slope = reach / turn[-1]
-    along = np.column_stack([radius * np.cos(turn), np.full(count + 1, slope), -radius * np.sin(turn)])
+def coil(
+    radius: float, wire: float, length: float, coils: float, dead: Sequence[float], sides: int, per_turn: int
+) -> Solid:
+    """A coil spring about the y axis, from y = 0 to `length`.
+
+    Parameters
+    ----------
+    radius : float
+        Of the middle of the wire, m.
+    wire : float
+        Its diameter, m.
+    coils : float
+        Turns.
+    dead : (float, float)
+        Turns at each end that lie flat: at most so many, and at most this share of all.
+    sides, per_turn : int
+        Points around the wire, and rings in a turn.
+    """
+    flat_turns, flat = min(dead[0], dead[1] * coils), min(wire, length / (coils + 1.0))
+    active = coils - 2.0 * flat_turns
+    rest = length - wire - 2.0 * flat_turns * flat
+    turn = np.linspace(0.0, coils, round(coils * per_turn) + 1)
+    ends = np.minimum(turn, flat_turns) + np.maximum(0.0, turn - (coils - flat_turns))
+    y = 0.5 * wire + ends * flat + np.clip(turn - flat_turns, 0.0, active) / active * rest
+    angle = 2.0 * np.pi * turn
+    out = np.column_stack([np.sin(angle), np.zeros(len(turn)), np.cos(angle)])
+    slope = np.full(len(turn), length / coils / (2.0 * np.pi))
+    along = np.column_stack([radius * np.cos(angle), slope, -radius * np.sin(angle)])
     along /= np.linalg.norm(along, axis=1)[:, None]
-    return swept(radius * out + np.column_stack([0 * y, y, 0 * y]), out, np.cross(out, along), 0.5 * wire)
+    return swept(radius * out + np.column_stack([0 * y, y, 0 * y]), out, np.cross(out, along), 0.5 * wire, sides)
 
 
 def swept(centres: Array, across: Array, other: Array, radius: float, sides: int = 8) -> Solid:

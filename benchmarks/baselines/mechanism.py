@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 import mbs
 from mbs.elements import ElementType
-from mbs.kernel.header import SensorType
+from mbs.kernel.header.enumerations import SensorType
 
 Array = NDArray[np.float64]
 SPRING = ElementType.SPRING_DAMPER  # whose energy is counted

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.wild_driver import SENSES, Target, WildDriver, wild_start
+from hosts.driving.pilots.pilot import SENSES
+from hosts.driving.wild_driver import Target, WildDriver, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 
 try:

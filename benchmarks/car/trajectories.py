@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ali3.files import write_text
 from benchmarks.car import manoeuvres
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.manoeuvre_file import write_manoeuvre
+from hosts.driving.write_manoeuvre import write_manoeuvre
 from mbs import Settings, Trajectory
 
 Column: TypeAlias = NDArray[np.float64]

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import mbs
-from ali3.parameter_set import range_words
+from ali3.words import range_words
 from fmu_src.variables.text_variables import text_table
 from fmu_src.variables.variables import Variable, variable_table
 from mbs.vehicle import car_names, load

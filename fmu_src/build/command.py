@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 
 from ali3.errors import UserError
 from ali3.extras import missing_package
-from ali3.options import Parser, add_old_names, add_option
-from ali3.running import run_command, told_warnings
+from ali3.old_options import add_old_names
+from ali3.options import Parser, add_option
+from ali3.running import run_command
+from ali3.told_warnings import told_warnings
 
 if TYPE_CHECKING:
     from ali3.parameter_set import ParameterSet

@@ -74,6 +74,20 @@ def generation_date() -> str:
         raise ValueError(f"SOURCE_DATE_EPOCH is '{epoch}'; seconds since 1970 are needed.") from None
 
 
+def about(head: Description) -> dict[str, str]:
+    """Attributes of a model description that FMI 2.0 and 3.0 share, in their order."""
+    return {
+        "description": head.description,
+        "author": head.author,
+        "version": head.version,
+        "copyright": head.copyright,
+        "license": head.licence,
+        "generationTool": head.tool,
+        "generationDateAndTime": generation_date(),
+        "variableNamingConvention": "structured",
+    }
+
+
 def number(value: float) -> str:
     """Shortest text that reads back as the same double."""
     return repr(float(value))
@@ -101,14 +115,7 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
         fmiVersion="2.0",
         modelName=head.model_name,
         guid=head.guid,
-        description=head.description,
-        author=head.author,
-        version=head.version,
-        copyright=head.copyright,
-        license=head.licence,
-        generationTool=head.tool,
-        generationDateAndTime=generation_date(),
-        variableNamingConvention="structured",
+        **about(head),
         numberOfEventIndicators="0",
     )
     face = ElementTree.SubElement(

@@ -7,11 +7,11 @@ from xml.etree import ElementTree
 
 from fmu_src.description.description import (
     Description,
+    about,
     categories_and_experiment,
     declared_type,
     declared_types,
     dependency_attributes,
-    generation_date,
     to_bytes,
     units,
     variable_attributes,
@@ -46,14 +46,7 @@ def model_description_fmi3(
         fmiVersion="3.0",
         modelName=head.model_name,
         instantiationToken=head.guid,
-        description=head.description,
-        author=head.author,
-        version=head.version,
-        copyright=head.copyright,
-        license=head.licence,
-        generationTool=head.tool,
-        generationDateAndTime=generation_date(),
-        variableNamingConvention="structured",
+        **about(head),
     )
     ElementTree.SubElement(
         root,

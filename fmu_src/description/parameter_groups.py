@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 import mbs
 from mbs.kernel.binding import Instance, KernelError
-from mbs.kernel.header import ParameterTarget
+from mbs.kernel.header.enumerations import ParameterTarget
 
 _DISPLACEMENTS = (0.0, 0.01, 0.05, 0.2, 0.5, 1.0, 2.0)  # m, of coordinates beside the start: all stops act
 

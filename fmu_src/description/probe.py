@@ -17,7 +17,7 @@ import mbs
 from fmu_src.description.parameter_groups import parameter_groups
 from fmu_src.variables.variables import Variable
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
-from mbs.kernel.header import SENSOR_READS, ElementType, SensorReads, SensorType
+from mbs.kernel.header.enumerations import SENSOR_READS, ElementType, SensorReads, SensorType
 
 _SEED = 20_261_120
 _INITIAL_TRIES = 6

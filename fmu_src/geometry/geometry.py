@@ -11,7 +11,7 @@ from fmu_src.geometry.binding import bind
 from fmu_src.geometry.moved_places import moved_part
 from fmu_src.geometry.roads import with_parameters
 from fmu_src.variables.variables import Variable
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 from viewer.scene_columns import columns_of
 from viewer.scene_parts import frames_of
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import mbs
 from fmu_src.variables.text_variables import ROADS
-from mbs.kernel.header import RoadType
+from mbs.kernel.header.enumerations import RoadType
 
 POSITION, STEP = 0, 2  # of the numbers of a kerb
 TARGET_ROAD = 2

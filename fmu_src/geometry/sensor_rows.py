@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from mbs.kernel.header import ElementType, SensorType
+from mbs.kernel.header.enumerations import ElementType, SensorType
 from mbs.system.drawing import BodyPlace
 
 Array = NDArray[np.float64]

@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.cores import available_cores
-from ali3.options import Parser, add_old_names, add_option, assignment
+from ali3.old_options import add_old_names
+from ali3.options import Parser, add_option, assignment
 from ali3.running import run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu

@@ -10,9 +10,9 @@ from scipy import stats
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.pilots.pilot import Together
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import SteeringTable
+from hosts.driving.pilots.together import Together
 
 RATIO = "vehicle.steering_ratio"
 WHEELS = ("wheel_FL.steer", "wheel_FR.steer")

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING
 
 from ali3.extras import command_needs
 from ali3.isolated import Isolated, Lost
-from ali3.options import Parser, add_old_names, add_option, assignment, count, given_of
+from ali3.old_options import add_old_names
+from ali3.options import Parser, add_option, assignment, count, given_of
 from ali3.running import run_command
 from ali3.words import shortened
 from hosts.check.all_checks import check

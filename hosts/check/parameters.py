@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ali3.words import shortened
 from hosts.common.options import Wishes
+from hosts.fmu.parameters_as_set import parameter_set_of
 
 if TYPE_CHECKING:
     from hosts.fmu.settings import Settings
@@ -56,7 +57,7 @@ def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, sh
     else:
         _print_rows(settings.rows())
     if out is not None:
-        found = variables.parameter_set(description.modelName, settings.start)
+        found = parameter_set_of(variables, description.modelName, settings.start)
         write_parameter_set(found, out, as_built=not settings.changes)
         print(f"written: {out}, {len(found.entries)} parameters")
     return 0

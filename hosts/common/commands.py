@@ -5,8 +5,8 @@ from __future__ import annotations
 import subprocess
 from collections.abc import Callable
 
+from ali3.children import how_ended
 from ali3.running import module_command
-from ali3.signals import how_ended
 from hosts.common.errors import HostError
 
 _ERROR = "error: "

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ali3.options import add_option
-from hosts.common.road import PARAMETER, road_value
+
+ROAD = "road.file"
+"""Parameter of an FMU for the file of its road."""
 
 
 @dataclass(frozen=True)
@@ -50,5 +52,9 @@ def add_setting_options(parser: argparse._ActionsContainer) -> None:
 def wishes(options: argparse.Namespace) -> Wishes:
     """What was given by the options of `add_setting_options` and by ``--road``."""
     given = getattr(options, "road", None)
-    road = [] if given is None else [(PARAMETER, road_value(given, options.out))]
+    road = []
+    if given is not None:
+        from hosts.common.road import road_value
+
+        road = [(ROAD, road_value(given, options.out))]
     return Wishes(options.parameters, road + options.set)

@@ -8,13 +8,12 @@ from pathlib import Path
 from ali3.files import make_folder
 from hosts.common.commands import run_module
 
-PARAMETER = "road.file"
 MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml")
 """Suffixes of what ``ali3 road`` makes a road file of."""
 
 
 def road_value(given: str, out: Path) -> str:
-    """What `PARAMETER` is set to.
+    """What the parameter ``road.file`` of an FMU is set to.
 
     Parameters
     ----------

@@ -7,7 +7,7 @@ import re
 from collections import Counter
 
 from ali3.near_names import did_you_mean
-from ali3.parameter_set import UnitDefinition
+from ali3.unit_definition import UnitDefinition
 from hosts.common.errors import HostError
 
 _DEGREE, _INCH, _POUND_FORCE, _G = math.pi / 180.0, 0.0254, 4.4482216152605, 9.80665

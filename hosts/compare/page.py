@@ -15,11 +15,12 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ali3.chart_style import BLUE, COLOURS, RED, STYLE
+from ali3.charts import save_pictures
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import ComparedSignal, Comparison
 from hosts.compare.log import Signal
 from hosts.compare.words import unit_shown
-from hosts.run.result_plots import BLUE, COLOURS, RED, STYLE, save_pictures
 from hosts.run.slide import write_slide
 
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}

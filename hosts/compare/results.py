@@ -18,6 +18,7 @@ from hosts.compare.report import write_report
 from hosts.compare.result_files import measure_records, write_json, write_signals
 from hosts.compare.task import Task
 from hosts.fmu.fmu import described
+from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.variables import Variables
 
 
@@ -65,7 +66,7 @@ def write_outcome(
     if outcome.fit is not None:
         values = task.aliases.values(dict(task.set_values) | outcome.fit.parameters)
         description = described(options.fmu)
-        parameters = Variables(description).parameter_set(description.modelName, values)
+        parameters = parameter_set_of(Variables(description), description.modelName, values)
         write_parameter_set(parameters, paths[".ssv"], as_built=False)
     if ".json" in paths:
         write_json(_record(outcome, task), paths[".json"])

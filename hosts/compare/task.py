@@ -20,8 +20,8 @@ from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
 from hosts.compare.start_values import measured_start, placed
 from hosts.compare.starting_pedal import starting_pedal
-from hosts.driving.co_simulation import check_columns, communication_step
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.run_checks import check_columns, communication_step
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.of_file import aliases_of

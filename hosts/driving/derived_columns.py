@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
 from hosts.driving.co_simulation import Result
 from hosts.fmu.aliases.alias import Aliases
 
@@ -16,7 +21,7 @@ def derive_columns(result: Result, aliases: Aliases, thinned: bool = False) -> N
     aliases : Aliases
         By which the FMU was driven.
     thinned : bool
-        Whether steps are left out, see `Aliases.with_central_rates`.
+        Whether steps are left out; then rates of the run are better, and only those that are NaN are written.
     """
     derived = [result.names.index(d.ours) for d in aliases.derived if d.ours in result.names]
     if not derived:
@@ -26,5 +31,19 @@ def derive_columns(result: Result, aliases: Aliases, thinned: bool = False) -> N
         ended[1:, held] = result.values[:-1, held]
     for k, before in result.jumps.items():
         ended[k, : len(before)] = before
-    aliases.with_central_rates(result.names, result.time, ended, thinned)
+    _with_central_rates(aliases, result.names, result.time, ended, thinned)
     result.values[:, derived] = ended[:, derived]
+
+
+def _with_central_rates(
+    aliases: Aliases, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64], thinned: bool
+) -> None:
+    """Write derived columns of a record again: a rate that was made during the run did not know the next row."""
+    made = {d.ours for d in aliases.derived}
+    there = [k for k, name in enumerate(names) if name not in made]
+    derivation = aliases.derivation([names[k] for k in there])
+    columns = derivation.record(time, values[:, there])
+    for k, name in enumerate(derivation.names):
+        if name in names:
+            column = values[:, names.index(name)]
+            column[:] = np.where(np.isnan(column), columns[:, k], column) if thinned else columns[:, k]

@@ -8,9 +8,12 @@ from dataclasses import fields
 from ali3.decimal_number import parse_number
 from hosts.common.errors import HostError
 from hosts.driving.course import course_of
-from hosts.driving.pilots.course_follower import ACTS, SENSES, CourseFollower, DriverSettings
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
+from hosts.driving.pilots.pilot import ACTS, SENSES
+from hosts.driving.simulated_fmu import SimulatedFmu
 
-__all__ = ["ACTS", "CONSTANTS", "SENSES", "Driver", "DriverSettings", "make_driver"]
+__all__ = ["CONSTANTS", "Driver", "DriverSettings", "make_driver"]
 
 Driver = CourseFollower
 _POSITIVE = ("speed", "wheelbase", "wheel_angle_max", "vehicle_length", "vehicle_width")
@@ -66,3 +69,24 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
             )
     values = DriverSettings(**numbers)
     return Driver(course_of(settings["course"], values.vehicle_width), values)
+
+
+def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:
+    """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
+
+    Raises
+    ------
+    HostError
+        If the FMU is no car for a driver, or a setting is wrong or missing.
+    """
+    if not manoeuvre.driver:
+        return None
+    _check_drivable(fmu)
+    return make_driver(manoeuvre.driver, fmu.constants())
+
+
+def _check_drivable(fmu: SimulatedFmu) -> None:
+    inputs, outputs = fmu.names("input"), fmu.names("output")
+    missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
+    if missing:
+        raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")

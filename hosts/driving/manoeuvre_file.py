@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
-import textwrap
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -13,19 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.decimal_number import parse_number
-from ali3.files import write_text
 from ali3.reading import LARGEST_TEXT, read_toml
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value
+from hosts.common.numbers import text_of
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.manoeuvre_table import read_state, read_table, text_of, write_state
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
+from hosts.driving.state_file import read_state
 
 SUFFIXES = (".toml", ".csv", ".ini")
 """Of files that hold manoeuvres; ``.ini`` is of earlier versions."""
 _KEYS = ("stop_time", "held", "start", "driver", "inputs", "state")
-_WIDTH = 116
 
 
 def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
@@ -63,6 +58,8 @@ def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
     else:
         if not path.is_file():
             raise HostError(f"There is no file {path}.")
+        from hosts.driving.manoeuvre_table import read_table
+
         made = read_table(path)
     if not made.stop_time > 0.0:
         raise HostError(f"{path} does not say how long it lasts; give a later time in the table or a stop_time.")
@@ -147,60 +144,3 @@ def _state(table: Mapping[str, Any], path: Path) -> tuple[bytes | None, float]:
     if set(table) != {"file", "time"} or not isinstance(table["file"], str):
         raise HostError(f"{path}: [state] must have the name of a file and a time.")
     return read_state(path.parent / table["file"], str(path)), _number(table["time"], f"{path}, time of the state")
-
-
-def write_manoeuvre(manoeuvre: Manoeuvre, file: Path, comment: str = "") -> None:
-    """Write a manoeuvre as a TOML file, as `read_manoeuvre` reads it.
-
-    Parameters
-    ----------
-    file : Path
-        The state goes beside it, with the suffix ``.state``.
-    comment : str
-        A line at the beginning.
-    """
-    lines = [f"# {comment}"] if comment else []
-    lines.append(f"stop_time = {manoeuvre.stop_time!r}")
-    if manoeuvre.held:
-        lines.append(f"held = {json.dumps(sorted(manoeuvre.held))}")
-    columns = {"time": manoeuvre.time, **manoeuvre.inputs} if manoeuvre.inputs else {}
-    tables: dict[str, Mapping[str, Any]] = {
-        "start": {name: _toml(value) for name, value in manoeuvre.start.items()},
-        "driver": {name: _setting(text) for name, text in manoeuvre.driver.items()},
-        "state": {},
-        "inputs": {name: _list(values) for name, values in columns.items()},
-    }
-    if manoeuvre.state is not None:
-        beside = write_state(manoeuvre.state, file)
-        tables["state"] = {"file": _toml(beside.name), "time": repr(manoeuvre.state_time)}
-    for title, table in tables.items():
-        if table:
-            lines += ["", f"[{title}]", *(f"{_key(name)} = {text}" for name, text in table.items())]
-    write_text(file, "\n".join(lines) + "\n")
-
-
-def _key(name: str) -> str:
-    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name, re.ASCII) else _toml(name)
-
-
-def _toml(value: Value) -> str:
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else text_of(value)
-
-
-def _short(value: float) -> str:
-    """The number in few digits where that is the same; TOML has no whole number -0."""
-    short = f"{value:g}"
-    return short if float(short) == value and short != "-0" else repr(value)
-
-
-def _setting(text: str) -> str:
-    """Of the driver: a number where it is one."""
-    try:
-        return repr(parse_number(text))
-    except ValueError:
-        return _toml(text)
-
-
-def _list(values: NDArray[np.float64]) -> str:
-    text = ", ".join(map(_short, values.tolist()))
-    return f"[{text}]" if len(text) < _WIDTH else f"[\n{textwrap.indent(textwrap.fill(text, _WIDTH), '  ')},\n]"

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
-from hosts.driving.driver import ACTS
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.pilot import ACTS
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import START_OF, Settings, settings_of
 

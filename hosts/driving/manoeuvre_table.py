@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 
 from ali3.decimal_number import parse_number
-from ali3.files import whole_file, write_text
-from ali3.reading import LARGEST_STATE, read_bytes, read_json
+from ali3.reading import read_json
 from ali3.tables import TextTable
 from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, parse_value
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.state_file import read_state
 
 # What a page says of a table whose oldest rows it has forgotten.
 _CUT = re.compile("the first .* s are not in this table")
@@ -133,22 +133,6 @@ def _record_of(path: Path) -> _Record:
         raise HostError(f"{file} is no whole record of the run whose result is {path.name}; run it again.") from None
 
 
-def read_state(file: Path, where: str) -> bytes:
-    """The saved state of an FMU.
-
-    Parameters
-    ----------
-    where : str
-        The place that names it, for messages.
-
-    Raises
-    ------
-    HostError
-        It cannot be read.
-    """
-    return read_bytes(file, LARGEST_STATE, HostError, f"{where}: the state {file}")
-
-
 def _assignments(parts: Iterable[str], where: str) -> dict[str, Value]:
     result: dict[str, Value] = {}
     for part in parts:
@@ -173,47 +157,3 @@ def value_of(text: str, where: str) -> Value:
         return parse_value(text)
     except ValueError as error:
         raise HostError(f"{where}: {error}.") from None
-
-
-def write_table(manoeuvre: Manoeuvre, file: Path) -> list[Path]:
-    """Write inputs, start values and state as `read_table` reads them.
-
-    Parameters
-    ----------
-    file : Path
-        The state goes beside it, with the suffix ``.state``.
-
-    Returns
-    -------
-    list of Path
-        What was written.
-    """
-    files = [file]
-    lines = [f"# start: {name}={text_of(value)}" for name, value in manoeuvre.start.items()]
-    if manoeuvre.state is not None:
-        files.append(write_state(manoeuvre.state, file))
-        lines.append(f"# state: {files[-1].name} at {manoeuvre.state_time!r}")
-    if manoeuvre.step is not None:
-        lines.append(f"# step: {manoeuvre.step!r}")
-    if manoeuvre.held:
-        lines.append(f"# held: {', '.join(sorted(manoeuvre.held))}")
-    lines.append(",".join(f'"{name}"' for name in ("time", *manoeuvre.inputs)))
-    table = np.column_stack([manoeuvre.time, *manoeuvre.inputs.values()])
-    lines += [",".join(map(repr, row)) for row in table.tolist()]
-    write_text(file, "\n".join(lines) + "\n")
-    return files
-
-
-def write_state(state: bytes, file: Path) -> Path:
-    """Write a saved state beside a file; its place."""
-    beside = file.with_suffix(".state")
-    with whole_file(beside) as made:
-        made.write_bytes(state)
-    return beside
-
-
-def text_of(value: Value) -> str:
-    """A value as `value_of` reads it."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    return f'"{value}"' if isinstance(value, str) else repr(value)

@@ -12,12 +12,11 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from hosts.common.numbers import Value
+from hosts.driving.pilots.pilot import SENSES
 
 TOP_SPEED = 40.0
 """m/s, above which the throttle is let go and the brake is touched."""
 
-SENSES = ("chassis.x", "chassis.y", "chassis.yaw", "speed")
-"""Outputs that the driver looks at; without them it does not aim, and holds no speed."""
 
 _STEERING = "steering_wheel_angle_demand"
 _LOCK = 9.0  # rad, beyond which no car of ours turns its steering wheel

@@ -190,3 +190,8 @@ def _scaled(variable: Variable, alias: Alias) -> Variable:
     if not _is_plain(alias) and isinstance(start, (int, float)) and not isinstance(start, bool):
         start = (start - alias.offset) / alias.factor
     return replace(variable, name=alias.ours, low=low, high=high, start=start)
+
+
+def seen_through(fmu: Fmu, aliases: Aliases) -> Fmu | AliasedFmu:
+    """The FMU under our names; itself where there are none."""
+    return AliasedFmu(fmu, aliases) if aliases.aliases or aliases.derived or aliases.constants else fmu

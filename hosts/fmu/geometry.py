@@ -58,18 +58,6 @@ def scene_of(path: Path, settings: Mapping[str, Value] | None = None) -> dict[st
     return scene | {"roads": roads, "missing": [*scene.get("missing", []), *missing]} | more
 
 
-def scene_from(path: Path, settings: Mapping[str, Value] | None = None) -> dict[str, Any] | None:
-    """The scene of an FMU, or of a JSON file; see `scene_of`."""
-    if not path.is_file():
-        raise HostError(f"There is no file {path}.")
-    if not zipfile.is_zipfile(path):
-        try:
-            return read_scene(path)
-        except SceneError as error:
-            raise HostError(f"{path} is neither an FMU nor a scene: {error}") from None
-    return scene_of(path, settings)
-
-
 def _roads(
     scene: Mapping[str, Any], fmu: zipfile.ZipFile, settings: Mapping[str, Value]
 ) -> tuple[list[Any], list[dict[str, str]], list[Any]]:

@@ -3,56 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ali3.parameter_set import Entry, ParameterSet, UnitDefinition
-from ali3.read_parameter_set import read_parameter_set
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes
-from hosts.fmu.variables import Variable, Variables
+from hosts.fmu.setting import Setting
+from hosts.fmu.variables import Variables
 
 START_OF = "start of "
 """How the source of a start value of a manoeuvre begins."""
 _MOST_IN_TITLE = 2
-
-
-@dataclass(frozen=True)
-class Setting:
-    """A value that is set.
-
-    Parameters
-    ----------
-    value : float, int, bool or str
-        In the variable's unit.
-    source : str
-        Where it comes from, for a person.
-    given : str
-        Value and unit as they were given, where the unit is another; else empty.
-    """
-
-    variable: Variable
-    value: Value
-    source: str
-    given: str = ""
-
-    @property
-    def changes(self) -> bool:
-        """Whether it is another value than that of the FMU."""
-        return self.value != self.variable.start
-
-    def words(self) -> str:
-        """Old and new value with their unit."""
-        v = self.variable
-        given = f"{self.given} in " if self.given else ""
-        return f"{v.text(v.start)} -> {v.with_unit(self.value)} ({given}{self.source})"
-
-    def record(self) -> dict[str, Any]:
-        """For JSON."""
-        v = self.variable
-        return {"name": v.name, "old": v.start, "new": self.value, "unit": v.unit, "from": self.source}
 
 
 class Settings:
@@ -113,8 +75,9 @@ class Settings:
 
     def add_set(self, file: Path) -> None:
         """Values of an SSV file, converted into the units of the FMU; see `add_numbers`."""
-        parameters, source = read_parameter_set(file), file.name
-        found = [self._of_entry(entry, parameters, source) for entry in parameters.entries]
+        from hosts.fmu.parameter_file_settings import settings_of_file
+
+        found, source = settings_of_file(file, self._variables), file.name
         self._put(found)
         same = sum(not setting.changes for setting in found)
         if not found:
@@ -173,47 +136,6 @@ class Settings:
     def _checked(self, name: str, value: Value, source: str) -> Setting:
         variable = self._variables.settable(name, source)
         return Setting(variable, variable.check(value, source), source)
-
-    def _of_entry(self, entry: Entry, parameters: ParameterSet, source: str) -> Setting:
-        variable = self._variables.settable(entry.name, source)
-        value = variable.take(entry.kind, entry.value, source)
-        if (
-            entry.unit is None
-            or variable.kind != "Real"
-            or (entry.unit == variable.unit and entry.unit not in parameters.units)
-        ):
-            return Setting(variable, variable.check(value, source), source)
-        assert isinstance(value, float)
-        definition = parameters.units.get(entry.unit)
-        converted = (
-            variable.from_display(value, entry.unit, source)
-            if definition is None
-            else self._converted(variable, value, entry.unit, definition, source)
-        )
-        given = "" if converted == value else f"{value:g} {entry.unit}"
-        setting = Setting(variable, converted, source, given)
-        return replace(setting, value=variable.check(converted, f"{source}, {given}" if given else source))
-
-    @staticmethod
-    def _converted(variable: Variable, value: float, name: str, unit: UnitDefinition, source: str) -> float:
-        own = variable.definition
-        if own is None:
-            raise HostError(
-                f"{source}: '{variable.name}' is given in {name}; the FMU does not define its unit "
-                f"{variable.unit}, so that it cannot be converted."
-            )
-        if own.exponents != unit.exponents:
-            raise HostError(
-                f"{source}: '{variable.name}' is given in {name} ({_base(unit)}); its unit is {variable.unit} "
-                f"({_base(own)})."
-            )
-        return unit.convert(value, own)
-
-
-def _base(unit: UnitDefinition) -> str:
-    """A unit in base units, for messages."""
-    text = ".".join(f"{base}{'' if power == 1 else power}" for base, power in unit.exponents.items()) or "1"
-    return text if unit.factor == 1.0 else f"{unit.factor:g} {text}"
 
 
 def settings_of(

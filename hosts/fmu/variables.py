@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,8 +10,9 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.decimal_number import parse_number
 from ali3.near_names import MOST, did_you_mean
-from ali3.parameter_set import Entry, ParameterSet, UnitDefinition, range_words, told
 from ali3.running import command_name
+from ali3.unit_definition import BASE_UNITS, UnitDefinition
+from ali3.words import range_words
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.scalars import KINDS
@@ -25,7 +25,6 @@ _ROLES = {
     "calculatedParameter": "a calculated parameter",
     "structuralParameter": "a structural parameter",
 }
-_WRITTEN = ("Real", "Integer", "Boolean", "String", "Enumeration")
 _LONGEST = 80
 
 
@@ -70,14 +69,6 @@ class Variable:
             return str(value).lower()
         return repr(value) if isinstance(value, str) else f"{value:.10g}"
 
-    def written(self, value: Value) -> str:
-        """A value as a parameter set has it: numbers read back as the same double."""
-        if self.kind == "Enumeration":
-            return next((name for name, number in self.items.items() if number == value), str(value))
-        if self.kind in ("Boolean", "String"):
-            return str(value).lower() if isinstance(value, bool) else str(value)
-        return repr(value)
-
     def with_unit(self, value: Value | None) -> str:
         """A value with its unit."""
         unit = "" if self.unit == "1" or self.kind != "Real" else f" {self.unit}"
@@ -117,28 +108,6 @@ class Variable:
         except ValueError as error:
             raise HostError(f"{source}: '{self.name}': {error}.") from None
 
-    def take(self, kind: str, text: str, source: str) -> Value:
-        """The value of a file that names its kind; a real one is not yet checked.
-
-        Parameters
-        ----------
-        kind, text : str
-            As in a parameter set.
-
-        Raises
-        ------
-        HostError
-            The kind does not fit this variable.
-        """
-        fits = {"Real": ("Real", "Integer"), "Integer": ("Integer", "Real"), "Enumeration": ("Enumeration", "Integer")}
-        if kind not in fits.get(self.kind, (self.kind,)):
-            raise HostError(f"{source}: '{self.name}' is given as {kind}; in the FMU it is {_article(self.kind)}.")
-        if self.kind == "Real":
-            return float(text)
-        if kind == "Real":
-            return self.check(float(text), source)
-        return self.read(text, source)
-
     def check(self, value: Value, source: str) -> Value:
         """The value as its kind has it, if it may be set.
 
@@ -149,7 +118,7 @@ class Variable:
         """
         if self.kind == "String" or isinstance(value, str):
             if self.kind != "String" or not isinstance(value, str):
-                raise HostError(f"{source}: '{self.name}' is {self.text(value)}; it must be {_article(self.kind)}.")
+                raise HostError(f"{source}: '{self.name}' is {self.text(value)}; it must be {kind_words(self.kind)}.")
             return value
         if not math.isfinite(value):
             raise HostError(f"{source}: '{self.name}' is {value}; only finite numbers can be used.")
@@ -207,28 +176,6 @@ class Variables:
         """In the order of the FMU."""
         return [v for v in self._variables.values() if v.causality == "parameter"]
 
-    def parameter_set(self, name: str, values: Mapping[str, Value]) -> ParameterSet:
-        """All parameters as a set.
-
-        Parameters
-        ----------
-        name : str
-            Of the set.
-        values : mapping of str to float, int, bool or str
-            Other values than those of the FMU.
-        """
-        entries, units = [], {}
-        for v in self.parameters:
-            value = values.get(v.name, v.start)
-            if value is None or v.kind not in _WRITTEN:
-                continue
-            unit = v.unit if v.kind == "Real" and v.definition is not None else None
-            if unit is not None and v.definition is not None:
-                units[unit] = v.definition
-            text = told(v.description, v.range, v.variability)
-            entries.append(Entry(v.name, v.kind, v.written(value), unit, text))
-        return ParameterSet(name, entries, dict(sorted(units.items())))
-
     def settable(self, name: str, source: str) -> Variable:
         """A variable that may be set before the start.
 
@@ -277,7 +224,7 @@ def _variable(v: ScalarVariable, units: dict[str | None, Any]) -> Variable:
     unit = attribute("unit")
     known = units.get(unit)
     base = known.baseUnit if known is not None else None
-    definition = UnitDefinition.of({k: getattr(base, k) for k in (*_BASE, "factor", "offset")}) if base else None
+    definition = UnitDefinition.of({k: getattr(base, k) for k in (*BASE_UNITS, "factor", "offset")}) if base else None
     if unit is None:
         definition = UnitDefinition({})
     low, high = attribute("min"), attribute("max")
@@ -297,9 +244,6 @@ def _variable(v: ScalarVariable, units: dict[str | None, Any]) -> Variable:
     )
 
 
-_BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
-
-
 def _start(text: Any, kind: str) -> Value | None:
     if text is None:
         return None
@@ -310,7 +254,8 @@ def _start(text: Any, kind: str) -> Value | None:
     return float(text) if kind == "Real" else int(text)
 
 
-def _article(kind: str) -> str:
+def kind_words(kind: str) -> str:
+    """A kind with its article."""
     return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"
 
 

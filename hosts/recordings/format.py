@@ -1,8 +1,10 @@
-"""Names in the folder of a recording."""
+"""Names in the folder of a recording, and whether there is one."""
 
 from __future__ import annotations
 
 from pathlib import Path
+
+from hosts.common.errors import HostError
 
 FORMAT, VERSION = "ALi3 recording", 1
 
@@ -17,3 +19,11 @@ REWIND, REFUSED = "rewind", "refused"
 def is_recording(path: Path) -> bool:
     """Whether a path is the folder of a recording."""
     return (path / DESCRIPTION).is_file()
+
+
+def check_new(folder: Path) -> None:
+    """Refuse a folder that holds a recording already, also one that is being made."""
+    if any((folder / name).exists() for name in (DESCRIPTION, EVENTS)):
+        raise HostError(
+            f"{folder} holds a recording already, or another program is recording there; name another folder."
+        )

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
-from hosts.fmu.geometry import scene_from, scene_of
+from hosts.fmu.geometry import scene_of
+from hosts.fmu.scene_file import scene_from
 from hosts.recordings.recorded_drive import read_recording, session_time
 from viewer.recording import Recording
 

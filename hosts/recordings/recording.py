@@ -20,9 +20,8 @@ from numpy.typing import ArrayLike
 
 from ali3.extras import missing_package
 from ali3.files import make_folder, whole_file, write_text
-from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, VERSION
+from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, VERSION, check_new
 from hosts.recordings.tables import Rows
 from hosts.recordings.written_tables import CsvTable, ParquetTable, Table
 
@@ -90,14 +89,6 @@ def _version(package: str) -> str:
         return version(package)
     except PackageNotFoundError:  # a clone that is not installed
         return "unknown"
-
-
-def check_new(folder: Path) -> None:
-    """Refuse a folder that holds a recording already, also one that is being made."""
-    if any((folder / name).exists() for name in (DESCRIPTION, EVENTS)):
-        raise HostError(
-            f"{folder} holds a recording already, or another program is recording there; name another folder."
-        )
 
 
 class Recorder:

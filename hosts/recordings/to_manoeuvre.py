@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hosts.common.errors import HostError
-from hosts.driving.manoeuvre_table import write_table
+from hosts.driving.write_manoeuvre import write_table
 from hosts.fmu.fmu import StepRefusedError
 from hosts.recordings.last_drive import last_drive, manoeuvre_of
 from hosts.recordings.recorded_drive import RecordedDrive

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ali3.options import Parser, add_option, assignment, given_of
 from ali3.running import run_command
@@ -19,6 +20,9 @@ from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
 from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.fmu.car import is_car
+
+if TYPE_CHECKING:
+    from hosts.driving.driver import Driver
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.run.command") -> int:
@@ -68,9 +72,10 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from hosts.driving.co_simulation import check_columns, communication_step, driver_of, run_with_bar
+    from hosts.driving.co_simulation import run_with_bar
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
+    from hosts.driving.run_checks import check_columns, communication_step
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
     from hosts.recordings.load_manoeuvre import manoeuvre_of
@@ -86,7 +91,11 @@ def _run(options: argparse.Namespace) -> int:
         manoeuvre = replace(manoeuvre, driver=dict(manoeuvre.driver) | {k: repr(v) for k, v in known.items()})
         manoeuvre = with_names_of(manoeuvre, fmu.variables)
         check_columns(fmu, manoeuvre)
-        driver = driver_of(fmu, manoeuvre)
+        driver: Driver | None = None
+        if manoeuvre.driver:
+            from hosts.driving.driver import driver_of
+
+            driver = driver_of(fmu, manoeuvre)
         manoeuvre, settings = set_in(fmu, manoeuvre, wishes(options), options.fidelity)
         still = options.manoeuvre is None
         stem = path.stem if still else f"{_words(path.stem)}_{manoeuvre.name}"

@@ -52,9 +52,10 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
     """
     import numpy as np
 
-    from hosts.driving.co_simulation import communication_step, run_with_bar
+    from hosts.driving.co_simulation import run_with_bar
     from hosts.driving.manoeuvre import Manoeuvre
     from hosts.driving.manoeuvre_settings import set_in
+    from hosts.driving.run_checks import communication_step
     from hosts.fmu.built_fmu import fmu_of_scene
     from hosts.fmu.fmu import Fmu
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
@@ -119,8 +120,9 @@ def draw(result: Result, step: float, file: Path) -> None:
     """Moments as differences from rest, as gauges measure them."""
     from matplotlib import pyplot as plt
 
+    from ali3.chart_style import BLACK, BLUE, RED
+    from ali3.charts import save_picture
     from hosts.measures.low_pass import low_pass
-    from hosts.run.result_plots import BLACK, BLUE, RED, save_picture
 
     figure, panels = plt.subplots(2, 2, figsize=(15, 8), sharex=True, layout="constrained")
     for axes, gauge in zip(panels.T.flat, GAUGES, strict=True):

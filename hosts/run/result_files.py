@@ -11,7 +11,7 @@ from ali3.files import check_writable, whole_file, write_text
 from hosts.driving.co_simulation import Result
 from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.manoeuvre_table import write_state
+from hosts.driving.state_file import write_state
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import Settings
 

@@ -2,55 +2,23 @@
 
 from __future__ import annotations
 
-import contextlib
-import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import matplotlib
 import numpy as np
-
-matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ali3.files import whole_file
+from ali3.chart_style import BLACK, BLUE, COLOURS, GREEN, ORANGE, RED, SKY, STYLE
+from ali3.charts import save_picture
 from hosts.driving.co_simulation import Result
 from hosts.driving.course import Course
 from hosts.run.run_summary import WHEELS
 
-# Okabe and Ito's palette: distinguishable with any colour vision.
-BLUE, ORANGE, GREEN, RED, PURPLE, SKY, BLACK = (
-    "#0072B2",
-    "#E69F00",
-    "#009E73",
-    "#D55E00",
-    "#CC79A7",
-    "#56B4E9",
-    "#222222",
-)
-COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, BLACK)
-STYLE: dict[Any, Any] = {
-    "font.size": 10,
-    "font.family": "DejaVu Sans",
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#e3e3e3",
-    "grid.linewidth": 0.8,
-    "axes.edgecolor": "#888888",
-    "axes.titlesize": 11,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "legend.frameon": False,
-    "legend.fontsize": 9,
-    "lines.linewidth": 1.6,
-    "lines.solid_capstyle": "round",
-}
 _MAX_PANELS = 9
 _STANDING = 0.5
 
@@ -74,31 +42,6 @@ def plot_page(
         figure = _car_page(result, rows, course) if is_car else _plain_page(result, rows)
         figure.suptitle(title, x=0.012, y=0.988, ha="left", va="top", fontsize=15, fontweight="bold")
         save_picture(figure, file)
-
-
-@contextlib.contextmanager
-def _however_long() -> Iterator[None]:
-    """Texts of strangers may be too long to be laid out: the picture is drawn all the same."""
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "constrained_layout not applied", UserWarning)
-        yield
-
-
-def save_picture(figure: Figure, file: Path) -> None:
-    """Write a figure as PNG and close it."""
-    with whole_file(file) as made, _however_long():
-        figure.savefig(made, dpi=110)
-    plt.close(figure)
-
-
-def save_pictures(figure: Figure, stem: Path) -> list[Path]:
-    """Write a figure as SVG and as PNG, ``stem`` with these suffixes, and close it."""
-    files = [stem.with_name(f"{stem.name}{suffix}") for suffix in (".svg", ".png")]
-    # the same drawing gives the same bytes
-    with plt.rc_context({"svg.hashsalt": "ali3"}), whole_file(files[0]) as made, _however_long():
-        figure.savefig(made, format="svg", metadata={"Date": None, "Creator": None})
-    save_picture(figure, files[1])
-    return files
 
 
 @dataclass(frozen=True)

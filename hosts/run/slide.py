@@ -14,7 +14,8 @@ matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
-from hosts.run.result_plots import BLACK, STYLE, save_pictures
+from ali3.chart_style import BLACK, STYLE
+from ali3.charts import save_pictures
 
 Draw: TypeAlias = Callable[[Axes], object]
 """Draws into axes."""

@@ -18,7 +18,7 @@ from typing import Any
 
 from fmpy.fmi1 import FMICallException
 
-from ali3.signals import ignore_stopping
+from ali3.children import ignore_stopping
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import StepRefusedError

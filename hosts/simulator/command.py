@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.extras import missing_package
-from ali3.options import Parser, add_old_names, add_option, given_of
+from ali3.old_options import add_old_names
+from ali3.options import Parser, add_option, given_of
 from ali3.running import GOOD, NOT_GOOD, run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
@@ -101,10 +102,7 @@ def _simulate(options: argparse.Namespace, begin: float) -> int:
     _check(options)
     if options.json is not None:
         check_writable(options.json)
-    manoeuvre = _manoeuvre(options)
-    if options.headless:
-        return _alone(options, begin, manoeuvre)
-    return _with_pages(options, begin)
+    return _alone(options, begin) if options.headless else _with_pages(options, begin)
 
 
 def _check(options: argparse.Namespace) -> None:
@@ -132,14 +130,6 @@ def _check(options: argparse.Namespace) -> None:
         raise HostError(f"--stop-time is {options.stop_time:g}; it must be positive and at most {_LONGEST:g}.")
     if options.manoeuvre is not None and options.seed is not None:
         raise HostError("Inputs are given by --manoeuvre and by --seed; give one of them.")
-
-
-def _manoeuvre(options: argparse.Namespace) -> Manoeuvre | None:
-    if options.manoeuvre is None:
-        return None
-    from hosts.recordings.load_manoeuvre import load_manoeuvre
-
-    return load_manoeuvre(options.manoeuvre)
 
 
 def _asked(options: argparse.Namespace, manoeuvre: Manoeuvre | None = None) -> Asked:
@@ -181,13 +171,14 @@ def _reported(car: Car, options: argparse.Namespace, report: RunReport) -> Itera
             report.finish(car.step_times(), options.json)
 
 
-def _alone(options: argparse.Namespace, begin: float, manoeuvre: Manoeuvre | None) -> int:
+def _alone(options: argparse.Namespace, begin: float) -> int:
     """Without a page; the run ends by itself."""
     from hosts.simulator.aliased_car import AliasedCar
-    from hosts.simulator.headless import headless_driver, run_headless
+    from hosts.simulator.headless import headless_driver, manoeuvre_of, run_headless
     from hosts.simulator.preparation import prepare
     from hosts.simulator.run_report import RunReport
 
+    manoeuvre = manoeuvre_of(options.manoeuvre)
     report = RunReport(begin)
     prepared = prepare(_asked(options, manoeuvre), report.tell)
     report.prepared(prepared, options.step)

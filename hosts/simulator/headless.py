@@ -10,9 +10,11 @@ from typing import Protocol
 from tqdm import tqdm
 
 from hosts.common.errors import HostError
-from hosts.driving.driver import ACTS, SENSES, Driver, make_driver
+from hosts.driving.driver import Driver, make_driver
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.pilot import ACTS, SENSES
 from hosts.driving.wild_driver import WildDriver
+from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.simulator.aliased_car import AliasedCar
 
 _PERIOD = 0.005
@@ -62,6 +64,11 @@ class OfManoeuvre:
     def act(self, time: float, senses: Mapping[str, float]) -> Mapping[str, float]:
         found = self._manoeuvre.at(time)
         return found if self._driver is None else {**found, **self._driver.act(time, senses)}
+
+
+def manoeuvre_of(given: str | None) -> Manoeuvre | None:
+    """The manoeuvre that ``--manoeuvre`` names, if it was given; see `load_manoeuvre`."""
+    return None if given is None else load_manoeuvre(given)
 
 
 def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | None) -> HeadlessDriver:

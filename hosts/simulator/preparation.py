@@ -13,8 +13,7 @@ from fmpy.model_description import ModelDescription
 from ali3.files import check_writable, make_folder
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.options import Wishes
-from hosts.common.road import PARAMETER as ROAD
+from hosts.common.options import ROAD, Wishes
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.of_file import aliases_of
@@ -24,8 +23,7 @@ from hosts.fmu.fmu_file import FoundFmu, find_fmu
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import Settings
 from hosts.fmu.variables import Variables
-from hosts.recordings.format import DESCRIPTION
-from hosts.recordings.recording import check_new
+from hosts.recordings.format import DESCRIPTION, check_new
 from hosts.simulator.drivable import not_drivable
 from hosts.simulator.world_files import DEFAULT_WORLD, World, make_world, no_world
 

@@ -7,7 +7,7 @@ import threading
 from collections.abc import Mapping
 from multiprocessing import connection
 
-from ali3.signals import how_ended
+from ali3.children import how_ended
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.simulator.car_process import Order, run_car

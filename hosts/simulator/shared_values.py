@@ -9,7 +9,7 @@ from multiprocessing.shared_memory import SharedMemory
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.signals import kept_from_children
+from ali3.children import kept_from_children
 from hosts.simulator.step_times import TIMES_SIZE
 
 MOMENT = (

@@ -20,7 +20,7 @@ from hosts.simulator.guard import Guard
 from hosts.simulator.hands import Hands
 from hosts.simulator.server import Server
 from hosts.simulator.server_needs import Content
-from viewer.browser import open_secretly
+from viewer.open_browser import open_secretly
 
 if TYPE_CHECKING:
     from hosts.simulator.run_report import RunReport

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from hosts.common.numbers import Value
-from hosts.driving.wild_driver import SENSES, WildDriver, wild_start
+from hosts.driving.pilots.pilot import SENSES
+from hosts.driving.wild_driver import WildDriver, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Counts, Watch
 from hosts.soak.grounds import Ground, ground_of

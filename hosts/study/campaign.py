@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from ali3.cores import available_cores
 from ali3.errors import FileError
-from ali3.files import locked, whole_file
+from ali3.files import whole_file
+from ali3.locks import locked
 from hosts.common.errors import HostError
 from hosts.study.folder import begin_study, check_same, free_space, read_record, write_record
 from hosts.study.limits import limits_record

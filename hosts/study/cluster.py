@@ -17,8 +17,8 @@ import dask
 from distributed import Client, KilledWorker, LocalCluster, Security
 
 from ali3.cache import cache_folder
+from ali3.children import kept_from_children
 from ali3.cores import available_cores
-from ali3.signals import kept_from_children
 from hosts.common.errors import HostError
 from hosts.study.plan import Plan
 from hosts.study.worker import StudyPlugin, why_wrong

@@ -10,7 +10,8 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from ali3.options import Parser, add_old_names, add_option, given_of
+from ali3.old_options import add_old_names
+from ali3.options import Parser, add_option, given_of
 from ali3.running import NOT_GOOD, run_command
 from hosts.common.errors import HostError
 

@@ -7,8 +7,9 @@ from pathlib import Path
 
 from ali3.isolated import Isolated, Lost
 from hosts.common.numbers import Value
+from hosts.study.job import Job
 from hosts.study.one_run import Bench, Task
-from hosts.study.work import FAILED, Job, Outcome, Work
+from hosts.study.work import FAILED, Outcome, Work
 
 
 class IsolatedBench:

@@ -12,14 +12,15 @@ import numpy as np
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.co_simulation import check_columns, communication_step, driver_of
-from hosts.driving.driver import ACTS
+from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_file import SUFFIXES
 from hosts.driving.manoeuvres import manoeuvre_names
+from hosts.driving.pilots.pilot import ACTS
+from hosts.driving.run_checks import check_columns, communication_step
 from hosts.recordings.load_manoeuvre import load_manoeuvre
+from hosts.study.job import Job
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
-from hosts.study.work import Job
 
 if TYPE_CHECKING:
     from hosts.fmu.aliased_fmu import AliasedFmu
@@ -79,23 +80,13 @@ def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: Fmu | Alias
 
 
 def _test(entry: ManoeuvreEntry, study: StudyFile, fmu: Fmu | AliasedFmu, where: str) -> Job:
-    from hosts.catalogue.perform import settings_of_test
-    from hosts.catalogue.registry import standard_test
+    from hosts.study.catalogue_tests import checked_test
 
     assert entry.test is not None
-    try:
-        test = standard_test(entry.test)
-        settings = settings_of_test(test, entry.settings)
-    except HostError as error:
-        raise HostError(f"{where}: {error}") from None
-    constants = set(fmu.constants())
-    for need in test.needs:
-        names = {name.strip() for name in need.split("|")}
-        if not names & ({*fmu.variables} | constants):
-            raise HostError(f"{where}: the test {test.name} needs {' or '.join(sorted(names))}, which the FMU has not.")
+    test, settings = checked_test(entry.test, entry.settings, fmu, where)
     start = {**study.start, **_checked(entry.start, fmu, f"{where}.start")}
     step = float("nan") if study.step is None else study.step
-    return Job(entry.name or test.name, None, test.name, settings, tuple(entry.measures or ()), start, step)
+    return Job(entry.name or test, None, test, settings, tuple(entry.measures or ()), start, step)
 
 
 def _place(name: str, file: Path) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time as clock
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -15,14 +14,15 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.co_simulation import Result, driver_of, run
+from hosts.driving.co_simulation import Result, run
 from hosts.driving.derived_columns import derive_columns
+from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
-from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliased_fmu import seen_through
 from hosts.fmu.fmu import Fmu
 from hosts.measures.measure import Measure
-from hosts.study.work import DONE, FAILED, INCOMPLETE, Job, Outcome, Work
+from hosts.study.job import Job
+from hosts.study.work import DONE, FAILED, INCOMPLETE, Outcome, Work
 
 _MOST_NOTES = 3
 _MOST_MESSAGES = 5
@@ -95,14 +95,9 @@ class Bench:
         return outcome
 
     def _test(self, job: Job, values: Mapping[str, Value]) -> Outcome:
-        from hosts.catalogue.car import TestedCar
-        from hosts.catalogue.perform import perform
-        from hosts.catalogue.registry import standard_test
+        from hosts.study.catalogue_tests import performed
 
-        start = {**job.start, **values}
-        step = None if math.isnan(job.step) else job.step
-        car = TestedCar(self._work.fmu, self._path, self._work.aliases, start, step)
-        record = perform(standard_test(job.test), car, job.settings)
+        record = performed(job, self._path, self._work.fmu, self._work.aliases, values)
         outcome = Outcome(simulated=sum(result.simulated for result in record.runs.values()))
         outcome.messages = said(record.notes)
         named = [(column(job, m), m) for m in record.measures if not job.measures or m.name in job.measures]
@@ -119,11 +114,6 @@ class Bench:
             self._fmu.reset()
             self._fmu.messages.clear()
         return self._fmu
-
-
-def seen_through(fmu: Fmu, aliases: Aliases) -> Fmu | AliasedFmu:
-    """The FMU under our names; itself where there are none."""
-    return AliasedFmu(fmu, aliases) if aliases.aliases or aliases.derived or aliases.constants else fmu
 
 
 def said(messages: Sequence[str]) -> tuple[str, ...]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,17 +14,14 @@ from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.program import program_digest, versions
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
-from hosts.fmu.variables import Variable
-from hosts.study.jobs import jobs_of
+from hosts.study.job import Job
 from hosts.study.measures import StudyMeasure, parse_measure
-from hosts.study.one_run import seen_through
-from hosts.study.parameters import Parameter, parameter_of
-from hosts.study.points import Points, digest, sampled_points, table_points
+from hosts.study.parameters import Parameter
+from hosts.study.planned_runs import planned_runs
+from hosts.study.points import Points, digest
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
-from hosts.study.work import Chunk, Job, Work
+from hosts.study.work import Chunk, Work
 
 OWN_COLUMNS = ("index", "point", "manoeuvre", "seed", "status", "reason", "messages", "simulated", "wall_seconds")
 
@@ -102,10 +99,8 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
     """
     content = fmu_path.read_bytes() if fmu_path.is_file() else b""
     with Fmu(fmu_path) as opened:
-        aliases = _aliases(study, file, opened)
-        fmu = seen_through(opened, aliases)
-        points, parameters = _points(study, file, opened, fmu)
-        jobs = jobs_of(study, file, fmu, list(parameters))
+        runs = planned_runs(study, file, opened)
+        fmu, points, parameters, jobs = runs.fmu, runs.points, runs.parameters, runs.jobs
         units = {n: v.unit or "1" for n, v in fmu.variables.items()}
         signals = _signals(study, file, fmu)
         measures, columns = _measures(study, file, fmu, units, [j.manoeuvre.stop_time for j in jobs if j.manoeuvre])
@@ -122,7 +117,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         tuple(measures),
         tuple(columns),
         tuple(signals),
-        aliases,
+        runs.aliases,
         time_limit=study.time_limit,
     )
     known = {name: units[name] for name in (*parameters, *signals)}
@@ -143,7 +138,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         "measures": dict(columns),
         "measured": {m.name: m.digest for m in measures},
         "signals": study.signals.model_dump() if study.signals else None,
-        "aliases": hashlib.sha256(repr(aliases).encode()).hexdigest() if study.aliases else None,
+        "aliases": hashlib.sha256(repr(runs.aliases).encode()).hexdigest() if study.aliases else None,
         "points": points.count,
         "runs": points.count * len(jobs),
         "points_sha256": digest(points),
@@ -171,43 +166,6 @@ def job_digest(job: Job) -> str:
         parts += [manoeuvre.time.tobytes(), manoeuvre.state or b""]
         parts += [part for name, values in manoeuvre.inputs.items() for part in (name.encode(), values.tobytes())]
     return hashlib.sha256(b"\n".join(parts)).hexdigest()
-
-
-def _aliases(study: StudyFile, file: Path, fmu: Fmu) -> Aliases:
-    beside = None if study.aliases is None else file.parent / study.aliases
-    return aliases_of(beside if beside is not None and beside.is_file() else study.aliases, fmu.table)
-
-
-def _points(study: StudyFile, file: Path, opened: Fmu, fmu: Fmu | AliasedFmu) -> tuple[Points, dict[str, Any]]:
-    """Points, and a record of each parameter."""
-
-    def variable_of(name: str, where: str) -> Variable:
-        if isinstance(fmu, AliasedFmu) and name in fmu.table:
-            found = fmu.table[name]
-            if found.causality in ("parameter", "input") and found.variability != "constant":
-                return found
-            raise HostError(f"{where}: '{name}' is no parameter or input of the FMU; it cannot be set.")
-        return opened.table.settable(name, where)
-
-    for name, value in study.start.items():
-        variable_of(name, f"{file}: start").check(value, f"{file}: start")
-    if study.sampling.method == "table":
-        assert study.sampling.file is not None
-        table = table_points(file.parent / study.sampling.file, variable_of, study.parameters)
-        names = list(table.block(0, 0))
-        both = sorted(set(names) & set(study.start))
-        if both:
-            raise HostError(f"{file}: '{both[0]}' is a column of {study.sampling.file} and in [start]; give it once.")
-        variables = {n: variable_of(n, "") for n in names}
-        return table, {n: {"kind": v.kind, "unit": v.unit} for n, v in variables.items()}
-    if not study.parameters:
-        raise HostError(f"{file}: it has no parameters; a grid of none is empty.")
-    parameters = tuple(
-        parameter_of(name, entry, variable_of(name, f"{file}: parameters"), str(file))
-        for name, entry in study.parameters.items()
-    )
-    points = sampled_points(parameters, study.sampling, str(file))
-    return points, {p.name: p for p in points.parameters}
 
 
 def _signals(study: StudyFile, file: Path, fmu: Fmu | AliasedFmu) -> list[str]:
@@ -263,12 +221,3 @@ def _notes(study: StudyFile) -> tuple[str, ...]:
     if not study.measures and study.signals is None and all(m.test is None for m in study.manoeuvres):
         notes.append("The study has neither measures nor signals: its table will tell only which runs came to an end.")
     return tuple(notes)
-
-
-def with_reuse(plan: Plan, reuse: bool) -> Plan:
-    """The plan for workers that use an instance again, or do not."""
-    return replace(plan, work=replace(plan.work, reuse=reuse))
-
-
-Tell = Callable[[str], None]
-"""Takes sentences for the user."""

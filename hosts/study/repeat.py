@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.manoeuvre_file import write_manoeuvre
+from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.study.folder import read_record
 
 if TYPE_CHECKING:
-    from hosts.study.work import Job
+    from hosts.study.job import Job
 
 FOLDER = "repeat"
 
@@ -60,31 +60,29 @@ def repeat_command(folder: str | os.PathLike[str], index: int, write: bool = Tru
 
 
 def repeater(folder: str | os.PathLike[str]) -> Callable[[int, bool], Repeat]:
-    """A function that gives the commands of a run, as `repeat_command` does; the plan is made once.
+    """A function that gives the commands of a run, as `repeat_command` does; the runs are planned once.
 
     Parameters
     ----------
     folder : path
         Of the study.
     """
-    from hosts.study.plan import make_plan
-    from hosts.study.study_file import read_study_file
+    from hosts.study.planned_runs import runs_of_folder
 
     place = Path(folder)
     record = read_record(place)
     if record is None:
         raise HostError(f"{folder} is no folder of a study: there is no study.json in it.")
     runs = record["runs"]
-    study, _ = read_study_file(place / "study.toml")
-    plan = make_plan(study, Path(record["file"]), place / record["fmu"])
-    aliases = ["--aliases", _alias_file(study.aliases, plan.file)] if study.aliases else []
+    study, planned = runs_of_folder(place, record)
+    aliases = ["--aliases", _alias_file(study.aliases, Path(record["file"]))] if study.aliases else []
 
     def repeat(index: int, write: bool = True) -> Repeat:
         if not 0 <= index < runs:
             raise HostError(f"There is no run {index}; the study in {folder} has the runs 0 to {runs - 1}.")
-        point, number = divmod(index, len(plan.work.jobs))
-        values = {name: column[0] for name, column in plan.points.block(point, 1).items()}
-        job, fmu = plan.work.jobs[number], place / record["fmu"]
+        point, number = divmod(index, len(planned.jobs))
+        values = {name: column[0] for name, column in planned.points.block(point, 1).items()}
+        job, fmu = planned.jobs[number], place / record["fmu"]
         if job.manoeuvre is None:
             return _test(job, fmu, values, aliases, place / FOLDER / f"run-{index}")
         if aliases:

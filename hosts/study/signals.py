@@ -13,7 +13,8 @@ import zarr
 from ali3.errors import FileError
 from ali3.files import reason
 from hosts.study.folder import SIGNALS
-from hosts.study.work import Chunk, Job, Outcome
+from hosts.study.job import Job
+from hosts.study.work import Chunk, Outcome
 
 _CHUNK = 4e6  # bytes of one array in a file
 _MOST_POINTS = 256  # of a file

@@ -110,13 +110,11 @@ def planned_points(folder: str | os.PathLike[str]) -> pd.DataFrame:
     """
     import pandas as pd
 
-    from hosts.study.plan import make_plan
-    from hosts.study.study_file import read_study_file
+    from hosts.study.planned_runs import runs_of_folder
 
     record = study_record(folder)
-    study, _ = read_study_file(Path(folder, "study.toml"))
-    plan = make_plan(study, Path(record["file"]), Path(folder, record["fmu"]))
-    frame = pd.DataFrame(dict(plan.points.block(0, plan.points.count)))
+    points = runs_of_folder(Path(folder), record)[1].points
+    frame = pd.DataFrame(dict(points.block(0, points.count)))
     frame.index.name = "point"
     frame.attrs["units"] = {name: record["units"][name] for name in frame.columns}
     return frame

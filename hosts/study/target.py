@@ -18,15 +18,17 @@ from hosts.common.display_units import Shown, shown_in
 from hosts.common.errors import HostError
 from hosts.common.units import conversion
 from hosts.fmu.fmu import described
+from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.variables import Variable, Variables
 from hosts.study.campaign import fmu_of_study, out_folder
 from hosts.study.isolated import IsolatedBench
+from hosts.study.job import Job
 from hosts.study.limits import column_of
 from hosts.study.parameters import Parameter
 from hosts.study.plan import Plan, make_plan
 from hosts.study.search import TOLERANCE, Found, Run, seek
 from hosts.study.study_file import ParameterEntry, SamplingEntry, StudyFile, read_study_file
-from hosts.study.work import Job, Outcome, seed_of
+from hosts.study.work import Outcome, seed_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -346,7 +348,7 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
     """
     values = plan.work.aliases.values({**study.start, by: value})
     description = described(plan.fmu)
-    whole = Variables(description).parameter_set(description.modelName, values)
+    whole = parameter_set_of(Variables(description), description.modelName, values)
     entries = [entry for entry in whole.entries if entry.name in values]
     units = {entry.unit: whole.units[entry.unit] for entry in entries if entry.unit is not None}
     if entries:
@@ -356,7 +358,7 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
 
 def _pictures(search: _Search, found: Found, stem: Path) -> list[Path]:
     """The measure over the parameter in all runs, as SVG and PNG."""
-    from hosts.run.result_plots import save_pictures
+    from ali3.charts import save_pictures
 
     return save_pictures(_figure(search, found), stem)
 
@@ -364,7 +366,7 @@ def _pictures(search: _Search, found: Found, stem: Path) -> list[Path]:
 def _figure(search: _Search, found: Found) -> Figure:
     from matplotlib import pyplot as plt
 
-    from hosts.run.result_plots import BLUE, RED, STYLE
+    from ali3.chart_style import BLUE, RED, STYLE
 
     factor, unit = search.shown.factor, search.shown.unit
     known = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)

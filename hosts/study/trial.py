@@ -11,9 +11,10 @@ from typing import Any
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.study.isolated import IsolatedBench
+from hosts.study.job import Job
 from hosts.study.one_run import Task
 from hosts.study.plan import Plan
-from hosts.study.work import FAILED, INCOMPLETE, Job, Outcome, Work, seed_of
+from hosts.study.work import FAILED, INCOMPLETE, Outcome, Work, seed_of
 
 _LONGEST = 2.0  # s of a run that is repeated for the test of reuse
 _ROW = 60.0  # bytes of a row in a part beside its numbers

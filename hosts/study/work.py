@@ -11,49 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
-from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
+from hosts.study.job import Job
 
 if TYPE_CHECKING:
     from hosts.study.measures import StudyMeasure
 
 DONE, INCOMPLETE, FAILED = "done", "incomplete", "failed"
 """How a run ended: every measure that exists is a number; some is none; there is no result."""
-
-
-@dataclass(frozen=True)
-class Job:
-    """What is done at each point.
-
-    Parameters
-    ----------
-    manoeuvre : Manoeuvre, optional
-        With all start values but the parameters.
-    test : str
-        Of the catalogue, where there is no manoeuvre.
-    settings : dict of str to float
-        Of the test.
-    measures : tuple of str
-        Of the test; empty: all.
-    start : dict of str to float, int, bool or str
-        For the test.
-    step : float
-        Communication step, s; NaN for a test that takes that of the FMU.
-    every : int
-        Steps between kept values of signals; 0: none are kept.
-    samples : int
-        Kept values.
-    """
-
-    label: str
-    manoeuvre: Manoeuvre | None
-    test: str = ""
-    settings: dict[str, float] = field(default_factory=dict)
-    measures: tuple[str, ...] = ()
-    start: dict[str, Value] = field(default_factory=dict)
-    step: float = float("nan")
-    every: int = 0
-    samples: int = 0
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.decimal_number import number
-from ali3.options import Parser, add_old_names, add_option, given_of
+from ali3.old_options import add_old_names
+from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_setting_options

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from hosts.common.commands import run_module
 from hosts.common.errors import HostError
-from hosts.common.options import Wishes, wishes
-from hosts.common.road import PARAMETER as ROAD
+from hosts.common.options import ROAD, Wishes, wishes
 from hosts.fmu.fmu_file import fmu_file
 from hosts.recordings.format import is_recording
 from hosts.view.open_page import open_page

@@ -17,7 +17,7 @@ from fmpy.model_description import ModelDescription
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.road import PARAMETER as ROAD
+from hosts.common.options import ROAD
 from hosts.fmu.description_record import description_record
 from hosts.fmu.fmu import described
 from hosts.fmu.geometry import RESOURCE, scene_of

@@ -12,7 +12,8 @@ from ali3.reading import read_json
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
-from hosts.fmu.geometry import RESOURCE, scene_from, scene_of
+from hosts.fmu.geometry import RESOURCE, scene_of
+from hosts.fmu.scene_file import scene_from
 from hosts.recordings.format import is_recording
 from hosts.recordings.recorded_view import recorded_view
 from hosts.view.recorded import read_table
@@ -209,11 +210,13 @@ def _foreign(path: Path) -> str:
 
 def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[str]]:
     """Run an FMU: through a manoeuvre, or for its default experiment."""
-    from hosts.driving.co_simulation import check_columns, communication_step, driver_of, run_with_bar
+    from hosts.driving.co_simulation import run_with_bar
     from hosts.driving.course_scenery import with_course
-    from hosts.driving.driver import ACTS, SENSES
+    from hosts.driving.driver import driver_of
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
+    from hosts.driving.pilots.pilot import ACTS, SENSES
+    from hosts.driving.run_checks import check_columns, communication_step
     from hosts.fmu.fmu import Fmu
     from hosts.recordings.load_manoeuvre import manoeuvre_of
 

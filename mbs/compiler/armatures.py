@@ -12,7 +12,7 @@ from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import substitute
 from mbs.compiler.spanning_tree import NoTreeError
-from mbs.kernel.header import ParameterTarget
+from mbs.kernel.header.enumerations import ParameterTarget
 from mbs.model.model import Model
 
 

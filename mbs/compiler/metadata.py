@@ -7,7 +7,7 @@ from typing import Any
 
 from mbs.common.checks import flag, positive
 from mbs.compiler.polynomial import RowTerms
-from mbs.kernel.header import ParameterTarget
+from mbs.kernel.header.enumerations import ParameterTarget
 from mbs.model.model import Model
 from mbs.model.records import Parameter
 

@@ -13,7 +13,7 @@ from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import substitute
 from mbs.compiler.spanning_tree import in_space
 from mbs.compiler.tables import Signals
-from mbs.kernel.header import SensorType
+from mbs.kernel.header.enumerations import SensorType
 from mbs.model.model import Model
 
 

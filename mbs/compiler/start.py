@@ -13,7 +13,7 @@ from mbs.compiler.full_coordinates import full_mass, symmetric
 from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
-from mbs.kernel.header import GuideType
+from mbs.kernel.header.enumerations import GuideType
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]

@@ -13,7 +13,7 @@ from mbs.common.errors import ModelError
 from mbs.compiler.armatures import written_armatures
 from mbs.compiler.front_arrays import Locate
 from mbs.compiler.polynomial import substitute
-from mbs.kernel.header import SensorType
+from mbs.kernel.header.enumerations import SensorType
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.reactions import MOST_FACTORS

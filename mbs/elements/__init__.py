@@ -21,7 +21,7 @@ from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.spring_damper_table import SpringDamperTable
 from mbs.elements.torsion_bar import TorsionBar
 from mbs.elements.tyre import Tyre, TyreCurve
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 __all__ = [
     "AutomaticDrive",

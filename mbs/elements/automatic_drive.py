@@ -11,7 +11,7 @@ from mbs.common.checks import positive
 from mbs.elements.reals import NotNegative, Positive, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, several, size
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mbs.common.affine import AffineVector
 from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import channels, size
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)

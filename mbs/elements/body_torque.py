@@ -11,7 +11,7 @@ from mbs.common.checks import shown
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import channels
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)

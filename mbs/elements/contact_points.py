@@ -14,7 +14,7 @@ from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Positive, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 STATES = 4
 """Per point: two deflections in the plane of contact and their rates."""

@@ -10,7 +10,7 @@ from mbs.common.affine import Affine
 from mbs.common.checks import not_negative, positive, text
 from mbs.elements.reals import Positive, Real, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 LargestForce = Annotated[float, Real(not_negative, words="largest force")]
 

@@ -9,7 +9,7 @@ from mbs.common.checks import not_negative, positive
 from mbs.elements.reals import NotNegative, Positive, Share, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from mbs.common.errors import ModelError
 from mbs.elements.reals import Reals
 from mbs.elements.record import ElementRecord, columns
 from mbs.elements.record_checks import index, several
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Number, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import size
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,8 @@ from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals,
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
 from mbs.elements.tyre import TYRE_OUTPUTS
-from mbs.kernel.header import MAGIC_COEFFICIENTS, ElementType
+from mbs.kernel.header.enumerations import ElementType
+from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 
 VERSIONS = {"PAC2002": 52, "MF52": 52, "MF61": 61, "MF62": 62}
 """Number of a form of the Magic Formula in the kernel."""

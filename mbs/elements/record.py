@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine
 from mbs.elements.reals import Check, Reals
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, vector
 from mbs.common.errors import ModelError
 from mbs.elements.reals import Check, NotNegative, Number, Positive, Reals, declared, reals_of
-from mbs.kernel.header import RoadType
+from mbs.kernel.header.enumerations import RoadType
 
 
 class _NamedNumbers:

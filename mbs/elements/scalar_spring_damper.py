@@ -9,7 +9,7 @@ from mbs.common.affine import Affine
 from mbs.common.checks import number, text
 from mbs.elements.reals import NotNegative, Number, Real, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 ConstantForce = Annotated[float, Real(number, words="constant force")]
 

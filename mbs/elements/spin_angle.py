@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import size
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)

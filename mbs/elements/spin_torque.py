@@ -8,7 +8,7 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.elements.reals import Number, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import size
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 LINE_OUTPUTS = (
     Output("length", "m", "distance of the two points"),

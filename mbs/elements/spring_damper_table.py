@@ -16,7 +16,7 @@ from mbs.elements.reals import NotNegative, Reals, reals_of
 from mbs.elements.record import ElementRecord, columns
 from mbs.elements.record_checks import size
 from mbs.elements.spring_damper import LINE_OUTPUTS, EndStops, given_stops
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 if TYPE_CHECKING:
     from scipy.interpolate import PchipInterpolator

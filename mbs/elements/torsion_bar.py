@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.common.affine import Affine
 from mbs.elements.reals import NotNegative, Positive, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)

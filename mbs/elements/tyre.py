@@ -10,7 +10,7 @@ from mbs.common.checks import instance_of, number, positive
 from mbs.elements.reals import NotNegative, Pair, Positive, Real, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 
 LOADS, AXES = ("1", "2"), ("x", "y")
 AtTwoLoads = Annotated[Pair, Real(positive, LOADS)]

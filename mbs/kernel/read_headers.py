@@ -1,5 +1,5 @@
-"""Writes what the C headers say into Python and the documents: `header.py` with the numbers and structures that the
-kernel and Python share, and the table of sensors of `docs/system_file.md`.
+"""Writes what the C headers say into Python and the documents: the folder `header` with the numbers and structures that
+the kernel and Python share, and the table of sensors of `docs/system_file.md`.
 
 The headers are the source. After a change of theirs:
 
@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 KERNEL = Path(__file__).resolve().parent
-HEADER = KERNEL / "header.py"
+HEADER = KERNEL / "header"
 PAGE = KERNEL.parents[1] / "docs" / "system_file.md"
 PUBLIC, SYSTEM, SENSORS = "include/ali3.h", "src/system.h", "src/system/sensor_types.h"
 ELEMENTS = "src/elements/element_types.h"
@@ -196,51 +196,67 @@ def _defined(file: str, limits: dict[str, str]) -> list[str]:
     return found
 
 
-def header() -> str:
-    """Text of `header.py`."""
-    parts = [
-        '"""Numbers and structures of the kernel\'s C headers. Written by `python mbs/kernel/read_headers.py`."""',
-        "from ctypes import POINTER, Structure, c_double, c_int32, c_int64, c_void_p\nfrom enum import IntEnum",
-    ]
-    parts.append("\n".join(_defined(PUBLIC, LIMITS) + _defined(ROADS, ROAD_LIMITS)))
+def header() -> dict[str, str]:
+    """Texts of the files of the folder `header`, by name."""
+    return {
+        "limits.py": _text(
+            "Limits and versions", [], ["\n".join(_defined(PUBLIC, LIMITS) + _defined(ROADS, ROAD_LIMITS))]
+        ),
+        "arrays.py": _text("Names of the arrays of a System", [], _arrays()),
+        "enumerations.py": _text("Types and codes", ["from enum import IntEnum"], _enumerations()),
+        "magic_coefficients.py": _text("Numbers of the Magic Formula", [], [_magic()]),
+        "structures.py": _text("Structures", [_CTYPES], _structures()),
+    }
+
+
+_CTYPES = "from ctypes import POINTER, Structure, c_double, c_int32, c_int64, c_void_p"
+
+
+def _text(what: str, imports: list[str], parts: Iterable[str]) -> str:
+    head = f'"""{what} of the kernel\'s C headers. Written by `python mbs/kernel/read_headers.py`."""'
+    return "\n\n".join([head, *imports, *parts]) + "\n"
+
+
+def _arrays() -> Iterator[str]:
     required, optional = table(SYSTEM, "ALI3_SYSTEM_ARRAYS"), table(SYSTEM, "ALI3_OPTIONAL_ARRAYS")
     kinds = {"double": "FLOAT_ARRAYS", "int32_t": "INTEGER_ARRAYS"}
     for kind, names_of in kinds.items():
         arrays = [name for of_kind, _, name in required + optional if of_kind == kind]
-        parts.append(_names(names_of, arrays, f"Arrays of a System of type {kind}."))
-    parts.append(
-        _names(
-            "OPTIONAL_ARRAYS",
-            [name for of_kind, _, name in optional if of_kind in kinds],
-            "Those that a System need not have.",
-        )
-    )
+        yield _names(names_of, arrays, f"Arrays of a System of type {kind}.")
+    names = [name for of_kind, _, name in optional if of_kind in kinds]
+    yield _names("OPTIONAL_ARRAYS", names, "Those that a System need not have.")
+
+
+def _enumerations() -> Iterator[str]:
     for name, (file, first, prefix, text) in ENUMERATIONS.items():
         values = (f"{item} = {value}" for item, value in enumeration(file, first, prefix).items())
-        parts.append(_class(name, "IntEnum", text, values))
+        yield _class(name, "IntEnum", text, values)
     methods = table(PUBLIC, "ALI3_METHODS")
     names = (f"{name} = {number}" for number, (name, _, _) in enumerate(methods))
-    parts.append(_class("MethodNumber", "IntEnum", "`ali3_settings.method`.", names))
+    yield _class("MethodNumber", "IntEnum", "`ali3_settings.method`.", names)
     orders = "\n".join(f"    MethodNumber.{name}: {order}," for name, _, order in methods)
-    text = "Orders of steps that change."
-    parts.append(f'\nMETHOD_ORDERS = {{\n{orders}\n}}\n"""{text}"""')
+    yield f'\nMETHOD_ORDERS = {{\n{orders}\n}}\n"""Orders of steps that change."""'
     types = sensor_types()
-    items = (f"{t.name} = {t.number}" for t in types)
-    parts.append(_class("SensorType", "IntEnum", "Types of sensors.", items))
+    yield _class("SensorType", "IntEnum", "Types of sensors.", (f"{t.name} = {t.number}" for t in types))
     reads = "\n".join(f"    SensorType.{t.name}: SensorReads.{t.reads}," for t in types)
-    parts.append(f"\nSENSOR_READS = {{\n{reads}\n}}")
+    yield f"\nSENSOR_READS = {{\n{reads}\n}}"
     elements = (f"{name} = {number}" for name, number in element_types().items())
-    parts.append(_class("ElementType", "IntEnum", "Types of force elements.", elements))
+    yield _class("ElementType", "IntEnum", "Types of force elements.", elements)
+
+
+def _magic() -> str:
     numbers = "\n".join(f'    "{name}": {float(value)},' for name, value in table(MAGIC, "ALI3_MAGIC_COEFFICIENTS"))
-    text = "Coefficients of the Magic Formula in the order of the element, with what holds where a file has none."
-    parts.append(f'\nMAGIC_COEFFICIENTS = {{\n{numbers}\n}}\n"""{text}"""')
+    text = "Coefficients in the order of the element, with what holds where a file has none."
+    return f'MAGIC_COEFFICIENTS = {{\n{numbers}\n}}\n"""{text}"""'
+
+
+def _structures() -> Iterator[str]:
     for c_name, name in STRUCTURES.items():
         fields = (f'("{field}", {kind}),' for field, kind in structure(c_name))
         body = ("_fields_ = (", *(f"    {field}" for field in fields), ")")
-        parts.append(_class(name, "Structure", f"`ali3_{c_name}`.", body))
+        yield _class(name, "Structure", f"`ali3_{c_name}`.", body)
     structures = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
-    parts.append(f'\nSTRUCTURES = {{\n{structures}\n}}\n"""By their names in C."""')
-    return "\n\n".join(parts) + "\n"
+    yield f'\nSTRUCTURES = {{\n{structures}\n}}\n"""By their names in C."""'
 
 
 def _names(name: str, values: Iterable[str], text: str) -> str:
@@ -254,8 +270,9 @@ def _class(name: str, base: str, text: str, body: Iterable[str]) -> str:
 
 
 def main() -> None:
-    """Write `header.py` and the table of the page."""
-    HEADER.write_text(header(), encoding="utf-8", newline="\n")
+    """Write the folder `header` and the table of the page."""
+    for name, text in header().items():
+        (HEADER / name).write_text(text, encoding="utf-8", newline="\n")
     PAGE.write_text(page(PAGE.read_text(encoding="utf-8")), encoding="utf-8", newline="\n")
 
 

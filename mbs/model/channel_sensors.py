@@ -9,7 +9,7 @@ from mbs.common.affine import Affine
 from mbs.common.checks import number, one_of, shown
 from mbs.common.checks import text as checked_text
 from mbs.common.errors import ModelError
-from mbs.kernel.header import GuideType, SensorType, SolverValue
+from mbs.kernel.header.enumerations import GuideType, SensorType, SolverValue
 from mbs.model.guides import owned_guide
 from mbs.model.inputs import owned_input
 from mbs.model.joints.joint import Joint

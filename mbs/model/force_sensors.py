@@ -13,7 +13,7 @@ from mbs.common.checks import instance_of, number, one_of, shown, whole
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.flexible.inertia_relief import InertiaRelief
-from mbs.kernel.header import SensorType
+from mbs.kernel.header.enumerations import SensorType
 from mbs.model.ports import PortedBody
 from mbs.model.sensor import Sensor
 from mbs.model.sensors import SensorBase

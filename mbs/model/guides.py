@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from mbs.common.checks import LARGEST, array, number, positive, shown, text
 from mbs.common.errors import ModelError
-from mbs.kernel.header import GuideType
+from mbs.kernel.header.enumerations import GuideType
 from mbs.model.core import ModelCore
 from mbs.model.inputs import owned_input
 from mbs.model.records import Guide, Input

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from mbs.common.affine import AffineVector
 from mbs.common.checks import number, one_of, shown
 from mbs.common.errors import ModelError
-from mbs.kernel.header import SensorType
+from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.reactions import Term, folded, force_on_first, moment_terms, rod_terms

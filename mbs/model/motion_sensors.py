@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import number, shown
 from mbs.common.errors import ModelError
-from mbs.kernel.header import SensorType
+from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.sensor import Sensor

@@ -8,7 +8,7 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import one_of, shown
 from mbs.common.errors import ModelError
 from mbs.elements.spin_angle import SpinAngle
-from mbs.kernel.header import SensorType
+from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.sensor import Sensor

@@ -9,7 +9,7 @@ from typing import TypeAlias
 from mbs.common.checks import array, flag, not_negative, not_zero, number, positive, shown, text, whole
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
-from mbs.kernel.header import GuideType, ParameterTarget
+from mbs.kernel.header.enumerations import GuideType, ParameterTarget
 from mbs.model.carried import Payload
 from mbs.model.core import ModelCore
 from mbs.model.payload import REALS as PAYLOAD_REALS

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine
-from mbs.kernel.header import GuideType, ParameterTarget
+from mbs.kernel.header.enumerations import GuideType, ParameterTarget
 
 
 @dataclass(frozen=True)

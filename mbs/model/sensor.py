@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine
-from mbs.kernel.header import SensorType
+from mbs.kernel.header.enumerations import SensorType
 from mbs.model.joints.joint import Joint
 from mbs.model.reactions import Term
 

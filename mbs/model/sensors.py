@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NoReturn
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import flag, shown, text, whole
 from mbs.common.errors import ModelError
-from mbs.kernel.header import SensorType
+from mbs.kernel.header.enumerations import SensorType
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.joints.joint import Joint
 from mbs.model.reactions import Term

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header import BALANCE_WRONG, HALVINGS_SUSPECT, GuideType, SensorType
+from mbs.kernel.header.enumerations import GuideType, SensorType
+from mbs.kernel.header.limits import BALANCE_WRONG, HALVINGS_SUSPECT
 from mbs.results.run_report import Report
 from mbs.settings.input_signals import unit_text
 from mbs.settings.methods import METHOD_TABLE

@@ -82,7 +82,8 @@ class Animation:
         viewer.errors.ViewerError
             The script of the page is not there and cannot be built.
         """
-        from viewer.browser import BrowserError, open_in_browser
+        from viewer.browser import BrowserError
+        from viewer.open_browser import open_in_browser
 
         folder = tempfile.mkdtemp(prefix="ali3-animation-")
         written = self.save(Path(folder, "animation.html")).path

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
-from mbs.kernel.header import BALANCE_WRONG
+from mbs.kernel.header.limits import BALANCE_WRONG
 
 BRANCH_JUMPED = 2
 """`Report.branch_kind` of a step that jumped."""

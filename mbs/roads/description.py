@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 from ali3.reading import read_toml
 from ali3.typed_sentences import Sentences
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
-from mbs.kernel.header import ROAD_FRICTION
+from mbs.kernel.header.limits import ROAD_FRICTION
 from mbs.roads.grid_files import read_grid
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.rough_road import ISO_8608, rough_heights

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from mbs.common.checks import instance_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
-from mbs.kernel.header import ROAD_SHARED, ROAD_TILE, RoadType
+from mbs.kernel.header.enumerations import RoadType
+from mbs.kernel.header.limits import ROAD_SHARED, ROAD_TILE
 from mbs.roads.grid_files import read_grid
 from mbs.roads.road_header import HEADER, TRAILER, Header, RoadFileError, read_header
 from mbs.roads.shared_tiles import read_shared

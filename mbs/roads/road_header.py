@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.errors import ModelError
-from mbs.kernel.header import (
+from mbs.kernel.header.enumerations import RoadType
+from mbs.kernel.header.limits import (
     ROAD_FARTHEST,
     ROAD_FRICTION,
     ROAD_HIGHEST,
@@ -21,7 +22,6 @@ from mbs.kernel.header import (
     ROAD_SHARED,
     ROAD_TILE,
     ROAD_VERSION,
-    RoadType,
 )
 
 MAGIC = b"ALI3ROAD"

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
-from mbs.kernel.header import ROAD_SHARED, ROAD_TILE
+from mbs.kernel.header.limits import ROAD_SHARED, ROAD_TILE
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import RoadFile
 from mbs.roads.shared_tiles import read_shared

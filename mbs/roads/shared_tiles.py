@@ -11,7 +11,8 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header import ROAD_SHARED, ROAD_TILE, RoadType
+from mbs.kernel.header.enumerations import RoadType
+from mbs.kernel.header.limits import ROAD_SHARED, ROAD_TILE
 from mbs.roads.road_header import HEADER, Header, RoadFileError, check_grid
 
 ENTRY = struct.Struct("<qiIII")

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from ali3.files import whole_file
 from mbs.common.checks import instance_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
-from mbs.kernel.header import ROAD_FRICTION, ROAD_TILE, RoadType
+from mbs.kernel.header.enumerations import RoadType
+from mbs.kernel.header.limits import ROAD_FRICTION, ROAD_TILE
 from mbs.roads.road_header import REALS, Header, RoadFileError, check_grid
 from mbs.roads.steep_faces import RoadWarning, steep_face
 

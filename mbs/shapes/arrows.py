@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from mbs.common.affine import Affine
-from mbs.kernel.header import ElementType, SensorType
+from mbs.kernel.header.enumerations import ElementType, SensorType
 from mbs.model.model import Model
 from mbs.model.sensor import Sensor
 from mbs.shapes.frames import FrameNames, place_drawn

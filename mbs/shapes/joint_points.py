@@ -11,7 +11,7 @@ import numpy as np
 from mbs.common.affine import Affine
 from mbs.common.checks import Vector
 from mbs.elements.record import ElementRecord
-from mbs.kernel.header import ElementType, SensorType
+from mbs.kernel.header.enumerations import ElementType, SensorType
 from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint
 from mbs.model.joints.joint import Joint

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mbs.common.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
-from mbs.kernel.header import Status
+from mbs.kernel.header.enumerations import Status
 from mbs.results.simulation_error import PoseError
 from mbs.settings.settings import Settings
 from mbs.simulation.state import Pose

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbs.kernel.binding import KernelError, Status
-from mbs.kernel.header import GuideType
+from mbs.kernel.header.enumerations import GuideType
 from mbs.results.simulation_error import SimulationError
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import Settings

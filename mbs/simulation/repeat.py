@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header import Status
+from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
 from mbs.results.simulation_error import SimulationError

@@ -8,7 +8,7 @@ import numpy as np
 
 from mbs.elements.road import KerbRoad, PlaneRoad, Road
 from mbs.kernel.binding import Instance
-from mbs.kernel.header import ParameterTarget, RoadType
+from mbs.kernel.header.enumerations import ParameterTarget, RoadType
 from mbs.system.system import System
 
 

@@ -17,7 +17,8 @@ from ali3.files import whole_file
 from ali3.reading import read_bytes
 from mbs.common.checks import instance_of
 from mbs.common.frames import Frames
-from mbs.kernel.header import FLOAT_ARRAYS, INTEGER_ARRAYS, OPTIONAL_ARRAYS, SYSTEM_VERSION
+from mbs.kernel.header.arrays import FLOAT_ARRAYS, INTEGER_ARRAYS, OPTIONAL_ARRAYS
+from mbs.kernel.header.limits import SYSTEM_VERSION
 from mbs.system.drawing import Drawing
 from mbs.system.meta_check import problem_of
 from mbs.system.text import system_text

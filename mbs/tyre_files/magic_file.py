@@ -10,7 +10,7 @@ from typing import Any
 
 from mbs.common.checks import one_of
 from mbs.elements.magic_tyre import SIGNS, MagicTyre
-from mbs.kernel.header import MAGIC_COEFFICIENTS
+from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 from mbs.tyre_files.property_text import PropertyText, TyreFileError, read_properties
 from mbs.tyre_files.units import in_si
 

@@ -12,7 +12,8 @@ from pathlib import Path
 
 from ali3.errors import UserError
 from ali3.extras import command_needs
-from ali3.options import Parser, add_old_names, add_option, given_of
+from ali3.old_options import add_old_names
+from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
 
 _OF_KINEMATICS = ("travel", "fidelity", "points", "out", "json")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from ali3.files import whole_folder
+from ali3.folders import whole_folder
 from mbs.common.checks import shown
 from mbs.vehicle.car_file import CARS, FILE, car_names
 from mbs.vehicle.errors import CarFileError

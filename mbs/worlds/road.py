@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def make_road(options: argparse.Namespace) -> int:
     """Do what the options of the command say with a road; gives the exit code."""
     from ali3.files import whole_file, write_text
-    from ali3.running import told_warnings
+    from ali3.told_warnings import told_warnings
     from mbs.roads.read_road import read_road
     from mbs.roads.road_file import RoadFile
     from mbs.roads.write_road import write_road

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.files import whole_file
-from mbs.kernel.header import ROAD_TILE
+from mbs.kernel.header.limits import ROAD_TILE
 from mbs.roads.road_header import RoadFileError, check_grid
 from mbs.roads.shared_tiles import TILE_PLACES, TOLERANCE, SharedWriter, simplest
 from mbs.worlds.profiles import spaced

@@ -11,12 +11,13 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from ali3.cache import cache_folder, forget_oldest
-from ali3.files import make_folder, whole_file, whole_folder
+from ali3.cache import cache_folder
+from ali3.files import make_folder, whole_file
+from ali3.folders import forget_oldest, whole_folder
 
 ROOT = Path(__file__).parents[2]
 CODE = (
-    *("mbs/roads", "mbs/worlds", "mbs/kernel/header.py"),
+    *("mbs/roads", "mbs/worlds", "mbs/kernel/header"),
     *("viewer/road_types.py", "viewer/base64_numbers.py", "ali3/iso_3888.py"),
 )
 """What worlds are made by."""

@@ -10,8 +10,9 @@ from pathlib import Path
 import platformdirs
 import pytest
 
-from ali3.cache import cache_folder, forget_oldest
+from ali3.cache import cache_folder
 from ali3.errors import FileError
+from ali3.folders import forget_oldest
 
 
 def test_the_user_may_name_it(tmp_path, monkeypatch):

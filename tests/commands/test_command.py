@@ -18,9 +18,11 @@ import pytest
 import ali3
 from ali3 import running
 from ali3.command import main
-from ali3.commands import BEFORE, COMMANDS, Command
+from ali3.commands import COMMANDS, Command
 from ali3.decimal_number import number
-from ali3.options import SHARED, Parser, add_old_names, assignment, count, name_and_text
+from ali3.old_commands import BEFORE
+from ali3.old_options import add_old_names
+from ali3.options import SHARED, Parser, assignment, count, name_and_text
 
 ROOT = Path(ali3.__file__).parents[1]
 # What an installation writes into the folder of programs.
@@ -238,7 +240,7 @@ def test_commands_that_documents_and_sentences_name_exist() -> None:
     texts = dict(documents())
     suffixes = (".py", ".js", ".toml")
     texts |= {str(f): f.read_text("utf-8") for c in CODE for f in (ROOT / c).rglob("*") if f.suffix in suffixes}
-    texts = {name: text for name, text in texts.items() if not name.endswith("ali3/commands.py")}
+    texts = {name: text for name, text in texts.items() if not name.endswith("ali3/old_commands.py")}
     spans = [(f, span) for f, text in texts.items() for span in re.findall(r"[`'\"]ali3 ([^`'\"]+)[`'\"]", text)]
     named = [(f, span.split()) for f, span in spans if "{" not in span]
     assert len(named) > 60

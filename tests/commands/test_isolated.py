@@ -14,9 +14,9 @@ from typing import Any
 import psutil
 import pytest
 
+from ali3.children import how_ended
 from ali3.errors import FileError, UserError
 from ali3.isolated import Isolated, Lost, done_by
-from ali3.signals import how_ended
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 Tell = Callable[[Any], None]

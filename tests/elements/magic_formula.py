@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import atan, cos, exp, hypot, pi, sin, sqrt, tan
 
-from mbs.kernel.header import MAGIC_COEFFICIENTS
+from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbs.elements import Drag, EndStops, KerbRoad, PlaneRoad, ScalarSpringDamper, SpringDamper
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 from tests.elements.harness import KERNEL, Element, signals, vectors
 from tests.elements.test_generic import elements
 from tests.elements.tyre_data import TYRE, tyre_element, upright

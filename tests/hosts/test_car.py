@@ -12,7 +12,7 @@ from fmpy.util import read_csv
 
 import mbs
 from fmu_src.build.scene_registry import load_scene
-from hosts.driving.manoeuvre_file import write_manoeuvre
+from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.run.command import main
 from mbs.simulation.state import Pose

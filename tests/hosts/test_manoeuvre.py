@@ -11,9 +11,9 @@ from fmpy.util import read_csv
 
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
-from hosts.driving.manoeuvre_file import read_manoeuvre, write_manoeuvre
-from hosts.driving.manoeuvre_table import write_table
+from hosts.driving.manoeuvre_file import read_manoeuvre
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
+from hosts.driving.write_manoeuvre import write_manoeuvre, write_table
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 GOOD = '"time","steering","throttle"\n0,0,0\n1,0,0\n1,0.5,1\n2,0.5,0\n'

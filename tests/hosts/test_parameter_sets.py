@@ -22,8 +22,8 @@ from pyssp_standard.standard import ModelicaStandard
 
 import mbs
 from ali3.errors import UserError
-from ali3.parameter_set import UnitDefinition
 from ali3.read_parameter_set import read_parameter_set
+from ali3.unit_definition import UnitDefinition
 from ali3.write_parameter_set import is_as_built, write_parameter_set
 from fmu_src.build.build import FmuBuilder, build_fmu
 from fmu_src.build.car_registry import build_car
@@ -32,6 +32,7 @@ from fmu_src.build.scene_registry import load_scene
 from hosts.check.command import main as check
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.settings import Settings
 from hosts.fmu.variables import Variables
 from hosts.run.command import main as run
@@ -301,7 +302,7 @@ def kinds() -> Variables:
 
 def test_every_kind_goes_out_and_comes_back(file: Path) -> None:
     values = {"count": 7, "on": True, "road": "a b.npz", "gear": 2, "depth": -1.5}
-    write_parameter_set(kinds().parameter_set("all", values), file, as_built=False)
+    write_parameter_set(parameter_set_of(kinds(), "all", values), file, as_built=False)
     xmlschema.validate(str(file), str(ModelicaStandard.schemas["ssv"]))
     made = Settings(kinds())
     made.add_set(file)
@@ -447,13 +448,13 @@ def edits() -> Iterator[tuple[str, str]]:
 
 @pytest.mark.parametrize(("old", "new"), list(edits()))
 def test_a_set_that_a_person_has_edited_is_kept(variables: Variables, file: Path, old: str, new: str) -> None:
-    assert write_beside(variables.parameter_set("Tuned", {}), file)
+    assert write_beside(parameter_set_of(variables, "Tuned", {}), file)
     assert is_as_built(file)
     built = file.read_text()
-    assert write_beside(variables.parameter_set("Tuned", {}), file)
+    assert write_beside(parameter_set_of(variables, "Tuned", {}), file)
     assert old in built
     file.write_text(built.replace(old, new))
-    assert not write_beside(variables.parameter_set("Tuned", {}), file)
+    assert not write_beside(parameter_set_of(variables, "Tuned", {}), file)
     assert file.read_text() == built.replace(old, new)
 
 

@@ -22,7 +22,7 @@ from fmu_src.build.scene_registry import load_fidelities, load_scene
 from hosts.run.command import main as run_fmu
 from hosts.view.command import main as view
 from tests.viewer.test_page_text import data_of, numbers
-from viewer import browser
+from viewer import open_browser
 from viewer.browser import BrowserError, find_chromium
 
 ROOT = Path(__file__).parents[2]
@@ -59,7 +59,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder of a user's without a screen."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(browser, "open_in_browser", lambda path: False)
+    monkeypatch.setattr(open_browser, "open_in_browser", lambda path: False)
     return tmp_path
 
 

@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from hosts.driving.wild_driver import SENSES, TOP_SPEED, Target, WildDriver, wild_start
+from hosts.driving.pilots.pilot import SENSES
+from hosts.driving.wild_driver import TOP_SPEED, Target, WildDriver, wild_start
 
 CONTROLS = ("steering", "throttle", "brake", "hand_brake", "selector")
 STEP = 0.01

@@ -14,27 +14,46 @@ from tests.house.test_circles import FACADES, PACKAGES, ROOT
 
 CAR = {"CAR": "hosts.fmu.built_fmu"}
 RECORDING = {"--manoeuvre RECORDING": "hosts.recordings.last_drive"}
-ALIASES = {"--aliases": "hosts.fmu.aliases.file"}
+PARAMETERS = {"--parameters": "hosts.fmu.parameter_file_settings"}
+TABLES = {
+    "--manoeuvre FILE.csv": "hosts.driving.manoeuvre_table",
+    "--manoeuvre FILE.ini": "hosts.driving.old_manoeuvre",
+}
+DRIVER = {"a manoeuvre's driver": "hosts.driving.driver"}
+NEW_ROAD = {"--road": "hosts.common.road"}
+ALIASES = {"--aliases": "hosts.fmu.aliases.file", "from = FORMULA": "hosts.fmu.aliases.formulas"}
 WAYS = {
     "build": {"--kernel": "mbs.kernel.build"},
     "car": {"--kinematics": "mbs.vehicle.kinematics.report"},
-    "run": {**CAR, **RECORDING, "--kerb": "hosts.run.kerb"},
-    "view": {"RESULT": "hosts.view.show", "--live": "hosts.view.live"},
+    "run": {**CAR, **RECORDING, **PARAMETERS, **TABLES, **DRIVER, **NEW_ROAD, "--kerb": "hosts.run.kerb"},
+    "view": {"RESULT": "hosts.view.show", "--live": "hosts.view.live", **PARAMETERS},
     "simulator": {
         **CAR,
         **RECORDING,
         **ALIASES,
+        **PARAMETERS,
+        "--record": "hosts.recordings.recording",
         "--recording": "hosts.recordings.show",
         "--headless": "hosts.simulator.headless",
         "wheels and gamepads": "hosts.simulator.devices",
     },
-    "check": {**CAR, **RECORDING, "--show-parameters": "hosts.check.parameters", "--soak": "hosts.soak.soak"},
+    "check": {
+        **CAR,
+        **RECORDING,
+        **PARAMETERS,
+        **TABLES,
+        "--show-parameters": "hosts.check.parameters",
+        "--soak": "hosts.soak.soak",
+    },
     "catalogue": {**CAR, **ALIASES},
     "compare": {**CAR, **ALIASES},
     "study": {
         **CAR,
         **RECORDING,
         **ALIASES,
+        **TABLES,
+        "test = NAME": "hosts.study.catalogue_tests",
+        "--target": "hosts.study.target",
         "FILE.py:FUNCTION": "hosts.study.measures.user_function",
         "--run": "hosts.study.repeat",
         "--report": "hosts.study.analysis.report",

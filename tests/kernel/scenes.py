@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.kernel.header import ElementType, GuideType, SensorType
+from mbs.kernel.header.enumerations import ElementType, GuideType, SensorType
 
 from .system_builder import Element, Row, SystemBuilder, distance_row
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbs.kernel.binding import ControlFields, Instance, KernelError, LoadedSystem, Status
-from mbs.kernel.header import GuideType
+from mbs.kernel.header.enumerations import GuideType
 from mbs.settings.methods import METHOD_TABLE
 
 from .scenes import everything, four_bar, pendulum

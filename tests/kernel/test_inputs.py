@@ -10,7 +10,7 @@ import pytest
 
 import mbs
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 from mbs.settings.methods import METHOD_TABLE
 
 from .system_builder import Element, SystemBuilder

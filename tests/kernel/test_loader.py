@@ -10,7 +10,7 @@ import pytest
 from mbs import Model, compile
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
-from mbs.kernel.header import SensorType, SolverValue
+from mbs.kernel.header.enumerations import SensorType, SolverValue
 from mbs.kernel.read_headers import SensorEntry, sensor_types
 from mbs.scenes import bricard, spatial_chain
 from mbs.settings.settings import METHODS

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from mbs.kernel import binding
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
-from mbs.kernel.header import ElementType, GuideType
+from mbs.kernel.header.enumerations import ElementType, GuideType
 
 from .scenes import GRAVITY, everything, four_bar, pendulum
 from .system_builder import Element, Row, SystemBuilder, distance_row

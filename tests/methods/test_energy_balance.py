@@ -11,7 +11,8 @@ import pytest
 from benchmarks.methods.honesty_scenes import printed_model
 from benchmarks.references.cases import CASES, system_of
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
-from mbs.kernel.header import Doubt, ReportFields
+from mbs.kernel.header.enumerations import Doubt
+from mbs.kernel.header.structures import ReportFields
 from mbs.scenes import cart_pole
 from mbs.settings.settings import METHODS
 from tests.simulation.scenes import pendulum

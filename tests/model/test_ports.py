@@ -8,7 +8,7 @@ import pytest
 from mbs import Model, ModelError, Simulation, System, compile
 from mbs.flexible import InertiaRelief
 from mbs.kernel.binding import KernelError, LoadedSystem
-from mbs.kernel.header import SensorType
+from mbs.kernel.header.enumerations import SensorType
 
 LEFT, RIGHT, MASS = (-1.0, 0.0, 0.0), (2.0, 0.0, 0.0), 6.0
 GRAVITY = 9.81

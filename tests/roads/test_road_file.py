@@ -13,7 +13,7 @@ import pytest
 import mbs
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
-from mbs.kernel.header import ROAD_TILE
+from mbs.kernel.header.limits import ROAD_TILE
 from mbs.results.accuracy import AccuracyWarning
 from mbs.roads import RoadFile, RoadFileError, read_road, write_road
 from mbs.roads.road_header import HEADER

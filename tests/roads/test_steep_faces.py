@@ -11,7 +11,7 @@ import pytest
 
 import mbs
 from mbs.elements.road import GridRoad, KerbRoad
-from mbs.kernel.header import Status
+from mbs.kernel.header.enumerations import Status
 from mbs.roads import RoadWarning, write_road
 from mbs.roads.road_file import RoadFile
 from mbs.roads.steep_faces import steep_face

@@ -61,13 +61,14 @@ def test_a_page_is_written(run, tmp_path):
 
 
 def test_no_browser_is_a_sentence(run, monkeypatch):
-    import viewer.browser
+    import viewer.open_browser
+    from viewer.browser import BrowserError
 
-    monkeypatch.setattr(viewer.browser, "open_in_browser", lambda path: False)
-    with pytest.raises(viewer.browser.BrowserError, match=r"the page is .*animation\.html"):
+    monkeypatch.setattr(viewer.open_browser, "open_in_browser", lambda path: False)
+    with pytest.raises(BrowserError, match=r"the page is .*animation\.html"):
         mbs.animate(run).show()
     seen = []
-    monkeypatch.setattr(viewer.browser, "open_in_browser", lambda path: seen.append(path) or True)
+    monkeypatch.setattr(viewer.open_browser, "open_in_browser", lambda path: seen.append(path) or True)
     assert mbs.animate(run).show() == seen[0]
     assert seen[0].is_file()
 

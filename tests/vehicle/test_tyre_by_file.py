@@ -12,7 +12,7 @@ import pytest
 
 from fmu_src.build.car_registry import car_files
 from mbs import Pose, compile, simulate
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 from mbs.vehicle import load
 from mbs.vehicle.car_file import CARS
 from mbs.vehicle.errors import CarFileError, CarWarning

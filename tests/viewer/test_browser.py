@@ -11,7 +11,7 @@ from urllib.parse import unquote, urlsplit
 import pytest
 
 from tests.in_browser import wait_until
-from viewer import browser
+from viewer import open_browser
 
 
 class Told(BaseHTTPRequestHandler):
@@ -34,14 +34,14 @@ def test_a_secret_address_is_on_no_command_line_and_is_reached(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, chromium: Any
 ) -> None:
     given: list[str] = []
-    monkeypatch.setattr(browser.webbrowser, "open", lambda address: given.append(address) or True)
+    monkeypatch.setattr(open_browser.webbrowser, "open", lambda address: given.append(address) or True)
     monkeypatch.setenv("DISPLAY", ":0")
     path = "/?token=se-cr_et&x=\"<'"
     with HTTPServer(("127.0.0.1", 0), Told) as server:
         thread = threading.Thread(target=server.serve_forever)
         thread.start()
         try:
-            assert browser.open_secretly(f"http://127.0.0.1:{server.server_port}{path}", tmp_path)
+            assert open_browser.open_secretly(f"http://127.0.0.1:{server.server_port}{path}", tmp_path)
             (address,) = given
             assert "se-cr_et" not in address
             assert Path(unquote(urlsplit(address).path)).parent == tmp_path

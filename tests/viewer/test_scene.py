@@ -14,7 +14,8 @@ import pytest
 
 from tests.viewer.hand_scenes import everything, floats, octets
 from viewer.errors import SceneError
-from viewer.scene import SCHEMA_FILE, check_scene, json_schema, read_scene, scene_errors, schema_text
+from viewer.scene import check_scene, read_scene, scene_errors
+from viewer.scene_schema import SCHEMA_FILE, json_schema, schema_text
 from viewer.scene_values import NAME, UNIT
 
 VALIDATOR = jsonschema.Draft202012Validator(json_schema())
@@ -68,7 +69,7 @@ def test_keys_that_are_not_there() -> None:
         if key in OPTIONAL and (path, key) not in NEEDED:
             good, accepted = errors == [], VALIDATOR.is_valid(scene)
         elif (path, key) == ((), "meshes"):
-            good = errors == ['shapes[5].mesh is "triangle", which is no mesh; there are none.']
+            good = errors == ["shapes[5].mesh is 'triangle', which is no mesh; there are none."]
         elif (path, key) == (("arrows", 2), "tyre"):
             good = errors == ["arrows[2] must have the keys 'value' and 'between', 'vector' and 'at', or 'tyre'."]
         else:
@@ -115,20 +116,20 @@ def test_any_value_is_good_or_has_one_sentence() -> None:
     ("path", "value", "sentence"),
     [
         (("shapes", 1, "radius"), -0.1, "shapes[1].radius is -0.1; it must be above 0."),
-        (("shapes", 1, "radius"), "1", 'shapes[1].radius is "1"; it must be a number.'),
+        (("shapes", 1, "radius"), "1", "shapes[1].radius is '1'; it must be a number."),
         (("shapes", 1, "at"), [0, 0], "shapes[1].at has 2 entries; it must have 3."),
         (("shapes", 1, "at"), [0, 0, 0, 0], "shapes[1].at has 4 entries; it must have 3."),
         (("shapes", 3, "points"), [["ground", [0, 0, 0]]], "shapes[3].points has 1 entries; it must have at least 2."),
-        (("shapes", 0, "color"), "red", "shapes[0].color is \"red\"; it must be a colour such as '#3366cc'."),
+        (("shapes", 0, "color"), "red", "shapes[0].color is 'red'; it must be a colour such as '#3366cc'."),
         (("shapes", 0, "axes"), [[1, 0, 0], [1, 0, 0], [0, 0, 1]], "shapes[0].axes must be three unit vectors"),
         (("shapes", 0, "axes"), [[1, 0, 0], [0, 1, 0], [0, 0, -1]], "shapes[0].axes must be three unit vectors"),
         (("shapes", 8, "rim"), 0.4, "shapes[8].rim is 0.4; it must be below the radius, 0.3."),
         (("shapes", 8, "axis"), [0, 0, 0], "shapes[8].axis is [0, 0, 0]; it must not be zero."),
-        (("shapes", 2, "frame"), "arms", "shapes[2].frame is \"arms\", which is no frame; there are 'ground', 'body'"),
+        (("shapes", 2, "frame"), "arms", "shapes[2].frame is 'arms', which is no frame; there are 'ground', 'body'"),
         (
             ("frames", "spinning wheel", "parent"),
             "rim",
-            "frames['spinning wheel'].parent is \"rim\", which is no frame",
+            "frames['spinning wheel'].parent is 'rim', which is no frame",
         ),
         (("frames", "spinning wheel", "parent"), "spinning wheel", "frames['spinning wheel'] stands on itself"),
         (("frames", "arm", "points"), [[0, 0, 0], [1, 0, 0], [2, 0, 0]], "frames.arm.points lie on a line"),
@@ -150,7 +151,7 @@ def test_any_value_is_good_or_has_one_sentence() -> None:
         (("flexible", 0, "radii"), [], "flexible[0].radii has 0 entries where there are 1 beams."),
         (("flexible", 0, "stress", "rows"), floats([1]), "flexible[0].stress.rows has 1 numbers where 2 belong."),
         (("flexible", 0, "stress", "rule"), "round", "flexible[0].stress.fibres is 1; the rule 'round' has 3."),
-        (("arrows", 1, "axes"), "wing", 'arrows[1].axes is "wing", which is no frame'),
+        (("arrows", 1, "axes"), "wing", "arrows[1].axes is 'wing', which is no frame"),
         (("arrows", 0, "sign"), 2, "arrows[0].sign is 2; it must be 1 or -1."),
         (("roads", 1, "shape"), [2, 3], "roads[1].heights has 4 numbers where 6 belong."),
         (("roads", 5, "patches", 0, "shape"), [2, 3], "roads[5].patches[0].heights has 4 numbers where 6 belong."),
@@ -158,7 +159,7 @@ def test_any_value_is_good_or_has_one_sentence() -> None:
         (("roads", 5, "surface", "classes"), octets([0, 0, 0, 2]), "roads[5].surface.classes names surface 2; there"),
         (("roads", 5, "surface", "classes"), "!", "roads[5].surface.classes is not base64."),
         (("roads", 5, "surface", "frictions"), [1.0], "roads[5].surface.frictions has 1 entries where there are 2"),
-        (("roads", 5, "surface", "names"), ["tar", "grass"], 'roads[5].surface.names[0] is "tar"; it must be'),
+        (("roads", 5, "surface", "names"), ["tar", "grass"], "roads[5].surface.names[0] is 'tar'; it must be"),
         (("scenery", 3, "text"), 20, "scenery[3].text is 20; it must be a text."),
         (("scenery", 0, "points"), [[0, 0, 0]], "scenery[0].points has 1 entries; it must have at least 2."),
         (("arrows", 1, "vector"), ["a", 1, "b"], "arrows[1].vector[1] is 1; it must be a text."),
@@ -166,10 +167,10 @@ def test_any_value_is_good_or_has_one_sentence() -> None:
         (
             ("focus",),
             "moon",
-            "focus is \"moon\", which is no frame; there are 'ground', 'body', 'spinning wheel', 'arm'.",
+            "focus is 'moon', which is no frame; there are 'ground', 'body', 'spinning wheel', 'arm'.",
         ),
         (("version",), 2, "version is 2; this viewer reads version 1."),
-        (("format",), "glTF", "format is \"glTF\"; it must be 'ALi3 scene'."),
+        (("format",), "glTF", "format is 'glTF'; it must be 'ALi3 scene'."),
         (("frames", "body"), None, "frames.body is null; it must be a table."),
         (("frames", "body"), {"start": 1}, "frames.body must have the keys 'position' and 'quaternion', 'parent'"),
     ],

@@ -27,7 +27,7 @@ SOLIDS = {
     "plate": (solids.plate(SQUARE, 0.1), 0.6, 1e-12),
     "plate the other way": (solids.plate(SQUARE[::-1], 0.1), 0.6, 1e-12),
     "helix": (
-        solids.helix(0.5, 0.04, 1.0, 5.0),
+        solids.coil(0.5, 0.04, 1.0, 5.0, (0.8, 0.15), 8, 24),
         np.pi * 0.02**2 * polygon(8) * np.hypot(2.0 * np.pi * 0.5 * 5.0, 0.96),
         0.02,  # the ends are open
     ),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,17 +11,15 @@ from numpy.typing import NDArray
 
 from viewer import solids
 from viewer.base64_numbers import decoded
+from viewer.composed import SHAPES, composed
 from viewer.gltf.materials import Look, look
 from viewer.gltf.motion import Motion, between
-from viewer.poses import FramePoses, Vectors, axes_of_points, conjugate, from_matrices, held, rotated
+from viewer.poses import GROUND, FramePoses, Vectors, axes_of_points, conjugate, from_matrices, held, rotated
 from viewer.solids import Solid, along, joined
 
 Meshes = list[tuple[Solid, Look]]
 
 _CONSTANT = 1e-5  # of a length: what does not change more is rigid
-_SEAT = 0.95  # of the way between the ends of a spring, at most
-_TUBE = 0.6  # length of a damper's tube, as a share of the damper as drawn
-_SPOKES = 5
 _RINGS = 6  # of the balls at the ends of tubes, of which a car has hundreds
 
 
@@ -144,83 +142,77 @@ def _plate(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
 
 
 def _spring(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
-    radius, coils = shape["radius"], shape.get("coils") or 6.0
-    wire = shape.get("wire") or radius / 5.0
+    usual = SHAPES["spring"]
+    radius, coils = shape["radius"], shape.get("coils") or usual["coils"]
+    wire = shape.get("wire") or usual["wire"] * radius
     a, b = (parts.poses.points(anchor) for anchor in shape["ends"])
     if shape.get("seat"):
         way = np.linalg.norm(b - a, axis=1)
-        share = np.minimum(shape["seat"] / np.where(way > 0.0, way, np.inf), _SEAT)
+        share = np.minimum(shape["seat"] / np.where(way > 0.0, way, np.inf), usual["most"])
         a = a + share[:, None] * (b - a)
-    surface = look(shape, "paint", "#d9a21b", double=True)
-    _link(parts, name, a, b, surface, lambda length: solids.helix(radius, wire, length, coils))
+    surface = look(shape, "paint", usual["color"], double=True)
+    form = usual["dead"], usual["sides"], usual["per_turn"]
+    _link(parts, name, a, b, surface, lambda length: solids.coil(radius, wire, length, coils, *form))
+    seat = solids.cylinder(usual["rim"] * (radius + 0.5 * wire), -usual["plate"] * wire, 0.0, 24)
+    for start, end in ((a, b), (b, a)):
+        _pointing(parts, name, start, end, seat, look({}, "dark_paint"))
 
 
 def _damper(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
+    usual = SHAPES["damper"]
     radius, ends = shape["radius"], shape["ends"]
     a, b = (parts.poses.points(anchor) for anchor in ends)
     length = np.linalg.norm(b - a, axis=1)
-    part = min(_TUBE * float(length[0]), 0.97 * float(length.min()))
+    part = min(usual["share"] * float(length[0]), usual["most"] * float(length.min()))
     if part <= 0.0:
         parts.notes.append(f"The damper {name!r} is left out: its length becomes zero.")
         return
-    tube, rod = solids.cylinder(radius, min(radius, part / 4.0), part), solids.cylinder(0.42 * radius, 0.0, part)
-    for start, end, solid, surface in (
-        (a, b, tube, look(shape, "dark_paint")),
-        (b, a, rod, look({}, "chrome")),
-    ):
-        position, quaternion, _ = between(start, end)
-        parts.free.append((name, Motion(position, quaternion), [(solid, surface)]))
+    below = min(usual["below"][0] * radius, usual["below"][1] * part)
+    tube = solids.cylinder(radius, min(radius, usual["foot"] * part), part)
+    collar = solids.cylinder(usual["collar"] * radius, part - below, part + usual["above"] * radius)
+    rod = solids.cylinder(usual["rod"] * radius, 0.0, part)
+    _pointing(parts, name, a, b, tube, look(shape, "dark_paint"))
+    _pointing(parts, name, a, b, collar, look({}, "steel"))
+    _pointing(parts, name, b, a, rod, look({}, "chrome"))
     for anchor in ends:
-        _ball(parts, anchor, 0.75 * radius, name, look({}, "steel"))
+        _ball(parts, anchor, usual["eye"] * radius, name, look({}, "steel"))
 
 
 def _wheel(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
-    radius, width = shape["radius"], shape["width"]
-    rim = shape.get("rim") or 0.65 * radius
-    turn = along(_unit(shape.get("axis") or (0.0, 1.0, 0.0)))
-    half, side = 0.5 * width, radius - rim
-    bead = [(rim, 0.8), (rim + 0.1 * side, 0.92), (rim + 0.45 * side, 1.0), (rim + 0.75 * side, 0.96)]
-    half_profile = [(r, y * half) for r, y in [*bead, (radius - 0.08 * side, 0.82), (radius, 0.6)]]
-    profile = [*((r, -y) for r, y in half_profile), *half_profile[::-1], (rim, -0.8 * half)]
-    ring = [(0.9 * rim, -0.7 * half), (rim, -0.78 * half), (rim, 0.78 * half), (0.9 * rim, 0.7 * half)]
-    metal = [solids.lathe([*ring, ring[0]], 48), solids.cylinder(0.2 * rim, -0.5 * half, 0.5 * half)]
-    spoke = solids.box((0.75 * rim, 0.2 * width, 0.16 * rim))
-    for k in range(_SPOKES):
-        metal.append(
-            spoke.placed(_about_y(2.0 * np.pi * k / _SPOKES), _about_y(2.0 * np.pi * k / _SPOKES)[:, 0] * 0.55 * rim)
-        )
-    valve = joined(
-        [solids.sphere(0.06 * rim, 8).placed(np.eye(3), (0.8 * rim, s * 0.12 * width, 0.0)) for s in (1.0, -1.0)]
-    )
-    made = [
-        (solids.lathe(profile, 64), look({}, "rubber")),
-        (joined(metal), look({}, "rim")),
-        (valve, look({}, "plastic", "#d8412f")),
-    ]
-    parts.fixed.append((shape["frame"], name, [(s.placed(turn, _at(shape)), surface) for s, surface in made]))
+    radius, width, frame = shape["radius"], shape["width"], shape["frame"]
+    rim = shape.get("rim") or SHAPES["wheel"]["rim"] * radius
+    y = _unit(shape.get("axis") or (0.0, 1.0, 0.0))
+    body, own = parts.poses.of(parts.scene.get("focus") or GROUND), parts.poses.of(frame)
+    along_axis = float(rotated(conjugate(own.quaternion[:1]), own.position[:1] - body.position[:1])[0] @ y)
+    out = float(np.sign(along_axis)) if abs(along_axis) > 0.5 * radius else 0.0
+    x = np.array([1.0, 0.0, 0.0]) - y[0] * y
+    x = _unit(x) if abs(y[0]) < 0.9 else along(y)[:, 0]
+    lengths = {"rim": rim, "side": radius - rim, "width": width}
+    made = composed(SHAPES["wheel"]["parts"], lengths, out)
+    _put(parts, shape, name, made, np.column_stack([x, y, np.cross(x, y)]))
 
 
 def _steering_wheel(parts: Parts, shape: Mapping[str, Any], name: str) -> None:
-    radius, frame = shape["radius"], shape["frame"]
+    frame = shape["frame"]
     axis = _unit(shape.get("axis") or parts.scene["frames"].get(frame, {}).get("axis") or (0.0, 0.0, 1.0))
     pose = parts.poses.of(frame)
     up = rotated(conjugate(pose.quaternion[:1]), np.asarray(parts.scene.get("up") or (0.0, 0.0, 1.0), dtype=float))[0]
     top = up - (up @ axis) * axis
     z = _unit(top) if np.linalg.norm(top) > 1e-6 else along(axis)[:, 0]
-    turn = np.column_stack([np.cross(axis, z), axis, z])
-    rim = 0.09 * radius
-    spokes = [
-        solids.box((0.72 * radius, 0.07 * radius, 0.16 * radius)).placed(m, m[:, 0] * 0.55 * radius)
-        for m in (_about_y(angle) for angle in (0.0, np.pi, 0.5 * np.pi))
-    ]
-    dark = joined([solids.torus(radius - rim, rim), solids.cylinder(0.28 * radius, -0.1 * radius, 0.1 * radius)])
-    mark = solids.sphere(1.25 * rim, 8).placed(np.eye(3), (0.0, 0.0, radius - rim))
-    made = [
-        (dark, look(shape, "plastic", "#1c1e20")),
-        (joined(spokes), look({}, "steel")),
-        (mark, look({}, "plastic", "#d8412f")),
-    ]
-    parts.fixed.append((frame, name, [(s.placed(turn, _at(shape)), surface) for s, surface in made]))
+    made = composed(SHAPES["steering_wheel"]["parts"], {"radius": shape["radius"]})
+    _put(parts, shape, name, made, np.column_stack([np.cross(axis, z), axis, z]))
+
+
+def _put(
+    parts: Parts, shape: Mapping[str, Any], name: str, made: Iterable[tuple[Mapping[str, Any], Solid]], turn: Vectors
+) -> None:
+    """Put what a shape is composed of into its frame; what has the same material is one solid."""
+    kinds: dict[Look, list[Solid]] = {}
+    for part, solid in made:
+        given = shape if part.get("of_shape") else {}
+        surface = look(given, part["material"], part.get("color"), double=part.get("double", False))
+        kinds.setdefault(surface, []).append(solid.placed(turn, _at(shape)))
+    parts.fixed.append((shape["frame"], name, [(joined(same), surface) for surface, same in kinds.items()]))
 
 
 _MAKERS: dict[str, Callable[[Parts, Mapping[str, Any], str], None]] = {
@@ -249,6 +241,12 @@ def _link(parts: Parts, name: str, a: Vectors, b: Vectors, surface: Look, make: 
     parts.free.append((name, Motion(position, quaternion, scale), [(make(size), surface)]))
 
 
+def _pointing(parts: Parts, name: str, a: Vectors, b: Vectors, solid: Solid, surface: Look) -> None:
+    """A rigid solid at points a whose y axis points to b."""
+    position, quaternion, _ = between(a, b)
+    parts.free.append((name, Motion(position, quaternion), [(solid, surface)]))
+
+
 def _ball(parts: Parts, anchor: Sequence[Any], radius: float, name: str, surface: Look) -> None:
     parts.fixed.append((anchor[0], name, [(solids.sphere(radius, _RINGS).placed(np.eye(3), anchor[1]), surface)]))
 
@@ -268,8 +266,3 @@ def _volume(positions: Vectors, triangles: NDArray[np.int64]) -> float:
 def _unit(vector: Any) -> Vectors:
     made = np.asarray(vector, dtype=float)
     return np.asarray(made / np.linalg.norm(made))
-
-
-def _about_y(angle: float) -> Vectors:
-    c, s = float(np.cos(angle)), float(np.sin(angle))
-    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])

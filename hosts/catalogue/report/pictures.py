@@ -14,11 +14,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
+from ali3.chart_style import COLOURS, STYLE
 from hosts.catalogue.record import Line, Plot
 from hosts.catalogue.report.numbers import shown
 from hosts.catalogue.report.thinning import thinned
 from hosts.common.display_units import axis_shown
-from hosts.run.result_plots import COLOURS, STYLE
 
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 2)), (0, (1, 1.4)), (0, (6, 2, 1, 2)), (0, (9, 3)), (0, (3, 1, 1, 1, 1, 1)))
 _WIDTHS = (1.5, 1.9, 2.2, 1.7, 1.3, 1.7)

@@ -7,12 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hosts.driving.course import Course
+from hosts.driving.pilots.pilot import SENSES
 from hosts.driving.pilots.speed_holder import SpeedHolder
-
-SENSES = ("chassis.x", "chassis.y", "chassis.yaw", "speed")
-"""Outputs without which a course cannot be followed."""
-ACTS = ("steering", "throttle", "brake")
-"""Inputs without which it cannot."""
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,14 @@
-"""What a pilot is, and several as one."""
+"""What a pilot is."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Protocol
+
+SENSES = ("chassis.x", "chassis.y", "chassis.yaw", "speed")
+"""Outputs without which a course cannot be followed."""
+ACTS = ("steering", "throttle", "brake")
+"""Inputs without which it cannot."""
 
 
 class Pilot(Protocol):
@@ -12,23 +17,3 @@ class Pilot(Protocol):
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """Inputs for the coming communication step; `senses` are all outputs by our names, until that step is made."""
         ...
-
-
-class Together:
-    """Pilots that share a car, such as one who steers and one who holds the speed.
-
-    Parameters
-    ----------
-    *pilots : Pilot
-        Where two act on an input the later one does.
-    """
-
-    def __init__(self, *pilots: Pilot) -> None:
-        self.pilots = pilots
-
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `Pilot.act`."""
-        acts: dict[str, float] = {}
-        for pilot in self.pilots:
-            acts |= pilot.act(time, senses)
-        return acts

@@ -65,31 +65,6 @@ class Aliases:
         """What computes the derived variables from recorded ones by our names; see `Derivation`."""
         return Derivation(self.derived, ours)
 
-    def with_central_rates(
-        self, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64], thinned: bool = False
-    ) -> None:
-        """Write derived columns of a record again: a rate that was made during the run did not know the next row.
-
-        Parameters
-        ----------
-        names : sequence of str
-            Ours, of the columns.
-        time : ndarray of shape (n,)
-            s.
-        values : ndarray of shape (n, len(names))
-            Is changed.
-        thinned : bool
-            Whether steps are left out; then rates of the run are better, and only those that are NaN are written.
-        """
-        made = {d.ours for d in self.derived}
-        there = [k for k, name in enumerate(names) if name not in made]
-        derivation = self.derivation([names[k] for k in there])
-        columns = derivation.record(time, values[:, there])
-        for k, name in enumerate(derivation.names):
-            if name in names:
-                column = values[:, names.index(name)]
-                column[:] = np.where(np.isnan(column), columns[:, k], column) if thinned else columns[:, k]
-
     def scales(self, theirs: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Factors and offsets of variables.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ali3.parameter_set import UnitDefinition
+from ali3.unit_definition import UnitDefinition
 from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.units import known_unit, same_quantity, says_nothing, unit_of

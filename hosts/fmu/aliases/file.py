@@ -11,7 +11,8 @@ from hosts.common.errors import HostError
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.aliases.checks import check_unit, declared, factor_of_unit, is_si
 from hosts.fmu.aliases.content import SHIPPED, Content, Entry, number, read_content, shipped_names
-from hosts.fmu.aliases.derived import Derived, in_order, parse_derived
+from hosts.fmu.aliases.derived import Derived, in_order
+from hosts.fmu.aliases.parse_derived import parse_derived
 from hosts.fmu.variables import Variable, Variables
 
 _KEYS = ("name", "factor", "offset", "unit")

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.stats import binomtest
 
-from hosts.run.result_plots import BLUE, RED
+from ali3.chart_style import BLUE, RED
 from hosts.study.analysis.data import Parameter, Response, StudyData
 from hosts.study.analysis.main_effects import MainEffect, classes
 from hosts.study.analysis.panels import drawn, parameter_panels

@@ -13,7 +13,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from hosts.run.result_plots import RED
+from ali3.chart_style import RED
 from hosts.study.analysis.data import Parameter, Response, StudyData
 from hosts.study.analysis.panels import WIDTH, drawn
 

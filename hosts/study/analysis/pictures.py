@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 from PIL import Image
 
+from ali3.charts import save_pictures
 from ali3.files import whole_file
-from hosts.run.result_plots import save_pictures
 from hosts.study.analysis.page import picture
 
 if TYPE_CHECKING:

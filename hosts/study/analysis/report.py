@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from matplotlib import pyplot as plt
 
+from ali3.chart_style import STYLE
 from ali3.files import make_folder, whole_file, write_text
 from hosts.catalogue.report.elements import element
 from hosts.common.errors import HostError
-from hosts.run.result_plots import STYLE
 from hosts.study.analysis.data import study_data
 from hosts.study.analysis.measure_section import indices_of, measure_section
 from hosts.study.analysis.page import document, paragraph

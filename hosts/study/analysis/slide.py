@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from hosts.run.result_plots import BLUE
+from ali3.chart_style import BLUE
 from hosts.run.slide import Draw, write_slide
 from hosts.study.analysis.data import Response, StudyData
 from hosts.study.analysis.indices import Indices

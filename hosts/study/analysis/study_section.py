@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from matplotlib import pyplot as plt
 
+from ali3.chart_style import STYLE
 from hosts.catalogue.report.elements import Content, element
-from hosts.run.result_plots import STYLE
 from hosts.study.analysis.data import FAILED, StudyData
 from hosts.study.analysis.effect_plots import plot_failed
 from hosts.study.analysis.page import commands_cell, paragraph, table

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
-from hosts.run.result_plots import BLACK, BLUE, ORANGE, RED
+from ali3.chart_style import BLACK, BLUE, ORANGE, RED
 from hosts.study.analysis.data import Response, StudyData
 from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.panels import WIDTH

@@ -6,7 +6,7 @@ import ctypes
 import math
 from collections.abc import Mapping, Sequence
 
-from ..header import OPEN
+from ..header.limits import OPEN
 
 
 class KernelError(RuntimeError):

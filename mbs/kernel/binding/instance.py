@@ -10,7 +10,9 @@ from collections.abc import Callable, Mapping, Sequence
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_void_p
 from typing import Any
 
-from ..header import OPEN, ControlFields, Doubt, InputTable, InputTables, RecordFields, ReportFields, SettingsFields
+from ..header.enumerations import Doubt
+from ..header.limits import OPEN
+from ..header.structures import ControlFields, InputTable, InputTables, RecordFields, ReportFields, SettingsFields
 from .buffers import buffer, numbers
 from .errors import KernelError, status_text
 from .loaded_system import LoadedSystem

@@ -9,7 +9,7 @@ from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_size_t, c_ui
 from pathlib import Path
 from typing import Any
 
-from ..header import STRUCTURES, ControlFields, LaneFields, RecordFields, ReportFields, SettingsFields, Sizes
+from ..header.structures import STRUCTURES, ControlFields, LaneFields, RecordFields, ReportFields, SettingsFields, Sizes
 
 _DOUBLES = POINTER(c_double)
 _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {

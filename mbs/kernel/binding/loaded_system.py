@@ -6,7 +6,7 @@ import ctypes
 import os
 from ctypes import byref, c_void_p
 
-from ..header import Sizes
+from ..header.structures import Sizes
 from .errors import KernelError, status_text
 from .library import load_library
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ctypes import POINTER, byref, c_double, c_void_p
 from typing import Any, NamedTuple
 
-from ..header import LaneFields
+from ..header.structures import LaneFields
 from .buffers import buffer
 from .errors import KernelError, status_text
 from .instance import Instance

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from ali3.chart_style import BLUE, GREEN, RED, STYLE
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
 from mbs.vehicle.kinematics.curves import WORDS, Curve
 from mbs.vehicle.kinematics.quantities import BY_NAME
@@ -13,23 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# Okabe and Ito's palette: distinguishable with any colour vision.
-COLOURS = {"parallel": "#0072B2", "opposite": "#D55E00", "single": "#009E73", "left": "#0072B2", "right": "#D55E00"}
-STYLE: dict[Any, Any] = {
-    "font.size": 9,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#e3e3e3",
-    "grid.linewidth": 0.8,
-    "axes.edgecolor": "#888888",
-    "axes.titlesize": 10,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "legend.frameon": False,
-    "legend.fontsize": 8,
-    "lines.linewidth": 1.6,
-}
+COLOURS = {"parallel": BLUE, "opposite": RED, "single": GREEN, "left": BLUE, "right": RED}
+_STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8}
 TRAVEL_PANELS = (
     ("toe_angle", ("parallel", "opposite", "single")),
     ("camber_angle", ("parallel", "opposite", "single")),
@@ -110,7 +96,7 @@ def _figure(title: str, panels: int, draw: Any) -> Figure:
     from matplotlib.figure import Figure
 
     rows = -(-panels // COLUMNS)
-    with mpl.rc_context(STYLE):
+    with mpl.rc_context(_STYLE):
         figure = Figure(figsize=(3.4 * COLUMNS, 2.5 * rows + 0.5), layout="constrained")
         FigureCanvasAgg(figure)
         grid: Sequence[Axes] = list(figure.subplots(rows, COLUMNS, squeeze=False).flat)

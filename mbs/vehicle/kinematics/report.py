@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.errors import UserError
-from ali3.running import told_warnings
+from ali3.told_warnings import told_warnings
 
 LEAST_RANGE = 1e-3  # m: who gives metres finds less
 TRAVEL = (-80.0, 80.0)  # mm

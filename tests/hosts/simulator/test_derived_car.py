@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hosts.fmu.aliases.alias import Alias, Aliases
-from hosts.fmu.aliases.derived import parse_derived
+from hosts.fmu.aliases.parse_derived import parse_derived
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.moments import Moment
 

@@ -17,9 +17,10 @@ from fmu_src.build.scene_registry import load_scene
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
 from hosts.study.campaign import run_study
+from hosts.study.job import Job
 from hosts.study.one_run import Bench
 from hosts.study.store import read_study
-from hosts.study.work import Job, Work
+from hosts.study.work import Work
 
 TESTS = Path(__file__).parents[2]
 BAD = """

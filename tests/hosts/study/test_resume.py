@@ -15,7 +15,7 @@ import pytest
 from fmpy.util import read_csv
 
 from ali3.errors import UserError
-from ali3.files import locked
+from ali3.locks import locked
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.common.errors import HostError

@@ -1,15 +1,15 @@
 // The wire of a coil spring: points and normals for any length; pure numbers.
+import shapes from "../../../shapes.json" with { type: "json" };
 import { add, cross, scale } from "../scene/math.js";
 
-const AROUND = 7;
-const PER_TURN = 18;
+const { sides: AROUND, per_turn: PER_TURN } = shapes.spring;
 
 /**
  * Height of the wire's middle over a turn: end coils lie flat, the active ones share what is left.
  * @param {number} turn 0 to coils @param {number} coils @param {number} wire diameter @param {number} height length of the spring
  */
 export function heightAt(turn, coils, wire, height) {
-  const dead = Math.min(0.8, 0.15 * coils);
+  const dead = Math.min(shapes.spring.dead[0], shapes.spring.dead[1] * coils);
   const flat = Math.min(wire, height / (coils + 1));
   const rest = height - wire - 2 * dead * flat;
   const active = Math.max(0, Math.min(turn - dead, coils - 2 * dead));

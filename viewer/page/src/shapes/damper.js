@@ -1,10 +1,11 @@
 import * as THREE from "three";
+import shapes from "../../../shapes.json" with { type: "json" };
 import { add, length, scale, subtract, unit } from "../scene/math.js";
 import { bevelled } from "./cylinder.js";
 import { stretch } from "./place.js";
 
-/** Length of the tube and of the rod beside that of the damper as drawn: they overlap by a fifth. */
-const SHARE = 0.6;
+/** Shares of the radius, and of the length as drawn: tube and rod overlap. */
+const { share, most, foot, rod: thin, eye: ball, collar: wide, below, above } = shapes.damper;
 
 /** A telescopic damper between two points: a tube at the first end, a rod at the second. @param {Data} shape */
 export function damper(shape, { materials, frames }) {
@@ -13,7 +14,7 @@ export function damper(shape, { materials, frames }) {
   const body = new THREE.Mesh(unitBody, materials.of(shape, "dark_paint"));
   const collar = new THREE.Mesh(unitBody, materials.named("steel"));
   const rod = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 20), materials.named("chrome"));
-  const eye = new THREE.SphereGeometry(0.75 * radius, 12, 8);
+  const eye = new THREE.SphereGeometry(ball * radius, 12, 8);
   const eyes = [0, 1].map(() => new THREE.Mesh(eye, materials.named("steel")));
   const object = new THREE.Group().add(body, collar, rod, ...eyes);
   const drawn = ends.map(([frame, local]) => frames.point(frame, local));
@@ -25,11 +26,11 @@ export function damper(shape, { materials, frames }) {
     if (along === null) return;
     const now = length(subtract(to, from));
     free ??= now;
-    const part = Math.min(SHARE * free, 0.97 * now);
+    const part = Math.min(share * free, most * now);
     const top = add(from, scale(along, part));
-    stretch(body, add(from, scale(along, Math.min(radius, part / 4))), top, radius);
-    stretch(collar, subtract(top, scale(along, Math.min(0.6 * radius, part / 8))), add(top, scale(along, 0.02 * radius)), 1.1 * radius);
-    stretch(rod, subtract(to, scale(along, part)), to, 0.42 * radius);
+    stretch(body, add(from, scale(along, Math.min(radius, foot * part))), top, radius);
+    stretch(collar, subtract(top, scale(along, Math.min(below[0] * radius, below[1] * part))), add(top, scale(along, above * radius)), wide * radius);
+    stretch(rod, subtract(to, scale(along, part)), to, thin * radius);
     eyes.forEach((mesh, i) => mesh.position.fromArray([from, to][i]));
   };
   return { object, update };

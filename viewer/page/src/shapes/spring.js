@@ -1,16 +1,17 @@
 import * as THREE from "three";
+import shapes from "../../../shapes.json" with { type: "json" };
 import { across, add, cross, dot, length, rotate, scale, subtract, unit } from "../scene/math.js";
 import { coilSurface, coilTriangles } from "./coil.js";
 import { set } from "./plate.js";
 import { stretch } from "./place.js";
 
-/** Of the way between the ends the seat is at most at this part. */
-const MOST = 0.95;
+/** Where the scene says nothing, and shares: of the way to the seat, of the seats' radius and thickness. */
+const USUAL = shapes.spring;
 
 /** A coil spring between two points; its wire keeps its thickness when it is compressed. @param {Data} shape */
 export function spring(shape, { materials, frames }) {
-  const { radius, wire = radius / 5, coils = 6, seat: begin = 0, ends } = shape;
-  const material = materials.of({ color: "#d9a21b", ...shape }, "paint");
+  const { radius, wire = USUAL.wire * radius, coils = USUAL.coils, seat: begin = 0, ends } = shape;
+  const material = materials.of({ color: USUAL.color, ...shape }, "paint");
   const geometry = new THREE.BufferGeometry();
   geometry.setIndex(coilTriangles(coils));
   const wound = new THREE.Mesh(geometry, material);
@@ -23,7 +24,7 @@ export function spring(shape, { materials, frames }) {
     object.visible = z !== null;
     if (z === null) return;
     const whole = length(subtract(to, end));
-    const from = add(end, scale(z, Math.min(begin, MOST * whole)));
+    const from = add(end, scale(z, Math.min(begin, USUAL.most * whole)));
     // The start of the wire keeps its place on the body of the first end.
     const body = frames.pose(ends[0][0]).rotation;
     const candidates = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => rotate(body, axis)); // prettier-ignore
@@ -34,9 +35,9 @@ export function spring(shape, { materials, frames }) {
     set(geometry, "position", positions);
     set(geometry, "normal", normals);
     geometry.computeBoundingSphere();
-    const rim = 1.12 * (radius + wire / 2);
-    stretch(seats[0], subtract(from, scale(z, 0.5 * wire)), from, rim);
-    stretch(seats[1], to, add(to, scale(z, 0.5 * wire)), rim);
+    const rim = USUAL.rim * (radius + wire / 2);
+    stretch(seats[0], subtract(from, scale(z, USUAL.plate * wire)), from, rim);
+    stretch(seats[1], to, add(to, scale(z, USUAL.plate * wire)), rim);
   };
   return { object, update };
 }

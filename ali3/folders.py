@@ -1,0 +1,73 @@
+"""Folders that are written whole or not at all, and those of a cache that are used no more."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from ali3.errors import FileError
+from ali3.files import WRITING, make_folder, reason
+
+
+@contextmanager
+def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
+    """A folder to fill; when the block ends without an error it becomes `folder` at once.
+
+    Parameters
+    ----------
+    folder : path
+        That is not there. If another program makes it meanwhile, its folder stays.
+
+    Yields
+    ------
+    Path
+        A folder of the same name in a temporary one beside `folder`.
+
+    Raises
+    ------
+    FileError
+        With the folder and the reason, if it cannot be written; nothing is left.
+    """
+    target = Path(folder)
+    parent = make_folder(target.parent)
+    try:
+        with tempfile.TemporaryDirectory(prefix=WRITING, dir=parent, ignore_cleanup_errors=True) as room:
+            made = Path(room, target.name)
+            made.mkdir()
+            yield made
+            try:
+                made.rename(target)
+            except OSError:
+                if not target.is_dir():
+                    raise
+    except FileError:
+        raise
+    except OSError as error:
+        raise FileError(f"{folder} cannot be written: {reason(error)}.") from error
+
+
+def forget_oldest(room: Path, kept: int, in_use: float = 0.0) -> None:
+    """Remove the folders that were not used for the longest time, while another program may do the same.
+
+    Parameters
+    ----------
+    room : Path
+        Of the cache.
+    kept : int
+        How many stay.
+    in_use : float
+        Those that were used in so many seconds stay too, s.
+    """
+    used: dict[Path, float] = {}
+    for folder in room.iterdir():
+        with suppress(FileNotFoundError):
+            if folder.is_dir() and not folder.name.startswith("."):
+                used[folder] = folder.stat().st_mtime
+    for folder in sorted(used, key=used.__getitem__, reverse=True)[kept:]:
+        if used[folder] <= time.time() - in_use:
+            shutil.rmtree(folder, ignore_errors=True)

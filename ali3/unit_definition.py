@@ -1,0 +1,48 @@
+"""Units by their base units, as the standards SSP and FMI define them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+"""Base units of the standards SSP and FMI."""
+
+
+@dataclass(frozen=True)
+class UnitDefinition:
+    """A unit by its base units: value in base units = factor * value + offset.
+
+    Parameters
+    ----------
+    exponents : mapping of str to int
+        By name of the base unit; those that are zero left out.
+    """
+
+    exponents: Mapping[str, int]
+    factor: float = 1.0
+    offset: float = 0.0
+
+    @classmethod
+    def of(cls, attributes: Mapping[str, Any]) -> UnitDefinition:
+        """A definition from the attributes of an element ``BaseUnit`` of SSP or FMI.
+
+        Parameters
+        ----------
+        attributes : mapping of str to str or number
+            Exponents by base unit, ``factor`` and ``offset``; what is missing has its default.
+        """
+        exponents = {base: int(attributes.get(base) or 0) for base in BASE_UNITS}
+        factor, offset = attributes.get("factor"), attributes.get("offset")
+        return cls(
+            {base: exponent for base, exponent in exponents.items() if exponent},
+            1.0 if factor is None else float(factor),
+            0.0 if offset is None else float(offset),
+        )
+
+    def convert(self, value: float, other: UnitDefinition) -> float:
+        """A value in this unit as one in another of the same base units."""
+        if (self.factor, self.offset) == (other.factor, other.offset):
+            return value  # to the last bit
+        return (self.factor * value + self.offset - other.offset) / other.factor

@@ -1,0 +1,27 @@
+"""Several pilots as one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from hosts.driving.pilots.pilot import Pilot
+
+
+class Together:
+    """Pilots that share a car, such as one who steers and one who holds the speed.
+
+    Parameters
+    ----------
+    *pilots : Pilot
+        Where two act on an input the later one does.
+    """
+
+    def __init__(self, *pilots: Pilot) -> None:
+        self.pilots = pilots
+
+    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+        """See `Pilot.act`."""
+        acts: dict[str, float] = {}
+        for pilot in self.pilots:
+            acts |= pilot.act(time, senses)
+        return acts

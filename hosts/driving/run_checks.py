@@ -1,0 +1,77 @@
+"""What is refused before a run: a wrong step, or a column that the FMU cannot take."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hosts.common.errors import HostError
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.simulated_fmu import SimulatedFmu
+
+# Bytes a run may record: more would fill the memory before the disk.
+_LARGEST_RECORD = 4e9
+
+
+def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
+    """The step of a run: the one that was asked for, else that of the FMU.
+
+    Parameters
+    ----------
+    step : float, optional
+        s.
+
+    Raises
+    ------
+    HostError
+        If it or the stop time is not positive, or if it is longer than the manoeuvre or so short that the record would
+        not fit into the memory.
+    """
+    experiment = fmu.description.defaultExperiment
+    if step is None:
+        step = manoeuvre.step
+    if step is None:
+        step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+    stop = manoeuvre.stop_time
+    if not stop > 0.0:
+        raise HostError(f"The stop time is {stop:g} s; it must be positive.")
+    if not 0.0 < step <= stop:
+        raise HostError(f"The step is {step:g} s; it must be positive and not longer than {stop:g} s.")
+    columns = len(fmu.names("input")) + len(fmu.names("output")) + 1
+    record = 8.0 * columns * (stop / step + 1.0)
+    if record > _LARGEST_RECORD:
+        shortest = stop * 8.0 * columns / (_LARGEST_RECORD - 8.0 * columns)
+        raise HostError(
+            f"{stop:g} s in steps of {step:g} s are {stop / step:.3g} rows of {columns} values: {1e-9 * record:.3g} GB "
+            f"where at most {1e-9 * _LARGEST_RECORD:g} GB can be recorded; take a step of at least {shortest:.2g} s, "
+            "or a shorter time."
+        )
+    return step
+
+
+def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
+    """Refuse a table with a column that is no input and no tunable parameter of the FMU, or not of its kind.
+
+    Raises
+    ------
+    HostError
+        With the column, and what it would have to be.
+    """
+    inputs, tunable = fmu.names("input"), fmu.tunable
+    for name, values in manoeuvre.inputs.items():
+        what, variable = f"The manoeuvre '{manoeuvre.name}' has a column '{name}'", fmu.variables.get(name)
+        if variable is not None and variable.causality == "parameter" and name not in tunable:
+            raise HostError(
+                f"{what}, a {variable.variability} parameter of {fmu.path.name}: it can be set before the start only, "
+                "by --set, --parameters or in [start]."
+            )
+        if name not in inputs and name not in tunable:
+            raise HostError(
+                f"{what}, which is no input of {fmu.path.name}; its inputs are: {', '.join(inputs) or 'none'}"
+                f"{f'; a tunable parameter, such as {tunable[0]}, can be a column too' if tunable else ''}."
+            )
+        if fmu.variables[name].type == "Integer" and (values != np.round(values)).any():
+            odd = float(values[values != np.round(values)][0])
+            raise HostError(f"{what} with the value {odd:g}; '{name}' is a whole number.")
+        if name in tunable:
+            for value in values.tolist():
+                fmu.table[name].check(value, f"The manoeuvre '{manoeuvre.name}'")

@@ -1,0 +1,33 @@
+"""Saved states of an FMU as files beside manoeuvres."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ali3.files import whole_file
+from ali3.reading import LARGEST_STATE, read_bytes
+from hosts.common.errors import HostError
+
+
+def read_state(file: Path, where: str) -> bytes:
+    """The saved state of an FMU.
+
+    Parameters
+    ----------
+    where : str
+        The place that names it, for messages.
+
+    Raises
+    ------
+    HostError
+        It cannot be read.
+    """
+    return read_bytes(file, LARGEST_STATE, HostError, f"{where}: the state {file}")
+
+
+def write_state(state: bytes, file: Path) -> Path:
+    """Write a saved state beside a file; its place."""
+    beside = file.with_suffix(".state")
+    with whole_file(beside) as made:
+        made.write_bytes(state)
+    return beside

@@ -1,0 +1,89 @@
+"""What a parameter set sets in an FMU: its values, converted into the units of the FMU."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from ali3.parameter_set import Entry, ParameterSet
+from ali3.read_parameter_set import read_parameter_set
+from ali3.unit_definition import UnitDefinition
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.setting import Setting
+from hosts.fmu.variables import Variable, Variables, kind_words
+
+
+def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
+    """Values of an SSV file.
+
+    Parameters
+    ----------
+    variables : Variables
+        Of the FMU.
+
+    Raises
+    ------
+    HostError
+        A name, value, kind or unit is wrong.
+    ParameterSetError
+        It is no such file.
+    """
+    parameters = read_parameter_set(file)
+    return [_of_entry(entry, parameters, variables, file.name) for entry in parameters.entries]
+
+
+def _of_entry(entry: Entry, parameters: ParameterSet, variables: Variables, source: str) -> Setting:
+    variable = variables.settable(entry.name, source)
+    value = _taken(variable, entry.kind, entry.value, source)
+    if (
+        entry.unit is None
+        or variable.kind != "Real"
+        or (entry.unit == variable.unit and entry.unit not in parameters.units)
+    ):
+        return Setting(variable, variable.check(value, source), source)
+    assert isinstance(value, float)
+    definition = parameters.units.get(entry.unit)
+    converted = (
+        variable.from_display(value, entry.unit, source)
+        if definition is None
+        else _converted(variable, value, entry.unit, definition, source)
+    )
+    given = "" if converted == value else f"{value:g} {entry.unit}"
+    setting = Setting(variable, converted, source, given)
+    return replace(setting, value=variable.check(converted, f"{source}, {given}" if given else source))
+
+
+def _taken(variable: Variable, kind: str, text: str, source: str) -> Value:
+    """The value of an entry, whose kind must fit the variable; a real one is not yet checked."""
+    fits = {"Real": ("Real", "Integer"), "Integer": ("Integer", "Real"), "Enumeration": ("Enumeration", "Integer")}
+    if kind not in fits.get(variable.kind, (variable.kind,)):
+        raise HostError(
+            f"{source}: '{variable.name}' is given as {kind}; in the FMU it is {kind_words(variable.kind)}."
+        )
+    if variable.kind == "Real":
+        return float(text)
+    if kind == "Real":
+        return variable.check(float(text), source)
+    return variable.read(text, source)
+
+
+def _converted(variable: Variable, value: float, name: str, unit: UnitDefinition, source: str) -> float:
+    own = variable.definition
+    if own is None:
+        raise HostError(
+            f"{source}: '{variable.name}' is given in {name}; the FMU does not define its unit "
+            f"{variable.unit}, so that it cannot be converted."
+        )
+    if own.exponents != unit.exponents:
+        raise HostError(
+            f"{source}: '{variable.name}' is given in {name} ({_base(unit)}); its unit is {variable.unit} "
+            f"({_base(own)})."
+        )
+    return unit.convert(value, own)
+
+
+def _base(unit: UnitDefinition) -> str:
+    """A unit in base units, for messages."""
+    text = ".".join(f"{base}{'' if power == 1 else power}" for base, power in unit.exponents.items()) or "1"
+    return text if unit.factor == 1.0 else f"{unit.factor:g} {text}"

@@ -1,0 +1,43 @@
+"""The parameters of an FMU as a parameter set, to be written."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ali3.parameter_set import Entry, ParameterSet, told
+from hosts.common.numbers import Value
+from hosts.fmu.variables import Variable, Variables
+
+_WRITTEN = ("Real", "Integer", "Boolean", "String", "Enumeration")
+
+
+def parameter_set_of(variables: Variables, name: str, values: Mapping[str, Value]) -> ParameterSet:
+    """All parameters as a set.
+
+    Parameters
+    ----------
+    name : str
+        Of the set.
+    values : mapping of str to float, int, bool or str
+        Other values than those of the FMU.
+    """
+    entries, units = [], {}
+    for v in variables.parameters:
+        value = values.get(v.name, v.start)
+        if value is None or v.kind not in _WRITTEN:
+            continue
+        unit = v.unit if v.kind == "Real" and v.definition is not None else None
+        if unit is not None and v.definition is not None:
+            units[unit] = v.definition
+        text = told(v.description, v.range, v.variability)
+        entries.append(Entry(v.name, v.kind, _written(v, value), unit, text))
+    return ParameterSet(name, entries, dict(sorted(units.items())))
+
+
+def _written(variable: Variable, value: Value) -> str:
+    """A value as the file has it: numbers read back as the same double."""
+    if variable.kind == "Enumeration":
+        return next((name for name, number in variable.items.items() if number == value), str(value))
+    if variable.kind in ("Boolean", "String"):
+        return str(value).lower() if isinstance(value, bool) else str(value)
+    return repr(value)

@@ -1,0 +1,26 @@
+"""A scene from a file: an FMU, or the scene itself."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.geometry import scene_of
+from viewer.errors import SceneError
+from viewer.scene import read_scene
+
+
+def scene_from(path: Path, settings: Mapping[str, Value] | None = None) -> dict[str, Any] | None:
+    """The scene of an FMU, or of a JSON file; see `scene_of`."""
+    if not path.is_file():
+        raise HostError(f"There is no file {path}.")
+    if not zipfile.is_zipfile(path):
+        try:
+            return read_scene(path)
+        except SceneError as error:
+            raise HostError(f"{path} is neither an FMU nor a scene: {error}") from None
+    return scene_of(path, settings)

@@ -1,0 +1,45 @@
+"""A value that a user sets in an FMU, and where it comes from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from hosts.common.numbers import Value
+from hosts.fmu.variables import Variable
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A value that is set.
+
+    Parameters
+    ----------
+    value : float, int, bool or str
+        In the variable's unit.
+    source : str
+        Where it comes from, for a person.
+    given : str
+        Value and unit as they were given, where the unit is another; else empty.
+    """
+
+    variable: Variable
+    value: Value
+    source: str
+    given: str = ""
+
+    @property
+    def changes(self) -> bool:
+        """Whether it is another value than that of the FMU."""
+        return self.value != self.variable.start
+
+    def words(self) -> str:
+        """Old and new value with their unit."""
+        v = self.variable
+        given = f"{self.given} in " if self.given else ""
+        return f"{v.text(v.start)} -> {v.with_unit(self.value)} ({given}{self.source})"
+
+    def record(self) -> dict[str, Any]:
+        """For JSON."""
+        v = self.variable
+        return {"name": v.name, "old": v.start, "new": self.value, "unit": v.unit, "from": self.source}

@@ -1,0 +1,68 @@
+"""Tests of the catalogue in a study."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.perform import perform, settings_of_test
+from hosts.catalogue.record import TestRecord
+from hosts.catalogue.registry import standard_test
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.fmu.aliases.alias import Aliases
+from hosts.study.job import Job
+
+if TYPE_CHECKING:
+    from hosts.fmu.aliased_fmu import AliasedFmu
+    from hosts.fmu.fmu import Fmu
+
+
+def checked_test(
+    name: str, given: Mapping[str, float], fmu: Fmu | AliasedFmu, where: str
+) -> tuple[str, dict[str, float]]:
+    """Name and settings of a test, if it can be done with an FMU.
+
+    Parameters
+    ----------
+    given : mapping of str to float
+        Settings that are not by default.
+    where : str
+        How messages call where it is asked for.
+
+    Raises
+    ------
+    HostError
+        There is no such test or setting, or the FMU lacks what it needs.
+    """
+    try:
+        test = standard_test(name)
+        settings = settings_of_test(test, given)
+    except HostError as error:
+        raise HostError(f"{where}: {error}") from None
+    there = {*fmu.variables, *fmu.constants()}
+    for need in test.needs:
+        names = {name.strip() for name in need.split("|")}
+        if not names & there:
+            raise HostError(f"{where}: the test {test.name} needs {' or '.join(sorted(names))}, which the FMU has not.")
+    return test.name, settings
+
+
+def performed(job: Job, path: Path, name: str, aliases: Aliases, values: Mapping[str, Value]) -> TestRecord:
+    """What the test of a job has yielded.
+
+    Parameters
+    ----------
+    path : Path
+        FMU.
+    name : str
+        Of the FMU in messages.
+    values : mapping of str to float, int, bool or str
+        Of the parameters.
+    """
+    step = None if math.isnan(job.step) else job.step
+    car = TestedCar(name, path, aliases, {**job.start, **values}, step)
+    return perform(standard_test(job.test), car, job.settings)

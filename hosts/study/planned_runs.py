@@ -1,0 +1,111 @@
+"""What a study runs: points and what is done at each of them, checked against an FMU."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hosts.common.errors import HostError
+from hosts.fmu.aliased_fmu import AliasedFmu, seen_through
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.of_file import aliases_of
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.variables import Variable
+from hosts.study.job import Job
+from hosts.study.jobs import jobs_of
+from hosts.study.parameters import parameter_of
+from hosts.study.points import Points, sampled_points, table_points
+from hosts.study.study_file import StudyFile, read_study_file
+
+
+@dataclass(frozen=True)
+class PlannedRuns:
+    """Runs of a study.
+
+    Parameters
+    ----------
+    fmu : Fmu or AliasedFmu
+        Under our names.
+    parameters : dict of str to object
+        A record of each parameter by its name.
+    jobs : list of Job
+        What is done at each point.
+    """
+
+    fmu: Fmu | AliasedFmu
+    aliases: Aliases
+    points: Points
+    parameters: dict[str, Any]
+    jobs: list[Job]
+
+
+def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
+    """The runs of a study file.
+
+    Parameters
+    ----------
+    file : Path
+        Where it was read from; files it names are looked for beside it.
+    opened : Fmu
+        That is run.
+
+    Raises
+    ------
+    HostError
+        An unknown parameter, a value out of range with its row, an empty grid, a manoeuvre that overwrites a parameter.
+    """
+    aliases = _aliases(study, file, opened)
+    fmu = seen_through(opened, aliases)
+    points, parameters = _points(study, file, opened, fmu)
+    return PlannedRuns(fmu, aliases, points, parameters, jobs_of(study, file, fmu, list(parameters)))
+
+
+def runs_of_folder(folder: Path, record: dict[str, Any]) -> tuple[StudyFile, PlannedRuns]:
+    """The study whose results a folder holds, and its runs.
+
+    Parameters
+    ----------
+    record : dict
+        Of the folder.
+    """
+    study, _ = read_study_file(folder / "study.toml")
+    with Fmu(folder / record["fmu"]) as opened:
+        return study, planned_runs(study, Path(record["file"]), opened)
+
+
+def _aliases(study: StudyFile, file: Path, fmu: Fmu) -> Aliases:
+    beside = None if study.aliases is None else file.parent / study.aliases
+    return aliases_of(beside if beside is not None and beside.is_file() else study.aliases, fmu.table)
+
+
+def _points(study: StudyFile, file: Path, opened: Fmu, fmu: Fmu | AliasedFmu) -> tuple[Points, dict[str, Any]]:
+    """Points, and a record of each parameter."""
+
+    def variable_of(name: str, where: str) -> Variable:
+        if isinstance(fmu, AliasedFmu) and name in fmu.table:
+            found = fmu.table[name]
+            if found.causality in ("parameter", "input") and found.variability != "constant":
+                return found
+            raise HostError(f"{where}: '{name}' is no parameter or input of the FMU; it cannot be set.")
+        return opened.table.settable(name, where)
+
+    for name, value in study.start.items():
+        variable_of(name, f"{file}: start").check(value, f"{file}: start")
+    if study.sampling.method == "table":
+        assert study.sampling.file is not None
+        table = table_points(file.parent / study.sampling.file, variable_of, study.parameters)
+        names = list(table.block(0, 0))
+        both = sorted(set(names) & set(study.start))
+        if both:
+            raise HostError(f"{file}: '{both[0]}' is a column of {study.sampling.file} and in [start]; give it once.")
+        variables = {n: variable_of(n, "") for n in names}
+        return table, {n: {"kind": v.kind, "unit": v.unit} for n, v in variables.items()}
+    if not study.parameters:
+        raise HostError(f"{file}: it has no parameters; a grid of none is empty.")
+    parameters = tuple(
+        parameter_of(name, entry, variable_of(name, f"{file}: parameters"), str(file))
+        for name, entry in study.parameters.items()
+    )
+    points = sampled_points(parameters, study.sampling, str(file))
+    return points, {p.name: p for p in points.parameters}

@@ -1,0 +1,215 @@
+"""Types and codes of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
+
+from enum import IntEnum
+
+
+class Status(IntEnum):
+    """Codes of `ali3_status`: how a call of the kernel ended."""
+
+    OK = 0
+    BAD_ARGUMENT = 1
+    BAD_FILE = 2
+    BAD_STATE = 3
+    NO_MEMORY = 4
+    NOT_INITIALISED = 5
+    NOT_ASSEMBLED = 6
+    NOT_CONVERGED = 7
+    SINGULAR = 8
+    NOT_FINITE = 9
+    WRONG_METHOD = 10
+    START_REFUSED = 11
+    UNRESOLVED = 12
+    NO_TREE = 13
+    TOO_STIFF = 14
+    TOO_FAR = 15
+    NO_EQUILIBRIUM = 16
+    BRANCH_CHANGED = 17
+    FIXED_PARAMETER = 18
+    BAD_ROAD = 19
+    ROAD_LOST = 20
+    TOO_DEAR = 21
+    WHEEL_IN_ROAD = 22
+
+
+class Update(IntEnum):
+    """`ali3_settings.update`."""
+
+    LINEARISED = 0
+    PAPER = 1
+
+
+class Predictor(IntEnum):
+    """`ali3_settings.predictor`."""
+
+    PARABOLA = 0
+    ACCELERATION = 1
+
+
+class BranchKind(IntEnum):
+    """`ali3_report.branch_kind`."""
+
+    NONE = 0
+    LEFT = 1
+    JUMP = 2
+
+
+class SolverValue(IntEnum):
+    """What the solver says about itself."""
+
+    ITERATIONS = 0
+    VIOLATION = 1
+    RESIDUAL = 2
+    FACTORIZATIONS = 3
+    HALVINGS = 4
+    STATUS = 5
+    ENERGY_ERROR = 6
+    ENERGY_BALANCE = 7
+    CAPPED = 8
+
+
+class ParameterTarget(IntEnum):
+    """What a parameter writes to."""
+
+    ELEMENT = 0
+    GUIDE = 1
+    ROAD = 2
+    PAYLOAD = 3
+    SWITCH = 4
+    ARMATURE = 5
+
+
+class GuideType(IntEnum):
+    """Types of guides."""
+
+    OF_TIME = 0
+    OF_INPUT = 1
+    OF_TWO_INPUTS = 2
+
+
+class RoadType(IntEnum):
+    """Types of roads."""
+
+    PLANE = 0
+    KERB = 1
+    GRID = 2
+
+
+class SensorReads(IntEnum):
+    """What the value of a sensor comes from."""
+
+    MOTION = 0
+    INPUTS = 1
+    FORCES = 2
+    SOLVER = 3
+    ROWS = 4
+
+
+class Doubt(IntEnum):
+    """`ali3_doubt`: what a run says against itself."""
+
+    NONE = 0
+    HALVINGS = 1
+    BALANCE = 2
+
+
+class MethodNumber(IntEnum):
+    """`ali3_settings.method`."""
+
+    ALI3P = 0
+    GENERALISED_ALPHA = 1
+    ENERGY_MOMENTUM = 2
+    ENERGY_MOMENTUM_4 = 3
+    RUNGE_KUTTA_8 = 4
+    SEMI_RECURSIVE = 5
+    SEMI_RECURSIVE_4 = 6
+    RADAU_5 = 7
+
+
+METHOD_ORDERS = {
+    MethodNumber.ALI3P: 2,
+    MethodNumber.GENERALISED_ALPHA: 1,
+    MethodNumber.ENERGY_MOMENTUM: 2,
+    MethodNumber.ENERGY_MOMENTUM_4: 3,
+    MethodNumber.RUNGE_KUTTA_8: 8,
+    MethodNumber.SEMI_RECURSIVE: 8,
+    MethodNumber.SEMI_RECURSIVE_4: 4,
+    MethodNumber.RADAU_5: 5,
+}
+"""Orders of steps that change."""
+
+
+class SensorType(IntEnum):
+    """Types of sensors."""
+
+    SIGNAL = 0
+    SIGNAL_RATE = 1
+    SIGNAL_SECOND_RATE = 2
+    COMPONENT = 3
+    ANGLE = 4
+    PITCH = 5
+    ANGULAR_RATE = 6
+    QUATERNION = 7
+    ELEMENT_OUTPUT = 8
+    REACTION = 9
+    ENERGY = 10
+    INPUT = 11
+    GUIDE = 12
+    SOLVER = 13
+    NORM = 14
+    DIRECTION = 15
+    ANGLE_ABOUT = 16
+    QUASI_STATIC = 17
+    REACTION_PRODUCTS = 18
+    WORK = 19
+    MASS = 20
+    GUIDE_EXCESS = 21
+
+
+SENSOR_READS = {
+    SensorType.SIGNAL: SensorReads.MOTION,
+    SensorType.SIGNAL_RATE: SensorReads.MOTION,
+    SensorType.SIGNAL_SECOND_RATE: SensorReads.FORCES,
+    SensorType.COMPONENT: SensorReads.MOTION,
+    SensorType.ANGLE: SensorReads.MOTION,
+    SensorType.PITCH: SensorReads.MOTION,
+    SensorType.ANGULAR_RATE: SensorReads.MOTION,
+    SensorType.QUATERNION: SensorReads.MOTION,
+    SensorType.ELEMENT_OUTPUT: SensorReads.FORCES,
+    SensorType.REACTION: SensorReads.ROWS,
+    SensorType.ENERGY: SensorReads.FORCES,
+    SensorType.INPUT: SensorReads.INPUTS,
+    SensorType.GUIDE: SensorReads.INPUTS,
+    SensorType.SOLVER: SensorReads.SOLVER,
+    SensorType.NORM: SensorReads.MOTION,
+    SensorType.DIRECTION: SensorReads.MOTION,
+    SensorType.ANGLE_ABOUT: SensorReads.MOTION,
+    SensorType.QUASI_STATIC: SensorReads.ROWS,
+    SensorType.REACTION_PRODUCTS: SensorReads.ROWS,
+    SensorType.WORK: SensorReads.FORCES,
+    SensorType.MASS: SensorReads.MOTION,
+    SensorType.GUIDE_EXCESS: SensorReads.INPUTS,
+}
+
+
+class ElementType(IntEnum):
+    """Types of force elements."""
+
+    SPRING_DAMPER = 1
+    SCALAR_SPRING_DAMPER = 2
+    INPUT_FORCE = 3
+    BODY_FORCE = 4
+    BODY_TORQUE = 5
+    GYROSCOPIC_SPIN = 6
+    DRAG = 7
+    TYRE = 8
+    BRAKE = 9
+    AUTOMATIC_DRIVE = 10
+    CONTACT_POINTS = 11
+    SPIN_TORQUE = 12
+    ELECTRIC_DRIVE = 13
+    SPRING_DAMPER_TABLE = 14
+    LIFT = 15
+    COORDINATE_FRICTION = 16
+    TORSION_BAR = 17
+    SPIN_ANGLE = 18
+    MAGIC_TYRE = 19

@@ -1,0 +1,30 @@
+"""Limits and versions of the kernel's C headers. Written by `python mbs/kernel/read_headers.py`."""
+
+OPEN = 1e-9
+"""A row that is open by less, m, is not why something failed."""
+FARTHEST = 1e8
+"""Largest distance of a start, m."""
+FASTEST = 1e6
+"""Largest speed of a start, m/s."""
+BALANCE_WRONG = 0.036
+"""Energy balance above which, at any time, no run was right that was tried."""
+HALVINGS_SUSPECT = 0.1
+"""Halvings per step above which a run is suspect."""
+SYSTEM_VERSION = 1
+"""Of the System file."""
+DOUBT_FROM = 100
+"""Steps that a run makes before it is judged."""
+ROAD_VERSION = 1
+"""Of a road file."""
+ROAD_SHARED = 2
+"""Of a road file whose equal tiles are stored once."""
+ROAD_TILE = 32
+"""Points along the side of a tile of a road file."""
+ROAD_HIGHEST = 1e5
+"""Largest height of a road file, m."""
+ROAD_FARTHEST = 1e8
+"""Largest coordinate of a road file, m."""
+ROAD_FRICTION = 10.0
+"""Largest friction of a road file."""
+ROAD_POINTS = 1e12
+"""Most points of a road file."""

@@ -1,0 +1,62 @@
+"""What must be read for a command does not grow unseen; `python -m tests.house.reading` prints the whole table."""
+
+from __future__ import annotations
+
+import grimp
+import pytest
+
+from ali3.commands import COMMANDS
+from tests.house.reading import WAYS, lines_of, read_for
+from tests.house.test_circles import PACKAGES
+
+MOST = {
+    "build": 37500,
+    "build --kernel": 500,
+    "car": 32800,
+    "run": 4000,
+    "run, all of it": 6200,
+    "view": 1150,
+    "simulator": 9000,
+    "simulator, all of it": 15400,
+    "check": 5600,
+    "catalogue": 7050,
+    "compare": 8450,
+    "study": 9200,
+    "study --run": 7800,
+    "study, all of it": 15400,
+    "road": 950,
+}
+"""Lines; a command that needs fewer takes its number down with it."""
+_SLACK = 300
+
+
+@pytest.fixture(scope="module")
+def graph() -> grimp.ImportGraph:
+    return grimp.build_graph(*PACKAGES, exclude_type_checking_imports=False, cache_dir=None)
+
+
+def test_no_command_needs_more_than_it_did(graph: grimp.ImportGraph) -> None:
+    found = {}
+    for command in COMMANDS:
+        ways = WAYS.get(command.name, {})
+        files = {command.name: read_for(graph, command.module, ways.values())}
+        files |= {f"{command.name} {way}": read_for(graph, module) for way, module in ways.items()}
+        files[f"{command.name}, all of it"] = read_for(graph, command.module)
+        found |= {name: sum(map(lines_of, modules)) for name, modules in files.items()}
+    assert {c.name for c in COMMANDS} <= MOST.keys() <= found.keys()
+    wrong = {name: (found[name], most) for name, most in MOST.items() if not most - _SLACK < found[name] <= most}
+    assert not wrong, "lines and what is stored"
+
+
+def test_every_way_is_a_module_that_its_command_imports(graph: grimp.ImportGraph) -> None:
+    modules = {command.name: command.module for command in COMMANDS}
+    for name, ways in WAYS.items():
+        assert set(ways.values()) <= read_for(graph, modules[name]), name
+
+
+def test_what_is_read_goes_on_behind_each_module_but_those_besides() -> None:
+    graph = grimp.ImportGraph()
+    for importer, imported in (("a", "b"), ("b", "c")):
+        graph.add_import(importer=importer, imported=imported)
+    assert read_for(graph, "a") == {"a", "b", "c"}
+    assert read_for(graph, "a", ["b"]) == {"a"}

@@ -1,0 +1,56 @@
+"""The browser of the user, which shows a page."""
+
+from __future__ import annotations
+
+import os
+import sys
+import webbrowser
+from html import escape
+from pathlib import Path
+
+from ali3 import html
+
+
+def open_in_browser(path: str | os.PathLike[str]) -> bool:
+    """Show a page in the user's browser.
+
+    Parameters
+    ----------
+    path : path
+        The HTML file.
+
+    Returns
+    -------
+    bool
+        Whether there is one: on a machine without a screen there is none.
+    """
+    return open_address(Path(path).resolve().as_uri())
+
+
+def open_address(address: str) -> bool:
+    """Show what is at an address in the user's browser; whether there is one, as for `open_in_browser`."""
+    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        return False  # a browser in the terminal would draw nothing
+    try:
+        return webbrowser.open(address)
+    except webbrowser.Error:
+        return False
+
+
+def open_secretly(address: str, folder: str | os.PathLike[str]) -> bool:
+    """Show what is at an address that nobody else may know; see `open_address`.
+
+    The command line of a browser is seen by all users of a machine; it names a page that leads on.
+
+    Parameters
+    ----------
+    folder : path
+        That only this user can read; it must stay until the browser has read the page.
+    """
+    target = escape(address, quote=True)
+    page = html.page(
+        "ALi3", f'<a href="{target}">Go on</a>', head=f'<meta http-equiv="refresh" content="0;url={target}">'
+    )
+    file = Path(folder, "open.html")
+    file.write_text(page, encoding="utf-8")
+    return open_in_browser(file)

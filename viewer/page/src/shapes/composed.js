@@ -1,0 +1,66 @@
+// Solids of which a shape is put together, about y, from the table that glTF files are made of too.
+import * as THREE from "three";
+import { rounded } from "./box.js";
+
+/** Edges of a profile that are sharper have two normals. */
+const CREASE = Math.cos((35 * Math.PI) / 180);
+
+/** @typedef {Object<string, number>} Lengths of a shape by the names that the table has for them, m */
+
+const GEOMETRIES = { lathe, box, sphere, ring };
+
+/**
+ * @param {Data[]} parts of the table
+ * @param {Lengths} lengths
+ * @param {(part: Data) => THREE.Material} look
+ * @param {number} [out] side that the shape stands on along y: 1, -1, or 0 in the middle
+ * @returns {THREE.Mesh[]}
+ */
+export function composed(parts, lengths, look, out = 0) {
+  return parts.flatMap((part) => {
+    const [beside, middle] = part.y ?? [0, [0]];
+    const heights = out ? [beside * out] : middle;
+    const geometry = GEOMETRIES[part.kind](part, lengths);
+    return heights.flatMap((height) =>
+      (part.angles ?? [0]).map((degrees) => {
+        const mesh = new THREE.Mesh(geometry, look(part));
+        const [angle, x] = [(degrees * Math.PI) / 180, (part.x ?? 0) * lengths[part.across]];
+        mesh.rotation.y = angle;
+        mesh.position.set(x * Math.cos(angle), height * lengths[part.along], -x * Math.sin(angle));
+        return mesh;
+      }),
+    );
+  });
+}
+
+/** Radii and heights of a profile, upwards. @param {Data} part @param {Lengths} lengths @returns {number[][]} */
+export function profileOf({ from, across, along, profile, mirrored }, lengths) {
+  const points = profile.map(([r, y]) => [(from ? lengths[from] : 0) + r * lengths[across], y * lengths[along]]);
+  return mirrored ? [...points.map(([r, y]) => [r, -y]), ...points.slice(0, -1).reverse()] : points;
+}
+
+function lathe(part, lengths) {
+  const points = profileOf(part, lengths);
+  const drawn = part.tread === undefined ? creased(points) : points; // a tread has its place in the numbers of the points
+  return new THREE.LatheGeometry(drawn.map(([r, y]) => new THREE.Vector2(r, y)), part.turns);
+}
+
+/** A point that stands twice has two normals. */
+function creased(points) {
+  const ways = points.slice(1).map(([r, y], i) => new THREE.Vector2(r - points[i][0], y - points[i][1]).normalize());
+  return points.flatMap((point, i) => (ways[i - 1] && ways[i] && ways[i - 1].dot(ways[i]) < CREASE ? [point, point] : [point]));
+}
+
+function box({ size: [x, y, z], across, along }, lengths) {
+  return rounded([x * lengths[across], y * lengths[along], z * lengths[across]]);
+}
+
+function sphere({ radius, across }, lengths) {
+  return new THREE.SphereGeometry(radius * lengths[across], 12, 8);
+}
+
+/** Whole, or an arc about +z. */
+function ring({ radius, thickness, across, sides, turns, arc = 2 * Math.PI }, lengths) {
+  const made = new THREE.TorusGeometry(radius * lengths[across], thickness * lengths[across], sides, turns, arc);
+  return made.rotateZ(Math.PI / 2 - arc / 2).rotateX(Math.PI / 2);
+}

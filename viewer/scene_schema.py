@@ -1,0 +1,55 @@
+"""The JSON Schema of a scene, from its types: ``python -m viewer.scene_schema`` writes it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from viewer.scene_types import Scene
+
+SCHEMA_FILE = Path(__file__).with_name("scene.schema.json")
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON Schema (draft 2020-12) of a scene; what holds between several places is not in it."""
+    made = Scene.model_json_schema()
+    head = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Scene of ALi3",
+        "$comment": "Written by python -m viewer.scene_schema from viewer/scene_types.py.",
+    }
+    schema = {key: value for key, value in made.items() if key != "title"}
+    plain: dict[str, Any] = _without_nulls(schema)
+    return head | plain
+
+
+def schema_text() -> str:
+    """The schema as the file in the package has it."""
+    return json.dumps(json_schema(), indent=2, ensure_ascii=False) + "\n"
+
+
+def _without_nulls(schema: Any) -> Any:
+    """Without null, which a scene does not have, and the titles that types give to keys."""
+    if isinstance(schema, list):
+        return [_without_nulls(item) for item in schema]
+    if not isinstance(schema, dict):
+        return schema
+    kept = {key: value for key, value in schema.items() if key != "discriminator" and not _title(key, value)}
+    choices = [choice for choice in kept.get("anyOf", []) if choice != {"type": "null"}]
+    if "anyOf" in kept and len(choices) < len(kept["anyOf"]):
+        del kept["anyOf"]
+        kept = ({"anyOf": choices} if len(choices) > 1 else choices[0]) | kept
+        if kept.get("default", 0) is None:
+            del kept["default"]
+    return {key: _without_nulls(value) for key, value in kept.items()}
+
+
+def _title(key: str, value: object) -> bool:
+    return key == "title" and isinstance(value, str)
+
+
+if __name__ == "__main__":
+    from ali3.files import write_text
+
+    write_text(SCHEMA_FILE, schema_text())
