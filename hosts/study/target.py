@@ -19,9 +19,9 @@ from hosts.common.errors import HostError
 from hosts.common.units import conversion
 from hosts.fmu.fmu import described
 from hosts.fmu.variables import Variable, Variables
+from hosts.measures.limits import column_of
 from hosts.study.campaign import fmu_of_study, out_folder
 from hosts.study.isolated import IsolatedBench
-from hosts.study.limits import column_of
 from hosts.study.parameters import Parameter
 from hosts.study.plan import Plan, make_plan
 from hosts.study.search import TOLERANCE, Found, Run, seek

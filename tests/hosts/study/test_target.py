@@ -80,7 +80,7 @@ def test_a_value_that_cannot_be_met(
     ("options", "by", "words"),
     [
         (("--target", "lowest=-1.2 deg"), "spring.stiffness", "'deg' is no unit of what is measured in m"),
-        (("--target", "lowst=-1.2"), "spring.stiffness", "the study has no measure 'lowst'; did you mean 'lowest'?"),
+        (("--target", "lowst=-1.2"), "spring.stiffness", "there is no measure 'lowst'; did you mean 'lowest'?"),
         (("--target", "lowest"), "spring.stiffness", "it must be MEASURE=VALUE"),
         (("--target", "lowest=-1.2"), "spring.stiffnes", "did you mean 'spring.stiffness' or"),
         (("--target", "lowest=-1.2", "--between", "80:50"), "spring.stiffness", "the smaller number first"),
