@@ -207,8 +207,10 @@ def _verdict(outcomes: Mapping[str, Mapping[str, Outcome]], faults: Sequence[str
     if undone:
         print(f"{undone} of {len(found)} tests could not be done, for the reasons above.")
     if broken:
-        words = "1 measure does not keep its limit; it is" if len(broken) == 1 else (
-            f"{len(broken)} measures do not keep their limits; they are"
+        words = (
+            "1 measure does not keep its limit; it is"
+            if len(broken) == 1
+            else (f"{len(broken)} measures do not keep their limits; they are")
         )
         print(f"{words} marked (!).")
     for fault in faults:

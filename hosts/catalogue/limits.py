@@ -33,9 +33,7 @@ class GivenLimits:
         others = set(TESTS) - set(names)
         return replace(self, entries={n: e for n, e in self.entries.items() if n.partition(".")[0] not in others})
 
-    def judged(
-        self, outcomes: Mapping[str, Mapping[str, Outcome]]
-    ) -> tuple[dict[str, dict[str, Outcome]], list[str]]:
+    def judged(self, outcomes: Mapping[str, Mapping[str, Outcome]]) -> tuple[dict[str, dict[str, Outcome]], list[str]]:
         """The outcomes with these limits, and what is wrong with others of them, each in a sentence.
 
         Parameters
@@ -67,7 +65,9 @@ class GivenLimits:
             if column not in limits:
                 return m
             factor = conversion(units[column], m.unit, f"{self.file}: limits.'{column}'")
-            own = replace(limits[column], lowest=factor * limits[column].lowest, highest=factor * limits[column].highest)
+            own = replace(
+                limits[column], lowest=factor * limits[column].lowest, highest=factor * limits[column].highest
+            )
             return replace(m, limit=_both(m.limit, own))
 
         made = {

@@ -98,6 +98,20 @@ def test_what_cannot_be_sought_is_one_sentence(
     assert error.count("\n") == 1
 
 
+def test_a_parameter_that_the_fmu_has_not_is_told_before_its_range(
+    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    old = '"spring.free_length" = { range = [0.5, 0.8] }'
+    file = study_file(
+        (old, '"front.bar" = { values = [1.0] }'),
+        ("sobol", "grid"),
+        ("runs = 16\n", ""),
+        ("80.0] }", "80.0], count = 2 }"),
+    )
+    assert main([str(file), "--target", "lowest=-1.2", "--by", "front.bar", "--out", str(tmp_path / "out")]) == 2
+    assert "the FMU has no parameter or input 'front.bar'" in capsys.readouterr().err
+
+
 def test_a_turn_is_two_pi_radians() -> None:
     """Frequencies are measured in rad/s and shown in Hz."""
     assert conversion("Hz", "rad/s") == pytest.approx(2.0 * math.pi)
