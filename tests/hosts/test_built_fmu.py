@@ -113,7 +113,7 @@ def test_a_build_that_is_stopped_ends_its_process_and_says_so(car: Path, monkeyp
     monkeypatch.setattr(commands, "module_command", lambda *words: [sys.executable, "-c", slow])
 
     def stop(*_: object) -> None:
-        if not pid.exists():
+        if not (pid.exists() and pid.read_text()):
             signal.setitimer(signal.ITIMER_REAL, 0.05)
             return
         raise Stopped(signal.SIGTERM)
