@@ -38,7 +38,10 @@ def value_words(value: object) -> str:
 
 
 def shortened(sentence: str) -> str:
-    """A sentence in which texts without a blank, such as values and paths, and the whole have an end."""
+    """A sentence in which texts without a blank, such as values and paths, and the whole have an end, and nothing tells
+    a terminal what to do.
+    """
+    sentence = "".join(c if c.isprintable() or c in "\n\t" else repr(c)[1:-1] for c in sentence)
     sentence = re.sub(rf"\S{{{_WORD},}}", lambda found: f"{found[0][:100]}...{found[0][-60:]}", sentence)
     return sentence if len(sentence) <= _MESSAGE else f"{sentence[: _MESSAGE // 2]} ... {sentence[-_MESSAGE // 2 :]}"
 

@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 
 import mbs
 from ali3.running import run_command
-from benchmarks.car import accuracy, trust
+from benchmarks.car import accuracy, flexible_tables, trust
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
 from benchmarks.methods import honesty, pages, stability, stability_margins
 from benchmarks.paper import double_four_bar, puma
@@ -90,6 +90,15 @@ def car() -> list[Again]:
     ]
 
 
+def flexible() -> list[Again]:
+    """Sizes of the prototype, and counts and peaks of its kerb test."""
+    page = "docs/flexible_car.md"
+    return [
+        Again(page, flexible_tables.size_table(), "sizes", ("`fidelity`",)),
+        Again(page, flexible_tables.kerb_table(), "kerb", ("",)),
+    ]
+
+
 def instructions() -> list[Again]:
     """The table of instructions is that of the file that `benchmarks.instructions` compares steps with."""
     block = instruction_blocks(json.loads(INSTRUCTIONS.read_text(encoding="utf-8"))["rows"])["instructions"]
@@ -119,6 +128,7 @@ MADE: dict[str, Callable[[], list[Again]]] = {
     "honesty": honest_crank,
     "trust": trusted,
     "car": car,
+    "flexible": flexible,
     "instructions": instructions,
     "README": readme,
 }

@@ -79,8 +79,9 @@ def differences(again: Again, text: str) -> list[str]:
         return [] if there else [f"{again.page} does not say: {again.text}"]
     place = f"{again.page}, table '{again.table}'"
     shown = {tuple(row.get(key) for key in again.keys): row for row in rows_of(between(text, again.table))}
-    said = []
-    for row in rows_of(again.text):
+    made = rows_of(again.text)
+    said = [] if made else [f"{place}: there are no rows when it is made again."]
+    for row in made:
         key = tuple(row[k] for k in again.keys)
         page = shown.get(key)
         name = ", ".join(key)

@@ -64,6 +64,13 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ca
     add_option(parser, "--step", "that of the FMU")
     add_option(parser, "--jobs", "as there are cores that it may use")
     add_option(parser, "--again", "tests that are done already in the folder are kept")
+    parser.add_argument(
+        "--limits",
+        type=Path,
+        metavar="FILE",
+        help="a TOML file with a table [limits], such as a study file: what measures must keep, beside the limits of "
+        "standards",
+    )
     parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")
     add_option(parser, "--out", "out/catalogue", default=Path("out", "catalogue"))
     add_old_names(parser, {"--parameters": "--variant"})
@@ -83,10 +90,12 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     from ali3.files import check_writable
     from hosts.catalogue.cars import cars_of
     from hosts.catalogue.kept import kept
+    from hosts.catalogue.limits import GivenLimits
     from hosts.catalogue.output import print_measures, write_measures
     from hosts.catalogue.perform import missing_for, settings_of_test
     from hosts.catalogue.registry import TESTS, standard_test
     from hosts.catalogue.task import Task
+    from hosts.measures.limits import read_limits
 
     if not options.fmus:
         raise HostError("There is no FMU to be tested; give one or several. --list shows the tests.")
@@ -94,6 +103,8 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     tests = [standard_test(name) for name in dict.fromkeys(names)]
     given = _test_settings(options.test_setting, [test.name for test in tests])
     settings = {test.name: settings_of_test(test, given.get(test.name, {})) for test in tests}
+    limits = GivenLimits() if options.limits is None else GivenLimits(options.limits, read_limits(options.limits))
+    limits = limits.of_tests(list(settings))
     for file in ("measures.csv", "measures.json", "report.html"):
         check_writable(options.out / file)
     fmus = [fmu_file(path) for path in options.fmus]
@@ -116,20 +127,21 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     if there:
         print(f"{there} of {len(tests) * len(cars)} tests are there; --again does them again.", flush=True)
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
-    files = write_measures(options.out, tests, cars, outcomes, settings)
+    files = write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
     try:
         with closing(_done(tasks, options.jobs or available_cores(), outcomes, options.out)) as done:
             for _ in done:
-                write_measures(options.out, tests, cars, outcomes, settings)
+                write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
     finally:  # after Ctrl-C too, of what is there
-        print_measures(tests, cars, outcomes)
-        files += _report(options.out / "report.html", tests, cars, outcomes, settings, command)
+        judged, faults = limits.judged(outcomes)
+        print_measures(tests, cars, judged)
+        files += _report(options.out / "report.html", tests, cars, judged, settings, command)
         runs = "" if options.no_runs or not tasks else f", tables of the runs in {options.out / 'runs'}"
         print(f"\nwritten: {', '.join(map(str, files))}{runs}", flush=True)
         pending = sum(outcome == _PENDING for by_car in outcomes.values() for outcome in by_car.values())
         if pending:
             print(f"{pending} tests are not done yet; the same command goes on with them.", flush=True)
-    return _verdict(outcomes)
+    return _verdict(judged, faults)
 
 
 def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> dict[str, dict[str, float]]:
@@ -188,16 +200,23 @@ def _report(
     return [file]
 
 
-def _verdict(outcomes: Mapping[str, Mapping[str, Outcome]]) -> int:
-    """Print what is not good; the exit code."""
+def _verdict(outcomes: Mapping[str, Mapping[str, Outcome]], faults: Sequence[str]) -> int:
+    """Print what is not good, faults of limits too; the exit code."""
     found = [outcome for by_car in outcomes.values() for outcome in by_car.values()]
     undone = sum(isinstance(outcome, str) for outcome in found)
     broken = [m for o in found if not isinstance(o, str) for m in o.measures if m.is_kept is False]
     if undone:
         print(f"{undone} of {len(found)} tests could not be done, for the reasons above.")
     if broken:
-        print(f"{len(broken)} measures do not keep their limit; they are marked (!).")
-    return 1 if undone or broken else 0
+        words = (
+            "1 measure does not keep its limit; it is"
+            if len(broken) == 1
+            else (f"{len(broken)} measures do not keep their limits; they are")
+        )
+        print(f"{words} marked (!).")
+    for fault in faults:
+        print(fault)
+    return 1 if undone or broken or faults else 0
 
 
 if __name__ == "__main__":

@@ -121,18 +121,18 @@ def measures_of(name: str, passed: Passage | None, failed: Passage | None, resol
         Of the limit, km/h.
     """
     none = "" if passed is not None else "no speed was passed"
-    fastest = passed.wanted if passed is not None else math.nan
-    slowest = failed.wanted if failed is not None else math.nan
+    fastest = passed.wanted / 3.6 if passed is not None else math.nan
+    slowest = failed.wanted / 3.6 if failed is not None else math.nan
     note = none
     if passed is not None:
         limited = f"to within {resolution:g} km/h" if failed is not None else "nothing was hit"
         note = f"{limited}; driver: {passed.driver}"
     made = [
-        Measure(f"{name}.speed", fastest, "km/h", "highest speed of the driver at which no cone is hit", note=note),
+        Measure(f"{name}.speed", fastest, "m/s", "highest speed of the driver at which no cone is hit", note=note),
         Measure(
             f"{name}.speed_hit",
             slowest,
-            "km/h",
+            "m/s",
             "lowest speed at which a cone is hit",
             note="" if failed is not None else "none up to the highest speed",
         ),
@@ -140,13 +140,13 @@ def measures_of(name: str, passed: Passage | None, failed: Passage | None, resol
     entry = exit_speed = least = math.nan
     if passed is not None:
         first, last = passed.course.gates[0], passed.course.gates[-1]
-        entry = 3.6 * passed.at("speed", first.x_start + (passed.release if math.isfinite(passed.release) else 0.0))
-        exit_speed = 3.6 * passed.at("speed", last.x_end)
+        entry = passed.at("speed", first.x_start + (passed.release if math.isfinite(passed.release) else 0.0))
+        exit_speed = passed.at("speed", last.x_end)
         least = passed.least_clearance
     made += [
-        Measure(f"{name}.entry_speed", entry, "km/h", "speed of the car with its front in the first lane", note=none),
+        Measure(f"{name}.entry_speed", entry, "m/s", "speed of the car with its front in the first lane", note=none),
         Measure(
-            f"{name}.exit_speed", exit_speed, "km/h", "of the car, the front at the end of the last lane", note=none
+            f"{name}.exit_speed", exit_speed, "m/s", "of the car, the front at the end of the last lane", note=none
         ),
         Measure(f"{name}.clearance", least, "m", "least distance of the car's outline from the cones", note=none),
     ]

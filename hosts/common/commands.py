@@ -40,9 +40,13 @@ def run_module(module: str, *arguments: str, hear: Callable[[str], None] = lambd
         errors="replace",
     ) as process:
         assert process.stderr is not None
-        for line in process.stderr:
-            lines.append(line)
-            hear(line.strip())
+        try:
+            for line in process.stderr:
+                lines.append(line)
+                hear(line.strip())
+        except BaseException:  # SIGTERM for this process alone: the other one would be waited for
+            process.terminate()
+            raise
     said = "".join(lines)
     if process.returncode != 0:
         last = said.strip().splitlines()[-1:]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from typing import Literal
@@ -79,9 +80,14 @@ class Manoeuvre:
         t0, t1 = self.time[k - 1], self.time[k]
         s = min(max(t - t0, 0.0) / (t1 - t0), 1.0)
         return {
-            name: float(v[k - 1]) if name in held else float(v[k - 1] + s * (v[k] - v[k - 1]))
+            name: float(v[k - 1]) if name in held else _between(float(v[k - 1]), float(v[k]), float(s))
             for name, v in self.inputs.items()
         }
+
+
+def _between(one: float, other: float, part: float) -> float:
+    value = one + part * (other - one)
+    return value if math.isfinite(value) else (1.0 - part) * one + part * other  # the difference may overflow
 
 
 def with_names_of(manoeuvre: Manoeuvre, names: Collection[str]) -> Manoeuvre:

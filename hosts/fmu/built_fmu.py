@@ -65,10 +65,14 @@ def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[st
             os.utime(place)
             return found[0]
     tell(f"{what[0].upper()}{what[1:]} is built for this machine, which takes half a minute ...")
-    with whole_folder(place) as made:
-        build_fmu(what, options, made)
-        if not list(made.glob("*.fmu")):
-            raise HostError(f"The FMU of {what} cannot be built: the build left no FMU.")
+    try:
+        with whole_folder(place) as made:
+            build_fmu(what, options, made)
+            if not list(made.glob("*.fmu")):
+                raise HostError(f"The FMU of {what} cannot be built: the build left no FMU.")
+    except KeyboardInterrupt:
+        tell(f"The build of {what} was stopped and nothing was run; the same command begins again.")
+        raise
     with locked(room):
         forget_oldest(room, _KEPT, _IN_USE)
     return sorted(place.glob("*.fmu"))[0]

@@ -19,8 +19,9 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
 from ali3.files import reason
+from ali3.near_names import did_you_mean
 from ali3.running import command_name
-from ali3.words import shortened
+from ali3.words import brief, shortened
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.instance import Instance, State
@@ -136,8 +137,8 @@ class Fmu:
         settable = {n for n, v in self.variables.items() if v.causality in ("parameter", "input")}
         for name in start:
             if name not in settable:
-                near = ", ".join(sorted(settable)) or "none"
-                raise HostError(f"The FMU has no parameter or input '{name}'; it has: {near}.")
+                some = f"it has {len(settable)}, such as {', '.join(sorted(settable)[:6]) or 'none'}"
+                raise HostError(f"The FMU has no parameter or input {brief(name)}{did_you_mean(name, settable, some)}")
         values = {self._places[name]: self._fitting(name, value) for name, value in start.items()}
         try:
             self._instance.initialise(values, start_time)

@@ -66,8 +66,8 @@ class Measure:
 
     @property
     def is_kept(self) -> bool | None:
-        """Whether the limit is kept; None where there is none."""
-        return None if self.limit is None else self.limit.holds(self.value)
+        """Whether the limit is kept; None where there is none, or no such number."""
+        return self.limit.holds(self.value) if self.limit is not None and self.exists else None
 
     def displayed(self) -> Measure:
         """The same in the unit in which reports show it, and 0 for what is rounding."""

@@ -11,12 +11,15 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ali3.near_names import did_you_mean
+from ali3.words import brief, value_words
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.fmu import Fmu
 
 Array: TypeAlias = NDArray[np.float64]
+_READ = ("input", "parameter", "output", "local")
 Range: TypeAlias = "Value | tuple[float, float]"
 
 
@@ -88,8 +91,12 @@ class Car:
         path = given if given.suffix.lower() == ".fmu" else fmu_of_car(str(car), lambda text: None, ports=ports)
         self.fmu = Fmu(path)
         self.step_length = float(step)
+        self._used = self._started = self._closed = False
         try:
             self.inputs = tuple(self._known(self.fmu.names("input") if inputs is None else inputs, ("input",)))
+            twice = [name for name in self.inputs if self.inputs.count(name) > 1]
+            if twice:
+                raise HostError(f"The input '{twice[0]}' is named {self.inputs.count(twice[0])} times; name it once.")
         except HostError:
             self.close()
             raise
@@ -97,7 +104,6 @@ class Car:
         self._set = self.fmu.setter(self.inputs)
         self._readers: dict[tuple[str, ...], Any] = {}
         self._start_time, self._steps = 0.0, 0
-        self._started = False
 
     def __enter__(self) -> Car:
         return self
@@ -108,8 +114,10 @@ class Car:
         self.close()
 
     def close(self) -> None:
-        """Free the instance; the car is of no use then."""
-        self.fmu.__exit__(None, None, None)
+        """Free the instance; the car is of no use then. Once more does nothing."""
+        if not self._closed:
+            self._closed, self._started = True, False
+            self.fmu.__exit__(None, None, None)
 
     @property
     def time(self) -> float:
@@ -137,16 +145,29 @@ class Car:
         HostError
             There is no such parameter, a value is out of its range, or there is no start with these values.
         """
+        self._check_open()
+        if not (seed is None or (isinstance(seed, (int, np.integer)) and seed >= 0)):
+            raise HostError(f"The seed is {brief(seed)}; it must be a whole number from 0, or None.")
         chosen, random = self._always | parameters, np.random.default_rng(seed)
-        start: dict[str, Value] = {}
-        for name in sorted(chosen):  # the draw does not depend on the order in which they are named
-            value = chosen[name]
-            start[name] = float(random.uniform(*value)) if isinstance(value, (tuple, list)) else value
-        if self._started:
+        # The draw does not depend on the order in which they are named.
+        start = {name: self._drawn(name, chosen[name], random) for name in sorted(chosen)}
+        if self._used:
             self.fmu.reset()
-        self._started = True
+        self._used, self._started = True, False
         self.fmu.initialise(start)
-        self._start_time, self._steps = 0.0, 0
+        self._start_time, self._steps, self._started = 0.0, 0, True
+
+    def _drawn(self, name: str, value: Range, random: np.random.Generator) -> Value:
+        """The value of a parameter, of a range one that is drawn."""
+        if isinstance(value, (tuple, list)):
+            ends = [end for end in value if isinstance(end, (int, float, np.number)) and np.isfinite(end)]
+            if not (len(ends) == len(value) == 2 and ends[0] <= ends[1]):
+                raise HostError(f"'{name}' is {value_words(value)}; a range is two numbers, the smaller one first.")
+            return float(random.uniform(*ends))
+        known = self.fmu.variables.get(name)
+        if known is not None and isinstance(value, str) and known.type != "String":
+            raise HostError(f"'{name}' is {brief(value)}; it must be a number.")
+        return value
 
     def step(self, inputs: ArrayLike) -> None:
         """A communication step with inputs that are held.
@@ -163,8 +184,7 @@ class Car:
         hosts.fmu.fmu.StepRefusedError
             The FMU refused the step; the state before it is kept.
         """
-        if not self._started:
-            raise HostError("The car has no start yet; reset() gives it one.")
+        self._check_started()
         values: list[float] = np.asarray(inputs, dtype=float).ravel().tolist()
         if len(values) != len(self.inputs):
             raise HostError(f"{len(values)} inputs are given; the car takes {len(self.inputs)}: {self.inputs}.")
@@ -192,16 +212,18 @@ class Car:
         HostError
             There is no such variable that is a number.
         """
+        self._check_started()
         key = names if isinstance(names, tuple) else tuple(names)
         reader = self._readers.get(key)
         if reader is None:
-            reader = self._readers[key] = self.fmu.reader(self._known(key, ("input", "parameter", "output", "local")))
+            reader = self._readers[key] = self.fmu.reader(self._known(names if isinstance(names, str) else key, _READ))
         values = np.empty(len(key)) if into is None else into
         reader(values)
         return values
 
     def save(self) -> Saved:
         """The state now, for `restore` of this or another instance of the same car, also in another process."""
+        self._check_started()
         return Saved(self.time, self._steps, self.fmu.state_bytes())
 
     def restore(self, saved: Saved) -> None:
@@ -212,15 +234,30 @@ class Car:
         HostError
             It is of another car or of another build.
         """
+        self._check_open()
+        if not isinstance(saved, Saved):
+            raise HostError(f"{brief(saved)} is no state of a car; save() gives one.")
         self.fmu.restore_bytes(saved.content)
         self._steps = saved.steps
         self._start_time = saved.time - saved.steps * self.step_length
-        self._started = True
+        self._used = self._started = True
+
+    def _check_open(self) -> None:
+        if self._closed:
+            raise HostError("The car is closed; make another one.")
+
+    def _check_started(self) -> None:
+        if not self._started:
+            self._check_open()
+            raise HostError("The car has no start yet; reset() gives it one.")
 
     def _known(self, names: Sequence[str], causalities: tuple[str, ...]) -> list[str]:
+        if isinstance(names, str):
+            raise HostError(f"The names are the text {brief(names)}; they must be a list or tuple of names.")
         have = {n for causality in causalities for n in self.fmu.names(causality)}
         for name in names:
             if name not in have:
                 what = "input" if causalities == ("input",) else "variable that is a number"
-                raise HostError(f"The car has no {what} '{name}'.")
+                some = f"there are {', '.join(sorted(have)[:6])} and others"
+                raise HostError(f"The car has no {what} {brief(name)}{did_you_mean(str(name), have, some)}")
         return list(names)

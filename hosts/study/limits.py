@@ -14,12 +14,9 @@ from numpy.typing import NDArray
 from scipy.stats import binomtest
 
 from ali3.files import whole_file, write_text
-from ali3.near_names import did_you_mean
 from hosts.common.display_units import shown_in
-from hosts.common.errors import HostError
-from hosts.common.units import conversion
+from hosts.measures.limits import LimitEntry, limits_of
 from hosts.measures.measure import Limit
-from hosts.study.study_file import LimitEntry
 from hosts.study.work import DONE
 
 if TYPE_CHECKING:
@@ -76,41 +73,11 @@ class Share:
 
 
 def limits_record(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], file: Path) -> dict[str, Any]:
-    """Limits by the columns of measures, in the units of these, for JSON.
-
-    Parameters
-    ----------
-    entries : mapping of str to LimitEntry
-        As the study file has them; a name may leave out the manoeuvre before it where only one measure ends so.
-    columns : mapping of str to str
-        Units of all measures of the study.
-
-    Raises
-    ------
-    HostError
-        There is no such measure, or the unit is one of another quantity.
-    """
-    found: dict[str, Any] = {}
-    for name, entry in entries.items():
-        where = f"{file}: limits.'{name}'"
-        column = column_of(name, columns, where)
-        if column in found:
-            raise HostError(f"{where} and another limit are both of '{column}'; give one of them.")
-        factor = 1.0 if entry.unit is None else conversion(entry.unit, columns[column], f"{where}.unit")
-        ends = (None if x is None else factor * x for x in (entry.min, entry.max))
-        found[column] = {**dict(zip(("min", "max"), ends, strict=True)), "unit": columns[column]}
-    return found
-
-
-def column_of(name: str, columns: Mapping[str, str], where: str) -> str:
-    """The column that a user means, by its whole name or without the manoeuvre before it; `HostError` if none is."""
-    fits = [name] if name in columns else [c for c in columns if c.endswith(f".{name}")]
-    if len(fits) == 1:
-        return fits[0]
-    if fits:
-        raise HostError(f"{where}: it could be {' or '.join(fits)}; give the whole name.")
-    end = did_you_mean(name, columns, f"there are {', '.join(list(columns)[:8]) or 'none'}")
-    raise HostError(f"{where}: the study has no measure '{name}'{end}")
+    """Limits by the columns of measures, in the units of these, for JSON; see `hosts.measures.limits.limits_of`."""
+    return {
+        column: {"min": _number(limit.lowest), "max": _number(limit.highest), "unit": columns[column]}
+        for column, limit in limits_of(entries, columns, file).items()
+    }
 
 
 def shares(frame: pd.DataFrame) -> list[Share]:

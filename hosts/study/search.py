@@ -17,7 +17,7 @@ MOST = 24
 _CLOSEST = 1e-4  # part of the range that is not divided any more
 _INWARD = (0.0, 0.0625, 0.125, 0.25)  # parts of the range, where the run at an end fails
 _EXTREMUM, _SEEN = 0.02, 8  # part of the range, and runs, to which an extremum is found
-_APART = 0.01  # of the range, between runs that tell a slope
+_APART, _PART = 0.01, 0.02  # of the range, or of the value, between runs that tell a slope
 
 
 @dataclass(frozen=True)
@@ -227,8 +227,9 @@ class _Search:
         made = list(self._runs)  # of equal ones the last: at a jump the nearest to it
         place, best = min(known, key=lambda item: (abs(item[1].y - self._wanted), -made.index(item[0])))
         changes = [b.y - a.y for (_, a), (_, b) in itertools.pairwise(known)]
-        below = [run for u, run in known if u <= place - _APART] or [best]
-        above = [run for u, run in known if u >= place + _APART] or [best]
+        apart = [(u, run) for u, run in known if abs(u - place) >= _APART or _are_apart(run.x, best.x)]
+        below = [run for u, run in apart if u < place] or [best]
+        above = [run for u, run in apart if u > place] or [best]
         one, other = below[-1], above[0]
         return Found(
             runs,
@@ -241,6 +242,10 @@ class _Search:
             any(c < -self._tolerance for c in changes),
             min(run.y for _, run in known) <= self._wanted <= max(run.y for _, run in known),
         )
+
+
+def _are_apart(x: float, best: float) -> bool:
+    return abs(x - best) >= _PART * abs(best) > 0.0
 
 
 def _slope(one: Run, best: Run, other: Run) -> float:

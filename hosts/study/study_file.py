@@ -11,10 +11,10 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from ali3.reading import LARGEST_TOML, read_bytes, toml_of
 from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
+from hosts.measures.limits import LimitEntry, Number
 
 METHODS = ("grid", "latin_hypercube", "sobol", "saltelli", "table")
 
-Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
 Setting: TypeAlias = bool | int | Number | str
 Name: TypeAlias = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_.\- ]*$", max_length=100)]
 
@@ -101,27 +101,6 @@ class SignalsEntry(_Part):
 
     names: list[str] = Field(min_length=1, title="a list of at least one name of an input or output")
     interval: Number = Field(gt=0.0, title="a positive number, s")
-
-
-class LimitEntry(_Part):
-    """What a measure must keep; a list of two numbers means its least and its largest value."""
-
-    min: Number | None = Field(default=None, title="a number, the least value")
-    max: Number | None = Field(default=None, title="a number, the largest value")
-    unit: str | None = Field(default=None, title="the unit of these numbers, as text; default: that of the measure")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _pair(cls, given: object) -> object:
-        return dict(zip(("min", "max"), given, strict=True)) if isinstance(given, list) and len(given) == 2 else given
-
-    @model_validator(mode="after")
-    def _fits(self) -> LimitEntry:
-        if self.min is None and self.max is None:
-            raise ValueError("it needs min or max, or both")
-        if self.min is not None and self.max is not None and self.min > self.max:
-            raise ValueError(f"its limits are {self.min:g} and {self.max:g}; the lower one comes first")
-        return self
 
 
 class StudyFile(_Part):

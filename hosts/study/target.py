@@ -20,10 +20,10 @@ from hosts.common.units import conversion
 from hosts.fmu.fmu import described
 from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.variables import Variable, Variables
+from hosts.measures.limits import column_of
 from hosts.study.campaign import fmu_of_study, out_folder
 from hosts.study.isolated import IsolatedBench
 from hosts.study.job import Job
-from hosts.study.limits import column_of
 from hosts.study.parameters import Parameter
 from hosts.study.plan import Plan, make_plan
 from hosts.study.search import TOLERANCE, Found, Run, seek
@@ -130,19 +130,18 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
 def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
     entry = study.parameters.get(target.by)
     unit, log = (entry.unit, entry.log) if entry is not None else (None, False)
+    variables = Variables(described(fmu))
     ends: tuple[float, float] | None = target.range
     if ends is not None:
         unit, log = None, log and ends[0] > 0.0
     elif entry is not None and entry.range is not None:
         ends = (entry.range[0], entry.range[1])
     else:
-        variables = Variables(described(fmu))
         known = variables[target.by] if target.by in variables.names else None
         if known is not None and math.isfinite(known.high - known.low):
             ends = (known.low, known.high)
-    if ends is None and target.by in study.parameters:
+    if ends is None and target.by in study.parameters and target.by in variables.names:
         raise HostError(f"{file}: parameters.'{target.by}' has no range; give one by --between LOW:HIGH.")
-    variables = Variables(described(fmu))
     if ends is None and target.by in variables.names and variables[target.by].kind == "Real":
         raise HostError(f"--by {target.by}: neither the study file nor the FMU gives a range; add --between LOW:HIGH.")
     if ends is not None and not ends[0] < ends[1]:

@@ -50,9 +50,36 @@ def test_an_altered_sentence_is_told():
 def test_the_readme_says_what_the_tables_of_the_pages_say():
     made = [*figures.readme(), *figures.instructions()]
     assert [line for again in made for line in differences(again, read(again.page))] == []
+
+
+def test_each_figure_of_the_readme_is_held():
+    """A digit at a time, all others as they are."""
     for again in figures.readme():
-        altered = re.sub(r"\d", lambda digit: str((int(digit[0]) + 1) % 10), read(again.page))
-        assert differences(again, altered)
+        page, said = (" ".join(text.split()) for text in (read(again.page), again.text))
+        assert page.count(said) == 1
+        digits = [page.index(said) + found.start() for found in re.finditer(r"\d", said)]
+        assert digits
+        for k in digits:
+            altered = f"{page[:k]}{(int(page[k]) + 1) % 10}{page[k + 1 :]}"
+            assert differences(again, altered) == [f"README.md does not say: {again.text}"]
+
+
+def test_each_cell_of_the_table_of_instructions_is_held():
+    (again,) = figures.instructions()
+    page = read(again.page)
+    table = between(page, again.table)
+    cells = [found.span() for found in re.finditer(r"(?<=\| )[^|\n]*\d[^|\n]*(?= \|)", table)]
+    assert len(cells) > len(rows_of(table)) > 3
+    for first, last in cells:
+        altered = f"{table[:first]}x{table[last:]}"
+        assert differences(again, page.replace(table, altered))
+
+
+def test_a_table_that_is_made_without_rows_is_told():
+    made = MADE.rsplit("\n", 2)[0]
+    assert differences(Again("docs/x.md", made, "t", ("method", "h s")), PAGE) == [
+        "docs/x.md, table 't': there are no rows when it is made again."
+    ]
 
 
 def test_figures_that_are_made_in_a_moment_are_those_of_the_pages(capsys):

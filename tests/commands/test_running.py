@@ -60,6 +60,11 @@ def test_a_usual_sentence_is_told_whole() -> None:
     assert shortened(sentence) == sentence
 
 
+def test_no_name_of_a_file_tells_a_terminal_what_to_do(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_command(lambda: raiser(UserError("m.toml has '\x1b[2J\x9b' in\nits second line."))) == 2
+    assert capsys.readouterr().err == "error: m.toml has '\\x1b[2J\\x9b' in\nits second line.\n"
+
+
 def test_errors_of_ours_keep_their_traceback() -> None:
     for error in (ZeroDivisionError(), ModuleNotFoundError("No module named 'x'", name="x")):
         with pytest.raises(type(error)):

@@ -140,6 +140,36 @@ def test_aligning_moment_turns_towards_the_direction_of_travel_and_fades_with_sl
     assert values[0] - values[1] == pytest.approx(values[1] - values[2], rel=1e-3)  # both parts meet with one slope
 
 
+def brush(half: float, speed: float, sideways: float) -> tuple[float, float]:
+    """Lateral force and moment about the middle, per stiffness of the bristles and without sliding: they enter at the
+    leading edge of the contact, straight, and their tips stay on the road.
+    """
+    edges = np.linspace(-half, half, 20_001)
+    x = 0.5 * (edges[1:] + edges[:-1])
+    age = (half - x) / speed if speed > 0.0 else (x + half) / -speed
+    force = -sideways * age * np.diff(edges)
+    return float(force.sum()), float((x * force).sum())
+
+
+@pytest.mark.parametrize("omega", [-60.0, -4.0, 4.0, 60.0])
+def test_aligning_moment_is_that_of_a_brush_in_both_directions_of_rolling(omega: float) -> None:
+    """The trail changes its side in reverse, as in the Magic Formula; the force does not."""
+    load, slip = 1500.0, 1e-3
+    rolling, length = (2.0 * R + height(load)) / 3.0, 2.0 * np.sqrt(R * load / TYRE.stiffness)
+    speed, sideways = rolling * omega, slip * abs(rolling * omega)
+    element = tyre_element(replace(TYRE, trail=(1.0 / 6.0, 1.0 / 6.0)))
+    y = np.zeros(4)
+    for _ in range(300):
+        r = element(upright(height(load)), np.array([speed, sideways, 0.0, 0.0, 0.0, 0.0, omega]), y, 0.2)
+        y = r.y
+    force, moment = brush(0.5 * length, speed, sideways)
+    assert force < 0.0
+    assert r.out["lateral_force"] < 0.0
+    assert np.sign(moment) == np.sign(omega)  # towards the direction of travel
+    trail = r.out["aligning_moment"] / r.out["lateral_force"]
+    assert trail == pytest.approx(moment / force, rel=0.01)
+
+
 def test_radial_force_has_spring_damper_and_rim_and_cannot_pull() -> None:
     element = tyre_element()
 

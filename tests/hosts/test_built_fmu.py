@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import sys
 from pathlib import Path
 
 import pytest
 
+from ali3.signals import Stopped
 from hosts.common import commands
 from hosts.common.errors import HostError
 from hosts.fmu import built_fmu
@@ -101,3 +103,30 @@ def test_the_words_of_a_build_that_fails(car: Path) -> None:
     (car / "car.toml").write_text("wrong")
     with pytest.raises(HostError, match=r"The FMU of the car .* cannot be built: The car is wrong\."):
         built_fmu.fmu_of_car(str(car), print)
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a signal of a clock")
+def test_a_build_that_is_stopped_ends_its_process_and_says_so(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A signal for the command alone: the process of the build is not waited for."""
+    pid = car.parent / "pid"
+    slow = f"import os, pathlib, time; pathlib.Path({str(pid)!r}).write_text(str(os.getpid())); time.sleep(600)"
+    monkeypatch.setattr(commands, "module_command", lambda *words: [sys.executable, "-c", slow])
+
+    def stop(*_: object) -> None:
+        if not (pid.exists() and pid.read_text()):
+            signal.setitimer(signal.ITIMER_REAL, 0.05)
+            return
+        raise Stopped(signal.SIGTERM)
+
+    before, told = signal.signal(signal.SIGALRM, stop), list[str]()
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with pytest.raises(Stopped):
+            built_fmu.fmu_of_car(str(car), told.append)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+    assert "was stopped and nothing was run" in told[-1]
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(pid.read_text()), 0)
+    assert not list((car.parent / "cache").rglob("*.fmu"))

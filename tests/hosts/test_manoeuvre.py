@@ -293,3 +293,8 @@ def test_of_several_names_the_first_that_there_is_counts(tmp_path):
     assert with_names_of(manoeuvre, ["a", "b.c"]).start == {"a": 2.0, "d": 1.0}
     assert with_names_of(manoeuvre, []).start == {"a": 2.0, "d": 1.0}  # to be refused by its name
     assert "drive.creep_torque | selector" in load_manoeuvre("kerb_drop").start
+
+
+def test_values_whose_difference_is_no_number_go_straight_too() -> None:
+    manoeuvre = Manoeuvre("far", np.array([0.0, 1.0]), {"force": np.array([1e308, -1e308])}, 1.0)
+    assert [manoeuvre.at(t)["force"] for t in (0.0, 0.25, 1.0)] == [1e308, pytest.approx(5e307), -1e308]

@@ -148,17 +148,27 @@ def test_works_of_ports_close_the_balance(kind: str) -> None:
 
 
 def test_the_reaction_of_hub_motors_is_on_the_carriers() -> None:
-    """They turn the twist beam on its pivots, which half shafts do not."""
-    travels = {}
-    for kind in ("half_shafts", "hub_motors"):
-        s = simulation(hatchback, 15.0, torque=kind)
-        for side in "LR":
-            s.set_input(f"wheel_R{side}.drive_torque", 200.0)
-        s.step(STEP, 300)
-        now = s.sensors
-        travels[kind] = now["wheel_RL.travel"]
-        assert now["wheel_RL.drive_power"] == pytest.approx(200.0 * now["wheel_RL.omega"], rel=0.01)
-    assert abs(travels["half_shafts"] - travels["hub_motors"]) > 1e-3
+    """A driving hub motor turns its trailing arm down, and the spring by its pivot holds the torque: balance of moments
+    about the pivot, against half shafts, whose reaction is on the body.
+    """
+    torque, relieved = 100.0, []
+    for sign in (1.0, -1.0):
+        forces = {}
+        for kind in ("half_shafts", "hub_motors"):
+            s = simulation(hatchback, 15.0, torque=kind)
+            for side in "LR":
+                s.set_input(f"wheel_R{side}.drive_torque", sign * torque)
+            s.step(STEP, 800)
+            now = s.sensors
+            forces[kind] = now["spring_RL.force"]  # tension
+            assert now["wheel_RL.drive_power"] == pytest.approx(sign * torque * now["wheel_RL.omega"], rel=0.01)
+        relieved.append(sign * (forces["hub_motors"] - forces["half_shafts"]))
+    points = hatchback()._data["rear"]["suspension"]["points"]
+    pivot, lower, upper = (np.array(points[name]) for name in ("pivot", "spring_lower", "spring_upper"))
+    way = (upper - lower) / np.linalg.norm(upper - lower)
+    lever = np.cross(lower - pivot, way)[1]
+    assert lever == pytest.approx(0.33, rel=0.01)
+    assert lever * np.mean(relieved) == pytest.approx(torque, rel=0.03)
 
 
 def test_a_pressure_gives_the_torque_of_the_pedal_at_the_same_share() -> None:

@@ -181,8 +181,9 @@ def _value_cell(measure: Measure, first: Measure | None, known: Measure, note: s
     parts: list[Content] = [with_unit(measure.value, measure.unit)]
     limit = measure.limit
     if limit is not None:
-        word, kind = ("kept", "kept") if measure.is_kept else ("not kept", "broken")
-        parts += [" ", element("span", word, class_=kind)]
+        if measure.is_kept is not None:
+            word, kind = ("kept", "kept") if measure.is_kept else ("not kept", "broken")
+            parts += [" ", element("span", word, class_=kind)]
         if limit != known.limit:
             parts.append(element("small", f"here {bounds(limit.lowest, limit.highest, measure.unit)}"))
     if first is not None:

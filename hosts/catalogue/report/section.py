@@ -126,7 +126,7 @@ def _measures(label: str, measures: Sequence[Measure]) -> HtmlElement:
     rows: list[list[Content]] = []
     for m in measures:
         state: Content = NONE
-        if m.limit is not None:
+        if m.limit is not None and m.is_kept is not None:
             word, kind = ("kept", "kept") if m.is_kept else ("not kept", "broken")
             state = element(
                 "td",

@@ -117,7 +117,7 @@ class ChirpSteer:
             notes.append(f"The speed varied by {3.6 * drift:.3g} km/h during the chirp.")
         found = {q: _response(run, q, low, high) for q in _QUANTITIES}
         measures = [
-            Measure("speed", 3.6 * ramp.speed, "km/h", "speed that is held"),
+            Measure("speed", ramp.speed, "m/s", "speed that is held"),
             Measure(
                 "steering_wheel_angle", amplitude, "rad" if given.is_angle else "1", f"amplitude, for {wanted:g} m/s²"
             ),

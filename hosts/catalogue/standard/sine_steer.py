@@ -70,7 +70,7 @@ class SineSteer:
         notes += sorted(set(filter(None, [run.shortfall(amplitude) for run in sides])))
         angle_unit = "rad" if given.is_angle else "1"
         measures = [
-            Measure("speed", 3.6 * ramp.speed, "km/h", "speed at the beginning"),
+            Measure("speed", ramp.speed, "m/s", "speed at the beginning"),
             Measure("steering_wheel_angle", amplitude, angle_unit, f"amplitude, for steady {wanted:g} m/s²"),
         ]
         measures += _measures(

@@ -130,14 +130,6 @@ def _measures(
     made = [
         Measure("understeer_gradient", k, "rad.s2/m", f"{text} {over}; mean of both sides", None, unknown),
         Measure(
-            "understeer_gradient_deg",
-            math.degrees(k) * _GRAVITY,
-            "deg/g",
-            "understeer gradient in degrees per g",
-            None,
-            unknown,
-        ),
-        Measure(
             "understeer_gradient.left", left, "rad.s2/m", "understeer gradient in turns to the left", None, unknown
         ),
         Measure(
@@ -184,10 +176,10 @@ def _speed(name: str, gradient_of: float, wheelbase: float, note: str) -> Measur
     kind = "understeer" if name.startswith("characteristic") else "oversteer"
     text = f"{name.replace('_', ' ')}, root of wheelbase over {kind} gradient"
     if not math.isfinite(gradient_of):
-        return Measure(name, math.nan, "km/h", text, None, note)
+        return Measure(name, math.nan, "m/s", text, None, note)
     if gradient_of <= 0.0:
-        return Measure(name, math.nan, "km/h", text, None, f"The car does not {kind} there.", exists=False)
-    return Measure(name, 3.6 * math.sqrt(wheelbase / gradient_of), "km/h", text)
+        return Measure(name, math.nan, "m/s", text, None, f"The car does not {kind} there.", exists=False)
+    return Measure(name, math.sqrt(wheelbase / gradient_of), "m/s", text)
 
 
 def _plots(runs: Mapping[str, CircleRun]) -> list[Plot]:

@@ -74,7 +74,7 @@ class StepSteer:
         progress(0.2)
         notes = [*ramp.notes, *filter(None, [given.note])]
         runs: dict[str, Result] = {"ramp_left": ramp.run.thinned()}
-        measures = [Measure("speed", 3.6 * ramp.speed, "km/h", "speed at the beginning of the step")]
+        measures = [Measure("speed", ramp.speed, "m/s", "speed at the beginning of the step")]
         driven: list[tuple[float, SteppedRun]] = []
         share = 0.8 / len(levels)
         for k, (name, wanted) in enumerate(levels.items()):

@@ -14,7 +14,7 @@ from hosts.study.analysis.data import Response, StudyData
 from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.summary_plots import plot_histogram, plot_indices, rank_correlations
 from hosts.study.analysis.tables import statistics
-from hosts.study.limits import share_rows, shares
+from hosts.study.limits import Share, share_rows, shares
 
 
 def write_study_slide(data: StudyData, indices: Indices | str | None, folder: Path) -> list[Path]:
@@ -28,9 +28,7 @@ def write_study_slide(data: StudyData, indices: Indices | str | None, folder: Pa
     found = shares(data.frame)
     if found:
         head = ["measure", "limit", "within", "share", "95 %"]
-        rows = [
-            [*row[:2], row[2].partition(",")[0].partition(";")[0], *row[3:]] for row in share_rows(found, data.about)
-        ]
+        rows = limit_rows(found, data)
     else:
         head = ["measure", "unit", "5 %", "median", "95 %"]
         rows = [_percentiles(response) for response in data.responses]
@@ -46,6 +44,12 @@ def write_study_slide(data: StudyData, indices: Indices | str | None, folder: Pa
         f"{data.about['model']}, {', '.join(data.about['manoeuvres'])}"
     )
     return write_slide(folder / "summary", f"Study {data.about['study']}", subtitle, head, rows, draws)
+
+
+def limit_rows(found: list[Share], data: StudyData) -> list[list[str]]:
+    """A row for each limit, of all together first: a slide has no room for many."""
+    rows = [[*row[:2], row[2].partition(",")[0].partition(";")[0], *row[3:]] for row in share_rows(found, data.about)]
+    return [*rows[-1:], *rows[:-1]]
 
 
 def main_response(data: StudyData) -> Response | None:

@@ -57,8 +57,8 @@ def test_clearance_and_speeds_are_taken_in_the_axes_of_the_course() -> None:
     assert clean.least_clearance == pytest.approx(0.3)
     measured = {m.name: m for m in measures_of("lane", clean, None, 1.0)}
     # the front is at the lane after 8 m of 50
-    assert measured["lane.entry_speed"].value == pytest.approx(3.6 * (20.0 - 2.0 * 8.0 / 50.0), abs=0.01)
-    assert measured["lane.exit_speed"].value == pytest.approx(3.6 * (20.0 - 2.0 * 28.0 / 50.0), abs=0.01)
+    assert measured["lane.entry_speed"].value == pytest.approx(20.0 - 2.0 * 8.0 / 50.0, abs=0.003)
+    assert measured["lane.exit_speed"].value == pytest.approx(20.0 - 2.0 * 28.0 / 50.0, abs=0.003)
     assert measured["lane.ay.largest"].value == pytest.approx(3.0, rel=1e-3)
     assert math.isnan(measured["lane.roll.largest"].value)
     assert "chassis.roll" in measured["lane.roll.largest"].note
@@ -110,11 +110,11 @@ def driven(prototype: TestedCar) -> TestRecord:
 @pytest.mark.slow
 def test_prototype_has_a_limit_on_the_obstacle_course(driven: TestRecord) -> None:
     measured = values(driven)
-    assert 60.0 <= measured["iso_3888_2.speed"] < 75.0
-    assert measured["iso_3888_2.speed_hit"] - measured["iso_3888_2.speed"] <= 5.0
+    assert 60.0 / 3.6 <= measured["iso_3888_2.speed"] < 75.0 / 3.6
+    assert measured["iso_3888_2.speed_hit"] - measured["iso_3888_2.speed"] <= 5.01 / 3.6
     assert 0.0 < measured["iso_3888_2.clearance"] < 0.2
     # the car rolls: it comes out slower than it went in
-    assert measured["iso_3888_2.exit_speed"] < measured["iso_3888_2.entry_speed"] - 3.0
+    assert measured["iso_3888_2.exit_speed"] < measured["iso_3888_2.entry_speed"] - 3.0 / 3.6
     assert measured["iso_3888_2.entry_speed"] == pytest.approx(measured["iso_3888_2.speed"], rel=0.02)
     # not beyond what friction can do
     assert 5.0 < measured["iso_3888_2.ay.largest"] < 1.35 * 9.81

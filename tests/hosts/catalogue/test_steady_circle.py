@@ -31,13 +31,12 @@ def test_gradients_are_those_of_the_linear_model(understeering: tuple[dict[str, 
     car, (m, record) = BicycleCar(), understeering
     k = car.understeer()
     assert m["understeer_gradient"] == pytest.approx(k, rel=0.02)
-    assert m["understeer_gradient_deg"] == pytest.approx(math.degrees(k) * 9.80665, rel=0.02)
     assert m["steering_gradient"] == pytest.approx(car.ratio * k, rel=0.02)
     assert m["steering_ratio"] == pytest.approx(car.ratio, rel=1e-6)
     rear_slip = car.front * car.mass / car.wheelbase / car.rear_stiffness
     assert m["sideslip_gradient"] == pytest.approx(-rear_slip, rel=0.02)
     assert m["roll_gradient"] == pytest.approx(car.roll, rel=2e-3)
-    assert m["characteristic_speed"] == pytest.approx(3.6 * math.sqrt(car.wheelbase / k), rel=0.01)
+    assert m["characteristic_speed"] == pytest.approx(math.sqrt(car.wheelbase / k), rel=0.01)
     assert math.isnan(m["critical_speed"])
     assert math.isnan(m["steering_torque_gradient"])
     # There is no critical speed of such a car; the torque is not told.
@@ -60,7 +59,7 @@ def test_a_car_that_oversteers_has_a_critical_speed() -> None:
     assert k < 0.0
     assert [x.name for x in record.measures if x.is_missing] == ["steering_torque_gradient"]
     assert k == pytest.approx(car.understeer(), abs=QUASI_STATIC)
-    assert m["critical_speed"] == pytest.approx(3.6 * math.sqrt(-car.wheelbase / k))
+    assert m["critical_speed"] == pytest.approx(math.sqrt(-car.wheelbase / k))
     assert math.isnan(m["characteristic_speed"])
 
 

@@ -87,7 +87,7 @@ def test_a_car_that_turns_less_to_the_right_is_seen() -> None:
 def test_a_slow_car_is_tested_at_80_and_a_slower_one_refused() -> None:
     only = {"level_1": 0.0, "level_3": 0.0}
     record = perform(standard_test("step_steer"), BicycleCar(top_speed=25.0), only)
-    assert values(record)["speed"] == pytest.approx(80.0)
+    assert values(record)["speed"] == pytest.approx(80.0 / 3.6)
     assert any("does not hold 100 km/h" in n for n in record.notes)
     with pytest.raises(HostError, match=r"does not hold 80 km/h.*after 30 s it is at 54 km/h"):
         perform(standard_test("step_steer"), BicycleCar(top_speed=15.0), only)

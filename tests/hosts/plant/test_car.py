@@ -114,3 +114,60 @@ def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
         car.step([0.0, 0.0, 0.0])
     with pytest.raises(HostError, match="no variable that is a number 'sped'"):
         car.read(("sped",))
+
+
+@pytest.mark.parametrize(
+    ("seed", "parameters", "words"),
+    [
+        (1, {"initial.speed": (20.0, 10.0)}, "'initial.speed' is [20.0, 10.0]; a range is two numbers, the smaller"),
+        (1, {"initial.speed": (10.0, 20.0, 30.0)}, "a range is two numbers"),
+        (1, {"initial.speed": (10.0, float("inf"))}, "a range is two numbers"),
+        (1, {"initial.speed": "fast"}, "'initial.speed' is 'fast'; it must be a number."),
+        (-1, {}, "The seed is -1; it must be a whole number from 0, or None."),
+        ("a", {}, "The seed is 'a'"),
+        (1, {"initial.sped": 1.0}, "no parameter or input 'initial.sped'; did you mean 'initial.speed' or"),
+        (1, {"initial.speed": float("nan")}, "'initial.speed' was set to nan"),
+    ],
+)
+def test_a_start_that_there_is_not_is_one_sentence_and_no_start(
+    car: Car, seed: int, parameters: dict[str, object], words: str
+) -> None:
+    with pytest.raises(HostError) as told:
+        car.reset(seed, **parameters)
+    assert words in str(told.value)
+    assert "\n" not in str(told.value)
+    if words.endswith("nan"):
+        with pytest.raises(HostError, match="has no start yet"):
+            car.step([0.0, 0.0])
+    car.reset(**SPEED)
+    assert car.read(("speed",)) == pytest.approx(15.0, abs=0.01)
+
+
+def test_a_car_without_a_start_or_closed_says_so(rigid_fmu: Path) -> None:
+    car = Car(rigid_fmu, inputs=INPUTS)
+    uses = (lambda: car.step([0.0, 0.0]), lambda: car.read(READS), car.save)
+    for use in uses:
+        with pytest.raises(HostError, match="has no start yet"):
+            use()
+    car.reset()
+    saved = car.save()
+    with pytest.raises(HostError, match="None is no state of a car"):
+        car.restore(None)  # type: ignore[arg-type]
+    car.close()
+    car.close()
+    for use in (*uses, car.reset, lambda: car.restore(saved)):
+        with pytest.raises(HostError, match="The car is closed"):
+            use()
+
+
+@pytest.mark.parametrize(
+    ("inputs", "words"),
+    [
+        ("steering", "The names are the text 'steering'; they must be a list or tuple of names."),
+        (("stering",), "no input 'stering'; did you mean 'steering'?"),
+        (("steering", "throttle", "steering"), "'steering' is named 2 times"),
+    ],
+)
+def test_inputs_that_there_are_not(rigid_fmu: Path, inputs: tuple[str, ...], words: str) -> None:
+    with pytest.raises(HostError, match=words.replace("?", "[?]")):
+        Car(rigid_fmu, inputs=inputs)

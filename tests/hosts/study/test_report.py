@@ -17,9 +17,10 @@ from hosts.study.analysis.data import study_data
 from hosts.study.analysis.effect_plots import failed_share
 from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.report import report_of
-from hosts.study.analysis.slide import main_response
+from hosts.study.analysis.slide import limit_rows, main_response
 from hosts.study.analysis.summary_plots import plot_indices, rank_correlations
 from hosts.study.analysis.tables import extremes, reasons, said, statistics
+from hosts.study.limits import ALL, shares
 from tests.hosts.study.frames import frame_of
 
 UNITS = {"stiffness": "N/m", "mass": "kg", "surface": "", "peak": "m/s2"}
@@ -118,6 +119,17 @@ def test_the_slide_shows_the_measure_with_a_limit() -> None:
     made.attrs["limits"] = {name: {"min": 0.0, "max": None, "unit": "1"} for name in ("flat", "roll")}
     assert getattr(main_response(study_data(made)), "measure", "") == "roll"
     assert main_response(study_data(frame_of({"mass": x}, {"flat": np.ones(20)}, UNITS))) is None
+
+
+def test_the_slide_begins_with_all_limits_together() -> None:
+    """Of many rows the last ones are not shown."""
+    names = [f"m{k}" for k in range(20)]
+    x = np.linspace(0.0, 1.0, 20)
+    made = frame_of({"mass": x}, dict.fromkeys(names, x), dict.fromkeys(names, "m"))
+    made.attrs["limits"] = {name: {"min": None, "max": 0.5, "unit": "m"} for name in names}
+    rows = limit_rows(shares(made), study_data(made))
+    assert [row[0] for row in rows] == [ALL, *names]
+    assert rows[0][2] == "10 of 20 variants"
 
 
 def test_indices_that_are_noise_are_hollow_points() -> None:

@@ -32,6 +32,15 @@ def test_the_slope_has_its_sign() -> None:
     assert found.slope == pytest.approx(-2.0)
 
 
+def test_the_slope_is_that_of_near_runs_in_a_wide_range() -> None:
+    """Runs within a hundredth of the range tell it too, where they are apart for their value: the first run at the left
+    has another slope.
+    """
+    found = sought(lambda x: 1.174 + 0.69 / (1.0 + x / 800.0), 1.3, 20.0, 19000.0)
+    assert found.best is not None
+    assert found.slope == pytest.approx(-0.69 / 800.0 / (1.0 + found.best.x / 800.0) ** 2, rel=0.1)
+
+
 def test_two_solutions_inside_the_range_and_the_one_near_the_start() -> None:
     for start, x in ((0.5, 1.0), (3.5, 3.0)):
         found = sought(lambda x: (x - 2.0) ** 2, 1.0, 0.0, 4.0, start=start)

@@ -80,7 +80,7 @@ def test_a_value_that_cannot_be_met(
     ("options", "by", "words"),
     [
         (("--target", "lowest=-1.2 deg"), "spring.stiffness", "'deg' is no unit of what is measured in m"),
-        (("--target", "lowst=-1.2"), "spring.stiffness", "the study has no measure 'lowst'; did you mean 'lowest'?"),
+        (("--target", "lowst=-1.2"), "spring.stiffness", "there is no measure 'lowst'; did you mean 'lowest'?"),
         (("--target", "lowest"), "spring.stiffness", "it must be MEASURE=VALUE"),
         (("--target", "lowest=-1.2"), "spring.stiffnes", "did you mean 'spring.stiffness' or"),
         (("--target", "lowest=-1.2", "--between", "80:50"), "spring.stiffness", "the smaller number first"),
@@ -96,6 +96,20 @@ def test_what_cannot_be_sought_is_one_sentence(
     error = capsys.readouterr().err
     assert words in error
     assert error.count("\n") == 1
+
+
+def test_a_parameter_that_the_fmu_has_not_is_told_before_its_range(
+    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    old = '"spring.free_length" = { range = [0.5, 0.8] }'
+    file = study_file(
+        (old, '"front.bar" = { values = [1.0] }'),
+        ("sobol", "grid"),
+        ("runs = 16\n", ""),
+        ("80.0] }", "80.0], count = 2 }"),
+    )
+    assert main([str(file), "--target", "lowest=-1.2", "--by", "front.bar", "--out", str(tmp_path / "out")]) == 2
+    assert "the FMU has no parameter or input 'front.bar'" in capsys.readouterr().err
 
 
 def test_a_turn_is_two_pi_radians() -> None:

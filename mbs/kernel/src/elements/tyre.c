@@ -111,9 +111,11 @@ static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, 
   C[2] += safe[1];
 }
 
-/* Trail over contact length at the lateral slip s. */
-static double trail_share(const double *p, const ali3_tyre_patch *contact, double s) {
-  return ali3_tmeasy_trail(p + TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
+/* Trail over contact length at the lateral slip s, behind the middle of the patch as the wheel rolls: the tread bends
+ * from its leading edge on, which is the other edge in reverse. */
+static double trail_share(const double *p, const ali3_tyre_patch *contact, double s, double omega) {
+  const double share = ali3_tmeasy_trail(p + TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
+  return omega < 0.0 ? -share : share;
 }
 
 static void evaluate(ali3_element_args *a) {
@@ -139,7 +141,7 @@ static void evaluate(ali3_element_args *a) {
   for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];
 
   const double deflection = loaded < p[RADIUS] ? p[RADIUS] - loaded : 0.0, length = 2.0 * sqrt(p[RADIUS] * deflection);
-  const double moment = -moving * length * trail_share(p, &contact, fabs(m.v[1]) / w) * F[1],
+  const double moment = -moving * length * trail_share(p, &contact, fabs(m.v[1]) / w, omega) * F[1],
                resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = ali3_tanh(omega);
   double twist[3];
   ali3_cross(n, e, twist);

@@ -1,0 +1,106 @@
+"""Limits that a user gives to measures, in the table ``[limits]`` of a TOML file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from ali3.near_names import did_you_mean
+from ali3.reading import read_toml
+from ali3.typed_sentences import Sentences
+from hosts.common.errors import HostError
+from hosts.common.units import conversion
+from hosts.measures.measure import Limit
+
+Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class LimitEntry(BaseModel):
+    """What a measure must keep; a list of two numbers means its least and its largest value."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    min: Number | None = Field(default=None, title="a number, the least value")
+    max: Number | None = Field(default=None, title="a number, the largest value")
+    unit: str | None = Field(default=None, title="the unit of these numbers, as text; default: that of the measure")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _pair(cls, given: object) -> object:
+        return dict(zip(("min", "max"), given, strict=True)) if isinstance(given, list) and len(given) == 2 else given
+
+    @model_validator(mode="after")
+    def _fits(self) -> LimitEntry:
+        if self.min is None and self.max is None:
+            raise ValueError("it needs min or max, or both")
+        if self.min is not None and self.max is not None and self.min > self.max:
+            raise ValueError(f"its limits are {self.min:g} and {self.max:g}; the lower one comes first")
+        return self
+
+
+class _LimitsFile(BaseModel):
+    """Other tables are those of a study."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
+
+    limits: dict[str, LimitEntry] = Field(min_length=1, title="a table, min and max by names of measures")
+
+
+def read_limits(file: Path) -> dict[str, LimitEntry]:
+    """The table ``[limits]`` of a file, which may be a study file.
+
+    Raises
+    ------
+    HostError
+        There is none, or with the key, its value, and what would be right.
+    """
+    record = read_toml(file, HostError)
+    try:
+        return _LimitsFile.model_validate(record).limits
+    except ValidationError as error:
+        raise HostError(f"{file}: {Sentences(_LimitsFile, record).of(error)[0]}") from None
+
+
+def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], source: Path) -> dict[str, Limit]:
+    """Limits by the columns of measures, in the units of these.
+
+    Parameters
+    ----------
+    entries : mapping of str to LimitEntry
+        As the file has them; a name may leave out the test before it where only one measure ends so.
+    columns : mapping of str to str
+        Units of all measures.
+    source : Path
+        The file.
+
+    Raises
+    ------
+    HostError
+        There is no such measure, or the unit is one of another quantity.
+    """
+    found: dict[str, Limit] = {}
+    for name, entry in entries.items():
+        where = f"{source}: limits.'{name}'"
+        column = column_of(name, columns, where)
+        if column in found:
+            raise HostError(f"{where} and another limit are both of '{column}'; give one of them.")
+        factor = 1.0 if entry.unit is None else conversion(entry.unit, columns[column], f"{where}.unit")
+        low = -math.inf if entry.min is None else factor * entry.min
+        high = math.inf if entry.max is None else factor * entry.max
+        found[column] = Limit(source.name, low, high)
+    return found
+
+
+def column_of(name: str, columns: Mapping[str, str], where: str) -> str:
+    """The column that a user means, by its whole name or without what stands before it; `HostError` if none is."""
+    fits = [name] if name in columns else [c for c in columns if c.endswith(f".{name}")]
+    if len(fits) == 1:
+        return fits[0]
+    if fits:
+        raise HostError(f"{where}: it could be {' or '.join(fits)}; give the whole name.")
+    end = did_you_mean(name, columns, f"there are {', '.join(list(columns)[:8]) or 'none'}")
+    raise HostError(f"{where}: there is no measure '{name}'{end}")

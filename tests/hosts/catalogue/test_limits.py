@@ -1,0 +1,133 @@
+"""Limits of a user are judged beside those of standards, in any unit of the quantity."""
+
+from __future__ import annotations
+
+import ast
+import json
+import math
+from pathlib import Path
+
+import pytest
+
+import hosts.catalogue
+from hosts.catalogue import command
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.kept import keep
+from hosts.catalogue.limits import GivenLimits
+from hosts.catalogue.perform import settings_of_test
+from hosts.catalogue.record import TestRecord
+from hosts.catalogue.registry import standard_test
+from hosts.catalogue.task import Outcome, Task
+from hosts.common.errors import HostError
+from hosts.common.units import known_unit
+from hosts.measures.limits import read_limits
+from hosts.measures.measure import Limit, Measure
+
+
+def record(peak: float, critical: bool = True) -> TestRecord:
+    speed = Measure("critical_speed", 20.0 if critical else math.nan, "m/s", "", exists=critical)
+    rest = Measure("rest", 0.5, "1", "", Limit("at rest", -1.0, 1.0))
+    return TestRecord([Measure("peak", peak, "N", ""), speed, rest], [], {})
+
+
+def limits(folder: Path, text: str) -> GivenLimits:
+    file = folder / "limits.toml"
+    file.write_text(f"[limits]\n{text}\n[measures]\nanother = 'table of a study'\n")
+    return GivenLimits(file, read_limits(file))
+
+
+def kept(made: dict[str, dict[str, Outcome]]) -> dict[tuple[str, str], bool | None]:
+    return {
+        (label, m.name): m.is_kept
+        for by_car in made.values()
+        for label, o in by_car.items()
+        if isinstance(o, TestRecord)
+        for m in o.measures
+    }
+
+
+def test_each_car_is_held_against_the_limits(tmp_path: Path) -> None:
+    given = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"drop.critical_speed" = {min = 80, unit = "km/h"}')
+    made, faults = given.judged({"drop": {"a": record(1999.0), "b": record(2001.0, False), "c": "It has no wheels."}})
+    assert not faults
+    assert kept(made) == {
+        **{("a", "peak"): True, ("a", "critical_speed"): False, ("a", "rest"): True},
+        **{("b", "peak"): False, ("b", "critical_speed"): None, ("b", "rest"): True},
+    }
+    assert made["drop"]["c"] == "It has no wheels."
+
+
+@pytest.mark.parametrize(("least", "both"), [(0.4, True), (0.6, False)])
+def test_the_limit_of_a_standard_holds_too(tmp_path: Path, least: float, both: bool) -> None:
+    made, _ = limits(tmp_path, f"rest = {{min = {least}, max = 9.0}}").judged({"drop": {"a": record(1.0)}})
+    outcome = made["drop"]["a"]
+    assert isinstance(outcome, TestRecord)
+    assert outcome.measures[2].limit == Limit("at rest; limits.toml", least, 1.0)
+    assert outcome.measures[2].is_kept is both
+
+
+def test_a_limit_of_nothing_is_told_and_the_others_are_judged(tmp_path: Path) -> None:
+    given = limits(tmp_path, 'peek = {max = 1}\n"rest.unit" = {max = 1}\npeak = {max = 1}\n"drop.peak" = {min = 0}')
+    made, faults = given.judged({"drop": {"a": record(2.0)}})
+    assert kept(made)["a", "peak"] is False
+    assert [fault.removeprefix(f"{given.file}: limits.") for fault in faults] == [
+        "'peek': there is no measure 'peek'; there are drop.peak, drop.critical_speed, drop.rest.",
+        "'rest.unit': there is no measure 'rest.unit'; did you mean 'drop.rest'?",
+        "'drop.peak' and another limit are both of 'drop.peak'; give one of them.",
+    ]
+    (fault,) = limits(tmp_path, 'peak = {max = 1, unit = "m"}').judged({"drop": {"a": record(2.0)}})[1]
+    assert "limits.'peak'.unit" in fault
+
+
+def test_limits_of_tests_that_are_not_done_are_left_out(tmp_path: Path) -> None:
+    given = limits(tmp_path, '"kerb.peak" = {max = 1}\n"drop.peak" = {max = 1}\npeak = {max = 1}').of_tests(["drop"])
+    assert list(given.entries) == ["drop.peak", "peak"]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[limit]\npeak = {max = 1}", "limits is missing"),
+        ("[limits]", "limits"),
+        ("[limits]\npeak = {}", "it needs min or max, or both"),
+        ("[limits]\npeak = [2, 1]", "the lower one comes first"),
+        ("[limits]\npeak = {most = 1}", "limits.peak.most"),
+        ("limits = 3", "limits is 3"),
+    ],
+)
+def test_a_file_without_limits_is_one_sentence(tmp_path: Path, text: str, words: str) -> None:
+    file = tmp_path / "l.toml"
+    file.write_text(text)
+    with pytest.raises(HostError) as told:
+        read_limits(file)
+    assert words in str(told.value)
+    assert "\n" not in str(told.value)
+
+
+def test_the_command_says_which_measure_is_outside(
+    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    task = Task("drop", TestedCar(prototype_fmu.stem, prototype_fmu), settings_of_test(standard_test("drop"), {}))
+    keep(task, record(2001.0), tmp_path)
+    monkeypatch.setattr(command, "_report", lambda *_: [])
+    file = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}').file
+    drop = [str(prototype_fmu), "--tests", "drop", "--no-runs", "--out", str(tmp_path)]
+    assert command.main(drop) == 0
+    assert command.main([*drop, "--limits", str(file)]) == 1
+    assert "1 measure does not keep its limit; it is marked (!)." in capsys.readouterr().out
+    (test,) = json.loads((tmp_path / "measures.json").read_text())["tests"]
+    peak = test["cars"][prototype_fmu.stem]["measures"]["peak"]
+    assert peak["limit"] == {"lowest": None, "highest": 2000.0, "source": "limits.toml"}
+    assert peak["kept"] is False
+
+
+def test_measures_are_in_si_units() -> None:
+    """Tables of data keep them; reports show degrees and km/h."""
+    found = []
+    for file in Path(hosts.catalogue.__file__).parent.rglob("*.py"):
+        for call in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id == "Measure":
+                found += [unit.value for unit in call.args[2:3] if isinstance(unit, ast.Constant)]
+    assert len(found) > 20
+    known = {unit: known_unit(str(unit)) for unit in found}
+    assert {unit: told.factor for unit, told in known.items() if told is not None and told.factor != 1.0} == {}
