@@ -138,7 +138,7 @@ static ali3_status gather(ali3_many *many, int32_t n, ali3_lane *lane, double h)
   }
   for (int32_t l = 0; l < n; l++) {
     g->lane[l] = lane[l].instance;
-    ali3_group_masses(g, l);
+    ali3_group_parameters(g, l);
   }
   g->settings = lane[0].instance->settings;
   g->h = h;

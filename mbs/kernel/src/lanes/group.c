@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "../elements/element.h"
+#include "../elements/road.h"
 #include "../state/workspace.h"
 #include "../system/pool.h"
 #include "lanes.h"
@@ -25,6 +27,7 @@ static void place_vectors(const ali3_lane_group *g, ali3_lane_vectors *v, bool p
   v->s = items(g, pool, ng);
   v->sd = items(g, pool, ng);
   v->sdd = items(g, pool, ng);
+  v->y = items(g, pool, (size_t)z->ny);
   v->history = items(g, pool, past ? ALI3_HISTORY : 0);
   v->past_a = items(g, pool, past ? ALI3_PAST * nq : 0);
   v->past_lam = items(g, pool, past ? ALI3_PAST * nc : 0);
@@ -60,6 +63,31 @@ static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
   g->idle = items(g, pool, (size_t)z->ne);
 }
 
+static bool has_law(const ali3_element_type *type) {
+#define ALI3_IS(name) || type == &ali3_##name
+  return false ALI3_LAWS(ALI3_IS);
+#undef ALI3_IS
+}
+
+static void place_elements(ali3_lane_group *g, ali3_pool *pool) {
+  const ali3_system *S = g->system;
+  const ali3_sizes *z = &S->size;
+  g->el_real = items(g, pool, (size_t)S->el_real_ptr[z->ne]);
+  g->input = items(g, pool, (size_t)z->nu);
+  g->out = items(g, pool, (size_t)S->el_out_ptr[z->ne]);
+  g->potential = items(g, pool, (size_t)z->ne);
+  g->by_law = ali3_pool_items(pool, (size_t)z->ne, sizeof *g->by_law);
+  g->road = ali3_pool_items(pool, (size_t)S->nr, sizeof *g->road);
+  for (int32_t e = 0; e < z->ne && pool->block != NULL; e++) g->by_law[e] = has_law(S->el_kind[e]);
+  for (int32_t r = 0; r < S->nr; r++) {
+    const ali3_lane_road road = {.group = g,
+                                 .number = r,
+                                 .numbers = items(g, pool, ALI3_ROAD_NUMBERS),
+                                 .friction_factor = items(g, pool, 1)};
+    if (pool->block != NULL) g->road[r] = road;
+  }
+}
+
 static void place_counts(ali3_lane_group *g, ali3_pool *pool) {
   ali3_mask **masks[] = {&g->lanes,
                          &g->at_work,
@@ -83,6 +111,7 @@ static void place(ali3_lane_group *g, ali3_pool *pool) {
   place_vectors(g, &g->next, false, pool);
   place_step(g, pool);
   place_tangents(g, pool);
+  place_elements(g, pool);
   place_counts(g, pool);
 }
 
@@ -109,14 +138,38 @@ static void take(const ali3_lane_group *g, int32_t l, double *to, const real *fr
   for (int32_t i = 0; i < n; i++) to[i] = from[i * g->width + l];
 }
 
+/* The same for the elements that are computed in vectors; those of e begin at ptr[e]. */
+static void put_of_laws(const ali3_lane_group *g, int32_t l, real *to, const double *from, const int32_t *ptr) {
+  for (int32_t e = 0; e < g->system->size.ne; e++)
+    if (g->by_law[e]) put(g, l, to + (int64_t)ptr[e] * g->width, from + ptr[e], ptr[e + 1] - ptr[e]);
+}
+
+static void take_of_laws(const ali3_lane_group *g, int32_t l, double *to, const real *from, const int32_t *ptr) {
+  for (int32_t e = 0; e < g->system->size.ne; e++)
+    if (g->by_law[e]) take(g, l, to + ptr[e], from + (int64_t)ptr[e] * g->width, ptr[e + 1] - ptr[e]);
+}
+
+static void roads(ali3_lane_group *g, int32_t l) {
+  for (int32_t r = 0; r < g->system->nr; r++) {
+    double numbers[ALI3_ROAD_NUMBERS], factor;
+    ali3_lane_road *road = &g->road[r];
+    const int32_t type = ali3_road_numbers(&g->lane[l]->road[r], numbers, &factor);
+    road->type = l == 0 || road->type == type ? type : ALI3_ROAD_COUNT;
+    put(g, l, road->numbers, numbers, ALI3_ROAD_NUMBERS);
+    put(g, l, road->friction_factor, &factor, 1);
+  }
+}
+
 /* What parameters change and steps do not. */
-void ali3_group_masses(ali3_lane_group *g, int32_t l) {
+void ali3_group_parameters(ali3_lane_group *g, int32_t l) {
   const ali3_instance *in = g->lane[l];
   const ali3_sizes *z = &g->system->size;
   put(g, l, g->mass_val, in->mass_val, z->nnz_mass);
   put(g, l, g->mass_floor, in->mass_floor, z->nq);
   put(g, l, g->mass_floor_inverse, in->mass_floor_inverse, z->nq);
   put(g, l, g->gravity_force, in->gravity_force, z->nq);
+  put(g, l, g->el_real, in->el_real, g->system->el_real_ptr[z->ne]);
+  roads(g, l);
 }
 
 /* A step begins from in->now with the guides of in->next. */
@@ -137,6 +190,8 @@ void ali3_group_from(ali3_lane_group *g, int32_t l) {
   put(g, l, g->now.history, from->history, ALI3_HISTORY);
   put(g, l, g->now.past_a, from->past_a, ALI3_PAST * nq);
   put(g, l, g->now.past_lam, from->past_lam, ALI3_PAST * nc);
+  put(g, l, g->input, in->force_input, g->system->size.nu);
+  put_of_laws(g, l, g->now.y, from->y, g->system->el_state_ptr);
   g->open_power[l] = in->report.open_power;
   g->worst_row[l] = in->report.worst_row;
   g->worst_coordinate[l] = in->report.worst_coordinate;
@@ -154,6 +209,10 @@ void ali3_group_to(const ali3_lane_group *g, int32_t l) {
   take(g, l, in->next.qd, g->next.qd, nq);
   take(g, l, in->next.qdd, g->next.qdd, nq);
   take(g, l, in->next.lam, g->newton_lam, g->system->size.nc);
+  take_of_laws(g, l, in->next.y, g->next.y, g->system->el_state_ptr);
+  take_of_laws(g, l, in->next.out, g->out, g->system->el_out_ptr);
+  for (int32_t e = 0; e < g->system->size.ne; e++)
+    if (g->by_law[e]) in->next.potential[e] = g->potential[e * g->width + l];
   take(g, l, in->D, g->D, nq);
   take(g, l, in->x, g->mean_a, nq);
   r->last_iterations = (int32_t)g->iterations[l];

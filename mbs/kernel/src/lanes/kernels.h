@@ -28,6 +28,8 @@ static inline real ALI3_LANED(cosine)(real x) {
   return x;
 }
 
+#include "laws.h"
+
 #define ali3_instance ali3_lane_group
 #define ali3_vectors ali3_lane_vectors
 #define ali3_sin ALI3_LANED(sine)

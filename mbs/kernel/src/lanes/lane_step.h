@@ -16,10 +16,15 @@ static truth all_finite(const real *v, int32_t n) {
   return sum == 0.0;
 }
 
-/* Elements of these lanes; the others keep theirs. */
+/* Elements of these lanes; the others keep theirs, but for the tangent, for which they are not asked again. */
 static void elements(ali3_lane_group *in, truth lanes, bool tangent) {
   *in->evaluated = lanes;
-  ali3_lane_elements(in, tangent);
+  for (int32_t e = 0; e < in->system->size.ne; e++) {
+    if (in->by_law[e])
+      ali3_lane_law(in, e, tangent);
+    else
+      ali3_lane_element(in, e, tangent);
+  }
 }
 
 static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
