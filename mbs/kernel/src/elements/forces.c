@@ -43,9 +43,10 @@ static void local(const ali3_instance *in, int32_t e, double *u, double *ud) {
   }
 }
 
-void ali3_element_watch(ali3_instance *in, int32_t e, const double *f, const double *ud) {
+/* Power and forces of element e on its n signals, where a sensor asks for its work. */
+static void record(ali3_instance *in, int32_t e, const double *f, const double *ud, int32_t n) {
   const ali3_system *S = in->system;
-  const int32_t k = S->work_of[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
+  const int32_t k = S->work_of[e];
   if (k < 0) return;
   double *force = in->watched + S->n_work + S->work_ptr[k], power = 0.0;
   for (int32_t i = 0; i < n; i++) {
@@ -66,7 +67,7 @@ bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t
   if (tangent != NULL) memset(tangent, 0, (size_t)(a.nsig * a.nsig) * sizeof(double));
   (in->discrete && type->discrete != NULL ? type->discrete : type->evaluate)(&a);
   call->potential[e] = a.potential;
-  if (S->n_work > 0) ali3_element_watch(in, e, f, ud);
+  if (S->n_work > 0) record(in, e, f, ud, a.nsig);
   return a.idle != 0;
 }
 

@@ -13,8 +13,6 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call);
 void ali3_forces_tangent(ali3_instance *in, double *F);
 bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
                          double *f, double *tangent);
-/* Power and forces of element e on its signals, where a sensor asks for its work. */
-void ali3_element_watch(ali3_instance *in, int32_t e, const double *f, const double *ud);
 void ali3_element_accept(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud);
 void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call);
 #endif

@@ -32,7 +32,7 @@ typedef struct ali3_lane_road {
 
 typedef struct ali3_lane_group {
   const ali3_system *system;
-  int32_t width;
+  int32_t width, used; /* lanes, and how many of them have an instance */
   ali3_instance *lane[ALI3_MOST_LANES];
   ali3_settings settings; /* those of all lanes */
   ali3_rule rule;
@@ -47,11 +47,13 @@ typedef struct ali3_lane_group {
   real *F_new; /* of lanes that get a new tangent while others keep theirs */
   real *u, *ud, *S, *SB;
   real *f; /* forces of elements on their signals */
+  real *ways, *power; /* of elements whose work is watched, see ../state/work.c */
   ali3_mask *idle;
   real *el_real, *input, *out, *potential;
   ali3_lane_road *road;
   bool *by_law; /* ne: the element is computed in vectors */
   real *mean_a, *newton_lam; /* what a step leaves to the history */
+  double *discarded; /* where numbers of lanes go that did not make the step */
   /* one each: lanes that make the step, those that the sources count, those that evaluate elements, those that ended */
   ali3_mask *lanes, *at_work, *evaluated, *good, *singular;
   ali3_mask *iterations, *worst_row, *worst_coordinate;

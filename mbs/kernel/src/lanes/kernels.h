@@ -64,6 +64,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_projection_work ALI3_LANED(projection_work)
 #define ali3_energy_size ALI3_LANED(energy_size)
 #define ali3_lagrange ALI3_LANED(lagrange)
+#define ali3_work_ways ALI3_LANED(work_ways)
 #define ali3_history_smooth ALI3_LANED(history_smooth)
 #define ali3_extrapolate ALI3_LANED(extrapolate)
 
@@ -76,6 +77,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #include "../methods/projection.c"
 #include "../rows/constraints.c"
 #include "../rows/velocity_rows.c"
+#include "../state/work_ways.c"
 #include "lane_step.h"
 
 #if defined(__clang__) && defined(ALI3_INSTRUCTIONS)

@@ -71,22 +71,12 @@ void ali3_lane_contacts(const ali3_lane_road *road, const real *centre, const re
   }
 }
 
-/* Forces on the signals of element e in lane l, where a sensor asks for its work. */
-static void watch(ali3_lane_group *g, int32_t e, int32_t l) {
-  const int32_t first = g->system->el_sig_ptr[e], n = g->system->el_sig_ptr[e + 1] - first;
-  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
-  local(g, e, l, u, ud);
-  for (int32_t i = 0; i < n; i++) f[i] = g->f[(first + i) * g->width + l];
-  ali3_element_watch(g->lane[l], e, f, ud);
-}
-
 void ali3_lane_elements_accept(ali3_lane_group *g, int32_t l) {
   ali3_instance *in = g->lane[l];
   const ali3_system *S = g->system;
   const ali3_force_call call = call_of(g, in);
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
   for (int32_t e = 0; e < S->size.ne; e++) {
-    if (g->by_law[e] && S->n_work > 0 && S->work_of[e] >= 0) watch(g, e, l);
     if (S->el_kind[e]->accept == NULL) continue;
     local(g, e, l, u, ud);
     ali3_element_accept(in, &call, e, u, ud);

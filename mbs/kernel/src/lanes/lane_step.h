@@ -169,6 +169,17 @@ static void predict(ali3_lane_group *in) {
     in->D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(goes_on, in->x[i], in->now.qdd[i]);
 }
 
+/* What sensors of work ask for, from the last forces of the elements that are computed in vectors. */
+static void watch(ali3_lane_group *in) {
+  const ali3_system *S = in->system;
+  ali3_work_ways(in, in->ways);
+  for (int32_t k = 0; k < S->n_work; k++) {
+    const int32_t e = S->work_element[k];
+    in->power[k] = ali3_same(0.0);
+    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) in->power[k] += in->f[i] * in->ud[S->el_sig[i]];
+  }
+}
+
 void ALI3_LANED(ali3_step)(ali3_lane_group *in) {
   const int32_t nq = in->system->size.nq;
   const double h = in->h;
@@ -198,6 +209,7 @@ void ALI3_LANED(ali3_step)(ali3_lane_group *in) {
   work += ali3_projection_work(in, &kinetic, in->end, in->open) + 0.5 * h * *in->open_power;
   *in->work = work;
   *in->size = ali3_energy_size(in, h, kinetic);
+  watch(in);
 }
 #endif
 #endif
