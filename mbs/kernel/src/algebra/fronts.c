@@ -38,7 +38,8 @@ static ali3_status eliminate(ali3_instance *in, real *block, int32_t first, int3
     } else {
       for (int32_t j = end; j < n; j++)
         for (int32_t p = start; p < end; p++)
-          subtract(block + (int64_t)j * n, block + (int64_t)p * n, block[(int64_t)p * n + j] * inverse[p - start], j, n);
+          subtract(block + (int64_t)j * n, block + (int64_t)p * n, block[(int64_t)p * n + j] * inverse[p - start], j,
+                   n);
     }
     for (int32_t p = start; p < end; p++) {
       real *column = block + (int64_t)p * n;

@@ -73,7 +73,8 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   if (nreal == BRAKE_REALS && (real[SHARE] < 0.0 || real[HAND_TORQUE] < 0.0))
     return "the share and the torque of the hand brake of a brake must not be negative";
   if (real[MAX_TORQUE] < 0.0) return "the largest torque of a brake must not be negative";
-  if (!(real[STICK_STIFFNESS] > 0.0 && real[STICK_DAMPING] > 0.0)) return "stick stiffness and damping of a brake must be positive";
+  if (!(real[STICK_STIFFNESS] > 0.0 && real[STICK_DAMPING] > 0.0))
+    return "stick stiffness and damping of a brake must be positive";
   return 0;
 }
 

@@ -16,9 +16,8 @@ real ali3_contact_force(const ali3_contact_law *law, real x, real *slope, real *
     const real share = deep / w, beyond = deep - 0.5 * w;
     force = ali3_add_unless(soft, force, ali3_where(sets_in, 0.5 * K * deep * share, K * beyond));
     *slope = ali3_add_unless(soft, *slope, ali3_where(sets_in, K * share, K));
-    *energy = ali3_add_unless(soft, *energy,
-                              ali3_where(sets_in, K * deep * deep * share / 6.0,
-                                         K * (0.5 * deep * (deep - w) + w * w / 6.0)));
+    *energy = ali3_add_unless(
+        soft, *energy, ali3_where(sets_in, K * deep * deep * share / 6.0, K * (0.5 * deep * (deep - w) + w * w / 6.0)));
   }
   return ali3_where(away, none, force);
 }

@@ -11,7 +11,6 @@
 #define ALI3_CONTACT_LAW_H
 #include "../algebra/real.h"
 
-
 typedef struct {
   real stiffness, progression; /* k, L */
   real end, hard_stiffness, onset; /* x_end, K, w > 0 where K > 0 */

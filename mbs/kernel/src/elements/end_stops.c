@@ -12,7 +12,8 @@ static void laws(const real *p, int progressive, ali3_contact_law law[2]) {
     law[side].stiffness = p[side ? ALI3_REBOUND_STIFFNESS : ALI3_BUMP_STIFFNESS];
     law[side].progression = progressive ? q[0] : none;
     law[side].end = progressive ? q[1] : none;
-    law[side].hard_stiffness = progressive ? ali3_where(law[side].stiffness > 0.0, p[ALI3_METAL_STIFFNESS], none) : none;
+    law[side].hard_stiffness =
+        progressive ? ali3_where(law[side].stiffness > 0.0, p[ALI3_METAL_STIFFNESS], none) : none;
     law[side].onset = progressive ? p[ALI3_METAL_ONSET] : none;
     law[side].loss = progressive ? p[ALI3_STOP_LOSS + side] : none;
   }

@@ -27,8 +27,7 @@ static ali3_tmeasy squared(const ali3_tmeasy *t, real scale) {
                        slide_slip * slide_slip};
 }
 
-ali3_tmeasy_pair ali3_tmeasy_pair_at(const real x_pairs[10], const real y_pairs[10], real q,
-                                     real friction_ratio) {
+ali3_tmeasy_pair ali3_tmeasy_pair_at(const real x_pairs[10], const real y_pairs[10], real q, real friction_ratio) {
   const ali3_tmeasy x = ali3_tmeasy_at(x_pairs, q, friction_ratio), y = ali3_tmeasy_at(y_pairs, q, friction_ratio);
   const real bx = x.max_force / x.slope, by = y.max_force / y.slope, slips = x.max_slip + y.max_slip;
   ali3_tmeasy_pair t;
@@ -98,7 +97,8 @@ real ali3_tmeasy_secant(const ali3_tmeasy_pair *t, const real n[2], real gradien
   const real share = ali3_where(s2 > 0.0, n[0] * n[0] / s2, ali3_same(0.5));
   const ali3_tmeasy *a = &t->square, *b = &t->spread;
   const ali3_tmeasy at = {ali3_sqrt(a->slope + b->slope * share), ali3_sqrt(a->max_force + b->max_force * share),
-                          ali3_sqrt(a->max_slip + b->max_slip * share), ali3_sqrt(a->slide_force + b->slide_force * share),
+                          ali3_sqrt(a->max_slip + b->max_slip * share),
+                          ali3_sqrt(a->slide_force + b->slide_force * share),
                           ali3_sqrt(a->slide_slip + b->slide_slip * share)};
   const point p = curve(&at, s);
   const truth slips = s > 0.0;
@@ -116,7 +116,7 @@ real ali3_tmeasy_secant(const ali3_tmeasy_pair *t, const real n[2], real gradien
 
 real ali3_tmeasy_trail(const real pairs[6], real q, real friction_ratio, real s) {
   const real r = some_friction(friction_ratio), initial = linear(pairs, q), zero = r * linear(pairs + 2, q),
-               end = r * linear(pairs + 4, q), w = zero / end, x = s / zero;
+             end = r * linear(pairs + 4, q), w = zero / end, x = s / zero;
   const truth behind = s >= zero, ended = s >= end;
   const real left = (end - s) / (end - zero), none = {0};
   const real falls = -initial * (1.0 - w) * (x - 1.0) * left * left;

@@ -19,8 +19,7 @@ typedef struct { /* both directions over the normalised slips n_i = s_i / scale_
 ali3_tmeasy ali3_tmeasy_at(const real pairs[10], real q, real friction_ratio);
 
 /* Both directions at one load and friction. */
-ali3_tmeasy_pair ali3_tmeasy_pair_at(const real x_pairs[10], const real y_pairs[10], real q,
-                                     real friction_ratio);
+ali3_tmeasy_pair ali3_tmeasy_pair_at(const real x_pairs[10], const real y_pairs[10], real q, real friction_ratio);
 
 /* Secant F(s)/s of the generalised slip s = |n|, finite at s = 0, and its gradient by the normalised slips n; the force
  * is minus the secant times n. */

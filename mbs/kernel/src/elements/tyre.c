@@ -75,8 +75,8 @@ static real friction_ratio(const real *p, const ali3_tyre_patch *contact) {
 
 /* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
  * (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
-static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w,
-                    real F[2], real C[3]) {
+static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2],
+                    real C[3]) {
   const real *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING, q = load_factor(p, contact);
   const real grip = friction_ratio(p, contact);
   const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + CURVE_X, p + CURVE_Y, q, grip);
@@ -123,7 +123,7 @@ static void evaluate(ali3_element_args *a) {
   const real *p = a->real, omega = a->ud[6];
   const real none = {0};
   const ali3_tyre_spring spring = {p[RADIUS], p[BOTTOMING_RADIUS], p[RADIAL_STIFFNESS],
- none,       p[RADIAL_DAMPING],          p[BOTTOMING_STIFFNESS]};
+                                   none,      p[RADIAL_DAMPING],   p[BOTTOMING_STIFFNESS]};
   real e[3], F[2], C[3];
   a->potential = none;
   ali3_tyre_axis(a->u + 3, e);
@@ -133,7 +133,7 @@ static void evaluate(ali3_element_args *a) {
 
   const truth deflected = loaded < p[RADIUS];
   const real rolling = (2.0 * p[RADIUS] + ali3_where(deflected, loaded, p[RADIUS])) / 3.0,
-               transport = rolling * ali3_abs(omega), w = transport + ALI3_TYRE_SLOW;
+             transport = rolling * ali3_abs(omega), w = transport + ALI3_TYRE_SLOW;
   const real moving = ali3_tyre_moving(transport);
   const real ratio = ali3_where(loaded > 1e-6, 1.0 + moving * (rolling / loaded - 1.0),
                                 ali3_same(1.0)); /* slip radius over loaded radius */
@@ -143,9 +143,10 @@ static void evaluate(ali3_element_args *a) {
       0.5 * (p[CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] + p[CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
   for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];
 
-  const real deflection = ali3_where(deflected, p[RADIUS] - loaded, none), length = 2.0 * ali3_sqrt(p[RADIUS] * deflection);
+  const real deflection = ali3_where(deflected, p[RADIUS] - loaded, none),
+             length = 2.0 * ali3_sqrt(p[RADIUS] * deflection);
   const real moment = -moving * length * trail_share(p, &contact, ali3_abs(m.v[1]) / w) * F[1],
-               resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = ali3_tanh(omega);
+             resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = ali3_tanh(omega);
   real twist[3];
   ali3_cross(n, e, twist);
   for (int i = 0; i < 3; i++) a->f[3 + i] += moment * twist[i];

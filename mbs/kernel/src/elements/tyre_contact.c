@@ -120,9 +120,8 @@ void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *con
 enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, INCLINATION = CONTACT_X + 3, NORMAL_X };
 enum { ROLLING_MOMENT = NORMAL_X + 3 };
 
-void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
-                       const ali3_tyre_motion *m, real radius, real ratio, const real force[2], real moment,
-                       real resisting) {
+void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], const ali3_tyre_motion *m,
+                       real radius, real ratio, const real force[2], real moment, real resisting) {
   const real none = {0}, deflection = ali3_where(m->loaded < radius, radius - m->loaded, none);
   const real least = ali3_same(0.01);
   const real drive = -ratio * ali3_dot(m->forward, m->push) * a->ud[6]; /* circumferential speed */

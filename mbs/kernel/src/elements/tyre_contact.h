@@ -47,9 +47,8 @@ void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *con
 
 /* The outputs that every tyre begins with, ALI3_TYRE_OUTPUTS in number; `resisting`: of rolling, about the axis. */
 enum { ALI3_TYRE_OUTPUTS = 16 };
-void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
-                       const ali3_tyre_motion *m, real radius, real ratio, const real force[2], real moment,
-                       real resisting);
+void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], const ali3_tyre_motion *m,
+                       real radius, real ratio, const real force[2], real moment, real resisting);
 
 /* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
 void ali3_tyre_semidefinite(real C[3]);

@@ -84,10 +84,8 @@ static void place_elements(ali3_lane_group *g, ali3_pool *pool) {
   g->road = ali3_pool_items(pool, (size_t)S->nr, sizeof *g->road);
   for (int32_t e = 0; e < z->ne && pool->block != NULL; e++) g->by_law[e] = has_law(S->el_kind[e]);
   for (int32_t r = 0; r < S->nr; r++) {
-    const ali3_lane_road road = {.group = g,
-                                 .number = r,
-                                 .numbers = items(g, pool, ALI3_ROAD_NUMBERS),
-                                 .friction_factor = items(g, pool, 1)};
+    const ali3_lane_road road = {
+        .group = g, .number = r, .numbers = items(g, pool, ALI3_ROAD_NUMBERS), .friction_factor = items(g, pool, 1)};
     if (pool->block != NULL) g->road[r] = road;
   }
 }

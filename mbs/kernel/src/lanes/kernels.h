@@ -10,13 +10,7 @@
 #pragma clang attribute push(__attribute__((target(ALI3_INSTRUCTIONS))), apply_to = function)
 #endif
 
-#include "../algebra/elementary.h"
-#include "../instance.h"
-#include "group.h"
-
-#define ALI3_JOINED(name, width) name##_lanes_##width
-#define ALI3_OF_WIDTH(name, width) ALI3_JOINED(name, width)
-#define ALI3_LANED(name) ALI3_OF_WIDTH(name, ALI3_WIDTH)
+#include "laws.h"
 
 static inline real ALI3_LANED(sine)(real x) {
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_sin(x[l]);
@@ -27,8 +21,6 @@ static inline real ALI3_LANED(cosine)(real x) {
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_cos(x[l]);
   return x;
 }
-
-#include "laws.h"
 
 #define ali3_instance ali3_lane_group
 #define ali3_vectors ali3_lane_vectors

@@ -2,7 +2,16 @@
  * Lanes that have ended see what they saw last and get the same again. */
 #ifndef ALI3_LAWS_H
 #define ALI3_LAWS_H
-#ifdef ALI3_LANED /* by kernels.h */
+#ifdef ALI3_WIDTH
+#include <string.h>
+
+#include "../algebra/elementary.h"
+#include "../instance.h"
+#include "group.h"
+
+#define ALI3_JOINED(name, width) name##_lanes_##width
+#define ALI3_OF_WIDTH(name, width) ALI3_JOINED(name, width)
+#define ALI3_LANED(name) ALI3_OF_WIDTH(name, ALI3_WIDTH)
 
 static inline real ALI3_LANED(tanh)(real x) {
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_tanh(x[l]);
@@ -71,38 +80,6 @@ static ali3_element_function *law_of(const ali3_element_type *type) {
   ALI3_LAWS(ALI3_LAW)
 #undef ALI3_LAW
   return NULL;
-}
-
-/* Element e of all lanes: f, y, out, potential, idle and, where it is wanted, the tangent. */
-static void ali3_lane_law(ali3_lane_group *g, int32_t e, bool tangent) {
-  const ali3_system *S = g->system;
-  const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
-  real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
-  for (int32_t i = 0; i < n; i++) u[i] = g->u[signal[i]], ud[i] = g->ud[signal[i]];
-  ali3_element_args a = {.nsig = n,
-                         .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
-                         .nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e],
-                         .nstate = S->el_state_ptr[e + 1] - S->el_state_ptr[e],
-                         .nout = S->el_out_ptr[e + 1] - S->el_out_ptr[e],
-                         .u = u,
-                         .ud = ud,
-                         .y_old = g->now.y + S->el_state_ptr[e],
-                         .y_new = g->next.y + S->el_state_ptr[e],
-                         .h = g->h,
-                         .wC = g->rule.wC,
-                         .wK = g->rule.c,
-                         .real = g->el_real + S->el_real_ptr[e],
-                         .integer = S->el_int + S->el_int_ptr[e],
-                         .input = g->input,
-                         .roads = g->road,
-                         .f = g->f + S->el_sig_ptr[e],
-                         .S = tangent && S->el_front[e] >= 0 ? g->S + S->el_S_off[e] : NULL,
-                         .out = g->out + S->el_out_ptr[e]};
-  memset(a.f, 0, (size_t)n * sizeof *a.f);
-  if (a.S != NULL) memset(a.S, 0, (size_t)(n * n) * sizeof *a.S);
-  law_of(S->el_kind[e])(&a);
-  g->potential[e] = a.potential;
-  g->idle[e] = (truth){0} - a.idle;
 }
 
 #undef ali3_road
