@@ -25,6 +25,7 @@ APART = ("forces.c", "road.c")  # the one needs a System, the other may be repla
 SOURCES = [f for f in sorted((KERNEL / "elements").glob("*.c")) if f.name not in APART]
 SOURCES += [
     KERNEL / "algebra" / "elementary.c",
+    KERNEL / "algebra" / "inverse_tangent.c",
     *(f for room in ("roads", "files") for f in (KERNEL / room).glob("*.c")),
 ]
 
@@ -37,7 +38,13 @@ def compiled(road: Path) -> ctypes.CDLL:
     files = [str(file) for file in (*SOURCES, road)]
     flags = ["-std=c11", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", f"-I{KERNEL}"]
     command = [build.compiler(), "cc", "-target", build.host_target(), *flags]
-    command += [str(Path(__file__).with_name("harness.c")), *files, "-lm", "-o", str(target)]
+    command += [
+        *(str(Path(__file__).with_name(name)) for name in ("harness.c", "lane_laws.c")),
+        *files,
+        "-lm",
+        "-o",
+        str(target),
+    ]
     subprocess.run(command, check=True, capture_output=True, text=True, env=build.compiler_environment())
     lib = ctypes.CDLL(str(target))
     lib.harness_evaluate.restype = ctypes.c_double

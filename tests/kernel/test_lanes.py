@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mbs import Model, Settings, Simulation, System, compile
+from mbs import Model, Pose, Settings, Simulation, System, compile, write_road
+from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.binding.many import Many, widest_lanes
 from mbs.scenes import bicycle, bricard, double_four_bar, flyball, kerb_test, prototype_car, spatial_chain, squeezer
 from mbs.simulation.prepared_system import prepared
 from tests.simulation.many_cars import CARS, attach, car
+from tests.simulation.many_cars import system as car_system
 
 # Two of the cars have springs with which no car works, so that their steps are halved and refused.
 pytestmark = pytest.mark.filterwarnings("ignore:Parameter:mbs.ParameterWarning")
@@ -71,6 +74,35 @@ def test_cars_have_the_bits_of_single_runs(width: int) -> None:
     assert (alone[0.002], alone[0.01]) == (0, 0)  # a step that lanes get wrong is refused there and right alone
     assert alone[0.04] > 0
     assert statuses > {Status.OK}
+
+
+def test_lanes_have_roads_of_their_own(tmp_path: Path) -> None:
+    """From files: a grid, which each lane asks alone, beside planes and a kerb, in any number of lanes."""
+    heights = 0.02 * np.sin(np.arange(60.0 * 40.0)).reshape(60, 40)
+    frictions = np.where(np.arange(60)[:, None] % 7 < 3, 0.3, 0.9) * np.ones(40)
+    roads = {
+        "grid": GridRoad((-5.0, -10.0), (0.5, 0.5), heights, frictions),
+        "slope": PlaneRoad(0.0, 0.05, -0.1, 0.6),
+        "level": PlaneRoad(),
+        "kerb": KerbRoad(4.0, 0.12, 0.0, "after"),
+    }
+    for name, road in roads.items():
+        write_road(road, tmp_path / f"{name}.ali3road")
+    for names in (
+        ["slope", "level"],
+        ["level", "kerb"],
+        ["grid", "grid"],
+        ["grid", "slope", "kerb", "grid"][: WIDTHS[-1]],
+    ):
+        single, together = ([_on(tmp_path / f"{name}.ali3road") for name in names] for _ in range(2))
+        many = Many(prepared(single[0].system)[0], next(w for w in WIDTHS if w >= len(names)))
+        assert compare(many, single, together, 0.005, 120)[1] == {Status.OK}
+        assert len({s.instance.save() for s in together}) == len(set(names))
+
+
+def _on(file: Path) -> Simulation:
+    inputs = {"steering": 0.4, "throttle": 0.6}
+    return Simulation(car_system(), inputs=inputs, parameters={"road.file": str(file)}, pose=Pose(speed=10.0))
 
 
 @pytest.mark.parametrize("name", SCENES)

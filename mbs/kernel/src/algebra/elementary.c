@@ -11,9 +11,7 @@
 static const double HALF_PI_1 = 1.5707963267341256, HALF_PI_2 = 6.077100506303966e-11,
                     HALF_PI_3 = 2.0222662487959506e-21, TWO_OVER_PI = 0.6366197723675814;
 static const double LN2_1 = 0.6931471804855391, LN2_2 = 7.440617110012397e-11, ONE_OVER_LN2 = 1.4426950408889634;
-static const double PI = 3.141592653589793, PI_REST = 1.2246467991473532e-16;
-static const double HALF_PI = 1.5707963267948966, HALF_PI_REST = 6.123233995736766e-17;
-static const double QUARTER_PI = 0.7853981633974483, QUARTER_PI_REST = 3.061616997868383e-17;
+static const double HALF_PI = 1.5707963267948966;
 static const double MOST_TURNS = 1048576.0;
 
 static double polynomial(const double *c, int n, double x) {
@@ -102,29 +100,6 @@ double ali3_tanh(double x) {
   if (a > 22.0) return x > 0.0 ? 1.0 : -1.0;
   const double e = a < 0.17 ? exp_near(2.0 * a) : ali3_exp(2.0 * a) - 1.0, value = e / (e + 2.0);
   return x > 0.0 ? value : -value;
-}
-
-/* For 0 <= t <= 1: about pi/4 or 0, the half angle once, then the series. */
-static double arc(double t) {
-  static const double c[] = {-1.0 / 3.0,  1.0 / 5.0,  -1.0 / 7.0,  1.0 / 9.0,  -1.0 / 11.0, 1.0 / 13.0,
-                             -1.0 / 15.0, 1.0 / 17.0, -1.0 / 19.0, 1.0 / 21.0, -1.0 / 23.0};
-  const int far = t > 0.41421356237309503;
-  const double u = far ? (t - 1.0) / (t + 1.0) : t;
-  if (fabs(u) < 1e-9) return far ? QUARTER_PI + u : u;
-  const double half = u / (1.0 + sqrt(1.0 + u * u)), z = half * half;
-  const double value = 2.0 * (half + half * z * polynomial(c, COUNT(c), z));
-  return far ? QUARTER_PI + (value + QUARTER_PI_REST) : value;
-}
-
-double ali3_atan2(double y, double x) {
-  const double ay = fabs(y), ax = fabs(x), largest = ay > ax ? ay : ax;
-  if (y != y || x != x) return x + y;
-  double angle = largest > 0.0 ? arc(ay == ax ? 1.0 : (ay > ax ? ax / ay : ay / ax)) : 0.0;
-  if (ay > ax)
-    angle = signbit(x) ? HALF_PI + (angle + HALF_PI_REST) : HALF_PI - (angle - HALF_PI_REST);
-  else if (signbit(x))
-    angle = PI - (angle - PI_REST);
-  return signbit(y) ? -angle : angle;
 }
 
 double ali3_asin(double x) { return ali3_atan2(x, sqrt((1.0 - x) * (1.0 + x))); }

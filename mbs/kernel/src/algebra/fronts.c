@@ -30,13 +30,16 @@ static ali3_status eliminate(ali3_instance *in, real *block, int32_t first, int3
       if (status != ALI3_OK) return status;
       inverse[p - start] = 1.0 / column[p];
     }
-    for (int32_t j = end; j < n; j++) {
-      for (int32_t p = start; p < end; p++) factor[p - start] = block[(int64_t)p * n + j] * inverse[p - start];
-      if (end - start == PANEL)
+    if (end - start == PANEL) {
+      for (int32_t j = end; j < n; j++) {
+        for (int32_t k = 0; k < PANEL; k++) factor[k] = panel[(int64_t)k * n + j] * inverse[k];
         subtract_panel(block + (int64_t)j * n, panel, n, factor, j);
-      else
+      }
+    } else {
+      for (int32_t j = end; j < n; j++)
         for (int32_t p = start; p < end; p++)
-          subtract(block + (int64_t)j * n, block + (int64_t)p * n, factor[p - start], j, n);
+          subtract(block + (int64_t)j * n, block + (int64_t)p * n, block[(int64_t)p * n + j] * inverse[p - start], j,
+                   n);
     }
     for (int32_t p = start; p < end; p++) {
       real *column = block + (int64_t)p * n;

@@ -23,6 +23,17 @@ static inline bool ali3_any(truth c) {
   return any != 0;
 }
 
+static inline truth ali3_negative(real x) { return (truth)x < 0; }
+
+static inline real ali3_sqrt(real x) {
+#if defined(__has_builtin) && __has_builtin(__builtin_elementwise_sqrt)
+  return __builtin_elementwise_sqrt(x);
+#else
+  for (int l = 0; l < ALI3_WIDTH; l++) x[l] = sqrt(x[l]);
+  return x;
+#endif
+}
+
 static inline real ali3_floor(real x) {
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = floor(x[l]);
   return x;
@@ -43,6 +54,8 @@ static inline real ali3_add_unless(truth c, real x, real y) { return c ? x : x +
 static inline truth ali3_not(truth c) { return !c; }
 static inline real ali3_abs(real x) { return fabs(x); }
 static inline bool ali3_any(truth c) { return c; }
+static inline truth ali3_negative(real x) { return signbit(x); }
+static inline real ali3_sqrt(real x) { return sqrt(x); }
 static inline real ali3_floor(real x) { return floor(x); }
 
 #define ALI3_AT_WORK(in, lanes) ((void)(in))

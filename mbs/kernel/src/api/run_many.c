@@ -72,20 +72,18 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   memcpy(to->used, in->input, (size_t)z->nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)z->ny * sizeof(double));
   to->h_last[0] = step->h;
-  ali3_group_from(g, l);
   return true;
 }
 
-/* The end of a step that converged in lane l: in->next becomes the state. */
+/* The end of a step that converged in lane l, after ali3_group_to: in->next becomes the state. */
 static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   ali3_instance *in = g->lane[l];
-  ali3_group_to(g, l);
   ali3_history_append(in, step->h, in->x);
   ali3_group_multipliers(g, l);
   ali3_lane_elements_accept(g, l);
   const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l]);
   if (resolved != ALI3_OK) return resolved;
-  ali3_work_step(in, 0.5);
+  ali3_work_along(in, 0.5);
   const ali3_status status = ali3_accept(in);
   if (status != ALI3_OK) return status;
   in->t_now = step->t;
@@ -115,7 +113,11 @@ static void step_together(ali3_many *many, int32_t n, const bool *going, bool ap
       entered++;
     }
   for (int32_t l = 0; l < g->width; l++) g->good[l] = 0;
-  if (entered > 1) many->step(g);
+  if (entered > 1) {
+    ali3_group_from(g);
+    many->step(g);
+    ali3_group_to(g);
+  }
   for (int32_t l = 0; l < n; l++) {
     if (!going[l]) continue;
     status[l] = ALI3_NOT_CONVERGED;
@@ -136,10 +138,9 @@ static ali3_status gather(ali3_many *many, int32_t n, ali3_lane *lane, double h)
     if (memcmp(&lane[l].instance->settings, &lane[0].instance->settings, sizeof g->settings) != 0)
       return ALI3_BAD_ARGUMENT;
   }
-  for (int32_t l = 0; l < n; l++) {
-    g->lane[l] = lane[l].instance;
-    ali3_group_masses(g, l);
-  }
+  for (int32_t l = 0; l < n; l++) g->lane[l] = lane[l].instance;
+  g->used = n;
+  ali3_group_parameters(g);
   g->settings = lane[0].instance->settings;
   g->h = h;
   g->alpha = ali3_penalty(lane[0].instance, h);

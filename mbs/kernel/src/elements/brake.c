@@ -15,61 +15,66 @@
 #include "element.h"
 #include "element_math.h"
 
-enum { MAX_TORQUE, STIFFNESS, DAMPING, PLAIN, SHARE = PLAIN, HAND_TORQUE, REALS };
-enum { PEDAL, HAND, PEDALS, BY_SIZE = PEDALS, INTEGERS };
+enum { MAX_TORQUE, STICK_STIFFNESS, STICK_DAMPING, PLAIN, SHARE = PLAIN, HAND_TORQUE, BRAKE_REALS };
+enum { PEDAL, HAND, PEDALS, BY_SIZE = PEDALS, BRAKE_INTEGERS };
 
 /* What the pads can hold: both pedals press them. */
-static double capacity(const ali3_element_args *a) {
-  const double most = a->nint == INTEGERS && a->integer[BY_SIZE] ? INFINITY : 1.0;
-  const double *p = a->real, pedal = ali3_clamp(a->input[a->integer[PEDAL]], 0.0, most);
+static real capacity(const ali3_element_args *a) {
+  const real none = {0}, all = ali3_same(1.0);
+  const real most = a->nint == BRAKE_INTEGERS && a->integer[BY_SIZE] ? ali3_same(INFINITY) : all;
+  const real *p = a->real, pedal = ali3_clamp(a->input[a->integer[PEDAL]], none, most);
   if (a->nreal == PLAIN) return p[MAX_TORQUE] * pedal;
-  const double hand = ali3_clamp(ali3_input_or_zero(a->input, a->integer[HAND]), 0.0, 1.0);
+  const real hand = ali3_clamp(ali3_input_or_zero(a->input, a->integer[HAND]), none, all);
   return p[MAX_TORQUE] * p[SHARE] * pedal + p[HAND_TORQUE] * hand;
 }
 
 static void evaluate(ali3_element_args *a) {
-  const double *p = a->real, *f = a->u, *g = a->u + 3, *fd = a->ud, *gd = a->ud + 3;
-  const double w = a->ud[6] - 0.5 * (ali3_dot(fd, g) - ali3_dot(gd, f));
-  const double bound = capacity(a);
-  const double half = 0.5 * a->h, wound = p[STIFFNESS] * (a->y_old[0] + half * a->y_old[1]);
-  const double D = p[DAMPING] + half * p[STIFFNESS], trial = wound + D * w;
-  const int sticks = fabs(trial) <= bound;
-  const double torque = sticks ? trial : trial > 0.0 ? bound : -bound;
+  const real *p = a->real, *f = a->u, *g = a->u + 3, *fd = a->ud, *gd = a->ud + 3;
+  const real w = a->ud[6] - 0.5 * (ali3_dot(fd, g) - ali3_dot(gd, f));
+  const real bound = capacity(a);
+  const double half = 0.5 * a->h;
+  const real wound = p[STICK_STIFFNESS] * (a->y_old[0] + half * a->y_old[1]);
+  const real D = p[STICK_DAMPING] + half * p[STICK_STIFFNESS], trial = wound + D * w;
+  const truth sticks = ali3_abs(trial) <= bound;
+  const real torque = ali3_where(sticks, trial, ali3_where(trial > 0.0, bound, -bound));
   a->y_new[0] = a->y_old[0];
   a->y_new[1] = a->y_old[1];
   if (a->h > 0.0) {
     a->y_new[1] = (torque - wound) / D;
-    a->y_new[0] = (torque - p[DAMPING] * a->y_new[1]) / p[STIFFNESS];
-    if (fabs(a->y_new[0]) < 1e-100) a->y_new[0] = a->y_new[1] = 0.0; /* long released: no denormals */
+    a->y_new[0] = (torque - p[STICK_DAMPING] * a->y_new[1]) / p[STICK_STIFFNESS];
+    const truth released = ali3_abs(a->y_new[0]) < 1e-100; /* for long: no denormals */
+    for (int i = 0; i < 2; i++) a->y_new[i] = ali3_where(released, ali3_same(0.0), a->y_new[i]);
   }
-  double b[7];
+  real b[7];
   for (int i = 0; i < 3; i++) b[i] = -0.5 * g[i], b[3 + i] = 0.5 * f[i];
-  b[6] = 1.0;
+  b[6] = ali3_same(1.0);
   for (int i = 0; i < 7; i++) a->f[i] = -torque * b[i];
-  a->potential = 0.5 * p[STIFFNESS] * a->y_new[0] * a->y_new[0];
+  a->potential = 0.5 * p[STICK_STIFFNESS] * a->y_new[0] * a->y_new[0];
   a->out[0] = -torque;
-  a->out[1] = sticks && bound > 0.0;
+  a->out[1] = ali3_where(sticks & (bound > 0.0), ali3_same(1.0), ali3_same(0.0));
   a->out[2] = w;
   a->out[3] = -torque * w;
   if (!a->S) return; /* turning of f, g within the step is left out of the tangent */
-  const double slope = sticks ? D : ALI3_SECANT_SHARE * D * (bound / fabs(trial));
+  const real slope = ali3_where(sticks, D, ALI3_SECANT_SHARE * D * (bound / ali3_abs(trial)));
   ali3_add_outer(a->S, 7, a->wC * slope, b);
 }
 
+#ifndef ALI3_WIDTH
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
   (void)nsig, (void)n_roads;
-  if (!(nreal == PLAIN && nint == 1) && !(nreal == REALS && (nint == PEDALS || nint == INTEGERS)))
+  if (!(nreal == PLAIN && nint == 1) && !(nreal == BRAKE_REALS && (nint == PEDALS || nint == BRAKE_INTEGERS)))
     return "a brake has 3 numbers and an input, or 5 and two inputs, and may say that the first is no pedal";
   if (integer[PEDAL] < 0 || integer[PEDAL] >= n_inputs ||
       (nint > 1 && (integer[HAND] < -1 || integer[HAND] >= n_inputs)))
     return "a brake names an input that does not exist";
-  if (nint == INTEGERS && integer[BY_SIZE] != 0 && integer[BY_SIZE] != 1)
+  if (nint == BRAKE_INTEGERS && integer[BY_SIZE] != 0 && integer[BY_SIZE] != 1)
     return "whether the input of a brake is no pedal must be 0 or 1";
-  if (nreal == REALS && (real[SHARE] < 0.0 || real[HAND_TORQUE] < 0.0))
+  if (nreal == BRAKE_REALS && (real[SHARE] < 0.0 || real[HAND_TORQUE] < 0.0))
     return "the share and the torque of the hand brake of a brake must not be negative";
   if (real[MAX_TORQUE] < 0.0) return "the largest torque of a brake must not be negative";
-  if (!(real[STIFFNESS] > 0.0 && real[DAMPING] > 0.0)) return "stick stiffness and damping of a brake must be positive";
+  if (!(real[STICK_STIFFNESS] > 0.0 && real[STICK_DAMPING] > 0.0))
+    return "stick stiffness and damping of a brake must be positive";
   return 0;
 }
 
@@ -82,3 +87,4 @@ const ali3_element_type ali3_brake = {
     .nout = 4,
     .check = check,
 };
+#endif

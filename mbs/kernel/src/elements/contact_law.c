@@ -2,27 +2,27 @@
 
 #include <math.h>
 
-double ali3_contact_force(const ali3_contact_law *law, double x, double *slope, double *energy) {
-  if (!(x > 0.0)) return 0.0;
-  const double k = law->stiffness, part = law->progression > 0.0 ? x / law->progression : 0.0, square = part * part;
-  double force = k * x * (1.0 + square);
-  *slope += k * (1.0 + 3.0 * square);
-  *energy += 0.5 * k * x * x * (1.0 + 0.5 * square);
-  const double deep = x - law->end, K = law->hard_stiffness, w = law->onset;
-  if (!(K > 0.0 && deep > 0.0)) return force;
-  if (deep < w) {
-    const double share = deep / w;
-    force += 0.5 * K * deep * share;
-    *slope += K * share;
-    *energy += K * deep * deep * share / 6.0;
-  } else {
-    force += K * (deep - 0.5 * w);
-    *slope += K;
-    *energy += K * (0.5 * deep * (deep - w) + w * w / 6.0);
+real ali3_contact_force(const ali3_contact_law *law, real x, real *slope, real *energy) {
+  const truth away = ali3_not(x > 0.0);
+  const real none = {0}, k = law->stiffness;
+  if (!ali3_any(ali3_not(away))) return none;
+  const real part = ali3_where(law->progression > 0.0, x / law->progression, none), square = part * part;
+  real force = k * x * (1.0 + square);
+  *slope = ali3_add_unless(away, *slope, k * (1.0 + 3.0 * square));
+  *energy = ali3_add_unless(away, *energy, 0.5 * k * x * x * (1.0 + 0.5 * square));
+  const real deep = x - law->end, K = law->hard_stiffness, w = law->onset;
+  const truth soft = away | ali3_not((K > 0.0) & (deep > 0.0)), sets_in = deep < w;
+  if (ali3_any(ali3_not(soft))) {
+    const real share = deep / w, beyond = deep - 0.5 * w;
+    force = ali3_add_unless(soft, force, ali3_where(sets_in, 0.5 * K * deep * share, K * beyond));
+    *slope = ali3_add_unless(soft, *slope, ali3_where(sets_in, K * share, K));
+    *energy = ali3_add_unless(
+        soft, *energy, ali3_where(sets_in, K * deep * deep * share / 6.0, K * (0.5 * deep * (deep - w) + w * w / 6.0)));
   }
-  return force;
+  return ali3_where(away, none, force);
 }
 
+#ifndef ALI3_WIDTH
 static double at(const ali3_contact_law *law, double x) {
   double slope = 0.0, energy = 0.0;
   return ali3_contact_force(law, x, &slope, &energy);
@@ -43,9 +43,11 @@ double ali3_contact_mean(const ali3_contact_law *law, double x0, double x1) {
   }
   return mean;
 }
+#endif
 
-double ali3_contact_loss(const ali3_contact_law *law, double rate, double *slope) {
-  const double w = law->loss * rate, behind = 1.0 / (1.0 - w);
-  *slope = w >= 0.0 ? law->loss : law->loss * behind * behind;
-  return w >= 0.0 ? 1.0 + w : behind;
+real ali3_contact_loss(const ali3_contact_law *law, real rate, real *slope) {
+  const real w = law->loss * rate, behind = 1.0 / (1.0 - w);
+  const truth presses = w >= 0.0;
+  *slope = ali3_where(presses, law->loss, law->loss * behind * behind);
+  return ali3_where(presses, 1.0 + w, behind);
 }

@@ -9,19 +9,20 @@
  *   (chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3. */
 #ifndef ALI3_CONTACT_LAW_H
 #define ALI3_CONTACT_LAW_H
+#include "../algebra/real.h"
 
 typedef struct {
-  double stiffness, progression; /* k, L */
-  double end, hard_stiffness, onset; /* x_end, K, w > 0 where K > 0 */
-  double loss; /* chi, s/m */
+  real stiffness, progression; /* k, L */
+  real end, hard_stiffness, onset; /* x_end, K, w > 0 where K > 0 */
+  real loss; /* chi, s/m */
 } ali3_contact_law;
 
 /* Conservative force; adds to *slope and *energy. 0 for x <= 0. */
-double ali3_contact_force(const ali3_contact_law *law, double x, double *slope, double *energy);
+real ali3_contact_force(const ali3_contact_law *law, real x, real *slope, real *energy);
 
 /* Mean of the conservative force over x from x0 to x1: the difference quotient of its energy, free of cancellation. */
 double ali3_contact_mean(const ali3_contact_law *law, double x0, double x1);
 
 /* Factor of the force at the rate x', and d(factor)/d(rate). */
-double ali3_contact_loss(const ali3_contact_law *law, double rate, double *slope);
+real ali3_contact_loss(const ali3_contact_law *law, real rate, real *slope);
 #endif

@@ -5,18 +5,20 @@
 
 static void evaluate(ali3_element_args *a) {
   const int32_t n = a->nsig;
-  const double factor = 0.5 * a->real[0] * a->real[1];
-  double square = 0.0;
+  const real factor = 0.5 * a->real[0] * a->real[1];
+  real square = {0};
   for (int32_t i = 0; i < n; i++) square += a->ud[i] * a->ud[i];
-  const double speed = sqrt(square);
+  const real speed = ali3_sqrt(square);
   for (int32_t i = 0; i < n; i++) a->f[i] = -factor * speed * a->ud[i];
   a->out[0] = factor * square;
-  a->potential = 0.0;
+  a->potential = ali3_same(0.0);
   if (!a->S) return;
+  const truth moves = speed > 0.0;
   for (int32_t i = 0; i < n; i++) a->S[i * n + i] = a->wC * factor * speed;
-  if (speed > 0.0) ali3_add_outer(a->S, n, a->wC * factor / speed, a->ud);
+  if (ali3_any(moves)) ali3_add_outer(a->S, n, ali3_where(moves, a->wC * factor / speed, ali3_same(0.0)), a->ud);
 }
 
+#ifndef ALI3_WIDTH
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
   (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
@@ -32,3 +34,4 @@ const ali3_element_type ali3_drag = {
     .nout = 1,
     .check = check,
 };
+#endif

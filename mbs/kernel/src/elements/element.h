@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "../algebra/real.h"
 #include "element_types.h"
 
 #define ALI3_MAX_SIGNALS 24    /* per element */
@@ -16,19 +17,19 @@ typedef struct ali3_road ali3_road; /* road.h */
 
 typedef struct {
   int32_t nsig, nreal, nint, nstate, nout;
-  const double *u, *ud;          /* signals and rates at the iterate (end of the step) */
-  const double *y_old;           /* slots at the start of the step */
-  double *y_new;                 /* slots at the end, always written completely */
+  const real *u, *ud;            /* signals and rates at the iterate (end of the step) */
+  const real *y_old;             /* slots at the start of the step */
+  real *y_new;                   /* slots at the end, always written completely */
   double h;                      /* step; 0: evaluate at y_old (y_new = y_old) */
   double wC, wK;                 /* weights of the tangent: h/2 and h^2/4 in a step, 0 and h^2/4 in statics */
-  const double *real;
+  const real *real;
   const int32_t *integer;
-  const double *input;           /* all inputs of the System */
+  const real *input;             /* all inputs of the System */
   const ali3_road *roads;
-  double *f;                     /* nsig, zeroed by the caller */
-  double *S;                     /* nsig x nsig, row major, symmetric, zeroed by the caller; NULL when not wanted */
-  double *out;                   /* nout element outputs, always written */
-  double potential;              /* stored energy, J, written */
+  real *f;                       /* nsig, zeroed by the caller */
+  real *S;                       /* nsig x nsig, row major, symmetric, zeroed by the caller; NULL when not wanted */
+  real *out;                     /* nout element outputs, always written */
+  real potential;                /* stored energy, J, written */
   int32_t idle;                  /* 0; set to 1 by an element whose f and S are zero */
 } ali3_element_args;
 

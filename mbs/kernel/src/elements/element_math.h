@@ -10,12 +10,14 @@
  * is the least share used. */
 #define ALI3_SECANT_SHARE 0.55
 
-static inline double ali3_input_or_zero(const double *input, int32_t index) { return index >= 0 ? input[index] : 0.0; }
+static inline real ali3_input_or_zero(const real *input, int32_t index) {
+  return index >= 0 ? input[index] : ali3_same(0.0);
+}
 
 /* Weight of the new rate in x_new = x_old + h ((1 - theta) x'_old + theta x'_new) for x' = -rate x + ...:
  * 1/2 (trapezoidal rule, order two) while it does not ring, then just enough more that x keeps its sign. */
-static inline double ali3_theta(double h, double rate) {
-  double z = h * rate;
-  return z > 2.0 ? 1.0 - 1.0 / z : 0.5;
+static inline real ali3_theta(double h, real rate) {
+  real z = h * rate;
+  return ali3_where(z > 2.0, 1.0 - 1.0 / z, ali3_same(0.5));
 }
 #endif

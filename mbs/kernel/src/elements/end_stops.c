@@ -5,34 +5,39 @@
 #include "contact_law.h"
 
 /* Laws of the bump stop and the rebound stop over the length beyond them. */
-static void laws(const double *p, int progressive, ali3_contact_law law[2]) {
+static void laws(const real *p, int progressive, ali3_contact_law law[2]) {
+  const real none = {0};
   for (int side = 0; side < 2; side++) {
-    const double *q = p + ALI3_PROGRESSION + 2 * side;
+    const real *q = p + ALI3_PROGRESSION + 2 * side;
     law[side].stiffness = p[side ? ALI3_REBOUND_STIFFNESS : ALI3_BUMP_STIFFNESS];
-    law[side].progression = progressive ? q[0] : 0.0;
-    law[side].end = progressive ? q[1] : 0.0;
-    law[side].hard_stiffness = progressive && law[side].stiffness > 0.0 ? p[ALI3_METAL_STIFFNESS] : 0.0;
-    law[side].onset = progressive ? p[ALI3_METAL_ONSET] : 0.0;
-    law[side].loss = progressive ? p[ALI3_STOP_LOSS + side] : 0.0;
+    law[side].progression = progressive ? q[0] : none;
+    law[side].end = progressive ? q[1] : none;
+    law[side].hard_stiffness =
+        progressive ? ali3_where(law[side].stiffness > 0.0, p[ALI3_METAL_STIFFNESS], none) : none;
+    law[side].onset = progressive ? p[ALI3_METAL_ONSET] : none;
+    law[side].loss = progressive ? p[ALI3_STOP_LOSS + side] : none;
   }
 }
 
-void ali3_end_stops_at(const double *p, int progressive, double length, double rate, ali3_tension *t) {
-  const double beyond[2] = {p[ALI3_BUMP_LENGTH] - length, length - p[ALI3_REBOUND_LENGTH]};
+void ali3_end_stops_at(const real *p, int progressive, real length, real rate, ali3_tension *t) {
+  const real beyond[2] = {p[ALI3_BUMP_LENGTH] - length, length - p[ALI3_REBOUND_LENGTH]};
   for (int side = 0; side < 2; side++) {
-    if (!(beyond[side] > 0.0)) continue;
+    const truth free = ali3_not(beyond[side] > 0.0);
+    if (!ali3_any(ali3_not(free))) continue;
     const double sign = side ? 1.0 : -1.0;
     ali3_contact_law law[2];
     laws(p, progressive, law);
-    double slope = 0.0, loss_slope;
-    const double force = ali3_contact_force(&law[side], beyond[side], &slope, &t->potential);
-    const double factor = ali3_contact_loss(&law[side], sign * rate, &loss_slope);
-    t->elastic += sign * force;
-    t->lost += sign * force * (factor - 1.0);
-    t->stiffness += slope * factor;
-    t->damping += force * loss_slope;
+    real slope = {0}, loss_slope;
+    const real force = ali3_contact_force(&law[side], beyond[side], &slope, &t->potential);
+    const real factor = ali3_contact_loss(&law[side], sign * rate, &loss_slope);
+    t->elastic = ali3_add_unless(free, t->elastic, sign * force);
+    t->lost = ali3_add_unless(free, t->lost, sign * force * (factor - 1.0));
+    t->stiffness = ali3_add_unless(free, t->stiffness, slope * factor);
+    t->damping = ali3_add_unless(free, t->damping, force * loss_slope);
   }
 }
+
+#ifndef ALI3_WIDTH
 
 /* Adds a stop's difference quotient dV / dl over the step and its slope; x0, x1: the length beyond it, signed. */
 static void between(const ali3_contact_law *law, double sign, double x0, double x1, double rate, ali3_tension *t) {
@@ -65,3 +70,4 @@ const char *ali3_end_stops_check(const double *p, int progressive) {
     return "the metal end of a spring's stops needs a depth over which it sets in";
   return 0;
 }
+#endif

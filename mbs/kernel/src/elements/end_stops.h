@@ -1,6 +1,7 @@
 /* Bump and rebound stops of springs: laws of contact_law.h beyond two lengths. */
 #ifndef ALI3_END_STOPS_H
 #define ALI3_END_STOPS_H
+#include "../algebra/real.h"
 
 /* Reals of stops; without the last eight they are linear. */
 enum {
@@ -18,13 +19,13 @@ enum {
 
 /* A tension in its parts, its slopes by length and rate, and the energy. */
 typedef struct {
-  double elastic, lost;
-  double stiffness, damping;
-  double potential;
+  real elastic, lost;
+  real stiffness, damping;
+  real potential;
 } ali3_tension;
 
 /* Adds the stops at a length and its rate. */
-void ali3_end_stops_at(const double *p, int progressive, double length, double rate, ali3_tension *t);
+void ali3_end_stops_at(const real *p, int progressive, real length, real rate, ali3_tension *t);
 
 /* Adds their mean over a step from length l0 to l1, with the slopes by the length and rate of its middle. */
 void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t);

@@ -5,7 +5,7 @@
 #include "element.h"
 
 static void evaluate(ali3_element_args *a) {
-  const double inertia = a->real[0], momentum = inertia * a->ud[6];
+  const real inertia = a->real[0], momentum = inertia * a->ud[6];
   for (int i = 0; i < 3; i++) {
     a->f[i] = -momentum * a->ud[3 + i];
     a->f[3 + i] = momentum * a->ud[i];
@@ -13,12 +13,14 @@ static void evaluate(ali3_element_args *a) {
     a->S[i * 7 + 6] = a->S[6 * 7 + i] = 0.5 * a->wC * inertia * a->ud[3 + i];
     a->S[(3 + i) * 7 + 6] = a->S[6 * 7 + 3 + i] = -0.5 * a->wC * inertia * a->ud[i];
   }
-  a->potential = 0.0;
+  a->potential = ali3_same(0.0);
 }
 
+#ifndef ALI3_WIDTH
 const ali3_element_type ali3_gyroscopic_spin = {
     .evaluate = evaluate,
     .conservative = true,
     .nsig = 7,
     .nreal = 1,
 };
+#endif

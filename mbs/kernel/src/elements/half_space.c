@@ -8,29 +8,33 @@
 
 /* What stands for the sine as a divisor, and its slope: the sine itself, and below LYING a parabola of the same slope
  * there. */
-static double upright(double sine, double *slope) {
-  const double part = sine / LYING;
-  *slope = part < 1.0 ? part : 1.0;
-  return part < 1.0 ? 0.5 * LYING * (1.0 + part * part) : sine;
+static real upright(real sine, real *slope) {
+  const real part = sine / LYING;
+  const truth lies = part < 1.0;
+  *slope = ali3_where(lies, part, ali3_same(1.0));
+  return ali3_where(lies, 0.5 * LYING * (1.0 + part * part), sine);
 }
 
-double ali3_half_space(const double centre[3], const double axis[3], double radius, const double q[3],
-                       const double n[3], ali3_contact *out) {
-  double across = ali3_dot(n, axis), inplane[3], height = 0.0;
+real ali3_half_space(const real centre[3], const real axis[3], real radius, const real q[3], const real n[3],
+                     ali3_contact *out) {
+  real across = ali3_dot(n, axis), inplane[3], height = {0};
   for (int i = 0; i < 3; i++) {
     inplane[i] = n[i] - across * axis[i];
     height += n[i] * (centre[i] - q[i]);
   }
-  double size = ali3_norm(inplane);
-  if (size < 1e-9) { /* the wheel lies flat: any direction in its plane */
-    const double other[3] = {fabs(axis[0]) < 0.6 ? 1.0 : 0.0, fabs(axis[0]) < 0.6 ? 0.0 : 1.0, 0.0};
-    ali3_cross(axis, other, inplane);
-    out->cosine = upright(0.0, &out->leaning);
+  real size = ali3_norm(inplane);
+  const truth flat = size < 1e-9;
+  out->cosine = upright(ali3_where(flat, ali3_same(0.0), size), &out->leaning);
+  if (ali3_any(flat)) { /* any direction in the plane of the wheel */
+    const real none = {0}, one = ali3_same(1.0);
+    const truth steep = ali3_abs(axis[0]) < 0.6;
+    const real other[3] = {ali3_where(steep, one, none), ali3_where(steep, none, one), none};
+    real any[3];
+    ali3_cross(axis, other, any);
+    for (int i = 0; i < 3; i++) inplane[i] = ali3_where(flat, any[i], inplane[i]);
     size = ali3_norm(inplane);
-  } else {
-    out->cosine = upright(size, &out->leaning);
   }
-  const double distance = height / out->cosine;
+  const real distance = height / out->cosine;
   out->penetration = radius - distance;
   for (int i = 0; i < 3; i++) {
     out->normal[i] = n[i];

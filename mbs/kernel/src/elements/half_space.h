@@ -4,6 +4,6 @@
 #include "road.h"
 
 /* Below the plane through q with outward unit normal n. Returns the centre's distance along the disc. */
-double ali3_half_space(const double centre[3], const double axis[3], double radius, const double q[3],
-                       const double n[3], ali3_contact *out);
+real ali3_half_space(const real centre[3], const real axis[3], real radius, const real q[3], const real n[3],
+                     ali3_contact *out);
 #endif

@@ -1,33 +1,32 @@
 /* What springs along the line between two points share: their signals are d = p2 - p1 (2 or 3). */
 #ifndef ALI3_LINE_FORCE_H
 #define ALI3_LINE_FORCE_H
-#include <math.h>
-
 #include "../algebra/small_vectors.h"
 #include "element.h"
 
 #define ALI3_SHORTEST 1e-12 /* m; below it there is no direction and no force */
 
 typedef struct {
-  double length, rate;
-  double start, end; /* lengths over a step with a discrete gradient */
-  double dir[3];
+  real length, rate;
+  real start, end; /* lengths over a step with a discrete gradient */
+  real dir[3];
 } ali3_line;
 
 /* At u, ud. */
 static inline ali3_line ali3_line_at(const ali3_element_args *a) {
   const int32_t n = a->nsig;
-  double square = 0.0;
+  real square = {0};
   for (int32_t i = 0; i < n; i++) square += a->u[i] * a->u[i];
-  ali3_line line = {.length = sqrt(square)};
-  if (line.length > ALI3_SHORTEST)
-    for (int32_t i = 0; i < n; i++) {
-      line.dir[i] = a->u[i] / line.length;
-      line.rate += line.dir[i] * a->ud[i];
-    }
+  ali3_line line = {.length = ali3_sqrt(square)};
+  const truth directed = line.length > ALI3_SHORTEST;
+  for (int32_t i = 0; i < n; i++) {
+    line.dir[i] = ali3_where(directed, a->u[i] / line.length, line.dir[i]);
+    line.rate = ali3_add_unless(ali3_not(directed), line.rate, line.dir[i] * a->ud[i]);
+  }
   return line;
 }
 
+#ifndef ALI3_WIDTH
 /* Over a step, see ali3_element_type.discrete. V depends on the length l, l^2 is quadratic: l1^2 - l0^2 = 2 u . (u1 -
  * u0). So f = -(dV / d(l^2)) 2 u with the difference quotient dV / dl: `length` is the mean of both. */
 static inline ali3_line ali3_line_between(const ali3_element_args *a) {
@@ -46,23 +45,28 @@ static inline ali3_line ali3_line_between(const ali3_element_args *a) {
   for (int32_t i = 0; i < n; i++) line.dir[i] = a->u[i] / line.length;
   return line;
 }
+#endif
 
 /* Forces and tangent of a tension with its slopes by length and rate. */
-static inline void ali3_line_force(ali3_element_args *a, const ali3_line *line, double tension, double stiffness,
-                                   double damping) {
+static inline void ali3_line_force(ali3_element_args *a, const ali3_line *line, real tension, real stiffness,
+                                   real damping) {
   const int32_t n = a->nsig;
-  const double length = line->length, rate = line->rate, *dir = line->dir;
+  const real length = line->length, rate = line->rate, *dir = line->dir;
+  const truth apart = length > ALI3_SHORTEST;
   for (int32_t i = 0; i < n; i++) a->f[i] = -tension * dir[i];
   if (!a->S) return;
-  if (length <= ALI3_SHORTEST) { /* as for a spring of free length 0: it is isotropic */
-    for (int32_t i = 0; i < n; i++) a->S[i * n + i] = a->wK * stiffness + a->wC * damping;
-    return;
+  const real along = a->wK * stiffness + a->wC * damping;
+  if (ali3_any(apart)) {
+    const real across = a->wK * tension / length;
+    real turn[3]; /* d(rate)/d(d) */
+    for (int32_t i = 0; i < n; i++) turn[i] = (a->ud[i] - rate * dir[i]) / length;
+    ali3_add_outer(a->S, n, along - across, dir);
+    ali3_add_symmetric(a->S, n, a->wK * damping, dir, turn);
+    for (int32_t i = 0; i < n; i++) a->S[i * n + i] += across;
   }
-  const double across = a->wK * tension / length;
-  double turn[3] = {0}; /* d(rate)/d(d) */
-  for (int32_t i = 0; i < n; i++) turn[i] = (a->ud[i] - rate * dir[i]) / length;
-  ali3_add_outer(a->S, n, a->wK * stiffness + a->wC * damping - across, dir);
-  ali3_add_symmetric(a->S, n, a->wK * damping, dir, turn);
-  for (int32_t i = 0; i < n; i++) a->S[i * n + i] += across;
+  if (!ali3_any(ali3_not(apart))) return;
+  for (int32_t i = 0; i < n; i++) /* as for a spring of free length 0: it is isotropic */
+    for (int32_t j = 0; j < n; j++)
+      a->S[i * n + j] = ali3_where(apart, a->S[i * n + j], i == j ? along : ali3_same(0.0));
 }
 #endif

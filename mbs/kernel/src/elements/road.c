@@ -4,65 +4,9 @@
 #include "../algebra/small_vectors.h"
 #include "../roads/grid.h"
 #include "disc_on_grid.h"
-#include "half_space.h"
+#include "plane_and_kerb.h"
 
-#define FLATTEST 0.05 /* least cosine of an edge used as a divisor */
-enum { PLANE_HEIGHT, PLANE_GRADE_X, PLANE_GRADE_Y, PLANE_FRICTION, PLANE_FACTOR, PLANE_REALS };
-enum { KERB_X, KERB_LOWER, KERB_STEP, KERB_SIDE, KERB_FRICTION, KERB_FACTOR, KERB_REALS };
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
-
-static int plane(const double *p, const double centre[3], const double axis[3], double radius, ali3_contact *out) {
-  const double size = sqrt(1.0 + p[PLANE_GRADE_X] * p[PLANE_GRADE_X] + p[PLANE_GRADE_Y] * p[PLANE_GRADE_Y]);
-  const double n[3] = {-p[PLANE_GRADE_X] / size, -p[PLANE_GRADE_Y] / size, 1.0 / size},
-               q[3] = {0.0, 0.0, p[PLANE_HEIGHT]};
-  ali3_half_space(centre, axis, radius, q, n, out);
-  out->friction = p[PLANE_FRICTION];
-  return 1;
-}
-
-/* Line x = edge[0], z = edge[2]. Returns 0 where the wheel plane (nearly) misses it. */
-static int edge_line(const double centre[3], const double axis[3], double radius, const double edge[3],
-                     ali3_contact *out) {
-  if (fabs(axis[1]) < 1e-6) return 0;
-  double w[3] = {edge[0] - centre[0], 0.0, edge[2] - centre[2]};
-  w[1] = -(w[0] * axis[0] + w[2] * axis[2]) / axis[1];
-  const double distance = ali3_norm(w);
-  if (distance < 1e-9) return 0;
-  /* gradient of the distance with respect to the centre: it has no part along the edge */
-  const double g[3] = {(w[1] * axis[0] / axis[1] - w[0]) / distance, 0.0, (w[1] * axis[2] / axis[1] - w[2]) / distance};
-  const double size = ali3_norm(g);
-  out->penetration = radius - distance;
-  out->cosine = 1.0 / size > FLATTEST ? 1.0 / size : FLATTEST;
-  out->leaning = 1.0;
-  for (int i = 0; i < 3; i++) {
-    out->normal[i] = g[i] / size;
-    out->down[i] = w[i] / distance;
-    out->point[i] = centre[i] + w[i];
-  }
-  return 1;
-}
-
-/* Upper quarter space (plane, edge or face, whichever is nearest: its distance is C1) and, as second contact, the
- * lower plane. */
-static int kerb(const double *p, const double centre[3], const double axis[3], double radius, ali3_contact out[2]) {
-  const double side = p[KERB_SIDE] >= 0.0 ? 1.0 : -1.0;
-  const double edge[3] = {p[KERB_X], 0.0, p[KERB_LOWER] + p[KERB_STEP]}, low[3] = {0.0, 0.0, p[KERB_LOWER]};
-  const double up[3] = {0.0, 0.0, 1.0}, face[3] = {side, 0.0, 0.0};
-  const double above = centre[2] - edge[2], ahead = side * (centre[0] - edge[0]);
-  ali3_contact top;
-  ali3_half_space(centre, axis, radius, edge, up, &top);
-  ali3_half_space(centre, axis, radius, edge, face, &out[0]);
-  const int top_is_nearest = above > 0.0 ? side * (top.point[0] - edge[0]) <= 0.0 : ahead <= 0.0 && above >= ahead;
-  const int face_is_nearest = ahead > 0.0 ? out[0].point[2] <= edge[2] : above <= 0.0;
-  int count = 1;
-  if (top_is_nearest)
-    out[0] = top;
-  else if (!face_is_nearest)
-    count = edge_line(centre, axis, radius, edge, &out[0]);
-  ali3_half_space(centre, axis, radius, low, up, &out[count]);
-  for (int i = 0; i <= count; i++) out[i].friction = p[KERB_FRICTION];
-  return count + 1;
-}
 
 static int grid_size(const double *p, int32_t nreal, int *nx, int *ny) {
   const double a = p[GRID_NX], b = p[GRID_NY];
@@ -121,24 +65,22 @@ static int grid(const ali3_road *road, const double centre[3], const double axis
   return ali3_disc_on_grid(&g, centre, axis, radius, out);
 }
 
-/* Neither negative nor NaN, times the factor. */
-static double friction_of(const ali3_road *road, double friction) {
-  const double product = factor_of(road) * friction;
-  return product > 0.0 ? product : 0.0;
-}
-
 int ali3_road_contacts(const ali3_road *road, const double centre[3], const double axis[3], double radius,
                        ali3_contact out[2]) {
   const int32_t type = type_of(road);
-  int count = 0;
-  if (type == ALI3_ROAD_PLANE) count = plane(reals_of(road), centre, axis, radius, out);
-  if (type == ALI3_ROAD_KERB) count = kerb(reals_of(road), centre, axis, radius, out);
-  if (type == ALI3_ROAD_GRID) count = grid(road, centre, axis, radius, out);
-  for (int i = 0; i < count; i++) {
-    out[i].friction = friction_of(road, out[i].friction);
-    if (type != ALI3_ROAD_GRID) out[i].yielded = out[i].switching = 0.0;
-  }
+  const double factor = factor_of(road);
+  if (type != ALI3_ROAD_GRID) return ali3_contacts_by_numbers(type, reals_of(road), factor, centre, axis, radius, out);
+  const int count = grid(road, centre, axis, radius, out);
+  for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(factor, out[i].friction);
   return count;
+}
+
+int32_t ali3_road_numbers(const ali3_road *road, double numbers[ALI3_ROAD_NUMBERS], double *friction_factor) {
+  const int32_t type = type_of(road), n = type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
+  *friction_factor = factor_of(road);
+  for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++)
+    numbers[i] = type != ALI3_ROAD_GRID && i < n ? reals_of(road)[i] : 0.0;
+  return type;
 }
 
 static void plane_clearance(const double n[3], const double q[3], const double point[3], ali3_clearance *out) {
@@ -210,7 +152,7 @@ int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clear
   }
   if (type == ALI3_ROAD_KERB) count = kerb_clearance(p, point, out);
   if (type == ALI3_ROAD_GRID) count = grid_clearance(road, point, out);
-  for (int i = 0; i < count; i++) out[i].friction = friction_of(road, out[i].friction);
+  for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(factor_of(road), out[i].friction);
   return count;
 }
 

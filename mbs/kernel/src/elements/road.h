@@ -3,13 +3,17 @@
 #define ALI3_ROAD_H
 #include <stdint.h>
 
+#include "../algebra/real.h"
+
 typedef struct ali3_road_file ali3_road_file; /* roads/road_file.h */
 
+#ifndef ALI3_WIDTH
 struct ali3_road { /* typedef in element.h */
   int32_t type, nreal;
   const double *real;
   ali3_road_file *file; /* in place of the road's own numbers, all but its friction factor; NULL: none */
 };
+#endif
 typedef struct ali3_road ali3_road;
 
 enum { /* `RoadType` in Python is read from here */
@@ -21,23 +25,32 @@ enum { /* `RoadType` in Python is read from here */
 };
 
 typedef struct {
-  double penetration; /* radius minus distance from the centre to the road in the wheel plane, m; < 0: no contact */
-  double point[3]; /* nearest point of the road in the wheel plane, m, earth axes */
-  double normal[3]; /* unit normal of the road (of the contact line at an edge), upwards */
-  double down[3]; /* unit, in the wheel plane, towards the road: point = centre + (radius - penetration) down */
-  double cosine; /* -normal . down = sine of the angle between wheel axis and normal; more, above 0, where the wheel
+  real penetration; /* radius minus distance from the centre to the road in the wheel plane, m; < 0: no contact */
+  real point[3]; /* nearest point of the road in the wheel plane, m, earth axes */
+  real normal[3]; /* unit normal of the road (of the contact line at an edge), upwards */
+  real down[3]; /* unit, in the wheel plane, towards the road: point = centre + (radius - penetration) down */
+  real cosine; /* -normal . down = sine of the angle between wheel axis and normal; more, above 0, where the wheel
                     * lies nearly flat */
-  double friction;
-  double leaning; /* d(cosine)/d(sine between axis and normal): 1, less where the wheel lies nearly flat */
-  double yielded; /* part that the other contact has where only the deepest bears, as on a grid: 0 to 1 */
-  double switching; /* change of that part with the difference of both penetrations, 1/m; 0: both bear */
+  real friction;
+  real leaning; /* d(cosine)/d(sine between axis and normal): 1, less where the wheel lies nearly flat */
+  real yielded; /* part that the other contact has where only the deepest bears, as on a grid: 0 to 1 */
+  real switching; /* change of that part with the difference of both penetrations, 1/m; 0: both bear */
 } ali3_contact;
+
+/* Farther than any: what stands for a contact of which there is none. */
+static inline ali3_contact ali3_no_contact(void) {
+  return (ali3_contact){.penetration = ali3_same(-1e300), .cosine = ali3_same(1.0)};
+}
 
 /* Writes one or two contacts (also open ones, so that outputs stay continuous) and returns their number.
  * axis must be a unit vector. The distance is C1 in centre and axis; -penetration grows by cosine^-1 normal .
  * d(centre). */
-int ali3_road_contacts(const ali3_road *road, const double centre[3], const double axis[3], double radius,
+int ali3_road_contacts(const ali3_road *road, const real centre[3], const real axis[3], real radius,
                        ali3_contact out[2]);
+
+/* What kind of road it is, its numbers where it is a plane or a kerb, and the factor of its friction. */
+enum { ALI3_ROAD_NUMBERS = 5 };
+int32_t ali3_road_numbers(const ali3_road *road, double numbers[ALI3_ROAD_NUMBERS], double *friction_factor);
 
 typedef struct {
   double distance; /* of a point from the road, m; < 0 below it */

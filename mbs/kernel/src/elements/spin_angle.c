@@ -15,27 +15,29 @@ enum { TURN, F, G = F + 3, STATES = G + 3 };
 #define OPPOSITE 1e-9 /* of 1 + e0 . e1: an axis turned over within a step leaves the angle open */
 
 /* Angle about the axis that the carrier makes from the last step to the present one. */
-static double turned(const double *last, const double *f, const double *g) {
-  double e0[3], e1[3], along[3];
+static real turned(const real *last, const real *f, const real *g) {
+  real e0[3], e1[3], along[3];
   ali3_cross(last + F, last + G, e0);
   ali3_cross(f, g, e1);
-  const double apart = 1.0 + ali3_dot(e0, e1), share = ali3_dot(e1, last + F) / (apart > OPPOSITE ? apart : OPPOSITE);
+  const real apart = 1.0 + ali3_dot(e0, e1), least = ali3_same(OPPOSITE);
+  const real share = ali3_dot(e1, last + F) / ali3_where(apart > OPPOSITE, apart, least);
   for (int i = 0; i < 3; i++) along[i] = last[F + i] - share * (e0[i] + e1[i]);
   return ali3_atan2(-ali3_dot(along, g), ali3_dot(along, f));
 }
 
 static void evaluate(ali3_element_args *a) {
-  const double *f = a->u, *g = a->u + 3;
+  const real *f = a->u, *g = a->u + 3;
   for (int i = 0; i < STATES; i++) a->y_new[i] = a->y_old[i];
   if (a->h != 0.0) {
     a->y_new[TURN] -= turned(a->y_old, f, g);
     for (int i = 0; i < 3; i++) a->y_new[F + i] = f[i], a->y_new[G + i] = g[i];
   }
   a->out[0] = a->u[6] + a->y_new[TURN];
-  a->potential = 0.0;
+  a->potential = ali3_same(0.0);
   a->idle = 1;
 }
 
+#ifndef ALI3_WIDTH
 /* A start: the wheel has not turned yet. */
 static void accept(ali3_element_args *a) {
   if (a->h != 0.0) return;
@@ -51,3 +53,4 @@ const ali3_element_type ali3_spin_angle = {
     .nstate = STATES,
     .nout = 1,
 };
+#endif

@@ -11,19 +11,19 @@ enum { LINEAR = STOPS + ALI3_LINEAR_STOPS, PROGRESSIVE = STOPS + ALI3_STOPS };
 
 static int progressive(int32_t nreal) { return nreal >= PROGRESSIVE; }
 
-static double factor(const double *real, int32_t nreal, int which) {
-  return nreal == LINEAR || nreal == PROGRESSIVE ? 1.0 : real[nreal - FACTORS + which];
+static real factor(const real *real, int32_t nreal, int which) {
+  return nreal == LINEAR || nreal == PROGRESSIVE ? ali3_same(1.0) : real[nreal - FACTORS + which];
 }
 
 static void evaluate(ali3_element_args *a) {
-  const double *p = a->real;
-  const double k = p[STIFFNESS] * factor(p, a->nreal, STIFFNESS_FACTOR);
-  const double c = p[DAMPING] * factor(p, a->nreal, DAMPING_FACTOR);
+  const real *p = a->real;
+  const real k = p[STIFFNESS] * factor(p, a->nreal, STIFFNESS_FACTOR);
+  const real c = p[DAMPING] * factor(p, a->nreal, DAMPING_FACTOR);
   const ali3_line line = ali3_line_at(a);
-  const double stretch = line.length - p[FREE_LENGTH];
+  const real stretch = line.length - p[FREE_LENGTH];
   ali3_tension t = {.elastic = k * stretch, .stiffness = k, .damping = c, .potential = 0.5 * k * stretch * stretch};
   ali3_end_stops_at(p + STOPS, progressive(a->nreal), line.length, line.rate, &t);
-  const double tension = t.elastic + c * line.rate + t.lost;
+  const real tension = t.elastic + c * line.rate + t.lost;
   ali3_line_force(a, &line, tension, t.stiffness, t.damping);
   a->potential = t.potential;
   a->out[0] = line.length;
@@ -32,6 +32,7 @@ static void evaluate(ali3_element_args *a) {
   a->out[3] = c * line.rate;
 }
 
+#ifndef ALI3_WIDTH
 static void discrete(ali3_element_args *a) {
   const double *p = a->real;
   const double k = p[STIFFNESS] * factor(p, a->nreal, STIFFNESS_FACTOR);
@@ -73,3 +74,4 @@ const ali3_element_type ali3_spring_damper = {
     .nout = 4,
     .check = check,
 };
+#endif

@@ -1,31 +1,31 @@
 /* TMeasy steady tyre characteristics (Hirschberg, Rill, Weinfurter, Vehicle System Dynamics 45(S1), 2007, 101-119). */
 #ifndef ALI3_TMEASY_H
 #define ALI3_TMEASY_H
+#include "../algebra/real.h"
 
 typedef struct { /* one curve at the present load and friction; forces are divided by q = load / nominal load */
-  double slope;                   /* initial slope dF/ds, N */
-  double max_force, max_slip;     /* N, - */
-  double slide_force, slide_slip; /* N, - */
+  real slope;                   /* initial slope dF/ds, N */
+  real max_force, max_slip;     /* N, - */
+  real slide_force, slide_slip; /* N, - */
 } ali3_tmeasy;
 
 typedef struct { /* both directions over the normalised slips n_i = s_i / scale_i */
-  double max_force[2];       /* N, of each direction alone */
-  double scale[2];           /* normalising factors of the slips */
+  real max_force[2];       /* N, of each direction alone */
+  real scale[2];           /* normalising factors of the slips */
   ali3_tmeasy square, spread; /* a parameter at cos^2 of the slip's direction is sqrt(square + spread cos^2) */
 } ali3_tmeasy_pair;
 
 /* pairs: values at the nominal load and at twice of it of slope, max_force, max_slip, slide_force, slide_slip. */
-ali3_tmeasy ali3_tmeasy_at(const double pairs[10], double q, double friction_ratio);
+ali3_tmeasy ali3_tmeasy_at(const real pairs[10], real q, real friction_ratio);
 
 /* Both directions at one load and friction. */
-ali3_tmeasy_pair ali3_tmeasy_pair_at(const double x_pairs[10], const double y_pairs[10], double q,
-                                     double friction_ratio);
+ali3_tmeasy_pair ali3_tmeasy_pair_at(const real x_pairs[10], const real y_pairs[10], real q, real friction_ratio);
 
 /* Secant F(s)/s of the generalised slip s = |n|, finite at s = 0, and its gradient by the normalised slips n; the force
  * is minus the secant times n. */
-double ali3_tmeasy_secant(const ali3_tmeasy_pair *t, const double n[2], double gradient[2]);
+real ali3_tmeasy_secant(const ali3_tmeasy_pair *t, const real n[2], real gradient[2]);
 
 /* Dynamic trail over contact length at lateral slip s >= 0; pairs: value at s = 0, slip of the first zero, slip where
  * it ends (both slips grow with the friction ratio). */
-double ali3_tmeasy_trail(const double pairs[6], double q, double friction_ratio, double s);
+real ali3_tmeasy_trail(const real pairs[6], real q, real friction_ratio, real s);
 #endif

@@ -31,8 +31,8 @@
 enum {
   RADIUS,
   BOTTOMING_RADIUS,
-  STIFFNESS,
-  DAMPING,
+  RADIAL_STIFFNESS,
+  RADIAL_DAMPING,
   BOTTOMING_STIFFNESS,
   NOMINAL_LOAD,
   REFERENCE_FRICTION,
@@ -44,66 +44,69 @@ enum {
   CARCASS_DAMPING = CARCASS_STIFFNESS + 2,
   ROLLING_RESISTANCE = CARCASS_DAMPING + 2,
   FRICTION_FACTOR,
-  REALS
+  TYRE_REALS
 };
 enum { OUTPUTS = ALI3_TYRE_OUTPUTS };
 
 /* Radial return of F to the largest force of its direction, which in TMeasy is hypot(Fxm cos, Fym sin); J follows. */
-static void limit(const double full[2], double F[2], double J[2][2], double safe[2]) {
-  const double weight[2] = {full[0] * full[0], full[1] * full[1]};
-  const double size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(full[0] * F[0], full[1] * F[1]);
-  if (!(bound > 0.0 && size2 > bound)) return;
-  const double use = size2 / bound;
-  double e[2]; /* gradient of use by F */
+static void limit(truth loaded, const real full[2], real F[2], real J[2][2], real safe[2]) {
+  const real weight[2] = {full[0] * full[0], full[1] * full[1]};
+  const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(full[0] * F[0], full[1] * F[1]);
+  const truth exceeds = loaded & (bound > 0.0) & (size2 > bound);
+  if (!ali3_any(exceeds)) return;
+  const real use = size2 / bound;
+  real e[2]; /* gradient of use by F */
   for (int i = 0; i < 2; i++) e[i] = (2.0 - use * weight[i] / bound) * (F[i] / bound);
   for (int j = 0; j < 2; j++) {
-    const double along = (e[0] * J[0][j] + e[1] * J[1][j]) / use;
-    for (int i = 0; i < 2; i++) J[i][j] = (J[i][j] - F[i] * along) / use;
-    safe[j] /= use;
+    const real along = (e[0] * J[0][j] + e[1] * J[1][j]) / use;
+    for (int i = 0; i < 2; i++) J[i][j] = ali3_where(exceeds, (J[i][j] - F[i] * along) / use, J[i][j]);
+    safe[j] = ali3_where(exceeds, safe[j] / use, safe[j]);
   }
-  for (int i = 0; i < 2; i++) F[i] /= use;
+  for (int i = 0; i < 2; i++) F[i] = ali3_where(exceeds, F[i] / use, F[i]);
 }
 
-static double load_factor(const double *p, const ali3_tyre_patch *contact) {
-  return ali3_clamp(contact->load / p[NOMINAL_LOAD], 0.0, p[MAX_LOAD_FACTOR]);
+static real load_factor(const real *p, const ali3_tyre_patch *contact) {
+  return ali3_clamp(contact->load / p[NOMINAL_LOAD], ali3_same(0.0), p[MAX_LOAD_FACTOR]);
 }
 
-static double friction_ratio(const double *p, const ali3_tyre_patch *contact) {
+static real friction_ratio(const real *p, const ali3_tyre_patch *contact) {
   return contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
 }
 
 /* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
  * (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
-static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, const double v[2], double w,
-                    double F[2], double C[3]) {
-  const double *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING, q = load_factor(p, contact);
-  const double grip = friction_ratio(p, contact);
+static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2],
+                    real C[3]) {
+  const real *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING, q = load_factor(p, contact);
+  const real grip = friction_ratio(p, contact);
   const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + CURVE_X, p + CURVE_Y, q, grip);
-  const double n[2] = {v[0] / (t.scale[0] * w), v[1] / (t.scale[1] * w)};
-  double gradient[2], J[2][2], safe[2], offset[2], D[2], full[2];
-  double secant = ali3_tmeasy_secant(&t, n, gradient);
-  if (!(grip > ALI3_TYRE_NO_GRIP)) /* else the slope of a grip of next to nothing would hold at rest */
-    secant = gradient[0] = gradient[1] = 0.0;
+  const real n[2] = {v[0] / (t.scale[0] * w), v[1] / (t.scale[1] * w)};
+  real gradient[2], J[2][2], safe[2], offset[2], D[2], full[2];
+  const truth grips = grip > ALI3_TYRE_NO_GRIP; /* the slope of a grip of next to nothing would hold at rest */
+  const real none = {0}, secant = ali3_where(grips, ali3_tmeasy_secant(&t, n, gradient), none);
+  for (int i = 0; i < 2; i++) gradient[i] = ali3_where(grips, gradient[i], none);
   for (int i = 0; i < 2; i++) {
-    const double per_slip = q / (t.scale[i] * w), g = per_slip * secant;
-    const double theta = ali3_theta(a->h, c[i] / (d[i] + g)), b = a->h * theta;
+    const real per_slip = q / (t.scale[i] * w), g = per_slip * secant;
+    const real theta = ali3_theta(a->h, c[i] / (d[i] + g)), b = a->h * theta;
     offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
     D[i] = d[i] + b * c[i];
     full[i] = q * t.max_force[i];
     safe[i] = ALI3_SECANT_SHARE * D[i] * (g / (g + D[i]));
     F[i] = g / (g + D[i]) * (offset[i] - D[i] * v[i]);
-    const double by_g = D[i] / (g + D[i]) * ((offset[i] - D[i] * v[i]) / (g + D[i]));
+    const real by_g = D[i] / (g + D[i]) * ((offset[i] - D[i] * v[i]) / (g + D[i]));
     for (int j = 0; j < 2; j++)
-      J[i][j] = by_g * per_slip * (gradient[j] / (t.scale[j] * w)) - (i == j ? g / (g + D[i]) * D[i] : 0.0);
+      J[i][j] = by_g * per_slip * (gradient[j] / (t.scale[j] * w)) - (i == j ? g / (g + D[i]) * D[i] : none);
   }
-  if (contact->load > ALI3_TYRE_NO_LOAD) limit(full, F, J, safe);
+  limit(contact->load > ALI3_TYRE_NO_LOAD, full, F, J, safe);
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
     a->y_new[2 + i] = a->y_old[2 + i];
     if (!(a->h > 0.0)) continue;
     a->y_new[2 + i] = (F[i] - offset[i]) / D[i];
     a->y_new[i] = (F[i] - d[i] * a->y_new[2 + i]) / c[i];
-    if (fabs(a->y_new[i]) < 1e-100) a->y_new[i] = a->y_new[2 + i] = 0.0; /* long in the air: no denormals */
+    const truth gone = ali3_abs(a->y_new[i]) < 1e-100; /* long in the air: no denormals */
+    a->y_new[i] = ali3_where(gone, none, a->y_new[i]);
+    a->y_new[2 + i] = ali3_where(gone, none, a->y_new[2 + i]);
   }
   C[0] = -J[0][0] - safe[0], C[1] = -0.5 * (J[0][1] + J[1][0]), C[2] = -J[1][1] - safe[1];
   ali3_tyre_semidefinite(C);
@@ -113,37 +116,40 @@ static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, 
 
 /* Trail over contact length at the lateral slip s, behind the middle of the patch as the wheel rolls: the tread bends
  * from its leading edge on, which is the other edge in reverse. */
-static double trail_share(const double *p, const ali3_tyre_patch *contact, double s, double omega) {
-  const double share = ali3_tmeasy_trail(p + TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
-  return omega < 0.0 ? -share : share;
+static real trail_share(const real *p, const ali3_tyre_patch *contact, real s, real omega) {
+  const real share = ali3_tmeasy_trail(p + TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
+  return ali3_where(omega < 0.0, -share, share);
 }
 
 static void evaluate(ali3_element_args *a) {
-  const double *p = a->real, omega = a->ud[6];
-  const ali3_tyre_spring spring = {p[RADIUS], p[BOTTOMING_RADIUS], p[STIFFNESS],
-                                   0.0,       p[DAMPING],          p[BOTTOMING_STIFFNESS]};
-  double e[3], F[2], C[3];
-  a->potential = 0.0;
+  const real *p = a->real, omega = a->ud[6];
+  const real none = {0};
+  const ali3_tyre_spring spring = {p[RADIUS], p[BOTTOMING_RADIUS], p[RADIAL_STIFFNESS],
+                                   none,      p[RADIAL_DAMPING],   p[BOTTOMING_STIFFNESS]};
+  real e[3], F[2], C[3];
+  a->potential = none;
   ali3_tyre_axis(a->u + 3, e);
   const ali3_tyre_patch contact = ali3_tyre_radial(a, e, &spring);
   ali3_tyre_motion m = ali3_tyre_axes(&contact, e);
-  const double *n = contact.normal, loaded = m.loaded;
+  const real *n = contact.normal, loaded = m.loaded;
 
-  const double rolling = (2.0 * p[RADIUS] + (loaded < p[RADIUS] ? loaded : p[RADIUS])) / 3.0,
-               transport = rolling * fabs(omega), w = transport + ALI3_TYRE_SLOW;
-  const double moving = ali3_tyre_moving(transport);
-  const double ratio =
-      loaded > 1e-6 ? 1.0 + moving * (rolling / loaded - 1.0) : 1.0; /* slip radius over loaded radius */
+  const truth deflected = loaded < p[RADIUS];
+  const real rolling = (2.0 * p[RADIUS] + ali3_where(deflected, loaded, p[RADIUS])) / 3.0,
+             transport = rolling * ali3_abs(omega), w = transport + ALI3_TYRE_SLOW;
+  const real moving = ali3_tyre_moving(transport);
+  const real ratio = ali3_where(loaded > 1e-6, 1.0 + moving * (rolling / loaded - 1.0),
+                                ali3_same(1.0)); /* slip radius over loaded radius */
   ali3_tyre_velocities(a, &contact, e, ratio, &m);
   carcass(a, &contact, m.v, w, F, C);
   a->potential +=
       0.5 * (p[CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] + p[CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
   for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];
 
-  const double deflection = loaded < p[RADIUS] ? p[RADIUS] - loaded : 0.0, length = 2.0 * sqrt(p[RADIUS] * deflection);
-  const double moment = -moving * length * trail_share(p, &contact, fabs(m.v[1]) / w, omega) * F[1],
-               resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = ali3_tanh(omega);
-  double twist[3];
+  const real deflection = ali3_where(deflected, p[RADIUS] - loaded, none),
+             length = 2.0 * ali3_sqrt(p[RADIUS] * deflection);
+  const real moment = -moving * length * trail_share(p, &contact, ali3_abs(m.v[1]) / w, omega) * F[1],
+             resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = ali3_tanh(omega);
+  real twist[3];
   ali3_cross(n, e, twist);
   for (int i = 0; i < 3; i++) a->f[3 + i] += moment * twist[i];
   a->f[6] += moment * ali3_dot(n, e) - resist * roll;
@@ -157,13 +163,14 @@ static void evaluate(ali3_element_args *a) {
   ali3_tyre_outputs(a, &contact, e, &m, p[RADIUS], ratio, F, moment, -resist * roll);
 }
 
+#ifndef ALI3_WIDTH
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
   (void)nsig, (void)nreal, (void)nint, (void)n_inputs;
   if (integer[0] < 0 || integer[0] >= n_roads) return "a tyre names a road that does not exist";
   if (!(real[RADIUS] > real[BOTTOMING_RADIUS] && real[BOTTOMING_RADIUS] > 0.0))
     return "the bottoming radius of a tyre must lie between 0 and its radius";
-  if (!(real[STIFFNESS] > 0.0) || real[DAMPING] < 0.0 || real[BOTTOMING_STIFFNESS] < 0.0)
+  if (!(real[RADIAL_STIFFNESS] > 0.0) || real[RADIAL_DAMPING] < 0.0 || real[BOTTOMING_STIFFNESS] < 0.0)
     return "the vertical stiffness of a tyre must be positive, damping and bottoming stiffness not negative";
   if (!(real[NOMINAL_LOAD] > 0.0 && real[REFERENCE_FRICTION] > 0.0 && real[MAX_LOAD_FACTOR] > 0.0))
     return "nominal load, reference friction and largest load factor of a tyre must be positive";
@@ -194,9 +201,10 @@ const ali3_element_type ali3_tyre = {
     .start_words = ALI3_TYRE_START_WORDS,
     .depth = ali3_tyre_depth,
     .nsig = 7,
-    .nreal = REALS,
+    .nreal = TYRE_REALS,
     .nint = 1,
     .nstate = 4,
     .nout = OUTPUTS,
     .check = check,
 };
+#endif

@@ -8,89 +8,108 @@
 #define CLEAR 1e-6 /* m: a depth that counts as none at a start */
 #define RIM_HOLDS 0.8 /* of the bottoming radius: nearer to the centre no wheel is pressed in */
 
-void ali3_tyre_axis(const double axis[3], double e[3]) {
-  const double size = ali3_norm(axis);
-  for (int i = 0; i < 3; i++) e[i] = size > 1e-6 ? axis[i] / size : (i == 1);
+void ali3_tyre_axis(const real axis[3], real e[3]) {
+  const real size = ali3_norm(axis);
+  for (int i = 0; i < 3; i++) e[i] = ali3_where(size > 1e-6, axis[i] / size, ali3_same(i == 1));
 }
 
-ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const double e[3], const ali3_tyre_spring *s) {
+/* A mean by load: `mean` of `old` with `new` of `load`, `total` being the sum; `first`: there is no old load. */
+static real mixed(truth first, real mean, real old, real new, real total, real load) {
+  return ali3_where(first, ali3_same(0.0), old / total * mean) + load / total * new;
+}
+
+ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *s) {
   ali3_contact contact[2];
-  ali3_tyre_patch mean = {0};
-  double deepest = -INFINITY, between[7] = {0}, switching = 0.0;
+  const real none = {0};
+  ali3_tyre_patch mean = {.load = none};
+  real deepest = ali3_same(-INFINITY), between[7], switching = none;
+  for (int i = 0; i < 7; i++) between[i] = none;
   const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, s->radius, contact);
   for (int k = 0; k < count; k++) {
     const ali3_contact *c = &contact[k];
-    const double depth = c->penetration, radius = s->radius - depth, lean = ali3_dot(e, c->normal);
-    double rho[3], b[7] = {0}, rate = 0.0;
+    const real depth = c->penetration, radius = s->radius - depth, lean = ali3_dot(e, c->normal);
+    const truth touches = depth > 0.0, deeper = depth > deepest;
+    real rho[3], b[7], rate = none;
     for (int i = 0; i < 3; i++) {
       rho[i] = radius * c->down[i];
       b[i] = c->normal[i] / c->cosine; /* minus the gradient of the depth */
       b[3 + i] = -lean * rho[i] / c->cosine * c->leaning;
     }
-    if (depth > deepest) {
-      deepest = depth;
-      for (int i = 0; i < 3; i++) mean.near_normal[i] = c->normal[i], mean.near_rho[i] = rho[i];
+    b[6] = none;
+    deepest = ali3_where(deeper, depth, deepest);
+    for (int i = 0; i < 3; i++) {
+      mean.near_normal[i] = ali3_where(deeper, c->normal[i], mean.near_normal[i]);
+      mean.near_rho[i] = ali3_where(deeper, rho[i], mean.near_rho[i]);
     }
     if (k == 0) { /* what slips of a wheel in the air refer to */
       mean.friction = c->friction;
       for (int i = 0; i < 3; i++) mean.normal[i] = c->normal[i], mean.rho[i] = rho[i];
     }
-    if (!(depth > 0.0)) continue;
+    if (!ali3_any(touches)) continue;
     for (int i = 0; i < 6; i++) rate -= b[i] * a->ud[i];
-    const double deep = depth - (s->radius - s->bottoming_radius), hard = deep > 0.0 ? s->bottoming_stiffness : 0.0;
-    const double ramp = depth < TOUCH_DEPTH ? depth / TOUCH_DEPTH : 1.0;
-    const double part = 1.0 - c->yielded;
-    const double force =
+    const real deep = depth - (s->radius - s->bottoming_radius),
+               hard = ali3_where(deep > 0.0, s->bottoming_stiffness, none);
+    const real ramp = ali3_where(depth < TOUCH_DEPTH, depth / TOUCH_DEPTH, ali3_same(1.0));
+    const real part = 1.0 - c->yielded;
+    const real force =
         part * ((s->stiffness + s->progression * depth) * depth + hard * deep + s->damping * rate * ramp);
-    a->potential +=
-        part * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * depth) * depth * depth + hard * deep * deep));
-    if (!(force > 0.0)) continue;
-    const double load = force / c->cosine, total = mean.load + load;
-    for (int i = 0; i < 6; i++) a->f[i] += force * b[i];
+    a->potential = ali3_add_unless(
+        ali3_not(touches), a->potential,
+        part * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * depth) * depth * depth + hard * deep * deep)));
+    const truth presses = touches & (force > 0.0), first = ali3_not(mean.load > 0.0);
+    if (!ali3_any(presses)) continue;
+    const real load = force / c->cosine, total = mean.load + load;
+    for (int i = 0; i < 6; i++) a->f[i] = ali3_add_unless(ali3_not(presses), a->f[i], force * b[i]);
     for (int i = 0; i < 3; i++) { /* load-weighted, so nothing jumps when a contact comes or goes */
-      mean.normal[i] = mean.load > 0.0 ? mean.normal[i] + load * c->normal[i] : load * c->normal[i];
-      mean.rho[i] = (mean.load > 0.0 ? mean.load / total * mean.rho[i] : 0.0) + load / total * rho[i];
+      const real weighted = load * c->normal[i], sum = ali3_where(first, weighted, mean.normal[i] + weighted);
+      mean.normal[i] = ali3_where(presses, sum, mean.normal[i]);
+      mean.rho[i] = ali3_where(presses, mixed(first, mean.rho[i], mean.load, rho[i], total, load), mean.rho[i]);
     }
-    mean.friction = (mean.load > 0.0 ? mean.load / total * mean.friction : 0.0) + load / total * c->friction;
-    mean.load = total;
+    mean.friction =
+        ali3_where(presses, mixed(first, mean.friction, mean.load, c->friction, total, load), mean.friction);
+    mean.load = ali3_where(presses, total, mean.load);
     if (!a->S) continue;
-    double stiffness =
-        s->stiffness + 2.0 * s->progression * depth + hard + (ramp < 1.0 ? s->damping * rate / TOUCH_DEPTH : 0.0);
-    if (stiffness < 0.0) stiffness = 0.0;
-    ali3_add_outer(a->S, 7, part * (a->wK * stiffness + a->wC * s->damping * ramp), b);
-    for (int i = 0; i < 7; i++) between[i] += k ? -b[i] : b[i];
-    switching = a->wK * c->switching * ((s->stiffness + s->progression * depth) * depth + hard * deep);
+    const real slope = s->stiffness + 2.0 * s->progression * depth + hard +
+                       ali3_where(ramp < 1.0, s->damping * rate / TOUCH_DEPTH, none);
+    const real stiffness = ali3_where(slope < 0.0, none, slope);
+    for (int i = 0; i < 7; i++) { /* so that nothing is added where nothing presses */
+      b[i] = ali3_where(presses, b[i], none);
+      between[i] += k ? -b[i] : b[i];
+    }
+    ali3_add_outer(a->S, 7, ali3_where(presses, part * (a->wK * stiffness + a->wC * s->damping * ramp), none), b);
+    switching = ali3_where(
+        presses, a->wK * c->switching * ((s->stiffness + s->progression * depth) * depth + hard * deep), switching);
   }
-  if (a->S && switching > 0.0) ali3_add_outer(a->S, 7, switching, between);
-  const double size = ali3_norm(mean.normal);
-  for (int i = 0; i < 3; i++) mean.normal[i] = size > 0.0 ? mean.normal[i] / size : (i == 2);
+  const truth switches = switching > 0.0;
+  if (a->S && ali3_any(switches)) ali3_add_outer(a->S, 7, ali3_where(switches, switching, none), between);
+  const real size = ali3_norm(mean.normal);
+  for (int i = 0; i < 3; i++) mean.normal[i] = ali3_where(size > 0.0, mean.normal[i] / size, ali3_same(i == 2));
   return mean;
 }
 
-ali3_tyre_motion ali3_tyre_axes(const ali3_tyre_patch *contact, const double e[3]) {
+ali3_tyre_motion ali3_tyre_axes(const ali3_tyre_patch *contact, const real e[3]) {
   ali3_tyre_motion m = {0};
-  const double *rho = contact->rho, *n = contact->normal;
+  const real *rho = contact->rho, *n = contact->normal;
   m.loaded = ali3_norm(rho);
   ali3_cross(e, n, m.forward);
   m.upright = ali3_norm(m.forward);
-  const double size = m.upright < 1e-9 ? 1.0 : m.upright;
-  if (m.upright < 1e-9) m.forward[0] = 1.0, m.forward[1] = m.forward[2] = 0.0;
-  for (int i = 0; i < 3; i++) m.forward[i] /= size;
+  const truth flat = m.upright < 1e-9;
+  for (int i = 0; i < 3; i++) m.forward[i] = ali3_where(flat, ali3_same(i == 0), m.forward[i] / m.upright);
   ali3_cross(n, m.forward, m.left);
   ali3_cross(e, rho, m.push);
   return m;
 }
 
-double ali3_tyre_moving(double speed) {
-  const double rolls = speed / ALI3_TYRE_ROLLS;
-  return rolls < 1.0 ? rolls * rolls * (2.0 - rolls * rolls) : 1.0;
+real ali3_tyre_moving(real speed) {
+  const real rolls = speed / ALI3_TYRE_ROLLS;
+  return ali3_where(rolls < 1.0, rolls * rolls * (2.0 - rolls * rolls), ali3_same(1.0));
 }
 
-void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *contact, const double e[3], double ratio,
+void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], real ratio,
                           ali3_tyre_motion *m) {
-  const double *rd = a->ud, *rho = contact->rho, turn = ali3_dot(a->ud + 3, rho);
+  const real *rd = a->ud, *rho = contact->rho, turn = ali3_dot(a->ud + 3, rho);
   for (int i = 0; i < 2; i++) {
-    const double *t = i ? m->left : m->forward, spin = ali3_dot(t, m->push), lean = ali3_dot(t, e);
+    const real *t = i ? m->left : m->forward, spin = ali3_dot(t, m->push), lean = ali3_dot(t, e);
     m->travel[i] = ali3_dot(t, rd) - lean * turn;
     m->v[i] = m->travel[i] + ratio * spin * a->ud[6];
     for (int k = 0; k < 3; k++) m->row[i][k] = t[k], m->row[i][3 + k] = -lean * rho[k];
@@ -101,34 +120,38 @@ void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *con
 enum { FX, FY, FZ, MZ, SLIP, SLIP_ANGLE, DEFLECTION, LOADED_RADIUS, CONTACT_X, INCLINATION = CONTACT_X + 3, NORMAL_X };
 enum { ROLLING_MOMENT = NORMAL_X + 3 };
 
-void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const double e[3],
-                       const ali3_tyre_motion *m, double radius, double ratio, const double force[2], double moment,
-                       double resisting) {
-  const double deflection = m->loaded < radius ? radius - m->loaded : 0.0;
-  const double drive = -ratio * ali3_dot(m->forward, m->push) * a->ud[6]; /* circumferential speed */
-  const double fastest = ali3_hypot(fabs(drive) > fabs(m->travel[0]) ? drive : m->travel[0], 0.01);
-  const double slip = -m->v[0] / fastest, slip_angle = ali3_atan2(m->v[1], ali3_hypot(m->travel[0], 0.01));
-  const double out[] = {force[0], force[1], contact->load, moment, slip, slip_angle, deflection, radius - deflection};
+void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], const ali3_tyre_motion *m,
+                       real radius, real ratio, const real force[2], real moment, real resisting) {
+  const real none = {0}, deflection = ali3_where(m->loaded < radius, radius - m->loaded, none);
+  const real least = ali3_same(0.01);
+  const real drive = -ratio * ali3_dot(m->forward, m->push) * a->ud[6]; /* circumferential speed */
+  const real fastest = ali3_hypot(ali3_where(ali3_abs(drive) > ali3_abs(m->travel[0]), drive, m->travel[0]), least);
+  const real slip = -m->v[0] / fastest, slip_angle = ali3_atan2(m->v[1], ali3_hypot(m->travel[0], least));
+  const real out[] = {force[0], force[1], contact->load, moment, slip, slip_angle, deflection, radius - deflection};
   for (int i = 0; i < CONTACT_X; i++) a->out[i] = out[i];
-  const double *at = contact->load > 0.0 ? contact->rho : contact->near_rho;
-  const double *up = contact->load > 0.0 ? contact->normal : contact->near_normal;
-  for (int i = 0; i < 3; i++) a->out[CONTACT_X + i] = a->u[i] + at[i], a->out[NORMAL_X + i] = up[i];
+  const truth bears = contact->load > 0.0;
+  for (int i = 0; i < 3; i++) {
+    a->out[CONTACT_X + i] = a->u[i] + ali3_where(bears, contact->rho[i], contact->near_rho[i]);
+    a->out[NORMAL_X + i] = ali3_where(bears, contact->normal[i], contact->near_normal[i]);
+  }
   /* what turns the wheel beside the force at the contact point */
-  const double about_axis = force[0] * (ratio - 1.0) * ali3_dot(m->forward, m->push) + resisting;
+  const real about_axis = force[0] * (ratio - 1.0) * ali3_dot(m->forward, m->push) + resisting;
   a->out[ROLLING_MOMENT] = about_axis * ali3_dot(e, m->left);
   a->out[INCLINATION] = ali3_atan2(ali3_dot(e, contact->normal), m->upright);
 }
 
-void ali3_tyre_semidefinite(double C[3]) {
-  const double mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
-  if (mean >= split) return;
-  const double top = mean + split > 0.0 ? mean + split : 0.0;
-  const double cosine = split > 0.0 ? half / split : 0.0, sine = split > 0.0 ? C[1] / split : 0.0;
-  C[0] = 0.5 * top * (1.0 + cosine);
-  C[1] = 0.5 * top * sine;
-  C[2] = 0.5 * top * (1.0 - cosine);
+void ali3_tyre_semidefinite(real C[3]) {
+  const real mean = 0.5 * (C[0] + C[2]), half = 0.5 * (C[0] - C[2]), split = ali3_hypot(half, C[1]);
+  const truth is = mean >= split, splits = split > 0.0;
+  if (!ali3_any(ali3_not(is))) return;
+  const real none = {0}, top = ali3_where(mean + split > 0.0, mean + split, none);
+  const real cosine = ali3_where(splits, half / split, none), sine = ali3_where(splits, C[1] / split, none);
+  C[0] = ali3_where(is, C[0], 0.5 * top * (1.0 + cosine));
+  C[1] = ali3_where(is, C[1], 0.5 * top * sine);
+  C[2] = ali3_where(is, C[2], 0.5 * top * (1.0 - cosine));
 }
 
+#ifndef ALI3_WIDTH
 double ali3_tyre_depth(const ali3_element_args *a, double raised, double *part) {
   const double *axis = a->u + 3, length = ali3_norm(axis), radius = a->real[0];
   double centre[3], e[3], deepest = -INFINITY;
@@ -155,3 +178,4 @@ ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised) {
                               .rise = deepest > CLEAR ? deepest * part : 0.0,
                               .pressed = deepest - a->real[0] + RIM_HOLDS * a->real[1]};
 }
+#endif

@@ -11,48 +11,47 @@
 #define ALI3_TYRE_NO_GRIP 1e-6 /* of the friction at which the forces of the tyre hold */
 
 typedef struct { /* m, N/m, N/m^2 (force of the squared deflection), N s/m */
-  double radius, bottoming_radius, stiffness, progression, damping, bottoming_stiffness;
+  real radius, bottoming_radius, stiffness, progression, damping, bottoming_stiffness;
 } ali3_tyre_spring;
 
 typedef struct {
-  double load, friction; /* sums or load-weighted means of the contacts */
-  double normal[3], rho[3]; /* unit normal; contact patch relative to the wheel centre, in the wheel plane */
-  double near_normal[3], near_rho[3]; /* of the nearest contact, also in the air */
+  real load, friction; /* sums or load-weighted means of the contacts */
+  real normal[3], rho[3]; /* unit normal; contact patch relative to the wheel centre, in the wheel plane */
+  real near_normal[3], near_rho[3]; /* of the nearest contact, also in the air */
 } ali3_tyre_patch;
 
 typedef struct {
-  double forward[3], left[3]; /* unit axes in the road's plane */
-  double upright; /* cosine of the inclination */
-  double push[3]; /* velocity of the patch per spin */
-  double loaded; /* loaded radius, m */
-  double travel[2], v[2]; /* velocity of the wheel and slip velocity of the patch along both, m/s */
-  double row[2][7]; /* of the slip velocities, by the rates of the signals */
+  real forward[3], left[3]; /* unit axes in the road's plane */
+  real upright; /* cosine of the inclination */
+  real push[3]; /* velocity of the patch per spin */
+  real loaded; /* loaded radius, m */
+  real travel[2], v[2]; /* velocity of the wheel and slip velocity of the patch along both, m/s */
+  real row[2][7]; /* of the slip velocities, by the rates of the signals */
 } ali3_tyre_motion;
 
 /* Unit axis of a wheel: an iterate of the solver need not be a unit vector. */
-void ali3_tyre_axis(const double axis[3], double e[3]);
+void ali3_tyre_axis(const real axis[3], real e[3]);
 
 /* Radial forces of all contacts: adds to f, S and potential, returns the mean patch. */
-ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const double e[3], const ali3_tyre_spring *spring);
+ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *spring);
 
 /* Axes at the patch; velocities and rows follow when the slip radius is known. */
-ali3_tyre_motion ali3_tyre_axes(const ali3_tyre_patch *contact, const double e[3]);
+ali3_tyre_motion ali3_tyre_axes(const ali3_tyre_patch *contact, const real e[3]);
 
 /* Share of the rolling tyre at a speed: 0 at rest, 1 from ALI3_TYRE_ROLLS on, with a continuous slope. */
-double ali3_tyre_moving(double speed);
+real ali3_tyre_moving(real speed);
 
 /* `ratio`: slip radius over loaded radius. */
-void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *contact, const double e[3], double ratio,
+void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], real ratio,
                           ali3_tyre_motion *m);
 
 /* The outputs that every tyre begins with, ALI3_TYRE_OUTPUTS in number; `resisting`: of rolling, about the axis. */
 enum { ALI3_TYRE_OUTPUTS = 16 };
-void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const double e[3],
-                       const ali3_tyre_motion *m, double radius, double ratio, const double force[2], double moment,
-                       double resisting);
+void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], const ali3_tyre_motion *m,
+                       real radius, real ratio, const real force[2], real moment, real resisting);
 
 /* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
-void ali3_tyre_semidefinite(double C[3]);
+void ali3_tyre_semidefinite(real C[3]);
 
 /* Of an element whose first number is its radius and first integer its road. */
 double ali3_tyre_depth(const ali3_element_args *a, double raised, double *part);

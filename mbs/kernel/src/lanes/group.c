@@ -3,6 +3,9 @@
 
 #include <string.h>
 
+#include "../elements/element.h"
+#include "../elements/road.h"
+#include "../state/vectors.h"
 #include "../state/workspace.h"
 #include "../system/pool.h"
 #include "lanes.h"
@@ -25,6 +28,7 @@ static void place_vectors(const ali3_lane_group *g, ali3_lane_vectors *v, bool p
   v->s = items(g, pool, ng);
   v->sd = items(g, pool, ng);
   v->sdd = items(g, pool, ng);
+  v->y = items(g, pool, (size_t)z->ny);
   v->history = items(g, pool, past ? ALI3_HISTORY : 0);
   v->past_a = items(g, pool, past ? ALI3_PAST * nq : 0);
   v->past_lam = items(g, pool, past ? ALI3_PAST * nc : 0);
@@ -41,6 +45,7 @@ static void place_step(ali3_lane_group *g, ali3_pool *pool) {
     *of_coordinates[k] = items(g, pool, (size_t)z->nq);
   for (size_t k = 0; k < sizeof of_rows / sizeof *of_rows; k++) *of_rows[k] = items(g, pool, (size_t)z->nc);
   g->guide_mean = items(g, pool, (size_t)z->ng);
+  g->discarded = ali3_pool_array(pool, ali3_vector_count(g->system));
 }
 
 static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
@@ -57,7 +62,32 @@ static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
   g->S = items(g, pool, (size_t)S->el_S_off[z->ne]);
   g->SB = items(g, pool, ali3_signal_work(S));
   g->f = items(g, pool, (size_t)S->el_sig_ptr[z->ne]);
+  g->ways = items(g, pool, (size_t)S->n_work_force);
+  g->power = items(g, pool, (size_t)S->n_work);
   g->idle = items(g, pool, (size_t)z->ne);
+}
+
+static bool has_law(const ali3_element_type *type) {
+#define ALI3_IS(name) || type == &ali3_##name
+  return false ALI3_LAWS(ALI3_IS);
+#undef ALI3_IS
+}
+
+static void place_elements(ali3_lane_group *g, ali3_pool *pool) {
+  const ali3_system *S = g->system;
+  const ali3_sizes *z = &S->size;
+  g->el_real = items(g, pool, (size_t)S->el_real_ptr[z->ne]);
+  g->input = items(g, pool, (size_t)z->nu);
+  g->out = items(g, pool, (size_t)S->el_out_ptr[z->ne]);
+  g->potential = items(g, pool, (size_t)z->ne);
+  g->by_law = ali3_pool_items(pool, (size_t)z->ne, sizeof *g->by_law);
+  g->road = ali3_pool_items(pool, (size_t)S->nr, sizeof *g->road);
+  for (int32_t e = 0; e < z->ne && pool->block != NULL; e++) g->by_law[e] = has_law(S->el_kind[e]);
+  for (int32_t r = 0; r < S->nr; r++) {
+    const ali3_lane_road road = {
+        .group = g, .number = r, .numbers = items(g, pool, ALI3_ROAD_NUMBERS), .friction_factor = items(g, pool, 1)};
+    if (pool->block != NULL) g->road[r] = road;
+  }
 }
 
 static void place_counts(ali3_lane_group *g, ali3_pool *pool) {
@@ -83,6 +113,7 @@ static void place(ali3_lane_group *g, ali3_pool *pool) {
   place_vectors(g, &g->next, false, pool);
   place_step(g, pool);
   place_tangents(g, pool);
+  place_elements(g, pool);
   place_counts(g, pool);
 }
 
@@ -100,62 +131,119 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
   place(g, &pool);
 }
 
-/* n numbers of an instance become those of lane l, and back. */
-static void put(const ali3_lane_group *g, int32_t l, real *to, const double *from, int32_t n) {
-  for (int32_t i = 0; i < n; i++) to[i * g->width + l] = from[i];
+/* n numbers of the lanes become those of the group, and back, all lanes of a number at once. */
+static inline void spread(real *restrict to, const double *const lane[], int32_t n, int32_t width) {
+  const double *from[ALI3_MOST_LANES];
+  for (int32_t l = 0; l < width; l++) from[l] = lane[l];
+  for (int32_t i = 0; i < n; i++)
+    for (int32_t l = 0; l < width; l++) to[i * width + l] = from[l][i];
 }
 
-static void take(const ali3_lane_group *g, int32_t l, double *to, const real *from, int32_t n) {
-  for (int32_t i = 0; i < n; i++) to[i] = from[i * g->width + l];
+static inline void collect(double *const lane[], const real *restrict from, int32_t n, int32_t width) {
+  double *to[ALI3_MOST_LANES];
+  for (int32_t l = 0; l < width; l++) to[l] = lane[l];
+  for (int32_t i = 0; i < n; i++)
+    for (int32_t l = 0; l < width; l++) to[l][i] = from[i * width + l];
+}
+
+static void put(const ali3_lane_group *g, real *to, const double *const from[], int32_t n) {
+  if (g->width == 8)
+    spread(to, from, n, 8);
+  else if (g->width == 4)
+    spread(to, from, n, 4);
+  else
+    spread(to, from, n, 2);
+}
+
+static void take(const ali3_lane_group *g, double *const to[], const real *from, int32_t n) {
+  if (g->width == 8)
+    collect(to, from, n, 8);
+  else if (g->width == 4)
+    collect(to, from, n, 4);
+  else
+    collect(to, from, n, 2);
+}
+
+/* A vector of each lane; those that are empty have that of the first. */
+#define PUT(g, to, n, in, from)                                                                                        \
+  do {                                                                                                                 \
+    const double *vector[ALI3_MOST_LANES];                                                                             \
+    for (int32_t l = 0; l < (g)->width; l++) {                                                                         \
+      const ali3_instance *in = (g)->lane[l < (g)->used ? l : 0];                                                      \
+      vector[l] = from;                                                                                                \
+    }                                                                                                                  \
+    put(g, to, vector, n);                                                                                             \
+  } while (0)
+
+/* To the lanes in group->good. */
+#define TAKE(g, in, to, from, n)                                                                                       \
+  do {                                                                                                                 \
+    double *vector[ALI3_MOST_LANES];                                                                                   \
+    for (int32_t l = 0; l < (g)->width; l++) {                                                                         \
+      ali3_instance *in = (g)->lane[l < (g)->used ? l : 0];                                                            \
+      vector[l] = (g)->good[l] ? (to) : (g)->discarded;                                                                \
+    }                                                                                                                  \
+    take(g, vector, from, n);                                                                                          \
+  } while (0)
+
+static void roads(ali3_lane_group *g) {
+  for (int32_t r = 0; r < g->system->nr; r++) {
+    ali3_lane_road *road = &g->road[r];
+    for (int32_t l = 0; l < g->used; l++) {
+      double numbers[ALI3_ROAD_NUMBERS];
+      const int32_t type = ali3_road_numbers(&g->lane[l]->road[r], numbers, &road->friction_factor[l]);
+      road->type = l == 0 || road->type == type ? type : ALI3_ROAD_COUNT;
+      for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++) road->numbers[i * g->width + l] = numbers[i];
+    }
+  }
 }
 
 /* What parameters change and steps do not. */
-void ali3_group_masses(ali3_lane_group *g, int32_t l) {
-  const ali3_instance *in = g->lane[l];
+void ali3_group_parameters(ali3_lane_group *g) {
   const ali3_sizes *z = &g->system->size;
-  put(g, l, g->mass_val, in->mass_val, z->nnz_mass);
-  put(g, l, g->mass_floor, in->mass_floor, z->nq);
-  put(g, l, g->mass_floor_inverse, in->mass_floor_inverse, z->nq);
-  put(g, l, g->gravity_force, in->gravity_force, z->nq);
+  PUT(g, g->mass_val, z->nnz_mass, in, in->mass_val);
+  PUT(g, g->mass_floor, z->nq, in, in->mass_floor);
+  PUT(g, g->mass_floor_inverse, z->nq, in, in->mass_floor_inverse);
+  PUT(g, g->gravity_force, z->nq, in, in->gravity_force);
+  PUT(g, g->el_real, g->system->el_real_ptr[z->ne], in, in->el_real);
+  roads(g);
 }
 
 /* A step begins from in->now with the guides of in->next. */
-void ali3_group_from(ali3_lane_group *g, int32_t l) {
-  const ali3_instance *in = g->lane[l];
-  const ali3_vectors *from = &in->now;
-  const int32_t nq = g->system->size.nq, nc = g->system->size.nc, ng = g->system->size.ng;
-  put(g, l, g->now.q, from->q, nq);
-  put(g, l, g->now.qd, from->qd, nq);
-  put(g, l, g->now.qdd, from->qdd, nq);
-  put(g, l, g->now.lam, from->lam, nc);
-  put(g, l, g->now.s, from->s, ng);
-  put(g, l, g->now.sd, from->sd, ng);
-  put(g, l, g->now.sdd, from->sdd, ng);
-  put(g, l, g->next.s, in->next.s, ng);
-  put(g, l, g->next.sd, in->next.sd, ng);
-  put(g, l, g->next.sdd, in->next.sdd, ng);
-  put(g, l, g->now.history, from->history, ALI3_HISTORY);
-  put(g, l, g->now.past_a, from->past_a, ALI3_PAST * nq);
-  put(g, l, g->now.past_lam, from->past_lam, ALI3_PAST * nc);
-  g->open_power[l] = in->report.open_power;
-  g->worst_row[l] = in->report.worst_row;
-  g->worst_coordinate[l] = in->report.worst_coordinate;
-  g->report.factorizations[l] = in->report.factorizations;
-  g->report.solves[l] = in->report.solves;
-  g->report.negative_pivots[l] = in->report.negative_pivots;
+void ali3_group_from(ali3_lane_group *g) {
+  const ali3_system *S = g->system;
+  const int32_t nq = S->size.nq, nc = S->size.nc, ng = S->size.ng;
+  PUT(g, g->now.q, nq, in, in->now.q);
+  PUT(g, g->now.qd, nq, in, in->now.qd);
+  PUT(g, g->now.qdd, nq, in, in->now.qdd);
+  PUT(g, g->now.lam, nc, in, in->now.lam);
+  PUT(g, g->now.s, ng, in, in->now.s);
+  PUT(g, g->now.sd, ng, in, in->now.sd);
+  PUT(g, g->now.sdd, ng, in, in->now.sdd);
+  PUT(g, g->next.s, ng, in, in->next.s);
+  PUT(g, g->next.sd, ng, in, in->next.sd);
+  PUT(g, g->next.sdd, ng, in, in->next.sdd);
+  PUT(g, g->now.history, ALI3_HISTORY, in, in->now.history);
+  PUT(g, g->now.past_a, ALI3_PAST * nq, in, in->now.past_a);
+  PUT(g, g->now.past_lam, ALI3_PAST * nc, in, in->now.past_lam);
+  PUT(g, g->input, S->size.nu, in, in->force_input);
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    const int32_t first = S->el_state_ptr[e], n = S->el_state_ptr[e + 1] - first;
+    if (g->by_law[e] && n > 0) PUT(g, g->now.y + first * g->width, n, in, in->now.y + first);
+  }
+  for (int32_t l = 0; l < g->used; l++) {
+    const ali3_report *r = &g->lane[l]->report;
+    g->open_power[l] = r->open_power;
+    g->worst_row[l] = r->worst_row;
+    g->worst_coordinate[l] = r->worst_coordinate;
+    g->report.factorizations[l] = r->factorizations;
+    g->report.solves[l] = r->solves;
+    g->report.negative_pivots[l] = r->negative_pivots;
+  }
 }
 
-/* What Newton's loop and its counters left: in->next, its multipliers those of the loop, in->x the mean acceleration. */
-void ali3_group_to(const ali3_lane_group *g, int32_t l) {
-  ali3_instance *in = g->lane[l];
-  ali3_report *r = &in->report;
-  const int32_t nq = g->system->size.nq;
-  take(g, l, in->next.q, g->next.q, nq);
-  take(g, l, in->next.qd, g->next.qd, nq);
-  take(g, l, in->next.qdd, g->next.qdd, nq);
-  take(g, l, in->next.lam, g->newton_lam, g->system->size.nc);
-  take(g, l, in->D, g->D, nq);
-  take(g, l, in->x, g->mean_a, nq);
+static void counts(const ali3_lane_group *g, int32_t l) {
+  ali3_report *r = &g->lane[l]->report;
   r->last_iterations = (int32_t)g->iterations[l];
   r->iterations += r->last_iterations;
   if (r->last_iterations > r->max_iterations) r->max_iterations = r->last_iterations;
@@ -169,7 +257,36 @@ void ali3_group_to(const ali3_lane_group *g, int32_t l) {
   r->velocity_violation = g->velocity_violation[l];
 }
 
+/* What Newton's loop and its counters left: in->next, its multipliers those of the loop, in->x the mean acceleration. */
+void ali3_group_to(const ali3_lane_group *g) {
+  const ali3_system *S = g->system;
+  const int32_t nq = S->size.nq;
+  TAKE(g, in, in->next.q, g->next.q, nq);
+  TAKE(g, in, in->next.qd, g->next.qd, nq);
+  TAKE(g, in, in->next.qdd, g->next.qdd, nq);
+  TAKE(g, in, in->next.lam, g->newton_lam, S->size.nc);
+  TAKE(g, in, in->D, g->D, nq);
+  TAKE(g, in, in->x, g->mean_a, nq);
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    const int32_t state = S->el_state_ptr[e], n_state = S->el_state_ptr[e + 1] - state;
+    const int32_t out = S->el_out_ptr[e], n_out = S->el_out_ptr[e + 1] - out;
+    if (!g->by_law[e]) continue;
+    if (n_state > 0) TAKE(g, in, in->next.y + state, g->next.y + state * g->width, n_state);
+    if (n_out > 0) TAKE(g, in, in->next.out + out, g->out + out * g->width, n_out);
+    TAKE(g, in, in->next.potential + e, g->potential + e * g->width, 1);
+  }
+  TAKE(g, in, in->next.step_way, g->ways, S->n_work_force);
+  for (int32_t k = 0; k < S->n_work; k++) {
+    const int32_t e = S->work_element[k], force = S->n_work + S->work_ptr[k], first = S->el_sig_ptr[e];
+    if (!g->by_law[e]) continue;
+    TAKE(g, in, in->watched + k, g->power + k * g->width, 1);
+    TAKE(g, in, in->watched + force, g->f + first * g->width, S->el_sig_ptr[e + 1] - first);
+  }
+  for (int32_t l = 0; l < g->used; l++)
+    if (g->good[l]) counts(g, l);
+}
+
 /* The multipliers after (25), which the history does not take. */
 void ali3_group_multipliers(const ali3_lane_group *g, int32_t l) {
-  take(g, l, g->lane[l]->next.lam, g->next.lam, g->system->size.nc);
+  for (int32_t k = 0; k < g->system->size.nc; k++) g->lane[l]->next.lam[k] = g->next.lam[k * g->width + l];
 }

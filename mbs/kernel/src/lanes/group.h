@@ -17,11 +17,22 @@ typedef struct {
   real *q, *qd, *qdd, *lam;
   real *s, *sd, *sdd; /* guides */
   real *history, *past_a, *past_lam;
+  real *y; /* states of elements */
 } ali3_lane_vectors;
+
+/* Elements whose laws are computed in vectors; see laws.h. */
+#define ALI3_LAWS(X) X(spring_damper) X(gyroscopic_spin) X(drag) X(tyre) X(brake) X(spin_angle)
+
+/* A road of all lanes. */
+typedef struct ali3_lane_road {
+  struct ali3_lane_group *group;
+  int32_t number, type; /* type: ALI3_ROAD_COUNT where the lanes have roads of several types */
+  real *numbers, *friction_factor;
+} ali3_lane_road;
 
 typedef struct ali3_lane_group {
   const ali3_system *system;
-  int32_t width;
+  int32_t width, used; /* lanes, and how many of them have an instance */
   ali3_instance *lane[ALI3_MOST_LANES];
   ali3_settings settings; /* those of all lanes */
   ali3_rule rule;
@@ -36,8 +47,13 @@ typedef struct ali3_lane_group {
   real *F_new; /* of lanes that get a new tangent while others keep theirs */
   real *u, *ud, *S, *SB;
   real *f; /* forces of elements on their signals */
+  real *ways, *power; /* of elements whose work is watched, see ../state/work.c */
   ali3_mask *idle;
+  real *el_real, *input, *out, *potential;
+  ali3_lane_road *road;
+  bool *by_law; /* ne: the element is computed in vectors */
   real *mean_a, *newton_lam; /* what a step leaves to the history */
+  double *discarded; /* where numbers of lanes go that did not make the step */
   /* one each: lanes that make the step, those that the sources count, those that evaluate elements, those that ended */
   ali3_mask *lanes, *at_work, *evaluated, *good, *singular;
   ali3_mask *iterations, *worst_row, *worst_coordinate;
@@ -53,7 +69,10 @@ void ali3_step_lanes_2(ali3_lane_group *group);
 void ali3_step_lanes_4(ali3_lane_group *group);
 void ali3_step_lanes_8(ali3_lane_group *group);
 
-/* Elements of the lanes in group->evaluated, one by one. */
-void ali3_lane_elements(ali3_lane_group *group, bool tangent);
+/* Element e of the lanes in group->evaluated, one by one. */
+void ali3_lane_element(ali3_lane_group *group, int32_t e, bool tangent);
+/* What ali3_road_contacts gives in each lane, two contacts. */
+void ali3_lane_contacts(const ali3_lane_road *road, const real *centre, const real *axis, const real *radius,
+                        real *contacts);
 void ali3_lane_elements_accept(ali3_lane_group *group, int32_t lane);
 #endif

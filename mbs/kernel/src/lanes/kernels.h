@@ -10,13 +10,7 @@
 #pragma clang attribute push(__attribute__((target(ALI3_INSTRUCTIONS))), apply_to = function)
 #endif
 
-#include "../algebra/elementary.h"
-#include "../instance.h"
-#include "group.h"
-
-#define ALI3_JOINED(name, width) name##_lanes_##width
-#define ALI3_OF_WIDTH(name, width) ALI3_JOINED(name, width)
-#define ALI3_LANED(name) ALI3_OF_WIDTH(name, ALI3_WIDTH)
+#include "laws.h"
 
 static inline real ALI3_LANED(sine)(real x) {
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_sin(x[l]);
@@ -62,6 +56,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_projection_work ALI3_LANED(projection_work)
 #define ali3_energy_size ALI3_LANED(energy_size)
 #define ali3_lagrange ALI3_LANED(lagrange)
+#define ali3_work_ways ALI3_LANED(work_ways)
 #define ali3_history_smooth ALI3_LANED(history_smooth)
 #define ali3_extrapolate ALI3_LANED(extrapolate)
 
@@ -74,6 +69,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #include "../methods/projection.c"
 #include "../rows/constraints.c"
 #include "../rows/velocity_rows.c"
+#include "../state/work_ways.c"
 #include "lane_step.h"
 
 #if defined(__clang__) && defined(ALI3_INSTRUCTIONS)

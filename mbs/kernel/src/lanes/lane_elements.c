@@ -1,6 +1,8 @@
-/* Elements of the lanes, one instance after the other: their laws are those of a single run. */
+/* Elements and roads of the lanes, one instance after the other, where laws.h has no vectors for them: what they give is
+ * that of a single run. */
 #include "../elements/element.h"
 #include "../elements/forces.h"
+#include "../elements/road.h"
 #include "group.h"
 
 static ali3_force_call call_of(const ali3_lane_group *g, const ali3_instance *in) {
@@ -37,21 +39,45 @@ static void one(ali3_lane_group *g, const ali3_force_call *call, int32_t e, int3
   for (int32_t i = 0; wanted && i < n * n; i++) to[i * width] = T[i];
 }
 
-void ali3_lane_elements(ali3_lane_group *g, bool tangent) {
-  ali3_force_call call[ALI3_MOST_LANES];
-  for (int32_t l = 0; l < g->width; l++)
-    if (g->evaluated[l]) call[l] = call_of(g, g->lane[l]);
-  for (int32_t e = 0; e < g->system->size.ne; e++)
-    for (int32_t l = 0; l < g->width; l++)
-      if (g->evaluated[l]) one(g, &call[l], e, l, tangent);
+void ali3_lane_element(ali3_lane_group *g, int32_t e, bool tangent) {
+  for (int32_t l = 0; l < g->width; l++) {
+    if (!g->evaluated[l]) continue;
+    const ali3_force_call call = call_of(g, g->lane[l]);
+    one(g, &call, e, l, tangent);
+  }
+}
+
+static bool finite(const double *v, int32_t n) {
+  bool all = true;
+  for (int32_t i = 0; i < n; i++) all = all && v[i] - v[i] == 0.0;
+  return all;
+}
+
+void ali3_lane_contacts(const ali3_lane_road *road, const real *centre, const real *axis, const real *radius,
+                        real *contacts) {
+  const ali3_lane_group *g = road->group;
+  const int32_t width = g->width, numbers = sizeof(ali3_contact) / sizeof(double);
+  for (int32_t l = 0; l < width; l++) {
+    ali3_contact found[2];
+    double disc[7] = {0.0}; /* centre, axis, radius */
+    for (int32_t i = 0; i < 3; i++) disc[i] = centre[i * width + l], disc[3 + i] = axis[i * width + l];
+    disc[6] = radius[l];
+    const bool asked = g->lanes[l] && finite(disc, 7); /* what failed has no place on a road */
+    const int count = asked ? ali3_road_contacts(&g->lane[l]->road[road->number], disc, disc + 3, disc[6], found) : 0;
+    for (int k = 0; k < 2; k++) {
+      if (k >= count) found[k] = ali3_no_contact();
+      for (int32_t i = 0; i < numbers; i++) contacts[(k * numbers + i) * width + l] = ((const double *)&found[k])[i];
+    }
+  }
 }
 
 void ali3_lane_elements_accept(ali3_lane_group *g, int32_t l) {
   ali3_instance *in = g->lane[l];
+  const ali3_system *S = g->system;
   const ali3_force_call call = call_of(g, in);
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
-  for (int32_t e = 0; e < g->system->size.ne; e++) {
-    if (g->system->el_kind[e]->accept == NULL) continue;
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    if (S->el_kind[e]->accept == NULL) continue;
     local(g, e, l, u, ud);
     ali3_element_accept(in, &call, e, u, ud);
   }

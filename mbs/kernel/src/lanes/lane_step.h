@@ -16,10 +16,47 @@ static truth all_finite(const real *v, int32_t n) {
   return sum == 0.0;
 }
 
-/* Elements of these lanes; the others keep theirs. */
+/* Element e of all lanes: f, y, out, potential, idle and, where it is wanted, the tangent. */
+static void law(ali3_lane_group *g, int32_t e, bool tangent) {
+  const ali3_system *S = g->system;
+  const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
+  real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
+  for (int32_t i = 0; i < n; i++) u[i] = g->u[signal[i]], ud[i] = g->ud[signal[i]];
+  ali3_element_args a = {.nsig = n,
+                         .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
+                         .nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e],
+                         .nstate = S->el_state_ptr[e + 1] - S->el_state_ptr[e],
+                         .nout = S->el_out_ptr[e + 1] - S->el_out_ptr[e],
+                         .u = u,
+                         .ud = ud,
+                         .y_old = g->now.y + S->el_state_ptr[e],
+                         .y_new = g->next.y + S->el_state_ptr[e],
+                         .h = g->h,
+                         .wC = g->rule.wC,
+                         .wK = g->rule.c,
+                         .real = g->el_real + S->el_real_ptr[e],
+                         .integer = S->el_int + S->el_int_ptr[e],
+                         .input = g->input,
+                         .roads = g->road,
+                         .f = g->f + S->el_sig_ptr[e],
+                         .S = tangent && S->el_front[e] >= 0 ? g->S + S->el_S_off[e] : NULL,
+                         .out = g->out + S->el_out_ptr[e]};
+  memset(a.f, 0, (size_t)n * sizeof *a.f);
+  if (a.S != NULL) memset(a.S, 0, (size_t)(n * n) * sizeof *a.S);
+  law_of(S->el_kind[e])(&a);
+  g->potential[e] = a.potential;
+  g->idle[e] = (truth){0} - a.idle;
+}
+
+/* Elements of these lanes; the others keep theirs, but for the tangent, for which they are not asked again. */
 static void elements(ali3_lane_group *in, truth lanes, bool tangent) {
   *in->evaluated = lanes;
-  ali3_lane_elements(in, tangent);
+  for (int32_t e = 0; e < in->system->size.ne; e++) {
+    if (in->by_law[e])
+      law(in, e, tangent);
+    else
+      ali3_lane_element(in, e, tangent);
+  }
 }
 
 static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
@@ -164,6 +201,17 @@ static void predict(ali3_lane_group *in) {
     in->D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(goes_on, in->x[i], in->now.qdd[i]);
 }
 
+/* What sensors of work ask for, from the last forces of the elements that are computed in vectors. */
+static void watch(ali3_lane_group *in) {
+  const ali3_system *S = in->system;
+  ali3_work_ways(in, in->ways);
+  for (int32_t k = 0; k < S->n_work; k++) {
+    const int32_t e = S->work_element[k];
+    in->power[k] = ali3_same(0.0);
+    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) in->power[k] += in->f[i] * in->ud[S->el_sig[i]];
+  }
+}
+
 void ALI3_LANED(ali3_step)(ali3_lane_group *in) {
   const int32_t nq = in->system->size.nq;
   const double h = in->h;
@@ -193,6 +241,7 @@ void ALI3_LANED(ali3_step)(ali3_lane_group *in) {
   work += ali3_projection_work(in, &kinetic, in->end, in->open) + 0.5 * h * *in->open_power;
   *in->work = work;
   *in->size = ali3_energy_size(in, h, kinetic);
+  watch(in);
 }
 #endif
 #endif

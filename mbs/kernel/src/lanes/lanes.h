@@ -7,8 +7,8 @@ int32_t ali3_processor_lanes(void); /* the most that this processor has instruct
 ali3_lane_step *ali3_lane_step_of(int32_t width);
 size_t ali3_group_bytes(const ali3_system *s, int32_t width);
 void ali3_group_place(ali3_lane_group *group, void *block);
-void ali3_group_masses(ali3_lane_group *group, int32_t lane);
-void ali3_group_from(ali3_lane_group *group, int32_t lane);
-void ali3_group_to(const ali3_lane_group *group, int32_t lane);
+void ali3_group_parameters(ali3_lane_group *group);
+void ali3_group_from(ali3_lane_group *group);
+void ali3_group_to(const ali3_lane_group *group);
 void ali3_group_multipliers(const ali3_lane_group *group, int32_t lane);
 #endif

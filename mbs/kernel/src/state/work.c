@@ -44,24 +44,19 @@ void ali3_work_reopen(ali3_instance *in) {
   ali3_work_store(in, v);
 }
 
-/* Change of a signal along D of a step. */
-static double way(const ali3_instance *in, int32_t signal) {
-  const ali3_system *S = in->system;
-  double sum = 0.0;
-  for (int32_t i = S->sig_ptr[signal]; i < S->sig_ptr[signal + 1]; i++) sum += S->sig_val[i] * in->D[S->sig_col[i]];
-  return sum;
-}
-
 /* A step D from in->now to in->next with the mean of the forces at its ends (share = 1/2) or those of the last
  * ali3_forces (share = 1). */
 void ali3_work_step(ali3_instance *in, double share) {
+  ali3_work_ways(in, in->next.step_way);
+  ali3_work_along(in, share);
+}
+
+void ali3_work_along(ali3_instance *in, double share) {
   const ali3_system *S = in->system;
   const double *force = in->watched + S->n_work, *before = in->now.watched + S->n_work;
   for (int32_t k = 0; k < S->n_work; k++) {
-    const int32_t *signal = S->el_sig + S->el_sig_ptr[S->work_element[k]];
     double sum = 0.0;
     for (int32_t i = S->work_ptr[k]; i < S->work_ptr[k + 1]; i++) {
-      in->next.step_way[i] = way(in, signal[i - S->work_ptr[k]]);
       in->next.step_force[i] = share * force[i] + (1.0 - share) * before[i];
       sum += in->next.step_force[i] * in->next.step_way[i];
     }

@@ -1,12 +1,16 @@
 /* Work of force elements. */
 #ifndef ALI3_WORK_H
 #define ALI3_WORK_H
+#include "../algebra/real.h"
 #include "../instance.h"
 
 void ali3_work_store(const ali3_instance *in, ali3_vectors *v);
 void ali3_work_start(const ali3_instance *in, ali3_vectors *v);
 void ali3_work_reopen(ali3_instance *in);
 void ali3_work_step(ali3_instance *in, double share);
+/* Its parts: ways (n_work_force) along in->D, and the work along in->next.step_way. */
+void ali3_work_ways(const ali3_instance *in, real *ways);
+void ali3_work_along(ali3_instance *in, double share);
 void ali3_work_stage(const ali3_instance *in, double weight, const double *power, double *sum);
 void ali3_work_recall(ali3_instance *in);
 void ali3_work_first(ali3_instance *in, double weight);

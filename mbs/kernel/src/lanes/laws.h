@@ -1,0 +1,87 @@
+/* The laws of elements, compiled for lanes as kernels.h compiles the step: a law sees all lanes of an element at once.
+ * Lanes that have ended see what they saw last and get the same again. */
+#ifndef ALI3_LAWS_H
+#define ALI3_LAWS_H
+#ifdef ALI3_WIDTH
+#include <string.h>
+
+#include "../algebra/elementary.h"
+#include "../instance.h"
+#include "group.h"
+
+#define ALI3_JOINED(name, width) name##_lanes_##width
+#define ALI3_OF_WIDTH(name, width) ALI3_JOINED(name, width)
+#define ALI3_LANED(name) ALI3_OF_WIDTH(name, ALI3_WIDTH)
+
+static inline real ALI3_LANED(tanh)(real x) {
+  for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_tanh(x[l]);
+  return x;
+}
+
+#define ali3_road ali3_lane_road
+#define ali3_tanh ALI3_LANED(tanh)
+#define ali3_atan2 ALI3_LANED(atan2)
+#define ali3_road_contacts ALI3_LANED(road_contacts)
+#define ali3_contacts_by_numbers ALI3_LANED(contacts_by_numbers)
+#define ali3_half_space ALI3_LANED(half_space)
+#define ali3_tmeasy_at ALI3_LANED(tmeasy_at)
+#define ali3_tmeasy_pair_at ALI3_LANED(tmeasy_pair_at)
+#define ali3_tmeasy_secant ALI3_LANED(tmeasy_secant)
+#define ali3_tmeasy_trail ALI3_LANED(tmeasy_trail)
+#define ali3_tyre_axis ALI3_LANED(tyre_axis)
+#define ali3_tyre_radial ALI3_LANED(tyre_radial)
+#define ali3_tyre_axes ALI3_LANED(tyre_axes)
+#define ali3_tyre_moving ALI3_LANED(tyre_moving)
+#define ali3_tyre_velocities ALI3_LANED(tyre_velocities)
+#define ali3_tyre_outputs ALI3_LANED(tyre_outputs)
+#define ali3_tyre_semidefinite ALI3_LANED(tyre_semidefinite)
+#define ali3_end_stops_at ALI3_LANED(end_stops_at)
+#define ali3_contact_force ALI3_LANED(contact_force)
+#define ali3_contact_loss ALI3_LANED(contact_loss)
+
+#include "../algebra/inverse_tangent.c"
+#include "../elements/contact_law.c"
+#include "../elements/end_stops.c"
+#include "../elements/half_space.c"
+#include "../elements/plane_and_kerb.c"
+#include "../elements/tmeasy.c"
+#include "../elements/tyre_contact.c"
+
+#define evaluate spring_damper_law
+#include "../elements/spring_damper.c"
+#undef evaluate
+#define evaluate gyroscopic_spin_law
+#include "../elements/gyroscopic_spin.c"
+#undef evaluate
+#define evaluate drag_law
+#include "../elements/drag.c"
+#undef evaluate
+#define evaluate tyre_law
+#include "../elements/tyre.c"
+#undef evaluate
+#define evaluate brake_law
+#include "../elements/brake.c"
+#undef evaluate
+#define evaluate spin_angle_law
+#include "../elements/spin_angle.c"
+#undef evaluate
+
+int ali3_road_contacts(const ali3_road *road, const real centre[3], const real axis[3], real radius,
+                       ali3_contact out[2]) {
+  if (road->type == ALI3_ROAD_PLANE || road->type == ALI3_ROAD_KERB)
+    return ali3_contacts_by_numbers(road->type, road->numbers, *road->friction_factor, centre, axis, radius, out);
+  ali3_lane_contacts(road, centre, axis, &radius, (real *)out);
+  return 2;
+}
+
+static ali3_element_function *law_of(const ali3_element_type *type) {
+#define ALI3_LAW(name)                                                                                                 \
+  if (type == &ali3_##name) return name##_law;
+  ALI3_LAWS(ALI3_LAW)
+#undef ALI3_LAW
+  return NULL;
+}
+
+#undef ali3_road
+#endif
+#endif
