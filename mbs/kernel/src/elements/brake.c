@@ -42,6 +42,7 @@ static void evaluate(ali3_element_args *a) {
     a->y_new[0] = (torque - p[DAMPING] * a->y_new[1]) / p[STIFFNESS];
     if (fabs(a->y_new[0]) < 1e-100) a->y_new[0] = a->y_new[1] = 0.0; /* long released: no denormals */
   }
+  a->piece = ali3_slider_piece(sticks, trial, bound);
   double b[7];
   for (int i = 0; i < 3; i++) b[i] = -0.5 * g[i], b[3 + i] = 0.5 * f[i];
   b[6] = 1.0;

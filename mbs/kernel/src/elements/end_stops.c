@@ -27,6 +27,7 @@ void ali3_end_stops_at(const double *p, int progressive, double length, double r
     double slope = 0.0, loss_slope;
     const double force = ali3_contact_force(&law[side], beyond[side], &slope, &t->potential);
     const double factor = ali3_contact_loss(&law[side], sign * rate, &loss_slope);
+    t->piece |= (uint32_t)(force > 0.0) << side;
     t->elastic += sign * force;
     t->lost += sign * force * (factor - 1.0);
     t->stiffness += slope * factor;

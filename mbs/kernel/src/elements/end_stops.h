@@ -1,6 +1,7 @@
 /* Bump and rebound stops of springs: laws of contact_law.h beyond two lengths. */
 #ifndef ALI3_END_STOPS_H
 #define ALI3_END_STOPS_H
+#include <stdint.h>
 
 /* Reals of stops; without the last eight they are linear. */
 enum {
@@ -21,6 +22,7 @@ typedef struct {
   double elastic, lost;
   double stiffness, damping;
   double potential;
+  uint32_t piece; /* bits: the bump stop, the rebound stop is met */
 } ali3_tension;
 
 /* Adds the stops at a length and its rate. */

@@ -49,10 +49,10 @@ enum {
 enum { OUTPUTS = ALI3_TYRE_OUTPUTS };
 
 /* Radial return of F to the largest force of its direction, which in TMeasy is hypot(Fxm cos, Fym sin); J follows. */
-static void limit(const double full[2], double F[2], double J[2][2], double safe[2]) {
+static uint32_t limit(const double full[2], double F[2], double J[2][2], double safe[2]) {
   const double weight[2] = {full[0] * full[0], full[1] * full[1]};
   const double size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(full[0] * F[0], full[1] * F[1]);
-  if (!(bound > 0.0 && size2 > bound)) return;
+  if (!(bound > 0.0 && size2 > bound)) return 0u;
   const double use = size2 / bound;
   double e[2]; /* gradient of use by F */
   for (int i = 0; i < 2; i++) e[i] = (2.0 - use * weight[i] / bound) * (F[i] / bound);
@@ -62,6 +62,7 @@ static void limit(const double full[2], double F[2], double J[2][2], double safe
     safe[j] /= use;
   }
   for (int i = 0; i < 2; i++) F[i] /= use;
+  return ALI3_TYRE_AT_LIMIT;
 }
 
 static double load_factor(const double *p, const ali3_tyre_patch *contact) {
@@ -74,8 +75,8 @@ static double friction_ratio(const double *p, const ali3_tyre_patch *contact) {
 
 /* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
  * (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
-static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, const double v[2], double w,
-                    double F[2], double C[3]) {
+static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const double v[2], double w, double F[2],
+                    double C[3]) {
   const double *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING, q = load_factor(p, contact);
   const double grip = friction_ratio(p, contact);
   const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + CURVE_X, p + CURVE_Y, q, grip);
@@ -96,7 +97,10 @@ static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, 
     for (int j = 0; j < 2; j++)
       J[i][j] = by_g * per_slip * (gradient[j] / (t.scale[j] * w)) - (i == j ? g / (g + D[i]) * D[i] : 0.0);
   }
-  if (contact->load > ALI3_TYRE_NO_LOAD) limit(full, F, J, safe);
+  if (contact->load > ALI3_TYRE_NO_LOAD) {
+    a->piece |= limit(full, F, J, safe);
+    if (contact->load > p[MAX_LOAD_FACTOR] * p[NOMINAL_LOAD]) a->piece |= ALI3_TYRE_OVERLOADED;
+  }
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
     a->y_new[2 + i] = a->y_old[2 + i];

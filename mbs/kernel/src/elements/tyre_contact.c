@@ -44,6 +44,9 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const double e[3], const 
         part * ((s->stiffness + s->progression * depth) * depth + hard * deep + s->damping * rate * ramp);
     a->potential +=
         part * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * depth) * depth * depth + hard * deep * deep));
+    a->piece |= (uint32_t)(ALI3_TYRE_TOUCHES | (deep > 0.0 ? ALI3_TYRE_BOTTOMS : 0) |
+                           (ramp < 1.0 ? 0 : ALI3_TYRE_FULLY) | (force > 0.0 ? ALI3_TYRE_PRESSES : 0))
+                << ALI3_TYRE_CONTACT_BITS * k;
     if (!(force > 0.0)) continue;
     const double load = force / c->cosine, total = mean.load + load;
     for (int i = 0; i < 6; i++) a->f[i] += force * b[i];
