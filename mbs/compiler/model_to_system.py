@@ -36,6 +36,7 @@ from mbs.compiler.ordering import clique_pattern, fill_reducing_order
 from mbs.compiler.overconstrained import MOST_TOLERANCE, TOLERANCE, corrected_joints, redrawn
 from mbs.compiler.payloads import payload_arrays, payload_cliques, with_room
 from mbs.compiler.polynomial import RowTerms, row_terms
+from mbs.compiler.ports import with_ports_of
 from mbs.compiler.pose import pose_arrays, pose_partners
 from mbs.compiler.row_arrays import RowArrays
 from mbs.compiler.row_scale import row_scale
@@ -173,13 +174,19 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]], drawing: Draw
     report["length"], report["length_stated"] = length, model.length is not None
     meta = metadata(model, [c.name for c in info], rows, report, lengths)
     if not flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
-        return System(tables, meta, frames, drawing(model, frames.T, z0, q), modes)
+        return System(tables, meta, frames, drawing(model, frames.T, z0, q), modes, _ported(model))
     parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
     resting = System(tables, meta, frames)
     q = equilibrium(resting, parameters)
     tables.update(start_arrays(resting, parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
-    return System(tables, meta, frames, drawing(model, frames.T, z0, q), modes)
+    return System(tables, meta, frames, drawing(model, frames.T, z0, q), modes, _ported(model))
+
+
+def _ported(model: Model) -> Callable[[System], System | None] | None:
+    """What makes the System with ports of the System of a model."""
+    make = model.with_ports
+    return None if make is None else lambda system: with_ports_of(to_system(make()), system)
 
 
 def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:

@@ -37,7 +37,7 @@ def with_ports_of(ported: System, without: System) -> System | None:
         their full coordinates.
     """
     one, other = ported.frames, without.frames
-    if one is None or other is None or one.flexible or other.flexible:
+    if one is None or other is None or one.flexible or other.flexible or not _same_forces(ported, without):
         return None
     ports, constants = _port_rows(ported)
     mine, theirs = _shared(one), _shared(other)
@@ -91,6 +91,13 @@ def following(systems: list[System]) -> tuple[list[System], list[int]]:
                 break
         followers.append(follower)
     return found, followers
+
+
+def _same_forces(ported: System, without: System) -> bool:
+    """Whether both have elements of the same types, one by one, and the same inputs; numbers of points are of frames."""
+    types = all(np.array_equal(ported.arrays[n], without.arrays[n]) for n in ("el_type", "el_int", "el_real_ptr"))
+    inputs = [[entry["name"] for entry in system.meta["inputs"]] for system in (ported, without)]
+    return types and inputs[0] == inputs[1]
 
 
 def _shared(frames: Frames) -> list[int]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from numpy.typing import ArrayLike
 
 from mbs.common.checks import instance_of, shown
@@ -44,6 +46,21 @@ class ModelCore(Register):
         self.payloads: list[Payload] = []
         self.parameters: list[Parameter] = []
         self.constants: list[Constant] = []
+        self.with_ports = None
+
+    @property
+    def with_ports(self) -> Callable[[], ModelCore] | None:
+        """Makes the same model with ports; None where there is none, or this one has grown since it was set."""
+        return self._with_ports if self._size() == self._size_with_ports else None
+
+    @with_ports.setter
+    def with_ports(self, make: Callable[[], ModelCore] | None) -> None:
+        self._with_ports, self._size_with_ports = make, self._size()
+
+    def _size(self) -> tuple[int, ...]:
+        """Counts of what moves and what acts."""
+        parts = (self.inertias, self.joints, self.elements, self.spins, self.inputs, self.guides, self.payloads)
+        return tuple(len(part) for part in parts)
 
     def add(self, element: ElementRecord) -> ElementRecord:
         """Add a force element by its record.

@@ -71,6 +71,9 @@ class Model(
         Set it where the whole scene may be placed by a `Pose`: nothing ties it to the ground but roads.
     start_in_equilibrium : bool
         Set it to start in the static equilibrium instead of as drawn.
+    with_ports : callable, optional
+        Makes the same model with ports, which computes the sensors that this one leaves out; it is called when one of
+        them is first read. Set it last: with what is added later there is none.
     stop_time, step : float
         What an FMU of the System proposes as its stop time and its step, s.
     default_shapes : bool

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import GuideType, SensorType
 from mbs.kernel.header.limits import BALANCE_WRONG, HALVINGS_SUSPECT
+from mbs.results.missed_load import missed_load
 from mbs.results.run_report import Report
 from mbs.settings.input_signals import unit_text
 from mbs.settings.methods import METHOD_TABLE
@@ -190,7 +191,7 @@ def differences(
     groups: Mapping[str, Sequence[str]],
     extents: dict[str, float] | None = None,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
-    """Largest differences of two runs; `extents` are the largest ones of runs before these, and grow with them.
+    """Largest differences of two runs, at 51 instants and of loads between them; `extents` are the largest ones of runs before these, and grow with them.
 
     Returns
     -------
@@ -207,6 +208,8 @@ def differences(
     for unit, names in groups.items():
         rows = instants(len(coarse[names[0]]))
         gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
+        if unit == "N":
+            gaps = {name: max(gap, missed_load(coarse[name], fine[name])) for name, gap in gaps.items()}
         size = extent(unit, [fine[name] for name in names])
         if extents is not None:
             size = extents[unit] = max(size, extents.get(unit, 0.0))

@@ -18,6 +18,7 @@ from ali3.words import brief
 from mbs.common.checks import flag, shown, whole
 from mbs.elements.road import Road
 from mbs.results.accuracy import Accuracy
+from mbs.results.left_out import LeftOut
 from mbs.results.poses import Poses
 from mbs.results.run_report import Report
 from mbs.roads.scene_part import drawn_roads, scene_part
@@ -63,6 +64,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         What `mbs.animate` draws.
     roads : mapping of int to road or str, optional
         Roads of the run that are not those of the drawing, by their numbers: moved by parameters, or paths of files.
+    left_out : LeftOut, optional
+        Sensors among `names` that the run did not compute; their columns of `values` are not looked at.
     """
 
     def __init__(
@@ -81,9 +84,13 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         poses: Poses | None = None,
         drawing: Drawing | None = None,
         roads: Mapping[int, Road | str] | None = None,
+        left_out: LeftOut | None = None,
     ) -> None:
         self.t = t
-        self.units = dict(zip(names, units, strict=True))
+        self._left_out = left_out if left_out is not None else LeftOut((), None)
+        without = set(self._left_out.names)
+        hidden = set() if self._left_out.can else without
+        self.units = {n: unit for n, unit in zip(names, units, strict=True) if n not in hidden}
         self.report = report
         self.settings = settings
         self.wall_s = wall_s
@@ -94,19 +101,21 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         self.drawing = drawing
         self.roads = dict(roads or {})
         self._poses = poses
-        self._columns = {name: values[:, i] for i, name in enumerate(names)}
+        self._columns = {name: values[:, i] for i, name in enumerate(names) if name not in without}
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
+        if isinstance(name, str) and name in self._left_out.names:
+            return self._left_out.column(name)
         if not isinstance(name, str) or name not in self._columns:
-            known = ", ".join(self._columns) or "none"
+            known = ", ".join(self.units) or "none"
             raise KeyError(f"There is no sensor {shown(name)}; the trajectory has: {known}.")
         return self._columns[name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
+        return iter(self.units)
 
     def __len__(self) -> int:
-        return len(self._columns)
+        return len(self.units)
 
     @property
     def poses(self) -> Poses:
@@ -165,7 +174,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         scene = {**scene, "roads": self._drawn_roads(scene.get("roads", []))}
         poses = self._poses
         every = 1 if poses is None else poses.every
-        columns, units = {n: v[::every] for n, v in self._columns.items()}, dict(self.units)
+        columns, units = {n: v[::every] for n, v in self.items()}, dict(self.units)
         if poses is not None:
             names = poses.recorded_names
             columns |= {names[column]: values for column, values in poses.items()}
@@ -224,11 +233,16 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         every = whole(every, "every", 1, 10**9, ValueError)
         if every == 1:
             return self
-        values = np.column_stack(list(self.values())) if self._columns else np.empty((len(self.t), 0))
+        none = np.zeros(len(self.t))
+        kept = [self._columns.get(name, none) for name in self.units]
+        values = np.column_stack(kept) if kept else np.empty((len(self.t), 0))
         names, units = list(self.units), list(self.units.values())
         rest = (self.report, self.settings, self.wall_s, self.accuracy, self.notices, self.branch_change, self.control)
         poses = None if self._poses is None else self._poses.thinned(every)
-        return Trajectory(self.t[::every], values[::every], names, units, *rest, poses, self.drawing, self.roads)
+        left_out = self._left_out.thinned(every)
+        return Trajectory(
+            self.t[::every], values[::every], names, units, *rest, poses, self.drawing, self.roads, left_out
+        )
 
     @property
     def realtime_factor(self) -> float:
@@ -261,7 +275,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         ValueError
             The run has no poses, or not at all of its samples.
         """
-        columns, units = dict(self._columns), dict(self.units)
+        columns, units = dict(self), dict(self.units)
         if flag(poses, "The poses of to_csv", ValueError):
             if self.poses.every > 1:
                 raise ValueError(

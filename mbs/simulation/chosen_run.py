@@ -23,6 +23,7 @@ from mbs.settings.settings import Settings
 from mbs.simulation.arguments import check_end, check_record, count_steps
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
+from mbs.simulation.left_out_run import left_out_to_tolerance
 from mbs.simulation.march import notices_of
 from mbs.simulation.method_choice import choose
 from mbs.simulation.position_record import PositionRecord
@@ -282,6 +283,7 @@ def _trajectory(
     return Trajectory(
         times, values, names, units, ended.report, settings, wall, None, notices, ended.branch_change, control,
         record.poses(times), record.drawing, run_roads(ended.system, ended.instance, ended.road_paths),
+        left_out_to_tolerance(ended.system),
     )  # fmt: skip
 
 

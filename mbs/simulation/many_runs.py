@@ -39,6 +39,7 @@ from mbs.simulation.arguments import (
 )
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.large_bending import BendingWarning
+from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.march import attached, next_chunk, trajectory_of
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
@@ -126,6 +127,7 @@ class _Run:
         self.before, self.alone, self.wall = self.simulation.report, 0, 0.0
         self.values = np.empty((steps // every + 1, len(meta["sensors"])))
         self.values[0] = list(self.simulation.instance.sensors())
+        self.left_out = left_out_of_run(self.simulation, variant.inputs, h, every)
         self.record = PositionRecord(system, self.simulation.state.q, len(self.values))
         self.error: KernelError | None = None
 
@@ -141,7 +143,7 @@ class _Run:
         good = round((time_now - self.t0) / self.h) // self.every + 1 if self.error else len(self.values)
         interval = self.h * self.every
         recorded = trajectory_of(
-            self.simulation, self.t0, interval, self.values[:good], self.wall, self.before, self.record
+            self.simulation, self.t0, interval, self.values[:good], self.wall, self.before, self.record, self.left_out
         )
         failure = None
         if self.error is not None:

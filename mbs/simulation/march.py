@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError
 from mbs.results import accuracy
+from mbs.results.left_out import LeftOut
 from mbs.results.run_report import Report
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import InputSignals, Signal
@@ -23,6 +24,7 @@ from mbs.simulation.arguments import (
     check_values,
     count_steps,
 )
+from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
@@ -57,9 +59,11 @@ def march(
     meta, instance = prepared(simulation.system)[1], simulation.instance
     check_record(steps // every + 1, len(meta["sensors"]))
     simulation.step_tried = h
-    signals = InputSignals(check_values(inputs, "The inputs"), meta["inputs"])
+    given = check_values(inputs, "The inputs")
+    signals = InputSignals(given, meta["inputs"])
     values = np.empty((steps // every + 1, len(meta["sensors"])))
     values[0] = list(instance.sensors())
+    left_out = left_out_of_run(simulation, given, h, every)
     instants = [int(k) * every for k in accuracy.instants(len(values))]
     looks = instants if look or simulation.bending.watches else []
     seen = [simulation.state.q] if look else []
@@ -79,7 +83,7 @@ def march(
                 good = round((simulation.time - t0) / h) // every + 1
                 wall += time.perf_counter() - begin
                 record.take(row, places)
-                recorded = trajectory_of(simulation, t0, h * every, values[:good], wall, before, record)
+                recorded = trajectory_of(simulation, t0, h * every, values[:good], wall, before, record, left_out)
                 what = f"The step from t = {simulation.time:g} s with h = {h:g} s failed"
                 raise refusal(simulation, what, error, recorded) from error
             spent = time.perf_counter() - begin
@@ -93,7 +97,7 @@ def march(
                     seen.append(q)
             bar.update(done / steps)
             chunk = next_chunk(chunk, spent, every)
-    return trajectory_of(simulation, t0, h * every, values, wall, before, record), seen
+    return trajectory_of(simulation, t0, h * every, values, wall, before, record, left_out), seen
 
 
 def notices_of(system: System, t: Array, values: Array) -> list[str]:
@@ -135,8 +139,9 @@ def trajectory_of(
     wall: float,
     before: Report,
     record: PositionRecord,
+    left_out: Callable[[int], LeftOut | None],
 ) -> Trajectory:
-    """What was recorded, with the counters since `before`."""
+    """What was recorded, with the counters since `before`; `left_out` makes of the number of samples what was not."""
     sensors, report = prepared(simulation.system)[1]["sensors"], simulation.report
     t = t0 + interval * np.arange(len(values), dtype=float)
     return Trajectory(
@@ -153,6 +158,7 @@ def trajectory_of(
         poses=record.poses(t),
         drawing=record.drawing,
         roads=run_roads(simulation.system, simulation.instance, simulation.road_paths),
+        left_out=left_out(len(values)),
     )
 
 

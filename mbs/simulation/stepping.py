@@ -42,7 +42,6 @@ from mbs.simulation.parameter_warning import tell_unworkable
 from mbs.simulation.refusal import refusal
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.simulation.twin import twin
 from mbs.system.system import System
 
 SINGULAR = {"switches": "switch"}
@@ -375,7 +374,7 @@ class Simulation(SteppedSystem):
             if not made:
                 made = True
                 return self
-            self._twin = given if given is not None else twin(self, state)
+            self._twin = given if given is not None else self._at(state)
             return self._twin
 
         def equal_steps() -> Trajectory:
@@ -408,11 +407,14 @@ class Simulation(SteppedSystem):
         self._twin = None
         with progress_for(progress) as bar:
             trajectory, ended = to_tolerance(
-                lambda: twin(self, state), tolerance, times, given, self.settings, self.settings.method, bar
+                lambda: self._at(state), tolerance, times, given, self.settings, self.settings.method, bar
             )
         self.instance.restore(ended.instance.save())
         self.instance.set_settings(**self.settings.kernel_fields())
         return trajectory
+
+    def _at(self, state: bytes) -> SteppedSystem:
+        return SteppedSystem.restored(self.system, self.settings, self.road_paths, state)
 
     def _warn_once(self) -> None:
         """The part of `simulate`'s check that costs nothing."""

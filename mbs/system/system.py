@@ -55,6 +55,9 @@ class System:
         Points and axes of the bodies among the coordinates; None where the System was read from a file.
     drawing : Drawing or None
         What is drawn and how the coordinates move it; None where the file had none.
+    ported : callable or None
+        Makes of this System the one with ports that follows it and computes the sensors that it leaves out
+        (`mbs.compiler.ports`), or None; None where there is none, as in a System from a file.
     """
 
     def __init__(
@@ -64,6 +67,7 @@ class System:
         frames: Frames | None = None,
         drawing: Drawing | None = None,
         modes: Callable[[], Mapping[str, ArrayLike]] | None = None,
+        ported: Callable[[System], System | None] | None = None,
     ) -> None:
         names = set(arrays)
         if names | OPTIONAL != FLOATS | INTEGERS:
@@ -72,6 +76,7 @@ class System:
         self.arrays = _Arrays(arrays, modes)
         self.frames = frames
         self.drawing = drawing
+        self.ported = ported
         self._meta_text = json.dumps(meta, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
 
     @property
@@ -129,6 +134,7 @@ class System:
         """
         made = copy.copy(self)
         made.arrays = self.arrays.changed(arrays)
+        made.ported = None  # it would not have them
         return made
 
     def to_bytes(self, drawing: bool = True, modes: bool = True) -> bytes:

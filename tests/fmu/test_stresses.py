@@ -14,7 +14,7 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
 from hosts.fmu.fmu import Fmu
-from mbs import System, compile
+from mbs import Simulation, System, compile, simulate
 from mbs.compiler.ports import following, with_ports_of
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.scenes import kerb_test, pendulum, prototype_car
@@ -189,3 +189,63 @@ def test_only_the_same_model_is_followed() -> None:
     for one, two in ((loaded(follower), alone), (loaded(ported), rigid)):
         with pytest.raises(KernelError, match="argument"):
             one.follow(two)
+
+
+def test_a_run_in_python_has_the_same_numbers(kerb_fmus: Path) -> None:
+    """Bit for bit those of the FMU, from one run and from states; a thinned run has those of its samples."""
+    system = compile(kerb_test.build(0))
+    run = simulate(system, 7.9, H, every=10, progress=False, estimate_error=False)
+    with Fmu(kerb_fmus / "native.fmu") as fmu:
+        fmu.initialise({"fidelity": 0.0})
+        read = fmu.getter(GAUGES)
+        rows = [read()]
+        for k in range(790):
+            fmu.step(k * H, H)
+            if k % 10 == 9:
+                rows.append(read())
+    assert np.array_equal(np.array(rows), np.column_stack([run[name] for name in GAUGES]))
+    assert np.abs(run["stress.SG3"]).max() > 3e6
+    assert run["stress.computed"].tolist() == [1.0] * len(run.t)
+    again = simulate(system, 7.9, H, every=10, progress=False, estimate_error=False)
+    assert np.array_equal(again.thinned(3).thinned(2)["stress.SG2"], run["stress.SG2"][::6])
+    stepped = Simulation(system)
+    stepped.step(H, 780)
+    seen = stepped.sensors
+    stepped.step(H, 10)
+    assert seen["stress.SG3"] == run["stress.SG3"][78]
+    assert stepped.sensors["stress.SG3"] == run["stress.SG3"][79]
+    assert stepped.sensors["chassis.x"] == run["chassis.x"][79]
+
+
+def test_unread_in_python_they_cost_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No second System is made and no force at a port is sought; reading changes no number of the run."""
+    calls: list[str] = []
+    follow, model = Instance.follow, prototype_car.build()
+    make = model.with_ports
+    assert make is not None
+    monkeypatch.setattr(Instance, "follow", lambda self, other: (calls.append("follow"), follow(self, other)))
+    model.with_ports = lambda: (calls.append("model"), make())[1]
+    system = compile(model)
+    run = simulate(system, 0.1, H, progress=False)
+    assert Simulation(system).sensors["speed"] == run["speed"][0]
+    assert calls == []
+    assert run["stress.SG1"].shape == run.t.shape
+    assert calls == ["model"] + ["follow"] * len(run.t)
+
+
+def test_a_system_that_nothing_follows_has_no_stresses(tmp_path: Path) -> None:
+    """From a file, with more than the car has, to a tolerance: a sentence, never 0."""
+    system = compile(prototype_car.build())
+    system.save(tmp_path / "car.ali3")
+    grown = prototype_car.build()
+    grown.input("of the user")
+    for made in (System.load(tmp_path / "car.ali3"), compile(grown), system.with_arrays({})):
+        run = simulate(made, 0.02, H, progress=False)
+        assert "stress.SG1" not in run
+        with pytest.raises(KeyError, match=r"'stress.SG1' is not computed by this System: .* fidelity=1"):
+            run["stress.SG1"]
+        with pytest.raises(KeyError, match=r"'stress.SG1' is not computed"):
+            Simulation(made).sensors["stress.SG1"]
+    run = simulate(system, 0.02, tolerance=1e-2, progress=False)
+    with pytest.raises(KeyError, match=r"'stress.SG1' is not computed .* to a tolerance .* steps of a length h"):
+        run["stress.SG1"]

@@ -13,6 +13,7 @@ typedef struct { /* in one block, but for the settings */
   double *held, *unit, *set, *row;  /* nu: inputs of the step, direction in parts of their ranges, work */
   double *parameter;                /* np: of the step */
   unsigned char *before, *after;    /* ne: contacts */
+  slave_kinks kinks;
   double size, plus, minus; /* of the direction; ends of the difference, one of them 0 at the end of a range */
   ali3_settings settings;
 } replay;
@@ -20,15 +21,19 @@ typedef struct { /* in one block, but for the settings */
 static bool allocate(slave *s, replay *r) {
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   const size_t nu = (size_t)z.nu, ne = (size_t)z.ne, snapshot = ali3_snapshot_size(s->fidelity.system);
-  r->end = s->memory.allocate(1, snapshot + (4 * nu + (size_t)z.np) * sizeof(double) + 2 * ne + 1);
+  r->end = s->memory.allocate(1, snapshot + (4 * nu + (size_t)z.np) * sizeof(double) + 3 * ne * sizeof(uint32_t) +
+                                     3 * ne + 1);
   if (r->end == NULL) return false;
   r->held = (double *)((unsigned char *)r->end + snapshot);
   r->unit = r->held + nu;
   r->set = r->unit + nu;
   r->row = r->set + nu;
   r->parameter = r->row + nu;
-  r->before = (unsigned char *)(r->parameter + z.np);
+  uint32_t *const piece = (uint32_t *)(r->parameter + z.np);
+  r->before = (unsigned char *)(piece + 3 * ne);
   r->after = r->before + ne;
+  r->kinks = (slave_kinks){piece, piece + ne, piece + 2 * ne, r->after + ne, z.ne};
+  memset(r->kinks.passed, 0, ne);
   return true;
 }
 
@@ -84,34 +89,39 @@ static ali3_status begin(slave *s, const replay *r, double part) {
   return status;
 }
 
-/* To its end; *kink: a contact with a road was made or lost on the way. */
-static ali3_status run(slave *s, const replay *r, bool *kink) {
+/* To its end; *contact: one with a road was made or lost on the way. */
+static ali3_status run(slave *s, replay *r, bool beside, bool *contact) {
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   ali3_instance *kernel = s->fidelity.kernel;
   ali3_status status = ALI3_OK;
   ali3_contacts(kernel, r->before);
+  slave_kinks_begin(&r->kinks, kernel, beside);
   for (int64_t k = 0; k < s->made.n && status == ALI3_OK; k++) {
     memcpy(r->row, r->set, (size_t)z.nu * sizeof(double));
     if (s->made.sloped) slave_add_slopes(s->made_slope, (double)(k + 1) * s->made.h, r->row);
     status = ali3_run(kernel, s->made.h, 1, r->row, 1, NULL, NULL, NULL);
     ali3_contacts(kernel, r->after);
-    *kink = *kink || memcmp(r->before, r->after, (size_t)z.ne) != 0;
+    *contact = *contact || memcmp(r->before, r->after, (size_t)z.ne) != 0;
+    slave_kinks_after(&r->kinks, kernel);
   }
   return status;
 }
 
 /* Adds weight times the outputs at the end of one of the two. */
-static slave_status add(slave *s, const replay *r, double part, double weight, bool left_out, double *out) {
+static slave_status add(slave *s, replay *r, double part, double weight, bool left_out, double *out) {
   const slave_table *t = &slave_the_table;
-  bool kink = false;
+  /* a kink at the end of an input's range is none to the one side that there is */
+  const bool beside = weight < 0.0 && r->plus != 0.0 && r->minus != 0.0;
+  bool contact = false;
   ali3_status status = begin(s, r, part);
-  if (status == ALI3_OK) status = run(s, r, &kink);
+  if (status == ALI3_OK) status = run(s, r, beside, &contact);
   if (status != ALI3_OK)
     return slave_say(s, SLAVE_ERROR, "The directional derivative could not be found: %s.", ali3_status_text(status));
-  if (kink)
+  if (contact)
     return slave_say(s, SLAVE_ERROR,
                      "There is no directional derivative of this communication step: a contact with the road was made "
                      "or lost in it.");
+  if (slave_kinks_say(s, &r->kinks) != SLAVE_OK) return SLAVE_ERROR;
   s->outputs_fresh = false;
   if (!slave_outputs(s) || (left_out && !slave_follow(s))) return SLAVE_ERROR;
   for (size_t i = t->n_known; i < t->n_variables; i++)

@@ -206,6 +206,16 @@ void slave_add_slopes(const double *slope, double elapsed, double *input);
 /* replay.c */
 slave_status slave_step_derivative(slave *s, const double *direction, bool left_out, double *out);
 
+/* kinks.c: pieces of the elements' laws along replays of a step, ne each */
+typedef struct {
+  uint32_t *now, *begin, *other; /* in this replay, at its begin, at that of the one before */
+  unsigned char *passed; /* whether it changes */
+  int32_t ne;
+} slave_kinks;
+void slave_kinks_begin(slave_kinks *k, ali3_instance *kernel, bool beside);
+void slave_kinks_after(slave_kinks *k, ali3_instance *kernel);
+slave_status slave_kinks_say(slave *s, const slave_kinks *k);
+
 /* refusal.c: a host that asks for a refused step again is stopped */
 slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst);
 void slave_forget_refusal(slave *s);

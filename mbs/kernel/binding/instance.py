@@ -6,7 +6,8 @@ import ctypes
 import math
 import os
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_void_p
 from typing import Any
 
@@ -386,6 +387,22 @@ class Instance:
     def restore(self, data: bytes) -> None:
         """Continue from saved bytes of the same System; altered bytes are refused."""
         self._check(self._library.ali3_state_restore(self._handle, bytes(data), len(data)))
+
+    def snapshot(self) -> Any:
+        """A copy in memory of the state, for `at` of this instance: at less cost than `save`."""
+        data = ctypes.create_string_buffer(self.system.snapshot_size)
+        self._library.ali3_snapshot_take(self._handle, data)
+        return data
+
+    @contextmanager
+    def at(self, snapshot: Any) -> Iterator[None]:
+        """Go back to a snapshot of this instance, and return to the present state."""
+        now = self.snapshot()
+        self._library.ali3_snapshot_restore(self._handle, snapshot)
+        try:
+            yield
+        finally:
+            self._library.ali3_snapshot_restore(self._handle, now)
 
     def get_state(self) -> tuple[Any, Any, Any, Any, Any]:
         """Copies of q, qd, qdd (nq,), the multipliers of the stored rows (nc,) and the element states y (ny,)."""

@@ -25,7 +25,7 @@ class LoadedSystem:
     ----------
     sizes : Sizes
         Numbers of coordinates, rows, inputs, sensors and so on.
-    state_size, instance_size : int
+    state_size, snapshot_size, instance_size : int
         Bytes of a saved state and of an instance.
     """
 
@@ -41,6 +41,7 @@ class LoadedSystem:
         self._handle = handle
         self.sizes: Sizes = self._library.ali3_system_sizes(handle)
         self.state_size: int = self._library.ali3_state_size(handle)
+        self.snapshot_size: int = self._library.ali3_snapshot_size(handle)
         self.instance_size: int = self._library.ali3_instance_size(handle)
 
     def __del__(self) -> None:

@@ -336,6 +336,9 @@ ALI3_API void ali3_snapshot_restore(ali3_instance *in, const void *snapshot);
 ALI3_API ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot);
 /* Per force element (ne) 1 where it touches a road in the present position, else 0. */
 ALI3_API void ali3_contacts(const ali3_instance *in, unsigned char *touching);
+/* Per force element (ne) a number of the smooth piece of its law that holds in the present state with the present
+ * inputs: where it changes, a stop is met or left, friction sticks or slips, a limit is reached. */
+ALI3_API void ali3_law_pieces(ali3_instance *in, uint32_t *piece);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is

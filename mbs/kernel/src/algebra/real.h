@@ -40,6 +40,8 @@ static inline real ali3_floor(real x) {
 }
 
 /* Counters of the report: of the lanes that are at work. */
+/* Lanes are not asked for the pieces of laws. */
+#define ALI3_PIECE(piece, c, bits) ((void)(piece), (void)(c), (void)(bits))
 #define ALI3_AT_WORK(in, lanes) (*(in)->at_work = (lanes))
 #define ALI3_AT_WORK_OF(in, lanes) (*(in)->at_work & (lanes))
 #define ALI3_COUNT(in, counter) (*(in)->report.counter -= *(in)->at_work)
@@ -58,6 +60,8 @@ static inline truth ali3_negative(real x) { return signbit(x); }
 static inline real ali3_sqrt(real x) { return sqrt(x); }
 static inline real ali3_floor(real x) { return floor(x); }
 
+/* Adds bits to those that tell the smooth pieces of a law apart, where c holds. */
+#define ALI3_PIECE(piece, c, bits) (*(piece) |= (c) ? (uint32_t)(bits) : 0u)
 #define ALI3_AT_WORK(in, lanes) ((void)(in))
 #define ALI3_AT_WORK_OF(in, lanes) (lanes)
 #define ALI3_COUNT(in, counter) ((in)->report.counter++)

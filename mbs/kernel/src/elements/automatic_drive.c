@@ -40,6 +40,10 @@ enum { REVERSE_RATIO, ENGAGE_SPEED, ENGAGE_TIME, OF_SELECTOR }; /* behind the ra
 enum { STATES = 4 };
 #define LIMITER_WIDTH 0.05 /* of the limit speed */
 #define LONG_AGO 1e3 /* s */
+#define BARELY 1e-6 /* of the stall speed: round-off of a car at rest */
+/* Bits of the pieces of its law: the turbine turns forward, the converter raises the torque, the largest power or the
+ * limit of speed holds; from GEARS on the gear, 0 for none, one more than there are for reverse. */
+enum { TURNS = 1, CONVERTS = 2, BY_POWER = 4, LIMITED = 8, CUT_OFF = 16, GEARS = 32 };
 
 static int gear_of(double slot, int gears) { return slot >= gears ? gears : slot >= 1.0 ? (int)slot : 1; }
 
@@ -49,9 +53,9 @@ static double wheel_rate(const ali3_element_args *a) {
 
 static double throttle_of(const ali3_element_args *a) { return ali3_clamp(a->input[a->integer[0]], 0.0, 1.0); }
 
-/* Total wheel torque at mean relative wheel rate W; also its slope dT/dW, engine speed and engine torque. */
+/* Total wheel torque at mean relative wheel rate W; also its slope dT/dW, engine speed, engine torque and piece. */
 static double torque(const double *p, double ratio, double throttle, double W, double *slope, double *speed,
-                     double *engine) {
+                     double *engine, uint32_t *piece) {
   const double turbine = ratio * W > 0.0 ? ratio * W : 0.0, closed = 1.0 - throttle;
   double stall = p[IDLE_SPEED] + throttle * (p[STALL_SPEED] - p[IDLE_SPEED]);
   if (!(stall > 1.0)) stall = 1.0;
@@ -69,6 +73,10 @@ static double torque(const double *p, double ratio, double throttle, double W, d
     dfull = dfull * (1.0 - over) - full * dw / (LIMITER_WIDTH * p[LIMIT_SPEED]);
     full *= 1.0 - over;
   }
+  if (turbine > BARELY * stall) *piece |= TURNS;
+  if (turbine < p[COUPLING_RATIO] * w) *piece |= CONVERTS;
+  if (p[MAX_TORQUE] * w > p[MAX_POWER]) *piece |= BY_POWER;
+  if (over > 0.0) *piece |= over < 1.0 ? LIMITED : CUT_OFF;
   const double x = ali3_clamp(W / p[CREEP_SPEED], 0.0, 1.0), drag = closed * p[DRAG_TORQUE] / p[LIMIT_SPEED];
   *speed = w;
   *engine = throttle * full - drag * turbine;
@@ -95,8 +103,8 @@ static double selected(ali3_element_args *a, double ratio, double *slope, double
   *slope = *engine = 0.0;
   *speed = free;
   if (*direction == 0) return 0.0;
-  const double sign = *direction,
-               total = torque(p, sign < 0.0 ? q[REVERSE_RATIO] : ratio, throttle, sign * W, slope, speed, engine);
+  const double sign = *direction, total = torque(p, sign < 0.0 ? q[REVERSE_RATIO] : ratio, throttle, sign * W, slope,
+                                                 speed, engine, &a->piece);
   *slope *= share;
   *engine *= share;
   *speed = share * *speed + (1.0 - share) * free;
@@ -112,8 +120,10 @@ static void evaluate(ali3_element_args *a) {
   const double ratio = ratios[before - 1] + (ratios[gear - 1] - ratios[before - 1]) * x * x * (3.0 - 2.0 * x);
   double slope, speed, engine;
   int direction = 1;
-  const double total = a->nint > 2 ? selected(a, ratio, &slope, &speed, &engine, &direction)
-                                   : torque(p, ratio, throttle_of(a), wheel_rate(a), &slope, &speed, &engine);
+  const double total = a->nint > 2
+                           ? selected(a, ratio, &slope, &speed, &engine, &direction)
+                           : torque(p, ratio, throttle_of(a), wheel_rate(a), &slope, &speed, &engine, &a->piece);
+  a->piece |= (uint32_t)(GEARS * (direction > 0 ? gear : direction < 0 ? gears + 1 : 0));
   double b[8] = {0.5, 0.5}; /* the mean relative rate is b . ud */
   for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];
   for (int i = 0; i < 8; i++) a->f[i] = total * b[i];

@@ -45,6 +45,7 @@ static void evaluate(ali3_element_args *a) {
     const truth released = ali3_abs(a->y_new[0]) < 1e-100; /* for long: no denormals */
     for (int i = 0; i < 2; i++) a->y_new[i] = ali3_where(released, ali3_same(0.0), a->y_new[i]);
   }
+  ali3_slider_piece(&a->piece, sticks, trial, bound);
   real b[7];
   for (int i = 0; i < 3; i++) b[i] = -0.5 * g[i], b[3 + i] = 0.5 * f[i];
   b[6] = ali3_same(1.0);

@@ -36,6 +36,7 @@ enum {
 enum { ROAD, POINTS, INTEGERS };
 enum { NORMAL_FORCE, TOUCHING, FORCE, DEPTH = FORCE + 3, OUTPUTS };
 enum { SIGNALS = 12, STATES = 4 }; /* states of each point */
+enum { STICKS = 1, SLIPS, PIECES };
 
 /* o + X p of signals or rates */
 static void place(const double *u, const double p[3], double out[3]) {
@@ -150,6 +151,7 @@ static void rub(ali3_element_args *a, const double local[3], const touch *t, con
     lever(plane[i], foot, row[i]);
   }
   const double most = ali3_hypot(trial[0], trial[1]), share = most > bound ? bound / most : 1.0;
+  a->piece += share < 1.0 ? SLIPS : STICKS;
   for (int i = 0; i < 2; i++) {
     const double force = share * trial[i];
     for (int j = 0; j < SIGNALS; j++) a->f[j] -= force * row[i][j];
@@ -188,6 +190,7 @@ static void every_point(ali3_element_args *a, int by_gradients) {
   for (int32_t i = 0; i < a->integer[POINTS]; i++) {
     const double *local = a->real + HEAD + 3 * i;
     const touch t = press(a, local, by_gradients);
+    a->piece *= PIECES; /* a digit a point; of many points the sum is a check sum */
     if (!(t.load > 0.0)) continue; /* what leaves the road forgets its deflection, which fell with the load */
     rub(a, local, &t, a->y_old + STATES * i, a->y_new + STATES * i);
     a->out[NORMAL_FORCE] += t.load;

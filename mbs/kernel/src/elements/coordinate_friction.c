@@ -23,6 +23,7 @@ static void evaluate(ali3_element_args *a) {
     if (fabs(a->y_new[0]) < 1e-100) a->y_new[0] = a->y_new[1] = 0.0; /* no denormals */
   }
   a->f[0] = -force;
+  ali3_slider_piece(&a->piece, sticks, trial, p[LARGEST]);
   a->potential = 0.5 * p[STIFFNESS] * a->y_new[0] * a->y_new[0];
   a->out[0] = -force;
   a->out[1] = sticks && p[LARGEST] > 0.0;

@@ -31,17 +31,21 @@ enum {
   REALS
 };
 #define LIMITER_WIDTH 0.05 /* of the limit speed */
+/* Bits of the pieces of its law. */
+enum { BY_POWER = 1, LIMITED = 2, CUT_OFF = 4, TAKES_BY_POWER = 8, DRIVES = 16, DIRECTIONS = 32 };
+#define BARELY 1e-3 /* of the fade: the gears lose nothing yet */
 #define GEAR_FADE 5.0 /* rad/s of the motor, below which the loss of the gears, a friction, fades */
 
 typedef struct {
   double value, slope; /* torque, and its derivative by the speed */
+  uint32_t piece;
 } torque;
 
 /* min(largest, power / |speed|) */
 static torque envelope(double largest, double power, double speed) {
   const double w = fabs(speed);
-  if (!(largest * w > power)) return (torque){largest, 0.0};
-  return (torque){power / w, -power / w / speed};
+  if (!(largest * w > power)) return (torque){largest, 0.0, 0u};
+  return (torque){power / w, -power / w / speed, BY_POWER};
 }
 
 /* Torque of the motor over its speed, both positive in the direction engaged. */
@@ -50,15 +54,16 @@ static torque motor(const double *p, double throttle, double speed, int reverse)
   torque full = envelope(p[MAX_TORQUE] * (reverse ? p[REVERSE_TORQUE] : 1.0), p[MAX_POWER], speed);
   const double over = (speed - limit) / width;
   if (over >= 1.0) {
-    full = (torque){0.0, 0.0};
+    full = (torque){0.0, 0.0, CUT_OFF};
   } else if (over > 0.0) {
-    full = (torque){full.value * (1.0 - over), full.slope * (1.0 - over) - full.value / width};
+    full = (torque){full.value * (1.0 - over), full.slope * (1.0 - over) - full.value / width, full.piece | LIMITED};
   }
   const torque taken = envelope(p[REGENERATION_TORQUE], p[REGENERATION_POWER], speed);
   const double x = ali3_clamp(speed / p[REGENERATION_SPEED], -1.0, 1.0), fade = 0.5 * x * (3.0 - x * x);
   const double steep = 1.5 * (1.0 - x * x) / p[REGENERATION_SPEED], closed = 1.0 - throttle;
   return (torque){throttle * full.value - closed * taken.value * fade,
-                  throttle * full.slope - closed * (taken.slope * fade + taken.value * steep)};
+                  throttle * full.slope - closed * (taken.slope * fade + taken.value * steep),
+                  full.piece | (taken.piece ? TAKES_BY_POWER : 0u)};
 }
 
 /* Torque behind the gears per ratio: they take power in both directions. */
@@ -67,7 +72,8 @@ static torque geared(double efficiency, torque m, double speed) {
   const double x = ali3_clamp(fabs(speed) / GEAR_FADE, 0.0, 1.0), sign = speed < 0.0 ? -1.0 : 1.0;
   const double change = drives ? efficiency - 1.0 : 1.0 / efficiency - 1.0;
   const double factor = 1.0 + change * x * x * (3.0 - 2.0 * x);
-  return (torque){m.value * factor, m.slope * factor + m.value * change * sign * 6.0 * x * (1.0 - x) / GEAR_FADE};
+  return (torque){m.value * factor, m.slope * factor + m.value * change * sign * 6.0 * x * (1.0 - x) / GEAR_FADE,
+                  m.piece | (drives || x < BARELY ? DRIVES : 0u)};
 }
 
 static double wheel_rate(const ali3_element_args *a) {
@@ -82,14 +88,15 @@ static void evaluate(ali3_element_args *a) {
   const int direction =
       a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, selector_of(a), a->h / p[ENGAGE_TIME], &share) : 1;
   const double speed = p[RATIO] * wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[0]], 0.0, 1.0);
-  torque m = {0.0, 0.0};
+  torque m = {0.0, 0.0, 0u};
   if (direction != 0) {
     m = motor(p, throttle, direction * speed, direction < 0);
-    m = (torque){direction * share * m.value, share * m.slope};
+    m = (torque){direction * share * m.value, share * m.slope, m.piece};
   }
   const torque wheels = geared(p[GEAR_EFFICIENCY], m, speed);
   const double total = p[RATIO] * wheels.value, slope = p[RATIO] * p[RATIO] * wheels.slope;
   const double power = m.value * speed;
+  a->piece = wheels.piece + (uint32_t)(DIRECTIONS * (direction + 1));
   double b[8] = {0.5, 0.5}; /* the mean relative rate is b . ud */
   for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];
   for (int i = 0; i < 8; i++) a->f[i] = total * b[i];

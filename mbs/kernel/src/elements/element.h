@@ -31,6 +31,8 @@ typedef struct {
   real *out;                     /* nout element outputs, always written */
   real potential;                /* stored energy, J, written */
   int32_t idle;                  /* 0; set to 1 by an element whose f and S are zero */
+  /* 0; set to what tells the smooth pieces of the law apart: a stop is met, friction slips, a limit is reached */
+  uint32_t piece;
 } ali3_element_args;
 
 typedef void ali3_element_function(ali3_element_args *a);

@@ -14,6 +14,15 @@ static inline real ali3_input_or_zero(const real *input, int32_t index) {
   return index >= 0 ? input[index] : ali3_same(0.0);
 }
 
+/* Pieces of the law of a slider: it sticks, or slips to one side; one that holds nothing has none. */
+enum { ALI3_STICKS = 1, ALI3_SLIPS_UP = 2, ALI3_SLIPS_DOWN = 4 };
+static inline void ali3_slider_piece(uint32_t *piece, truth sticks, real trial, real bound) {
+  const truth holds = bound > 0.0, slips = holds & ali3_not(sticks);
+  ALI3_PIECE(piece, holds & sticks, ALI3_STICKS);
+  ALI3_PIECE(piece, slips & (trial > 0.0), ALI3_SLIPS_UP);
+  ALI3_PIECE(piece, slips & ali3_not(trial > 0.0), ALI3_SLIPS_DOWN);
+}
+
 /* Weight of the new rate in x_new = x_old + h ((1 - theta) x'_old + theta x'_new) for x' = -rate x + ...:
  * 1/2 (trapezoidal rule, order two) while it does not ring, then just enough more that x keeps its sign. */
 static inline real ali3_theta(double h, real rate) {

@@ -30,6 +30,7 @@ void ali3_end_stops_at(const real *p, int progressive, real length, real rate, a
     real slope = {0}, loss_slope;
     const real force = ali3_contact_force(&law[side], beyond[side], &slope, &t->potential);
     const real factor = ali3_contact_loss(&law[side], sign * rate, &loss_slope);
+    ALI3_PIECE(&t->piece, ali3_not(free) & (force > 0.0), 1u << side);
     t->elastic = ali3_add_unless(free, t->elastic, sign * force);
     t->lost = ali3_add_unless(free, t->lost, sign * force * (factor - 1.0));
     t->stiffness = ali3_add_unless(free, t->stiffness, slope * factor);

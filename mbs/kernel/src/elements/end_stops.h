@@ -1,6 +1,8 @@
 /* Bump and rebound stops of springs: laws of contact_law.h beyond two lengths. */
 #ifndef ALI3_END_STOPS_H
 #define ALI3_END_STOPS_H
+#include <stdint.h>
+
 #include "../algebra/real.h"
 
 /* Reals of stops; without the last eight they are linear. */
@@ -22,6 +24,7 @@ typedef struct {
   real elastic, lost;
   real stiffness, damping;
   real potential;
+  uint32_t piece; /* bits: the bump stop, the rebound stop is met */
 } ali3_tension;
 
 /* Adds the stops at a length and its rate. */

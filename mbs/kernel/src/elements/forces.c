@@ -32,6 +32,7 @@ static void prepare(ali3_instance *in, const ali3_force_call *call, int32_t e, c
   a->out = call->out + S->el_out_ptr[e];
   a->potential = 0.0;
   a->idle = 0;
+  a->piece = 0;
 }
 
 /* The signals of element e and their rates. */
@@ -99,6 +100,26 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
 void ali3_forces_tangent(ali3_instance *in, double *F) {
   if (in->system->n_flexible > 0) ali3_flexible_tangent(in, 1.0, in->wC, in->wK, F);
   ali3_elements_tangent(in, F);
+}
+
+void ali3_law_pieces(ali3_instance *in, uint32_t *piece) {
+  if (in == NULL || piece == NULL) return;
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
+  const ali3_force_call call = {.q = in->now.q,
+                                .qd = in->now.qd,
+                                .y_old = in->now.y,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
+  ali3_active_signals(in, call.q, call.qd);
+  for (int32_t e = 0; e < in->system->size.ne; e++) {
+    ali3_element_args a;
+    local(in, e, u, ud);
+    prepare(in, &call, e, u, ud, f, NULL, &a);
+    memset(f, 0, sizeof f);
+    in->system->el_kind[e]->evaluate(&a);
+    piece[e] = a.piece;
+  }
 }
 
 /* Discrete changes of element e after an accepted step, at its own signals. */

@@ -52,10 +52,10 @@ typedef struct {
 } reaction;
 
 /* Scales F, its derivative and the safe share down to the larger of the peaks' ellipse and the steady force. */
-static void limit(const double peak[2], const double steady[2], double F[2], double J[2][2], double safe[2]) {
+static uint32_t limit(const double peak[2], const double steady[2], double F[2], double J[2][2], double safe[2]) {
   const double use = ali3_hypot(F[0] / peak[0], F[1] / peak[1]),
                held = fmax(ali3_hypot(steady[0] / peak[0], steady[1] / peak[1]), 1.0);
-  if (!(use > held)) return;
+  if (!(use > held)) return 0u;
   const double part = held / use;
   for (int j = 0; j < 2; j++) {
     double along = 0.0;
@@ -64,10 +64,11 @@ static void limit(const double peak[2], const double steady[2], double F[2], dou
     safe[j] *= part;
   }
   for (int i = 0; i < 2; i++) F[i] *= part;
+  return ALI3_TYRE_AT_LIMIT;
 }
 
 /* Steady forces at a slip velocity in ISO axes: F, derivatives by the velocities, secant damping g and its derivatives. */
-static ali3_magic_force steady(const ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
+static ali3_magic_force steady(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
                                double w, double lean, double g[2], double g_by[2][2], ali3_magic_state *state) {
   const double *p = a->real, most = p[LARGEST_LOAD],
                grip = contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
@@ -87,11 +88,14 @@ static ali3_magic_force steady(const ali3_element_args *a, const ali3_tyre_patch
       .speed = fabs(m->travel[0]),
       .slide = ali3_hypot(m->v[0], m->v[1]),
   };
+  if (s.load < contact->load) a->piece |= ALI3_TYRE_OVERLOADED;
+  if (s.camber != p[SIGN_CAMBER] * lean) a->piece |= ALI3_TYRE_AT_RANGE << 2;
   const double ways[2] = {-1.0, p[SIGN_SLIP]}, turn[2] = {1.0, p[SIGN_FORCE]};
   double slip[2], kept[2], by[2];
   for (int i = 0; i < 2; i++) {
     const double raw = ways[i] * m->v[i] / w;
     slip[i] = ali3_clamp(raw, p[(i ? ANGLE_LEAST : SLIP_LEAST)], p[(i ? ANGLE_LEAST : SLIP_LEAST) + 1]);
+    if (slip[i] != raw) a->piece |= (uint32_t)ALI3_TYRE_AT_RANGE << i;
     kept[i] = slip[i] == raw ? 1.0 : slip[i] / raw; /* beyond the range the force stays */
     by[i] = slip[i] == raw ? ways[i] / w : 0.0;
   }
@@ -110,8 +114,7 @@ static ali3_magic_force steady(const ali3_element_args *a, const ali3_tyre_patch
 }
 
 /* One step of the carcass: forces, new slots, damping matrix (symmetric part, not below the safe share of the secant). */
-static reaction carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m,
-                        double lean) {
+static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m, double lean) {
   const double *p = a->real, fast = m->travel[0] / ALI3_TYRE_ROLLS;
   const double stands = (1.0 - ali3_tyre_moving(fabs(m->travel[0]))) * ali3_hypot(m->v[0], m->v[1]);
   const double w = ali3_hypot(ali3_hypot(m->travel[0], ALI3_TYRE_SLOW), stands);
@@ -134,7 +137,7 @@ static reaction carcass(const ali3_element_args *a, const ali3_tyre_patch *conta
     for (int j = 0; j < 2; j++) J[i][j] = D[i] / (g[i] + D[i]) * f.J[i][j] + by_g * g_by[i][j];
   }
   if (holds) {
-    limit(f.peak, f.F, r.F, J, safe);
+    a->piece |= limit(f.peak, f.F, r.F, J, safe);
     const double acting[2] = {r.F[0], p[SIGN_FORCE] * r.F[1]};
     f.F[1] *= p[SIGN_FORCE];
     ali3_magic_moments(&s, acting, &f);

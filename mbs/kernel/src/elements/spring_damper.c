@@ -26,6 +26,7 @@ static void evaluate(ali3_element_args *a) {
   const real tension = t.elastic + c * line.rate + t.lost;
   ali3_line_force(a, &line, tension, t.stiffness, t.damping);
   a->potential = t.potential;
+  a->piece = t.piece;
   a->out[0] = line.length;
   a->out[1] = tension;
   a->out[2] = line.rate;

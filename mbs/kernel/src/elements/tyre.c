@@ -49,10 +49,11 @@ enum {
 enum { OUTPUTS = ALI3_TYRE_OUTPUTS };
 
 /* Radial return of F to the largest force of its direction, which in TMeasy is hypot(Fxm cos, Fym sin); J follows. */
-static void limit(truth loaded, const real full[2], real F[2], real J[2][2], real safe[2]) {
+static void limit(ali3_element_args *a, truth loaded, const real full[2], real F[2], real J[2][2], real safe[2]) {
   const real weight[2] = {full[0] * full[0], full[1] * full[1]};
   const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(full[0] * F[0], full[1] * F[1]);
   const truth exceeds = loaded & (bound > 0.0) & (size2 > bound);
+  ALI3_PIECE(&a->piece, exceeds, ALI3_TYRE_AT_LIMIT);
   if (!ali3_any(exceeds)) return;
   const real use = size2 / bound;
   real e[2]; /* gradient of use by F */
@@ -75,7 +76,7 @@ static real friction_ratio(const real *p, const ali3_tyre_patch *contact) {
 
 /* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
  * (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
-static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2],
+static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2],
                     real C[3]) {
   const real *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING, q = load_factor(p, contact);
   const real grip = friction_ratio(p, contact);
@@ -97,7 +98,9 @@ static void carcass(const ali3_element_args *a, const ali3_tyre_patch *contact, 
     for (int j = 0; j < 2; j++)
       J[i][j] = by_g * per_slip * (gradient[j] / (t.scale[j] * w)) - (i == j ? g / (g + D[i]) * D[i] : none);
   }
-  limit(contact->load > ALI3_TYRE_NO_LOAD, full, F, J, safe);
+  const truth loaded = contact->load > ALI3_TYRE_NO_LOAD;
+  limit(a, loaded, full, F, J, safe);
+  ALI3_PIECE(&a->piece, loaded & (contact->load > p[MAX_LOAD_FACTOR] * p[NOMINAL_LOAD]), ALI3_TYRE_OVERLOADED);
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
     a->y_new[2 + i] = a->y_old[2 + i];

@@ -57,6 +57,11 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
         ali3_not(touches), a->potential,
         part * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * depth) * depth * depth + hard * deep * deep)));
     const truth presses = touches & (force > 0.0), first = ali3_not(mean.load > 0.0);
+    const int32_t second = ALI3_TYRE_CONTACT_BITS * k;
+    ALI3_PIECE(&a->piece, touches, ALI3_TYRE_TOUCHES << second);
+    ALI3_PIECE(&a->piece, touches & (deep > 0.0), ALI3_TYRE_BOTTOMS << second);
+    ALI3_PIECE(&a->piece, touches & ali3_not(ramp < 1.0), ALI3_TYRE_FULLY << second);
+    ALI3_PIECE(&a->piece, presses, ALI3_TYRE_PRESSES << second);
     if (!ali3_any(presses)) continue;
     const real load = force / c->cosine, total = mean.load + load;
     for (int i = 0; i < 6; i++) a->f[i] = ali3_add_unless(ali3_not(presses), a->f[i], force * b[i]);

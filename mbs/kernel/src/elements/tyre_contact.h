@@ -10,6 +10,18 @@
 #define ALI3_TYRE_NO_LOAD 1e-9 /* N */
 #define ALI3_TYRE_NO_GRIP 1e-6 /* of the friction at which the forces of the tyre hold */
 
+/* Bits of the pieces of a tyre's law; those of the second contact lie ALI3_TYRE_CONTACT_BITS higher. */
+enum {
+  ALI3_TYRE_TOUCHES = 1,
+  ALI3_TYRE_BOTTOMS = 2, /* on its bottoming radius */
+  ALI3_TYRE_FULLY = 4, /* deep enough for all of its damping */
+  ALI3_TYRE_PRESSES = 8,
+  ALI3_TYRE_CONTACT_BITS = 4,
+  ALI3_TYRE_AT_LIMIT = 1 << 8, /* of adhesion */
+  ALI3_TYRE_OVERLOADED = 1 << 9, /* beyond the loads of its curves */
+  ALI3_TYRE_AT_RANGE = 1 << 10 /* of slip, slip angle (one bit higher) or camber (two) */
+};
+
 typedef struct { /* m, N/m, N/m^2 (force of the squared deflection), N s/m */
   real radius, bottoming_radius, stiffness, progression, damping, bottoming_stiffness;
 } ali3_tyre_spring;

@@ -1,0 +1,64 @@
+"""Sensors that a System leaves out: they are found when one of them is first read, never read as 0 in its place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class LeftOut:
+    """Columns of a run that it did not compute.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Of the sensors.
+    compute : callable or None
+        Takes of how many samples one is wanted, and returns the columns by name; None where nothing can.
+    reason : str
+        Why nothing can.
+    every : int
+        One of so many samples of the run is wanted.
+    """
+
+    def __init__(
+        self,
+        names: Sequence[str],
+        compute: Callable[[int], dict[str, Array]] | None,
+        reason: str = "",
+        every: int = 1,
+    ) -> None:
+        self.names, self._compute, self.reason, self._every = tuple(names), compute, reason, every
+        self._found: dict[str, Array] | None = None
+
+    @property
+    def can(self) -> bool:
+        """Whether they can be found."""
+        return self._compute is not None
+
+    def column(self, name: str) -> Array:
+        """Values of one of the names; all are found with the first.
+
+        Raises
+        ------
+        KeyError
+            They cannot be found; the sentence says why.
+        """
+        if self._compute is not None and self._found is None:
+            self._found = self._compute(self._every)
+        if self._found is None:
+            raise KeyError(refused(name, self.reason))
+        return self._found[name]
+
+    def thinned(self, every: int) -> LeftOut:
+        """Of every so many samples of this one."""
+        return LeftOut(self.names, self._compute, self.reason, self._every * every)
+
+
+def refused(name: str, reason: str) -> str:
+    """Why a sensor cannot be read."""
+    return f"The sensor {name!r} is not computed by this System: {reason}."

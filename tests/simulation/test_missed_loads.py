@@ -1,0 +1,68 @@
+"""Loads between the instants at which two runs are compared: a missed one is seen, a late one is not."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.results import accuracy
+from mbs.results.missed_load import WIDTH, missed_load
+from mbs.scenes import prototype_car
+
+N = 2001
+PEAK = 3000.0  # N
+SMALL = 0.05 * PEAK
+
+
+def landing(at: float, width: float = 12.0, peak: float = PEAK, rest: float = 1000.0) -> np.ndarray:
+    """A load that stays, with a peak of so many samples."""
+    return rest + peak * np.exp(-(((np.arange(N) - at) / width) ** 2))
+
+
+@pytest.mark.parametrize("at", [970.0, 970.5, 987.3])
+def test_a_peak_that_one_run_has_alone_is_seen(at: float) -> None:
+    """Between two of the 51 instants; also where it is of a few samples, and where it is a load that drops."""
+    rows = accuracy.instants(N)
+    for width in (2.0, 5.0):
+        there, flat = landing(at, width), landing(at, width, 0.0)
+        assert np.abs(there - flat)[rows].max() < SMALL
+        for one, other in ((there, flat), (flat, there), (2000.0 - there, 2000.0 - flat)):
+            assert missed_load(one, other) > 0.75 * PEAK
+        assert missed_load(there, landing(at, width, 0.7 * PEAK)) == pytest.approx(0.3 * PEAK, rel=0.2)
+
+
+def test_a_landing_that_comes_late_is_not() -> None:
+    for late in (0.5, 1.0, WIDTH):
+        assert np.abs(landing(970.0) - landing(970.0 + late)).max() > 0.03 * PEAK
+        assert missed_load(landing(970.0), landing(970.0 + late)) < 0.01 * PEAK
+    assert missed_load(landing(970.0), landing(970.0 + 20 * WIDTH)) > 0.9 * PEAK
+    assert missed_load(landing(970.0)[: 2 * WIDTH - 1], landing(0.0)[: 2 * WIDTH - 1]) == 0.0
+
+
+def test_a_drop_in_a_long_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    """50 s in which the car lands once: from 0.3 m on its floor, whose force is 26 % off at 10 ms; from 0.1 m not."""
+    system = mbs.compile(prototype_car.build())
+    names = accuracy.judged_sensors(system)["N"]
+
+    def run(height: float) -> tuple[float, list[str]]:
+        """Largest error of a peak over the largest load, and what is said."""
+        pose = mbs.Pose(z=height)
+        fine = mbs.simulate(system, 1.0, 2.5e-4, pose=pose, progress=False, estimate_error=False)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            found = mbs.simulate(system, 50.0, 0.01, pose=pose, progress=False)
+        peaks = {n: np.abs(fine[n]).max() for n in names}
+        off = max(abs(np.abs(found[n]).max() - peak) for n, peak in peaks.items())
+        return off / max(peaks.values()), [str(w.message) for w in said if w.category is mbs.AccuracyWarning]
+
+    error, said = run(0.3)
+    assert error > 0.2
+    assert "% of the largest range" in said[0]
+    error, said = run(0.1)
+    assert error < 0.05
+    assert said == []
+    monkeypatch.setattr(accuracy, "missed_load", lambda one, other: 0.0)
+    assert run(0.3)[1] == []
