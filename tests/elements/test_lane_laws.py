@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbs.elements import Brake, Drag, EndStops, GyroscopicSpin, KerbRoad, PlaneRoad, SpinAngle, SpringDamper
-from mbs.kernel.header import ElementType
+from mbs.kernel.header.enumerations import ElementType
 from tests.elements.harness import Element, library, vectors
 from tests.elements.test_fuzz import awkward
 from tests.elements.tyre_data import tyre_element

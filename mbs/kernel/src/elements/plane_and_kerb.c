@@ -71,7 +71,7 @@ static int kerb(const real *p, const real centre[3], const real axis[3], real ra
     const ali3_contact nothing = ali3_no_contact();
     take(missed, &nothing, &out[1]);
   }
-  return 2;
+  return ali3_any(ali3_not(missed)) ? 2 : 1;
 }
 
 int ali3_contacts_by_numbers(int32_t type, const real *p, real friction_factor, const real centre[3],
