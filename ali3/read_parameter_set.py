@@ -9,6 +9,7 @@ from typing import Any
 
 from ali3.parameter_set import Entry, ParameterSet, ParameterSetError, UnitDefinition
 from ali3.reading import read_bytes
+from ali3.xml_memory import is_lack_of_memory
 
 LARGEST = 10_000_000
 """Bytes that a file may have."""
@@ -72,6 +73,8 @@ def _parsed(file: str | os.PathLike[str]) -> Any:
         parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
+        if is_lack_of_memory(error):
+            raise MemoryError from None
         raise ParameterSetError(f"{file} is no XML document: {_words(error.msg or 'it is empty')}.") from None
     if root.getroottree().docinfo.doctype:
         raise ParameterSetError(f"{file} has a document type declaration; a parameter set has none.")
