@@ -9,7 +9,11 @@ from typing import Any
 
 from ali3.parameter_set import Entry, ParameterSet, ParameterSetError
 from ali3.reading import read_bytes
+<<<<<<< HEAD
 from ali3.unit_definition import UnitDefinition
+=======
+from ali3.xml_memory import is_lack_of_memory
+>>>>>>> 5331442d30b1141733e6e11d00d617071722e34c
 
 LARGEST = 10_000_000
 """Bytes that a file may have."""
@@ -73,6 +77,8 @@ def _parsed(file: str | os.PathLike[str]) -> Any:
         parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
+        if is_lack_of_memory(error):
+            raise MemoryError from None
         raise ParameterSetError(f"{file} is no XML document: {_words(error.msg or 'it is empty')}.") from None
     if root.getroottree().docinfo.doctype:
         raise ParameterSetError(f"{file} has a document type declaration; a parameter set has none.")

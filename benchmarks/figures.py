@@ -14,10 +14,10 @@ from collections.abc import Callable, Sequence
 
 import mbs
 from ali3.running import run_command
-from benchmarks.car import accuracy, flexible_tables, trust
+from benchmarks.car import accuracy, trust
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
 from benchmarks.methods import honesty, pages, stability, stability_margins
-from benchmarks.paper import double_four_bar, puma
+from benchmarks.paper import double_four_bar, flexible_tables, puma
 from benchmarks.paper.pages import four_bar_blocks, puma_blocks
 from benchmarks.shared.command import watched
 from benchmarks.shared.figures import Again, all_differences, between, read, rows_of

@@ -22,6 +22,7 @@ from ali3.files import reason
 from ali3.near_names import did_you_mean
 from ali3.running import command_name
 from ali3.words import brief, shortened
+from ali3.xml_memory import is_lack_of_memory
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.instance import Instance, State
@@ -62,6 +63,8 @@ def _read(path: Path) -> tuple[ModelDescription, dict[str, Place]]:
     except (ImportError, MemoryError):
         raise
     except Exception as error:
+        if is_lack_of_memory(error):
+            raise MemoryError from None
         raise HostError(f"{path} is not an FMU that can be read: {error}") from None
     return description, places
 
