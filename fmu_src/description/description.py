@@ -110,14 +110,8 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
     bytes
         UTF-8, the same for the same arguments.
     """
-    root = ElementTree.Element(
-        "fmiModelDescription",
-        fmiVersion="2.0",
-        modelName=head.model_name,
-        guid=head.guid,
-        **about(head),
-        numberOfEventIndicators="0",
-    )
+    own = {"fmiVersion": "2.0", "modelName": head.model_name, "guid": head.guid}
+    root = ElementTree.Element("fmiModelDescription", {**own, **about(head), "numberOfEventIndicators": "0"})
     face = ElementTree.SubElement(
         root,
         "CoSimulation",

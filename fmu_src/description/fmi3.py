@@ -41,13 +41,8 @@ def model_description_fmi3(
     -------
     bytes
     """
-    root = ElementTree.Element(
-        "fmiModelDescription",
-        fmiVersion="3.0",
-        modelName=head.model_name,
-        instantiationToken=head.guid,
-        **about(head),
-    )
+    own = {"fmiVersion": "3.0", "modelName": head.model_name, "instantiationToken": head.guid}
+    root = ElementTree.Element("fmiModelDescription", own | about(head))
     ElementTree.SubElement(
         root,
         "CoSimulation",

@@ -170,7 +170,7 @@ def test_of_two_programs_that_make_a_folder_the_first_wins(tmp_path):
 
 
 def test_a_lock_goes_with_the_process_that_holds_it(tmp_path):
-    text = f"from ali3.folders import locked\nwith locked({str(tmp_path)!r}):\n    print('held', flush=True); input()"
+    text = f"from ali3.locks import locked\nwith locked({str(tmp_path)!r}):\n    print('held', flush=True); input()"
     pipe = subprocess.PIPE
     with subprocess.Popen([sys.executable, "-c", text], stdin=pipe, stdout=pipe, text=True) as one:
         assert one.stdout.readline() == "held\n"

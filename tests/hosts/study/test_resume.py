@@ -104,7 +104,8 @@ def test_only_what_is_missing_is_made(
     pq.write_table(table.slice(3, 9), runs / "part-000001.parquet")
     assert main([*again, scheduler]) == 0
     told = capsys.readouterr().out
-    assert f"{min(9, len(table) - 3)} of 16 runs are there" in told
+    there = 16 - len(table) + len(table.slice(3, 9))  # a slow machine writes more than one part
+    assert f"{there} of 16 runs are there" in told
     now = read_study(half / "out")
     assert now.drop(columns="wall_seconds").equals(before.drop(columns="wall_seconds"))
     (half / "out" / "study.json").unlink()
