@@ -9,11 +9,8 @@ from typing import Any
 
 from ali3.parameter_set import Entry, ParameterSet, ParameterSetError
 from ali3.reading import read_bytes
-<<<<<<< HEAD
 from ali3.unit_definition import UnitDefinition
-=======
 from ali3.xml_memory import is_lack_of_memory
->>>>>>> 5331442d30b1141733e6e11d00d617071722e34c
 
 LARGEST = 10_000_000
 """Bytes that a file may have."""

@@ -55,7 +55,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ())
 
 
 def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | None:
-    """What a user is told of an error; None: it is none of the user's.
+    """What a user is told of an error; None where the error is not the user's.
 
     Parameters
     ----------

@@ -217,7 +217,7 @@ def cells_of(line: str, mark: str) -> list[str]:
 
 
 def number_of(cell: str, decimal: str = "") -> float:
-    """A cell as a number, with a decimal comma if `decimal` is one; `ValueError` if it is none."""
+    """A cell as a number, with a decimal comma if `decimal` is one; `ValueError` if it is not one."""
     if not cell.isascii() or "_" in cell:  # which `float` takes
         raise ValueError
     return float(cell.replace(",", ".") if decimal else cell)

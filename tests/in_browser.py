@@ -3,10 +3,28 @@
 from __future__ import annotations
 
 import io
+import os
 import time
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
+
+from viewer.browser import VARIABLE, BrowserError, find_chromium
+
+
+def chromium_or_skip() -> Path:
+    """A Chromium of this machine. `.ci/run` installs one where it may; elsewhere the test is skipped and says why.
+
+    A program that the environment names and that is not there is a mistake, and no reason to skip.
+    """
+    try:
+        return find_chromium()
+    except BrowserError as error:
+        if os.environ.get(VARIABLE):
+            raise
+        pytest.skip(str(error))
 
 
 def wait_until(page: Any, expression: str, arg: Any = None, timeout: float = 30.0) -> Any:

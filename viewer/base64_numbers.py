@@ -24,7 +24,7 @@ def encoded(values: ArrayLike, kind: str = "f") -> str:
 
 
 def decoded(text: str, kind: str) -> NDArray[Any]:
-    """Numbers of a text in base64; `ValueError` if it is none.
+    """Numbers of a text in base64; `ValueError` if the text is not base64.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def encoded_octets(values: ArrayLike) -> str:
 
 
 def octets(text: str) -> NDArray[np.uint8]:
-    """Whole numbers from 0 to 255 of a text in base64; `ValueError` if it is none."""
+    """Whole numbers from 0 to 255 of a text in base64; `ValueError` if the text is not base64."""
     return np.frombuffer(_bytes(text), np.uint8)
 
 

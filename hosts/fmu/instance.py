@@ -79,7 +79,10 @@ class Instance:
 
         def log(environment: object, *rest: Any) -> None:
             *_, status, category, message = rest
-            told(int(status), (category or b"").decode("utf-8", "replace"), (message or b"").decode("utf-8", "replace"))
+            text = (message or b"").decode("utf-8", "replace")
+            if not self.three:  # a format of printf, in which # marks references
+                text = text.replace("%%", "%").replace("##", "#")
+            told(int(status), (category or b"").decode("utf-8", "replace"), text)
 
         if self.three:
             self.slave: Any = FMU3Slave(**arguments)

@@ -116,7 +116,7 @@ def _peak(time: NDArray[np.float64], yaw_rate: NDArray[np.float64], begin: float
 
 
 def _of(begin: float, time: NDArray[np.float64], acceleration: NDArray[np.float64]) -> SineWithDwell:
-    """The begin and the displacement alone."""
+    """The start of the steering and the displacement alone."""
     at = begin + 1.07
     if time[-1] < at - 1e-9:
         return SineWithDwell(begin, *6 * (math.nan,))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Affine:
     """A scalar ``sum(terms[i] * q_full[i]) + constant``.
 
@@ -79,7 +79,7 @@ class Affine:
         return self.constant + sum(c * float(q_full[i]) for i, c in self.terms.items())
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class AffineVector:
     """Two or three `Affine` components in earth axes: a point or a vector of a body."""
 

@@ -75,6 +75,8 @@ def finite(value: object, what: str, error: Error = ModelError) -> float:
 
 def number(value: object, what: str, error: Error = ModelError) -> float:
     """A finite number below `LARGEST`."""
+    if type(value) is float and -LARGEST < value < LARGEST:  # nearly all are
+        return value
     x = finite(value, what, error)
     if abs(x) >= LARGEST:
         raise error(f"{capital(what)} is {x:g}; its size must be below {LARGEST:g}.")
@@ -147,7 +149,7 @@ def text(value: object, what: str, error: Error = ModelError, lines: bool = Fals
     """Text that a file can hold: no control characters (with `lines` but line ends and tabs), no half characters."""
     if not isinstance(value, str):
         raise error(f"{capital(what)} must be text, not {shown(value)}.")
-    for c in value:
+    for c in "" if value.isprintable() else value:
         if unicodedata.category(c) in ("Cc", "Cs") and not (lines and c in "\n\t"):
             raise error(f"{capital(what)} is {value!r}; {c!r} is no character that a file can hold.")
     return str(value)
@@ -207,9 +209,9 @@ def array(
         raise error(f"{capital(what)} is {shown(value)}; it must be {wanted}.")
     if len(found.shape) != len(shape) or any(n is not None and n != m for n, m in zip(shape, found.shape, strict=True)):
         raise error(f"{capital(what)} has shape {found.shape}; it must be {wanted}.")
-    wrong = ~(np.abs(found) < LARGEST)
-    if wrong.any():
-        x = float(found[wrong][0])
+    good = np.abs(found) < LARGEST
+    if not good.all():
+        x = float(found[~good][0])
         given = found.tolist() if found.size <= 4 else f"an array with the entry {x:g}"
         if math.isfinite(x):
             raise error(f"{capital(what)} is {given}; all numbers must be of a size below {LARGEST:g}.")
@@ -223,6 +225,8 @@ def numbers(
     """Numbers in an array of any shape, which need not be finite: NumPy would take text and truth values too."""
     if isinstance(value, np.ndarray) and value.dtype.kind in "iuf":
         return np.array(value, dtype=float)
+    if isinstance(value, (list, tuple)) and {float} == {*map(type, value)}:
+        return np.array(value)
     try:
         entries = np.array(value, dtype=object)
         good = all(is_number(entry) for entry in entries.ravel())

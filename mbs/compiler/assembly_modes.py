@@ -61,6 +61,7 @@ def mode_arrays(
         Values of the guides there.
     """
     numbers, loops, names = [], [], []
+    with_columns = [(row, set(row.columns())) for row in rows]
     for block in blocks_of_loops(model):
         if len(block.vertices) > MOST_VERTICES:
             continue
@@ -69,7 +70,7 @@ def mode_arrays(
             continue
         rings = sorted({t.ring for t in found})
         numbers.append([n for t in found for n in _items(t, signals, rings.index(t.ring))])
-        loops.append((block, found, moving_part(model, block, rows, full)))
+        loops.append((block, found, moving_part(model, block, with_columns, full)))
         names += [list(t.name.encode()) for t in found]
 
     def modes() -> dict[str, Any]:

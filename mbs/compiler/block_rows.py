@@ -49,13 +49,15 @@ class Quadratics:
         return self.constant + (self.linear + 0.5 * slope) @ x, self.linear + slope
 
 
-def moving_part(model: Model, block: Block, rows: Sequence[RowTerms], full: Sequence[Affine]) -> MovingPart:
-    """Coordinates and rows of a block; drives are let go, deformations stay as they are."""
+def moving_part(
+    model: Model, block: Block, rows: Sequence[tuple[RowTerms, set[int]]], full: Sequence[Affine]
+) -> MovingPart:
+    """Coordinates and rows of a block, of all rows with their columns; drives are let go, deformations stay."""
     moving_bodies = [b for v in block.vertices if v is not block.held for b in v.bodies]
     held_bodies = [b for b in block.held.bodies if not b.is_ground]
     carrying = [
-        (set(row.columns()), CARRIED[model.joints[row.joint].type])
-        for row in rows
+        (columns, CARRIED[model.joints[row.joint].type])
+        for row, columns in rows
         if row.joint >= 0 and model.joints[row.joint].type in CARRIED
     ]
     modes = _coordinates([*moving_bodies, *held_bodies], full, deformation=True)
@@ -63,8 +65,7 @@ def moving_part(model: Model, block: Block, rows: Sequence[RowTerms], full: Sequ
     moving = _with_carried(_coordinates(moving_bodies, full) - held - modes, modes | held, carrying)
     known = moving | held | modes
     tied, driven = [], False
-    for row in rows:
-        columns = set(row.columns())
+    for row, columns in rows:
         if not columns & moving:
             continue
         if row.theta >= 0 or row.kind in ("drive", "driven_distance"):

@@ -30,6 +30,9 @@ EXACT = 1e-13
 SAME_POINT = 1e-9
 """Points of a body that are no farther apart, parts of the size, move together."""
 
+BY_POINTS = np.hstack([-np.eye(3), np.zeros((3, 3)), np.eye(3), np.zeros((3, 3))])
+"""Derivatives of the difference of two points by (point, turn) of both ends."""
+
 
 @dataclass
 class End:
@@ -96,18 +99,22 @@ class Loops:
         self.conditions: list[Condition] = []
         for joint in joints:
             self.conditions.append(self._condition(joint, number))
-        self.rows = sum(len(self._rows(c, self.drawn(), None)[0]) for c in self.conditions)
+        self._drawn = Places(np.array([in_space(b.com) for b in self.bodies]), np.array([np.eye(3)] * len(self.bodies)))
+        self._rows_drawn = [self._rows(c, self._drawn, None) for c in self.conditions]
+        self.rows = sum(len(values) for values, _, _ in self._rows_drawn)
         self.hinges = self._hinges()
         columns = [0, 1, 5] if self.planar else range(6)
         self.columns = np.array([6 * k + c for k in range(len(self.bodies)) for c in columns], dtype=np.int64)
 
     def drawn(self) -> Places:
         """Where the bodies are drawn."""
-        return Places(np.array([in_space(b.com) for b in self.bodies]), np.array([np.eye(3) for _ in self.bodies]))
+        return self._drawn
 
     def names(self) -> list[str]:
         """The joint of each condition."""
-        return [c.joint.name for c in self.conditions for _ in self._rows(c, self.drawn(), None)[0]]
+        return [
+            c.joint.name for c, (values, _, _) in zip(self.conditions, self._rows_drawn, strict=True) for _ in values
+        ]
 
     def move(self, places: Places, dx: Array) -> Places:
         """After the change `dx` of the unknowns."""
@@ -121,8 +128,9 @@ class Loops:
         Jg = np.zeros((self.rows, self.constants if constants else 0))
         row = 0
         frames = self._turned(g)
-        for c in self.conditions:
-            values, G, arms = self._rows(c, places, g, frames)
+        as_drawn = places is self._drawn and g is None
+        for k, c in enumerate(self.conditions):
+            values, G, arms = self._rows_drawn[k] if as_drawn else self._rows(c, places, g, frames)
             part = slice(row, row + len(values))
             r[part] = values
             for side, end in enumerate(c.ends):
@@ -229,10 +237,9 @@ class Loops:
 
         for condition in c.conditions:
             if condition == "point":
-                for k in range(2 if self.planar else 3):
-                    e = np.eye(3)[k]
-                    values.append(float(d[k]))
-                    G.append(np.concatenate([-e, zero, e, zero]))
+                dimension = 2 if self.planar else 3
+                values += d[:dimension].tolist()
+                G += list(BY_POINTS[:dimension])
             elif condition == "axis":
                 turned(0, 2)
                 turned(1, 2)

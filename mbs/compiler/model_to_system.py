@@ -50,7 +50,7 @@ from mbs.model.model import Model
 from mbs.system.drawing import Drawing
 from mbs.system.system import System
 
-Drawer = Callable[[Model, sparse.csr_matrix, NDArray[np.float64], NDArray[np.float64]], Drawing | None]
+Drawer = Callable[[Model, sparse.csr_matrix, NDArray[np.float64], NDArray[np.float64]], Drawing]
 
 
 def to_system(model: Model, *, tolerance: float = TOLERANCE, drawing: Drawer | None = None) -> System:
@@ -72,14 +72,20 @@ def to_system(model: Model, *, tolerance: float = TOLERANCE, drawing: Drawer | N
     joints = corrected_joints(model, float(tolerance))
     with redrawn(joints):
         closed = {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}
-        return _compile(model, closed, drawing or _undrawn)
+        system = _compile(model, closed)
+    if drawing is None:
+        return system
+    frames, start = system.frames, system.arrays["q0"]
+    assert frames is not None
+
+    def draw() -> Drawing:
+        with redrawn(joints):
+            return drawing(model, frames.T, frames.constant, start)
+
+    return system.with_drawing(model.drawn_late(draw))
 
 
-def _undrawn(*_: object) -> None:
-    """For `to_system` without a drawing."""
-
-
-def _compile(model: Model, closed: dict[str, tuple[float, float]], drawing: Drawer) -> System:
+def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     """The System of a model whose loops are closed; `closed` is for its report."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
@@ -174,13 +180,13 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]], drawing: Draw
     report["length"], report["length_stated"] = length, model.length is not None
     meta = metadata(model, [c.name for c in info], rows, report, lengths)
     if not flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
-        return System(tables, meta, frames, drawing(model, frames.T, z0, q), modes, _ported(model))
+        return System(tables, meta, frames, modes=modes, ported=_ported(model))
     parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
     resting = System(tables, meta, frames)
     q = equilibrium(resting, parameters)
     tables.update(start_arrays(resting, parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
-    return System(tables, meta, frames, drawing(model, frames.T, z0, q), modes, _ported(model))
+    return System(tables, meta, frames, modes=modes, ported=_ported(model))
 
 
 def _ported(model: Model) -> Callable[[System], System | None] | None:

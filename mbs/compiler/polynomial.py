@@ -69,23 +69,24 @@ class RowTerms:
 def substitute(expression: Affine, full: Sequence[Affine]) -> Affine:
     """An expression of full coordinates as one of z."""
     terms: dict[int, float] = {}
-    size: dict[int, float] = {}
+    largest: dict[int, float] = {}  # of what was added up, where more than one was
     constant, biggest = expression.constant, abs(expression.constant)
     for i, c in expression.terms.items():
         of_z = full[i]
-        constant += c * of_z.constant
-        biggest = max(biggest, abs(c * of_z.constant))
+        if of_z.constant:
+            part = c * of_z.constant
+            constant += part
+            biggest = max(biggest, abs(part))
         for j, v in of_z.terms.items():
             part = c * v
             if j in terms:
+                largest[j] = max(largest.get(j, abs(terms[j])), abs(part))
                 terms[j] += part
-                size[j] = max(size[j], abs(part))
             else:
-                terms[j], size[j] = part, abs(part)
-    return Affine(
-        {j: v for j, v in terms.items() if abs(v) > DROP * size[j]},
-        constant if abs(constant) > DROP * biggest else 0.0,
-    )
+                terms[j] = part
+    if largest or 0.0 in terms.values():
+        terms = {j: v for j, v in terms.items() if abs(v) > DROP * largest.get(j, 0.0)}
+    return Affine(terms, constant if abs(constant) > DROP * biggest else 0.0)
 
 
 def add_product(into: Polynomial, factor: float, a: Affine, b: Affine) -> None:

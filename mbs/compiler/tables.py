@@ -29,11 +29,15 @@ class Signals:
         self._full = full
         self._new = new
         self._known: dict[tuple[Any, ...], int] = {}
+        self._seen: dict[int, tuple[Affine, int]] = {}  # by identity; kept, so that no other one gets it
         self.rows: list[tuple[list[int], list[float], float]] = []
 
     def number(self, expression: Affine) -> int:
         """Number of the signal of an expression of full coordinates."""
-        return self.number_of_z(substitute(expression, self._full))
+        seen = self._seen.get(id(expression))
+        if seen is None:
+            seen = self._seen[id(expression)] = expression, self.number_of_z(substitute(expression, self._full))
+        return seen[1]
 
     def number_of_z(self, z: Affine) -> int:
         """Number of the signal of an expression of z."""

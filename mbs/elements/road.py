@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
@@ -15,7 +16,7 @@ from mbs.elements.reals import Check, NotNegative, Number, Positive, Reals, decl
 from mbs.kernel.header.enumerations import RoadType
 
 
-class _NamedNumbers:
+class _NamedNumbers(ABC):
     """Numbers of a road by name, for the System and for parameters, in the order of the kernel."""
 
     real_names: ClassVar[tuple[str, ...]]
@@ -27,8 +28,9 @@ class _NamedNumbers:
         cls.real_names = tuple(order or checks)
         cls.real_checks = tuple(checks[name] for name in cls.real_names)
 
+    @abstractmethod
     def _reals(self) -> Reals:
-        raise NotImplementedError
+        """Checked numbers by name."""
 
     @property
     def real(self) -> tuple[float, ...]:

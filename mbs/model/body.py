@@ -41,6 +41,7 @@ class Body:
         self.owner: Body = self  # whose coordinates it has
         self.joint_points: list[Vector] = []
         self.joint_axes: list[Vector] = []
+        self._expressions: dict[tuple[float, ...], AffineVector] = {}  # of points and vectors that were asked for
         # zeroth, first and second moments of mass about `com` in the body axes
         self.mass = 0.0
         self.first_moment: Vector = np.zeros(3)
@@ -91,17 +92,20 @@ class Body:
         return self._expression(vector(components, self.dimension, f"a vector of body '{self.name}'"), 0.0)
 
     def _expression(self, local: Vector, origin: float) -> AffineVector:
-        s = self.start
+        numbers = tuple(local.tolist())
+        found = self._expressions.get((origin, *numbers))
+        if found is None:
+            found = self._expressions[(origin, *numbers)] = self._made(numbers, origin)
+        return found
+
+    def _made(self, local: tuple[float, ...], origin: float) -> AffineVector:
+        s, (x, y, *z) = self.start, local
         if self.dimension == 2:
-            x, y = float(local[0]), float(local[1])
             return AffineVector(
                 (_affine([(s, origin), (s + 2, x), (s + 3, -y)]), _affine([(s + 1, origin), (s + 2, y), (s + 3, x)]))
             )
         return AffineVector(
-            tuple(
-                _affine([(s + k, origin), *((s + 3 * (m + 1) + k, float(local[m])) for m in range(3))])
-                for k in range(3)
-            )
+            tuple([_affine([(i, origin), (i + 3, x), (i + 6, y), (i + 9, z[0])]) for i in (s, s + 1, s + 2)])
         )
 
     def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:

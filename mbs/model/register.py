@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
-from typing import Any
+import weakref
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +14,10 @@ from numpy.typing import ArrayLike
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, named, positive, shown, vector, whole
 from mbs.common.errors import ModelError
+from mbs.common.later import Later
 from mbs.model.coordinate import Coordinate, CoordinateInfo
+
+T = TypeVar("T")
 
 
 def _whole_or_not(method: Callable[..., Any]) -> Callable[..., Any]:
@@ -22,17 +27,8 @@ def _whole_or_not(method: Callable[..., Any]) -> Callable[..., Any]:
     def call(self: Register, *args: Any, **kwargs: Any) -> Any:
         if self._undo is not None:  # part of another one
             return method(self, *args, **kwargs)
-        self._undo = []
-        self.remember(self)
-        try:
+        with self.together():
             return method(self, *args, **kwargs)
-        except BaseException:
-            undo, self._undo = self._undo, None
-            for restore in reversed(undo or []):
-                restore()
-            raise
-        finally:
-            self._undo = None
 
     return call
 
@@ -72,12 +68,76 @@ class Register:
         self.coordinates: list[CoordinateInfo] = []
         self._names: set[tuple[str, str]] = set()
         self._undo: list[Callable[[], None]] | None = None
+        self._looks: list[Callable[[], None]] = []
+        self._drawings: list[weakref.ref[Later[Any]]] = []
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         for name, method in list(vars(cls).items()):
             if callable(method) and not name.startswith("_"):
                 setattr(cls, name, _whole_or_not(method))
+
+    @contextmanager
+    def together(self) -> Iterator[None]:
+        """Calls inside are parts of one: an exception leaves the model as it was before the first of them."""
+        if self._undo is not None:
+            yield
+            return
+        drawings, self._drawings = self._drawings, []
+        for reference in drawings:  # of the model as it still is
+            drawing = reference()
+            if drawing is not None:
+                drawing()
+        self.look()
+        self._undo = []
+        self.remember(self)
+        try:
+            yield
+        except BaseException:
+            undo, self._undo = self._undo, None
+            for restore in reversed(undo or []):
+                restore()
+            raise
+        finally:
+            self._undo = None
+
+    def put_off(self, looks: Callable[[], None]) -> None:
+        """Leave what only adds looks until the model is drawn or changes.
+
+        Parameters
+        ----------
+        looks : callable
+            Adds shapes to this model.
+        """
+        self._looks.append(looks)
+
+    def look(self) -> None:
+        """Add the looks that were put off."""
+        if not self._looks:
+            return
+        looks, self._looks = self._looks, []
+        try:
+            with self.together():
+                for add in looks:
+                    add()
+        except BaseException:
+            self._looks = looks
+            raise
+
+    def drawn_late(self, drawing: Callable[[], T]) -> Later[T]:
+        """What a compiled model is drawn by: made when it is asked for, or before the model changes, but at once where
+        no looks were put off.
+
+        Parameters
+        ----------
+        drawing : callable
+            Makes it of the model as it is.
+        """
+        late = Later(drawing)
+        if not self._looks:
+            late()
+        self._drawings = [r for r in (*self._drawings, weakref.ref(late)) if r() is not None]
+        return late
 
     def remember(self, thing: object) -> None:
         """Note the attributes of what is about to change, so that a refused call can restore them.
@@ -90,20 +150,17 @@ class Register:
         if self._undo is None:
             return
         attributes = vars(thing)
-        before = {
-            name: value.copy() if isinstance(value, dict) else value
-            for name, value in attributes.items()
-            if name not in ("_undo", "_names")  # names are many, and `unique` notes its own
-        }
+        before = attributes.copy()
+        before.update([(name, value.copy()) for name, value in attributes.items() if type(value) is dict])
         # Lists of a register only grow: their lengths say what they were, at a cost that does not grow with them.
-        lengths = {name: len(value) for name, value in before.items() if isinstance(value, list)}
+        lengths = [(value, len(value)) for value in attributes.values() if type(value) is list]
 
         def restore() -> None:
-            for name in [name for name in attributes if name not in ("_undo", "_names", *before)]:
+            for name in attributes.keys() - before.keys():
                 del attributes[name]
             attributes.update(before)
-            for name, length in lengths.items():
-                del attributes[name][length:]
+            for value, length in lengths:
+                del value[length:]
 
         self._undo.append(restore)
 

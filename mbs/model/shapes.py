@@ -130,9 +130,21 @@ class ShapeVocabulary(BodyVocabulary):
         self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
     ) -> None:
         super().__init__(name, dimension, gravity, length=length)
-        self.shapes: list[Shape] = []
-        self.turnings: list[Turning] = []
+        self._shapes: list[Shape] = []
+        self._turnings: list[Turning] = []
         self.default_shapes = True
+
+    @property
+    def shapes(self) -> list[Shape]:
+        """All shapes, in the order in which they were added."""
+        self.look()
+        return self._shapes
+
+    @property
+    def turnings(self) -> list[Turning]:
+        """What only its looks turn or slide."""
+        self.look()
+        return self._turnings
 
     def shape(
         self,
@@ -236,7 +248,7 @@ class ShapeVocabulary(BodyVocabulary):
         _check_arguments(kind, given, what)
         looks = {} if name is None else {"name": name}
         made = self._made(kind, owner, given, what, looks | _looks(color, material, opacity, what))
-        self.shapes.append(made)
+        self._shapes.append(made)
         return made
 
     def turning(
@@ -269,7 +281,7 @@ class ShapeVocabulary(BodyVocabulary):
         else:
             turned = self.expression(angle, f"The {what}")
         made = Turning(name, owner, centre, tuple(unit.tolist()), turned)
-        self.turnings.append(made)
+        self._turnings.append(made)
         return made
 
     def _owner(self, owner: object, what: str) -> Owner:
@@ -278,7 +290,7 @@ class ShapeVocabulary(BodyVocabulary):
             self.owned_coordinate(owner, f"The {what}")
             return owner
         if isinstance(owner, Turning):
-            if not any(owner is turning for turning in self.turnings):
+            if not any(owner is turning for turning in self._turnings):
                 raise ModelError(f"The {what}: '{owner.name}' turns in another model than '{self.name}'.")
             return owner
         body = self.owned(owner, f"The {what}")  # type: ignore[arg-type]

@@ -62,7 +62,7 @@ class SlidingVocabulary(ShapeVocabulary):
             raise ModelError(f"The way of the sliding '{name}' must be the name of a sensor, not {shown(way)}.")
         made = self.turning(name, body, at=at, axis=direction, angle=way)
         slides = Sliding(made.name, made.carrier, made.centre, made.axis_reference, way)
-        self.turnings[-1] = slides
+        self._turnings[-1] = slides
         return slides
 
     def mesh_shape(
@@ -101,9 +101,9 @@ class SlidingVocabulary(ShapeVocabulary):
                 f"{given.min():g} to {given.max():g}."
             )
         ball = self.shape(body, "sphere", radius=1.0, name=name, color=color, material=material, opacity=opacity)
-        self.shapes.pop()
+        self._shapes.pop()
         looks = {k: v for k, v in ball.fields.items() if k not in ("radius", "at")}
         at = self._local(ball.owner, np.zeros(self.dimension), f"the origin of {what}")
         mesh: dict[str, Any] = {"at": at, "positions": places, "triangles": corners, "file": name}
-        self.shapes.append(Shape("mesh", ball.owner, looks | mesh))
-        return self.shapes[-1]
+        self._shapes.append(Shape("mesh", ball.owner, looks | mesh))
+        return self._shapes[-1]

@@ -17,6 +17,7 @@ from ali3.files import whole_file
 from ali3.reading import read_bytes
 from mbs.common.checks import instance_of
 from mbs.common.frames import Frames
+from mbs.common.later import Later
 from mbs.kernel.header.arrays import FLOAT_ARRAYS, INTEGER_ARRAYS, OPTIONAL_ARRAYS
 from mbs.kernel.header.limits import SYSTEM_VERSION
 from mbs.system.drawing import Drawing
@@ -53,8 +54,6 @@ class System:
         Names, units and the report.
     frames : Frames or None
         Points and axes of the bodies among the coordinates; None where the System was read from a file.
-    drawing : Drawing or None
-        What is drawn and how the coordinates move it; None where the file had none.
     ported : callable or None
         Makes of this System the one with ports that follows it and computes the sensors that it leaves out
         (`mbs.compiler.ports`), or None; None where there is none, as in a System from a file.
@@ -65,7 +64,7 @@ class System:
         arrays: Mapping[str, ArrayLike],
         meta: Mapping[str, Any],
         frames: Frames | None = None,
-        drawing: Drawing | None = None,
+        drawing: Drawing | Later[Drawing] | None = None,
         modes: Callable[[], Mapping[str, ArrayLike]] | None = None,
         ported: Callable[[System], System | None] | None = None,
     ) -> None:
@@ -75,9 +74,26 @@ class System:
             raise SystemFileError(f"The arrays of a System are incomplete or unknown: {', '.join(wrong)}.")
         self.arrays = _Arrays(arrays, modes)
         self.frames = frames
-        self.drawing = drawing
+        self._drawing = drawing
         self.ported = ported
         self._meta_text = json.dumps(meta, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+
+    @property
+    def drawing(self) -> Drawing | None:
+        """What is drawn and how the coordinates move it; None where the file had none."""
+        return self._drawing() if isinstance(self._drawing, Later) else self._drawing
+
+    def with_drawing(self, drawing: Drawing | Later[Drawing] | None) -> System:
+        """The same System with another drawing.
+
+        Parameters
+        ----------
+        drawing : Drawing, Later or None
+            What `drawing` is, or what makes it when it is asked for.
+        """
+        made = copy.copy(self)
+        made._drawing = drawing
+        return made
 
     @property
     def meta(self) -> dict[str, Any]:

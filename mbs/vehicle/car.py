@@ -151,6 +151,23 @@ class Car(CarContent):
         flexible = self.flexible_frame if fidelity is not Fidelity.RIGID else None
         b = self._builder(road)
         tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
+        with b.m.together():
+            self._build(b, road, flexible, fidelity, guide)
+        if Fidelity.DYNAMIC in self.fidelities():
+            b.m.more_poses.append(partial(self._frame_poses, b))
+        if fidelity is Fidelity.RIGID and Fidelity.QUASI_STATIC in self.fidelities():
+            b.m.with_ports = partial(self.model, road, Fidelity.QUASI_STATIC, guide)
+        return b.m
+
+    def _build(
+        self,
+        b: CarBuilder,
+        road: Road | RoadFile | None,
+        flexible: FlexibleFrame | None,
+        fidelity: Fidelity,
+        guide: Callable[[Model], Guide] | None,
+    ) -> None:
+        """Add all parts of the car to an empty model."""
         m = b.m
         b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
         for name, payload in self.payload.items():
@@ -169,12 +186,7 @@ class Car(CarContent):
         self._outputs(b, steered, spins, fidelity)
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
-        car_shapes(b, self, spins)
-        if Fidelity.DYNAMIC in self.fidelities():
-            m.more_poses.append(partial(self._frame_poses, b))
-        if fidelity is Fidelity.RIGID and Fidelity.QUASI_STATIC in self.fidelities():
-            m.with_ports = partial(self.model, road, Fidelity.QUASI_STATIC, guide)
-        return m
+        m.put_off(partial(car_shapes, b, self, spins))
 
     def _frame_poses(self, b: CarBuilder) -> list[dict[str, Any]]:
         """Amplitudes of the frame as outputs, and its parts of the scene."""
@@ -322,7 +334,9 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
         except ModelError as error:
             raise CarFileError(_told(what, [str(error)])) from error
     try:
-        rest = settled(car.model(), car)
+        model = car.model()
+        model.look()
+        rest = settled(model, car)
     except ValueError as error:
         raise CarFileError(_told(what, [f"as drawn it makes no car. {error}"])) from error
     faults = list(rest.faults(car))

@@ -27,5 +27,6 @@ def vehicle_constants(m: Model, car: CarContent) -> None:
             f"vehicle.tyre_friction_{name}",
             tyre.friction[0] / tyre.reference_friction,
             "1",
-            f"largest longitudinal force of a {name} tyre over its nominal load, on a road whose friction is 1",
+            f"largest longitudinal force of a {name} tyre over its nominal load, on a road with the coefficient of "
+            "friction 1",
         )

@@ -63,7 +63,7 @@ class MagicFormula(Section):
         Raises
         ------
         CarFileError
-            There is no such file, or it is none.
+            There is no such file, or it is not a tyre property file.
         """
         try:
             self._read = read_tyre(beside(folder, self.file, self.key("file")))

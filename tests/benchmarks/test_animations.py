@@ -9,7 +9,7 @@ from PIL import Image
 
 from benchmarks import animations
 from benchmarks.paper.animations import ANIMATIONS, FPS
-from viewer import browser, bundle
+from tests.in_browser import chromium_or_skip
 
 DOCS = Path(__file__).parents[2] / "docs"
 LARGEST, ALL = 1_600_000, 8_000_000  # bytes
@@ -35,11 +35,7 @@ def test_the_films_are_small():
 
 @pytest.mark.slow
 def test_the_command_films(tmp_path, capsys):
-    try:
-        browser.find_chromium()
-        bundle.bundle()
-    except RuntimeError as error:
-        pytest.skip(str(error))
+    chromium_or_skip()
     assert animations.main(["--out", str(tmp_path / "films"), "--only", "pendulum"]) == 0
     said = capsys.readouterr().out
     assert "pendulum.webp  61 pictures, 4.1 s" in said

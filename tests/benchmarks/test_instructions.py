@@ -32,7 +32,8 @@ def test_counts_are_those_of_a_run_and_a_dearer_step_is_told(tmp_path, capsys, m
     assert f"double four-bar, 30 ms: {what} 5.0 % more a step." in capsys.readouterr().out
 
 
-@pytest.mark.skipif(counter() is None, reason="valgrind is not installed")
+@pytest.mark.slow
+@pytest.mark.skipif(counter() is None, reason="valgrind is not installed; .ci/run installs it")
 def test_the_functions_of_a_scene_are_named_with_their_shares(tmp_path, capsys, monkeypatch):
     scene = instructions.SCENES[0]._replace(steps=20)
     monkeypatch.setattr(instructions, "SCENES", [scene])

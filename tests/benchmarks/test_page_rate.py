@@ -7,16 +7,12 @@ import pytest
 pytest.importorskip("playwright")
 
 from benchmarks import page_rate
-from viewer import browser, bundle
+from tests.in_browser import chromium_or_skip
 
 
 @pytest.mark.proof
 def test_the_rate_of_every_scene_is_printed_and_kept(tmp_path, capsys):
-    try:
-        browser.find_chromium()
-        bundle.bundle()
-    except RuntimeError as error:
-        pytest.skip(str(error))
+    chromium_or_skip()
     file = tmp_path / "rate.json"
     assert page_rate.main(["--pictures", "1", "--json", str(file)]) == 0
     rows = json.loads(file.read_text(encoding="utf-8"))["rows"]

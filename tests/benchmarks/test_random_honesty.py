@@ -18,7 +18,6 @@ from benchmarks.references.newton_euler import (
     Dynamics,
     Joint,
     Link,
-    NoReferenceError,
     motion,
 )
 
@@ -50,11 +49,8 @@ def test_the_reference_keeps_rows_and_axes(number):
     """Its accelerations are those of the rows: a step of the start along them opens no joint in second order."""
     _, drawing = random_mechanisms.drawing(np.random.default_rng([7, number]))
     dynamics = Dynamics(drawing)
-    try:
-        x, dt = dynamics.start(), 1e-4
-        rate = dynamics.rates(0.0, x)
-    except (NoReferenceError, np.linalg.LinAlgError):
-        pytest.skip("drawn at a singular position")
+    x, dt = dynamics.start(), 1e-4
+    rate = dynamics.rates(0.0, x)
     middle = dynamics.rates(0.5 * dt, x + 0.5 * dt * rate)
     x1 = x + dt * middle
     _, _, rows, _ = dynamics._equations(dt, x1)

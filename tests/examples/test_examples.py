@@ -28,7 +28,10 @@ PROMISED = {
 LONGEST = 60  # lines
 
 
-@pytest.mark.parametrize("name", PROMISED)
+SLOW = {"anti_lock_brakes"}  # builds a car with ports; tests of ports and of the plant see its faults too
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.slow] * (n in SLOW)) for n in PROMISED])
 def test_an_example_keeps_its_promise(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

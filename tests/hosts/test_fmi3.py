@@ -9,11 +9,13 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from fmpy.model_description import read_model_description
 from fmpy.util import read_csv
 
 import mbs
 from fmu_src.build.build import build_fmu
 from hosts.fmu.fmu import Fmu, described
+from hosts.fmu.instance import Instance
 from hosts.run.command import main
 from mbs.shapes.pose_outputs import pose_outputs
 from tests.fmu.scenes import crane
@@ -35,6 +37,19 @@ def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], Path
         for name, model in models.items()
         for kind in KINDS
     }
+
+
+@pytest.mark.parametrize("kind", ["native", "fmi3"])
+def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
+    kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
+) -> None:
+    """A message of FMI 2.0 is a format of printf, one of FMI 3.0 is the text."""
+    told: list[str] = []
+    description = read_model_description(fmus["crane", kind])
+    folder = Path(fmpy.extract(fmus["crane", kind], tmp_path))
+    with pytest.raises(Exception, match="instantiate"):
+        Instance(description, folder, "crane", lambda *message: told.append(message[2]), token="{100% of #r1#}")
+    assert "{100% of #r1#}" in told[-1]
 
 
 @pytest.mark.parametrize(

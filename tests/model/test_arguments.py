@@ -274,7 +274,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
     "joint_named": lambda b: {"name": "hinge"},
 }
 REGISTER = {"remember", "unique", "new_coordinate", "drawn", "owned_coordinate", "expression", "expressions", "owned"}
-REGISTER |= {"anchor", "anchor_axis"}
+REGISTER |= {"anchor", "anchor_axis", "together", "put_off", "look", "drawn_late"}
 """What the vocabulary itself calls."""
 
 
@@ -299,9 +299,9 @@ def flat(thing: Any) -> Any:
 
 
 def fingerprint(m: Model) -> Any:
-    """All that a call may change."""
+    """All that a call may change; expressions that were asked for stay right whatever else is refused."""
     parts = [m, m.ground, *m.bodies, *m.joints]
-    return [{key: flat(value) for key, value in vars(part).items()} for part in parts]
+    return [{key: flat(value) for key, value in vars(part).items() if key != "_expressions"} for part in parts]
 
 
 def allowed(function: Any, parameter: inspect.Parameter, label: str, value: Any) -> bool:

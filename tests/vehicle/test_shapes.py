@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import mbs
+from mbs.vehicle import car as car_module
 from mbs.vehicle import car_names, load
 from mbs.vehicle.shapes.body_shell import BodyShell
 from mbs.vehicle.shapes.car_shapes import SUSPENSIONS
@@ -147,6 +148,55 @@ def test_looks_change_no_motion() -> None:
     """A car without any looks steps to the same bits."""
     model = load("hatchback").model()
     plain = load("hatchback").model()
-    plain.shapes, plain.turnings = [], []
+    plain.shapes.clear(), plain.turnings.clear()
     a, b = (mbs.compile(m) for m in (model, plain))
     assert a.to_bytes(drawing=False) == b.to_bytes(drawing=False)
+
+
+def test_a_car_is_not_drawn_before_it_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    shapes = len(scene("prototype")["shapes"])
+    drawn_cars: list[str] = []
+    draws = car_module.car_shapes
+    monkeypatch.setattr(
+        car_module, "car_shapes", lambda b, car, spins: drawn_cars.append(car.name) or draws(b, car, spins)
+    )
+    system = mbs.compile(load("prototype").model())
+    assert drawn_cars == []
+    assert len(system.scene["shapes"]) == shapes > 100
+    assert system.with_arrays({}).drawing is system.drawing
+    assert drawn_cars == ["prototype"]
+
+
+def test_a_late_drawing_is_of_the_model_that_was_compiled() -> None:
+    model = load("prototype").model()
+    system = mbs.compile(model)
+    chassis = next(body for body in model.bodies if body.name == "chassis")
+    model.shape(chassis, "sphere", radius=0.3, name="later")
+    again = mbs.compile(model)
+    names = [[shape.get("name") for shape in s.scene["shapes"]] for s in (system, again)]
+    assert names[1] == [*names[0], "later"]
+    assert system.scene == scene("prototype")
+
+
+def test_names_of_looks_are_taken_before_they_are_drawn() -> None:
+    model = load("prototype").model()
+    with pytest.raises(mbs.ModelError, match="already has a body named 'steering wheel'"):
+        model.body("steering wheel", mass=1.0, com=(0.0, 0.0, 1.0), inertia=(1.0, 1.0, 1.0))
+    assert [turning.name for turning in model.turnings].count("steering wheel") == 1
+
+
+def test_looks_that_fail_are_refused_each_time_and_change_nothing() -> None:
+    model = mbs.Model("m")
+    body = model.body("b", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(1.0, 1.0, 1.0))
+
+    def looks() -> None:
+        model.shape(body, "sphere", radius=1.0)
+        model.shape(body, "sphere", radius=-1.0)
+
+    model.put_off(looks)
+    for _ in range(2):
+        with pytest.raises(mbs.ModelError, match="radius"):
+            model.look()
+        assert model._shapes == []
+    with pytest.raises(mbs.ModelError, match="radius"):
+        _ = mbs.compile(model).drawing

@@ -62,7 +62,7 @@ slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, c
   return SLAVE_OK;
 }
 
-/* Before the first step the outputs are those of the initial state, which is found anew on both sides. */
+/* Before the first step the outputs are those of the initial state, which is found again on both sides. */
 static bool initial_change(slave *s, uint32_t reference, double seed, bool left_out, double *out) {
   const slave_table *t = &slave_the_table;
   const slave_variable *v = &t->variable[reference];

@@ -18,7 +18,7 @@ static slave_status watch_energy(slave *s, const ali3_report *report) {
     return slave_say(
         s, SLAVE_WARNING,
         "At %.6g s the energy balance is violated: the steps have made or lost %.3g J where no force did, %.2g %% of "
-        "the energy in the motion. The results are not reliable. Run anew with a step_size below %g s. This is said "
+        "the energy in the motion. The results are not reliable. Run again with a step_size below %g s. This is said "
         "once.",
         time, r.energy_error, 100.0 * ali3_energy_balance(&r), h);
   return slave_say(s, SLAVE_WARNING,

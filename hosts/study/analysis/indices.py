@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hosts.common.numbers import is_round_off
 
 _FEWEST_BLOCKS = 64
-_BARS = "Bars: bootstrap, 95 %; an index whose bar reaches zero or lies below it is not told from none."
+_BARS = "Bars: bootstrap, 95 %; an index whose bar reaches zero or lies below it cannot be distinguished from zero."
 # Harmonics of RBD-FAST, and the fewest runs from which SALib's bootstrap (of half the runs) can tell them apart.
 _HARMONICS = 10
 _FEWEST_FOR_ESTIMATE, _MOST_FOR_ESTIMATE = 64, 50_000

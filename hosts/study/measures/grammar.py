@@ -30,7 +30,7 @@ def signal_name(node: ast.AST) -> str | None:
 
 
 def number_of(node: ast.AST) -> float:
-    """The number a node is, maybe with a sign; NaN: it is none."""
+    """The number a node is, maybe with a sign; NaN where it is not a number."""
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.USub, ast.UAdd)):
         inner = number_of(node.operand)
         return -inner if isinstance(node.op, ast.USub) else inner

@@ -276,7 +276,7 @@ ALI3_API ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, 
 /* Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs. */
 ALI3_API ali3_status ali3_refresh(ali3_instance *in);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
-/* The System with ports that another run follows, ALI3_BAD_ARGUMENT where it is none of the other's: takes over its
+/* The System with ports that another run follows, ALI3_BAD_ARGUMENT where it does not belong to the other's: takes over its
  * state and finds accelerations and the forces at the ports, for ali3_sensors. `without` stays as it is. */
 ALI3_API ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *without);
 /* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] =

@@ -97,8 +97,8 @@ def test_a_reset_is_the_start_and_can_be_taken_back(sledge: DrivenFmu) -> None:
     assert np.array_equal(sledge.values, rows[-1])
     sledge.rewind(100 * H)
     assert np.array_equal(sledge.values, rows[199])
-    anew = Hands(sledge).drive(200, 299)[39:]  # from the next want on
-    assert not np.array_equal(anew[-1], rows[-1])  # until then the wants of the reset held
+    again = Hands(sledge).drive(200, 299)[39:]  # from the next want on
+    assert not np.array_equal(again[-1], rows[-1])  # until then the wants of the reset held
     assert sledge.time == 300 * H
 
 

@@ -134,10 +134,10 @@ class Drive {
       this.hands.hold(name);
       return this.session.want([[name, Number(value)]]);
     }
-    const anew = await this.session.set(name, value);
-    this._tell(anew ? `The run began again with ${name} = ${value}.` : "", 3000);
+    const restarted = await this.session.set(name, value);
+    this._tell(restarted ? `The run began again with ${name} = ${value}.` : "", 3000);
     this.parameters?.show(name, value);
-    if (anew) this.draw();
+    if (restarted) this.draw();
     return undefined;
   }
 

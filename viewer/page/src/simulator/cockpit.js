@@ -60,11 +60,11 @@ export class Cockpit {
     return { drawn: this._beat.rate, longest: this._beat.longest, received: frames.rate, delay: frames.delay, stalled: this._stalled ?? 0 };
   }
 
-  /** A frame has come. @param {Data} frame @param {boolean} anew - It begins an epoch. */
-  add(frame, anew) {
+  /** A frame has come. @param {Data} frame @param {boolean} restarted - It begins an epoch. */
+  add(frame, restarted) {
     this.notices.flag("lost", "");
     this.steps.add(frame);
-    if (!anew) return;
+    if (!restarted) return;
     this.plan.trail.lift();
     this.wants.renew();
     this.view.cameras?.trailing.snap();

@@ -44,17 +44,17 @@ export class Frames {
     if (before && frame.epoch === before.epoch && frame.count < before.count) return false; // older than what is shown
     this._arrivals.push(now);
     while (now - this._arrivals[0] > KEPT) this._arrivals.shift();
-    const anew = before !== null && frame.epoch !== before.epoch;
-    const same = before && !anew && frame.running === before.running && frame.speed === before.speed;
+    const restarted = before !== null && frame.epoch !== before.epoch;
+    const same = before && !restarted && frame.running === before.running && frame.speed === before.speed;
     if (!same) {
       // Another pace: what was before tells nothing of what comes; within an epoch its last frame still begins the way.
-      this._list = before && !anew ? this._list.slice(-1) : [];
+      this._list = before && !restarted ? this._list.slice(-1) : [];
       this._paced = now;
     }
-    if (anew) this._shown = -Infinity;
+    if (restarted) this._shown = -Infinity;
     this._list.push({ frame, now });
     while (this._list.length > 2 && now - this._list[1].now > KEPT) this._list.shift();
-    return anew;
+    return restarted;
   }
 
   /** Frames of the last second. */

@@ -105,8 +105,8 @@ class Simulator {
 
   _frame(frame) {
     if (!this.cockpit || frame.values.length !== this.cockpit.columns.size) return;
-    const anew = this.frames.add(frame, clock());
-    this.cockpit.add(frame, anew);
+    const restarted = this.frames.add(frame, clock());
+    this.cockpit.add(frame, restarted);
   }
 
   _event({ kind, text }) {
