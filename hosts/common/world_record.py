@@ -24,7 +24,7 @@ def read_world_record(file: Path) -> dict[str, Any]:
     HostError
         It cannot be read, or is no world of this version.
     """
-    content = read_json(file, HostError)
+    content: dict[str, Any] = read_json(file, HostError)
     found = (content.get("format"), content.get("version")) if isinstance(content, dict) else (None, None)
     if found != (FORMAT, VERSION):
         remedy = "make it again with: ali3 road --world NAME-or-FILE --out FOLDER"

@@ -163,7 +163,7 @@ class Car:
             ends = [end for end in value if isinstance(end, (int, float, np.number)) and np.isfinite(end)]
             if not (len(ends) == len(value) == 2 and ends[0] <= ends[1]):
                 raise HostError(f"'{name}' is {value_words(value)}; a range is two numbers, the smaller one first.")
-            return float(random.uniform(*ends))
+            return float(random.uniform(float(ends[0]), float(ends[1])))
         known = self.fmu.variables.get(name)
         if known is not None and isinstance(value, str) and known.type != "String":
             raise HostError(f"'{name}' is {brief(value)}; it must be a number.")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Self
 
 from numpy.typing import ArrayLike
 
@@ -49,12 +50,12 @@ class ModelCore(Register):
         self.with_ports = None
 
     @property
-    def with_ports(self) -> Callable[[], ModelCore] | None:
+    def with_ports(self) -> Callable[[], Self] | None:
         """Makes the same model with ports; None where there is none, or this one has grown since it was set."""
         return self._with_ports if self._size() == self._size_with_ports else None
 
     @with_ports.setter
-    def with_ports(self, make: Callable[[], ModelCore] | None) -> None:
+    def with_ports(self, make: Callable[[], Self] | None) -> None:
         self._with_ports, self._size_with_ports = make, self._size()
 
     def _size(self) -> tuple[int, ...]:
