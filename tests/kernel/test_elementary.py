@@ -21,7 +21,8 @@ _BOTH = {"both_sin": "sin", "both_cos": "cos"}
 @pytest.fixture(scope="module")
 def functions(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Callable[..., float]]:
     folder = tmp_path_factory.mktemp("elementary")
-    shown = '#include "algebra/elementary.c"\n#include "algebra/inverse_tangent.c"\n#if defined(_WIN32)\n#define SHOW __declspec(dllexport)\n#else\n'
+    shown = '#include "algebra/elementary.c"\n#include "algebra/inverse_tangent.c"\n'
+    shown += "#if defined(_WIN32)\n#define SHOW __declspec(dllexport)\n#else\n"
     shown += '#define SHOW __attribute__((visibility("default")))\n#endif\n'
     shown += "".join(f"SHOW double show_{f}(double x) {{ return ali3_{f}(x); }}\n" for f in _ONE)
     shown += "SHOW double show_atan2(double y, double x) { return ali3_atan2(y, x); }\n"
