@@ -80,7 +80,7 @@ def test_lanes_have_roads_of_their_own(tmp_path: Path) -> None:
     """From files: a grid, which each lane asks alone, beside planes and a kerb, in any number of lanes."""
     heights = 0.02 * np.sin(np.arange(60.0 * 40.0)).reshape(60, 40)
     frictions = np.where(np.arange(60)[:, None] % 7 < 3, 0.3, 0.9) * np.ones(40)
-    roads = {
+    roads: dict[str, PlaneRoad | KerbRoad | GridRoad] = {
         "grid": GridRoad((-5.0, -10.0), (0.5, 0.5), heights, frictions),
         "slope": PlaneRoad(0.0, 0.05, -0.1, 0.6),
         "level": PlaneRoad(),
