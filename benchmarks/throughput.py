@@ -29,7 +29,7 @@ from mbs.settings.input_signals import InputSignals
 from mbs.simulation.prepared_system import prepared
 
 SCENES = (("slalom", "slalom", 0.005), ("lane change", "double_lane_change_replay", 0.01))
-CARS = 8
+CARS = 16  # two full groups of the widest lanes
 PARTS, SECONDS = 20, 4.0  # parts of a run, length of it, s
 THOUSAND = 1000
 COLUMNS = {

@@ -78,9 +78,9 @@ def test_a_lane_has_the_bits_of_the_element_alone(name: str) -> None:
         found = together(element, u, ud, y, (h, 0.5 * h, 0.25 * h * h), given)
         for k in range(WIDTH):
             alone = element(u[k], ud[k], y[k], h, 0.5 * h, 0.25 * h * h, given[k])
-            expected = (alone.f, alone.S.ravel(), alone.y, list(alone.out.values()), [alone.potential])
+            expected = [alone.f, alone.S.ravel(), alone.y, np.array([*alone.out.values()]), np.array([alone.potential])]
             for got, wanted in zip(found, expected, strict=True):
-                assert got[k, : len(wanted)].tobytes() == np.array(wanted, float).tobytes(), (draw, k, u[k], ud[k])
+                assert got[k, : wanted.size].tobytes() == wanted.tobytes(), (draw, k, u[k], ud[k])
         differing += not np.array_equal(*np.hstack([found[0], found[3]]))
     assert differing > 200
 

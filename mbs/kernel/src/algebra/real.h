@@ -35,8 +35,12 @@ static inline real ali3_sqrt(real x) {
 }
 
 static inline real ali3_floor(real x) {
+#if defined(__has_builtin) && __has_builtin(__builtin_elementwise_floor)
+  return __builtin_elementwise_floor(x);
+#else
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = floor(x[l]);
   return x;
+#endif
 }
 
 /* Counters of the report: of the lanes that are at work. */
