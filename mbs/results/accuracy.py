@@ -190,7 +190,9 @@ def differences(
     groups: Mapping[str, Sequence[str]],
     extents: dict[str, float] | None = None,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
-    """Largest differences of two runs, at 51 instants and of loads between them; `extents` are the largest ones of runs before these, and grow with them.
+    """Largest differences of two runs, at 51 instants and of loads between them.
+
+    `extents` are the largest ranges of runs before these, and grow with them.
 
     Returns
     -------
