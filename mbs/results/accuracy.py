@@ -191,9 +191,9 @@ def differences(
     groups: Mapping[str, Sequence[str]],
     extents: dict[str, float] | None = None,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
-    """Largest differences of two runs, at 51 instants and of loads between them; `extents` are those of runs before.
+    """Largest differences of two runs, at 51 instants and of loads between them.
 
-    They grow with these.
+    `extents` are the largest ranges of runs before these, and grow with them.
 
     Returns
     -------

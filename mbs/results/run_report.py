@@ -47,6 +47,9 @@ class Report:
         What gravity does over the tolerance of the residual, J; a smaller `energy_error` tells nothing.
     rim_pressed, rim_time, rim_x, rim_y : float
         How much deeper than a wheel holds a rim was pressed into a grid road, m, 0: never; when, s, and where, m.
+    coarse_event, coarse_time : float
+        Where a contact with a road was too quick for the steps: root of the squares of what they missed of ``v + h a``
+        in 0.2 s, over the path of the velocity in that time, 0: never; and when, s.
     branch_changes : int
         Changes of the assembly mode of closed loops.
     branch_time : float
@@ -85,6 +88,8 @@ class Report:
     rim_time: float = 0.0
     rim_x: float = 0.0
     rim_y: float = 0.0
+    coarse_event: float = 0.0
+    coarse_time: float = 0.0
     branch_changes: int = 0
     branch_time: float = 0.0
     branch_kind: int = 0
@@ -119,6 +124,17 @@ class Report:
             return ""
         left = f"they left at most {1e3 * self.capped_residual:.2g} mm"
         return f"{self.capped} of {self.steps} steps ended at the limit of their iterations; {left}."
+
+    @property
+    def coarse_text(self) -> str:
+        """A sentence about a contact with a road that was too quick for the step; empty where none was."""
+        if self.coarse_event == 0.0:
+            return ""
+        return (
+            f"At {self.coarse_time:.4g} s a contact with the road was too quick for the step: what steps missed of the "
+            f"velocities is {100.0 * self.coarse_event:.2g} % of their change in the 0.2 s from there, and loads may "
+            "be off by more than 5 %. Compare with a run of half the step."
+        )
 
     def __str__(self) -> str:
         text = (

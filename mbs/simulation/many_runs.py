@@ -156,6 +156,7 @@ class _Run:
         driven, told = len(system.arrays["gterm_row"]) > 0, list[tuple[type[Warning], str]]()
         if report is not None and accuracy.balance_says(report, METHOD, driven):
             told.append((AccuracyWarning, f"{accuracy.balance_text(report)} The result is wrong; take shorter steps."))
+        told += [(AccuracyWarning, report.coarse_text)] if report is not None and report.coarse_text else []
         told += [(BranchWarning, run.branch_change)] if run.branch_change else []
         told += [(BendingWarning, self.simulation.bending.message)] if self.simulation.bending.message else []
         wall = self.simulation.instance.rim_text()
@@ -205,7 +206,8 @@ def simulate_many(
     -----
     AccuracyWarning, BranchWarning, BendingWarning, RoadWarning
         As `simulate`, with the number of the variant. No run is repeated: where the energy balance is kept, nothing is
-        known of the error but `Trajectory.accuracy`. What `Simulation` warns of at a start has no such number.
+        known of the error but `Trajectory.accuracy` and `Report.coarse_event`, of which it is warned. What `Simulation`
+        warns of at a start has no such number.
 
     Raises
     ------

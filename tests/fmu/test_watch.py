@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,7 @@ import mbs
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from mbs.kernel.binding import Status
-from mbs.scenes import assembly_defect_four_bar
+from mbs.scenes import assembly_defect_four_bar, prototype_car
 
 SCENES = Path(__file__).parent / "scenes.py"
 HostMaker = Callable[..., Any]
@@ -103,3 +104,37 @@ def test_a_changed_assembly_mode_is_reported_once(
     assert "1.6 s" in told
     assert "'B', 'C'" in told
     assert driven.get("solver.status") == Status.BRANCH_CHANGED
+
+
+@pytest.mark.parametrize(("h", "told"), [(0.02, True), (0.002, False)])
+def test_an_edge_at_speed_is_told_once(prototype_fmu: Path, host: HostMaker, h: float, told: bool) -> None:
+    """Down 8 cm at 20 m/s loads are off by more than 5 % with steps of 20 ms, not with 2 ms; in lanes too."""
+    edge = {"road.kerb_x": 10.0, "road.kerb_height": 0.08}
+    driven = host(prototype_fmu).start({"initial.speed": 20.0, "step_size": h} | edge)
+    slave = driven.slave
+    statuses = [slave.dll.fmi2DoStep(slave.component, 0.02 * k, 0.02, 1) for k in range(50)]
+    words = "a contact with the road was too quick for the step"
+    lines = [m for m in driven.messages if words in m]
+    assert statuses.count(WARNING) == len(lines) == int(told)
+    variant = mbs.Variant(edge, pose=mbs.Pose(speed=20.0))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        runs = mbs.simulate_many(mbs.compile(prototype_car.build()), [variant], 1.0, h, progress=False)
+    report = runs.trajectories[0].report
+    assert [words in str(w.message) for w in said if w.category is mbs.AccuracyWarning] == [True] * told
+    if told:
+        assert 0.12 < report.coarse_event < 1.0
+        assert report.coarse_time == pytest.approx(10.0 / 20.0, abs=0.15)  # the front wheels, or the rear ones
+        assert f"At {report.coarse_time:.4g} s" in lines[0]
+        assert "half the step_size, 0.01 s" in lines[0]
+
+
+def test_no_other_driving_is_told_so(prototype_fmu: Path, host: HostMaker) -> None:
+    """Pedals and steering that jump, and a wheel that lands from 5 cm."""
+    driven = host(prototype_fmu).start({"initial.speed": 15.0, "initial.z": 0.05, "step_size": 0.01})
+    for k in range(300):
+        driven.set("steering", 0.8 * (-1.0) ** (k // 40))
+        driven.set("throttle", float(k // 50 % 2 == 0))
+        driven.set("brake", 0.4 * (k // 50 % 3 == 1))
+        assert driven.step(0.01 * k, 0.01) == OK
+    assert driven.messages == []

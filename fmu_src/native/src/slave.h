@@ -131,7 +131,8 @@ struct slave {
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
   bool outputs_fresh, followed; /* followed: with what the follower computes */
   bool uncomputed_said; /* that an output was read which is not computed, once a run */
-  bool overturned_said, rim_said; /* once a run: that the vehicle lies upside down, that a rim was pressed in */
+  /* once a run: that the vehicle lies upside down, that a rim was pressed in, that a contact was too quick */
+  bool overturned_said, rim_said, coarse_said;
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
   size_t step_reference, iterations_reference;

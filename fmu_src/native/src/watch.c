@@ -60,13 +60,25 @@ static slave_status watch_rims(slave *s, const ali3_report *report) {
   return slave_say(s, SLAVE_WARNING, "%s This is said once.", text);
 }
 
+/* An edge at speed, or a fall: a run of an FMU repeats nothing, and one step tells it. */
+static slave_status watch_events(slave *s, const ali3_report *report) {
+  if (s->coarse_said || !(report->coarse_event > 0.0)) return SLAVE_OK;
+  s->coarse_said = true;
+  return slave_say(
+      s, SLAVE_WARNING,
+      "At %.4g s a contact with the road was too quick for the step: what steps missed of the velocities is %.2g "
+      "%% of their change in the 0.2 s from there, and loads may be off by more than 5 %%. Compare with a "
+      "run of half the step_size, %g s. This is said once.",
+      report->coarse_time, 100.0 * report->coarse_event, 0.5 * s->value[s->step_reference]);
+}
+
 static slave_status larger(slave_status a, slave_status b) { return a > b ? a : b; }
 
 slave_status slave_watch(slave *s) {
   ali3_report report;
   if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   const slave_status modes = watch_modes(s, &report), energy = watch_energy(s, &report);
-  const slave_status rims = watch_rims(s, &report);
+  const slave_status rims = larger(watch_rims(s, &report), watch_events(s, &report));
   return larger(larger(modes, energy), larger(rims, watch_limit(s, &report)));
 }
 

@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 5
+#define ALI3_STATE_VERSION 6
 
 typedef enum {
   ALI3_OK = 0,
@@ -114,6 +114,11 @@ typedef struct {
   double energy_floor; /* what gravity does over tolerance_r, J: a smaller energy_error tells nothing */
   /* deepest that a rim was pressed into a grid road at the start of a step, m, 0: never; when, s, and where, m */
   double rim_pressed, rim_time, rim_x, rim_y;
+  /* of the quick change of velocity under way: what its worst step missed of v + h a, the squares of all since, the path
+   * of the velocity since, and the time left of it, s */
+  double event_miss, event_squares, event_path, event_left;
+  /* Systems with roads: the largest of these misses over its path that says a step is too long, 0: none; and when, s */
+  double coarse_event, coarse_time;
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */

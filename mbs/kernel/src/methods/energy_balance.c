@@ -6,6 +6,7 @@
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../method.h"
+#include "coarse_event.h"
 #include "energy_balance.h"
 
 static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its round-off as no error of the energy */
@@ -50,10 +51,12 @@ void ali3_balance_energy(ali3_instance *in, double error, double kinetic) {
 }
 
 /* Squares of the velocity at the end of a step, of its change, and of its distance from v + h a. */
-void ali3_balance_motion(ali3_report *report, double speed, double change, double miss) {
+void ali3_balance_motion(ali3_instance *in, double h, double speed, double change, double miss) {
+  ali3_report *report = &in->report;
   report->speed_peak = fmax(report->speed_peak, sqrt(speed));
   report->velocity_path += sqrt(change);
   report->predictor_path += sqrt(miss);
+  if (in->system->nr > 0) ali3_coarse_event(in, h, sqrt(change), sqrt(miss));
 }
 
 /* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
@@ -66,7 +69,7 @@ void ali3_balance_change(ali3_instance *in, double h, const double *v0, const do
     change += m[i] * d * d;
     miss += m[i] * e * e;
   }
-  ali3_balance_motion(&in->report, speed, change, miss);
+  ali3_balance_motion(in, h, speed, change, miss);
 }
 
 /* The same where velocities and accelerations of the states tell: what was in->now is in in->next. */
@@ -84,4 +87,10 @@ void ali3_balance_restore(ali3_report *report, const ali3_report *before) {
   report->speed_peak = before->speed_peak;
   report->velocity_path = before->velocity_path;
   report->predictor_path = before->predictor_path;
+  report->event_miss = before->event_miss;
+  report->event_squares = before->event_squares;
+  report->event_path = before->event_path;
+  report->event_left = before->event_left;
+  report->coarse_event = before->coarse_event;
+  report->coarse_time = before->coarse_time;
 }

@@ -242,7 +242,7 @@ static void balance(ali3_instance *in, double h) {
     change += m * d * d;
     miss += m * e * e;
   }
-  ali3_balance_motion(&in->report, speed, change, miss);
+  ali3_balance_motion(in, h, speed, change, miss);
 }
 
 /* From in->now by a step h; in->now changes only when the step is good. */
