@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gzip
 import re
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -86,9 +88,9 @@ def find_form(path: Path, wish: Form) -> FoundForm:
 
 def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
     try:
-        with path.open("rb") as stream:
+        with gzip.open(path) if path.suffix.lower() == ".gz" else path.open("rb") as stream:
             content = stream.read(400_000)
-    except OSError as error:
+    except (OSError, EOFError, zlib.error) as error:
         raise HostError(f"The log {path} cannot be read: {reason(error)}.") from None
     if b"\0" in content:
         raise HostError(f"The log {path} is no text; logs are read as CSV or Parquet (MDF files can be converted).")
