@@ -100,7 +100,7 @@ def _root(x: Array) -> Array:
 
 
 _UNDERSTEER = Unknown("understeer", "s2/m", -0.01, 0.02)
-_STIFFNESS = Unknown("front stiffness", "N/rad", 2e4, 3e5), Unknown("rear stiffness", "N/rad", 2e4, 4e5)
+_STIFFNESS = Unknown("front stiffness", "N/rad", 2e4, 6e5), Unknown("rear stiffness", "N/rad", 2e4, 2e6)
 _GRIP = (Unknown("grip", "1", 0.8, 2.5),)
 _GRIPS = Unknown("front grip", "1", 0.8, 2.5), Unknown("rear grip", "1", 0.8, 2.5)
 _OFFSET = Unknown("steering offset", "rad", -0.02, 0.02)
@@ -115,7 +115,9 @@ MODELS = (
     Model("linear bicycle", _STIFFNESS, _linear),
     Model("saturating bicycle, tanh", (*_STIFFNESS, *_GRIP, _OFFSET), _saturating(np.tanh)),
     Model("x/sqrt(1 + x2), two grips, yaw inertia", (*_STIFFNESS, *_GRIPS, _OFFSET, _INERTIA), _saturating(_root)),
-    Model("tanh, two grips, longitudinal load transfer", (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT), _saturating(np.tanh)),
+    Model(
+        "tanh, two grips, longitudinal load transfer", (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT), _saturating(np.tanh)
+    ),
     Model(
         "and steering factor, steering by ax",
         (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT, _FACTOR, _BY_BRAKING),
@@ -124,7 +126,9 @@ MODELS = (
 )
 
 
-def simulate(model: Model, body: Body, drive: Drive, begins: NDArray[np.intp], steps: int, numbers: Array) -> tuple[Array, Array]:
+def simulate(
+    model: Model, body: Body, drive: Drive, begins: NDArray[np.intp], steps: int, numbers: Array
+) -> tuple[Array, Array]:
     """Drive a model by the measured angle of the wheels at the measured speed.
 
     Parameters
@@ -143,8 +147,8 @@ def simulate(model: Model, body: Body, drive: Drive, begins: NDArray[np.intp], s
 
     Notes
     -----
-    Heun's method with a step a sample: 10 ms are 0.1 to 0.2 of the fastest time constant of the linear bicycle at the
-    lowest speed of the drive, for an error below 1e-3 of the yaw rate.
+    Heun's method with a step a sample. Near the limit of the tyres its largest error in 275 s was 3e-3 rad/s, against
+    LSODA with a tolerance of 1e-9.
     """
     rows = begins[:, None] + np.arange(steps + 1)
     steer, vx, ax = drive.steer[rows], drive.vx[rows], drive.ax[rows]

@@ -28,8 +28,12 @@ class Fitted:
     fitted, windows, whole : float
         Root mean square of the yaw rate's deviation, rad/s: fitted windows, windows that were not fitted, and one run
         without restart over those seconds.
+    lateral : float
+        Root mean square of the lateral velocity's deviation in the windows that were not fitted, m/s; NaN: no such.
     departed : int
-        Windows that were not fitted whose yaw rate leaves the range of the measured one by that range.
+        Windows that were not fitted whose yaw rate is off by more than the range of the measured one.
+    path : ndarray of shape (n,)
+        Yaw rate of the run without restart, rad/s.
     """
 
     model: Model
@@ -38,7 +42,9 @@ class Fitted:
     fitted: float
     windows: float
     whole: float
+    lateral: float
     departed: int
+    path: Array
 
 
 def begins(drive: Drive, seconds: tuple[tuple[float, float], ...]) -> NDArray[np.intp]:
@@ -52,9 +58,13 @@ def fit(model: Model, body: Body, drive: Drive) -> Fitted:
     steps = round(LENGTH / drive.interval)
     low, high = (np.array([getattr(u, end) for u in model.unknowns]) for end in ("low", "high"))
 
+    def both(numbers: Array, rows: NDArray[np.intp]) -> tuple[Array, Array]:
+        samples = rows[:, None] + np.arange(steps + 1)
+        vy, rate = simulate(model, body, drive, rows, steps, numbers)
+        return vy - drive.vy[samples], rate - drive.yaw_rate[samples]
+
     def errors(numbers: Array, rows: NDArray[np.intp]) -> Array:
-        rate = simulate(model, body, drive, rows, steps, numbers)[1]
-        return rate - drive.yaw_rate[rows[:, None] + np.arange(steps + 1)]
+        return both(numbers, rows)[1]
 
     rows = begins(drive, FITTED)
 
@@ -71,16 +81,18 @@ def fit(model: Model, body: Body, drive: Drive) -> Fitted:
         start = low + (high - low) * random.uniform(0.2, 0.8, len(low))
         results.append(least_squares(residuals, start, jacobian, bounds=(low, high), x_scale=high - low, max_nfev=60))
     numbers = min(results, key=lambda r: float(r.cost)).x if results else np.zeros(0)
-    others = errors(numbers[None], begins(drive, JUDGED))[0]
-    whole = simulate(model, body, drive, np.array([0]), len(drive.time) - 1, numbers[None])[1][0, 0] - drive.yaw_rate
+    lateral, others = (e[0] for e in both(numbers[None], begins(drive, JUDGED)))
+    path = simulate(model, body, drive, np.array([0]), len(drive.time) - 1, numbers[None])[1][0, 0]
     return Fitted(
         model,
         numbers,
         [_rms(r.fun) for r in results],
         _rms(residuals(numbers)),
         _rms(others),
-        _rms(whole[drive.rows(JUDGED)]),
+        _rms((path - drive.yaw_rate)[drive.inside(JUDGED)]),
+        _rms(lateral),
         int((np.abs(others).max(axis=1) > np.ptp(drive.yaw_rate)).sum()),
+        path,
     )
 
 

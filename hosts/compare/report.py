@@ -79,7 +79,14 @@ def write_report(
 
 def _bin_rows(told: Sequence[Bin]) -> list[Sequence[str]]:
     return [
-        [b.signal, f"{b.quantity}, {b.unit}", f"{b.low:g} to {b.high:g}", str(b.samples), f"{b.rms:.4g}", f"{b.mean:.4g}"]
+        [
+            b.signal,
+            f"{b.quantity}, {b.unit}",
+            f"{b.low:g} to {b.high:g}",
+            str(b.samples),
+            f"{b.rms:.4g}",
+            f"{b.mean:.4g}",
+        ]
         for b in told
     ]
 

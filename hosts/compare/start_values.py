@@ -70,8 +70,8 @@ def measured_start(
         )
     if rate is not None and abs(rate) > _TURNS and "initial.yaw_rate" not in (start | dict(given)):
         notes.append(
-            f"The log begins in a turn of {rate:.3g} rad/s; the FMU has no parameter initial.yaw_rate, so that it starts "
-            "straight and the first seconds differ (--from begins elsewhere, --skip leaves them out of the comparison)."
+            f"The log begins in a turn of {rate:.3g} rad/s; the FMU has no parameter initial.yaw_rate and starts straight, "
+            "so that the first seconds differ (--from begins elsewhere, --skip leaves them out of the comparison)."
         )
     return start, notes
 
@@ -101,9 +101,7 @@ def reference_point(fmu_path: Path, aliases: Aliases, start: Mapping[str, Value]
     return x, y
 
 
-def of_origin(
-    start: Mapping[str, Value], measured: Collection[str], point: tuple[float, float]
-) -> dict[str, Value]:
+def of_origin(start: Mapping[str, Value], measured: Collection[str], point: tuple[float, float]) -> dict[str, Value]:
     """Start values of the origin of the car's drawing, from those that were measured of its reference point.
 
     Parameters

@@ -170,7 +170,9 @@ def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> lis
         return [(0.0, end)]
     every = options.windows if options.window_every is None else options.window_every
     if not (0.0 < options.windows <= end and every > 0.0):
-        raise HostError(f"--windows {options.windows:g}, one every {every:g} s; both must be positive, within {end:g} s.")
+        raise HostError(
+            f"--windows {options.windows:g}, one every {every:g} s; both must be positive, within {end:g} s."
+        )
     if options.skip:
         raise HostError("--skip does not go with --windows: each begins in its measured state.")
     last = begin + end + 1e-9

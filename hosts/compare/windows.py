@@ -79,7 +79,9 @@ def window_words(found: Sequence[Window]) -> str:
     if not gone:
         return f"{len(found)} windows; none has departed."
     which = ", ".join(f"{w.begin:g} s ({w.departed})" for w in gone)
-    return f"{len(found)} windows; {len(gone)} departed, by more than the range of what was measured: those from {which}."
+    return (
+        f"{len(found)} windows; {len(gone)} departed, by more than the range of what was measured: those from {which}."
+    )
 
 
 def scales_of(signals: Mapping[str, Signal]) -> dict[str, Signal]:
@@ -125,7 +127,9 @@ def held_words(result: Result, stretches: Sequence[Stretch]) -> list[str]:
         return []
     time, values = (np.concatenate(parts) for parts in zip(*held, strict=True))
     error = np.interp(time, result.time, result["speed"]) - values
-    text = f"The driver held the speed within {np.sqrt(np.mean(error**2)):.2g} m/s rms ({np.mean(error):+.1g} on the mean)"
+    text = (
+        f"The driver held the speed within {np.sqrt(np.mean(error**2)):.2g} m/s rms ({np.mean(error):+.1g} on the mean)"
+    )
     forces = [_axle(result, axle) for axle in "FR"]
     if any(f is None for f in forces):
         return [f"{text}."]

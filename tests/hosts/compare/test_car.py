@@ -155,8 +155,10 @@ def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys:
     assert 0.2 < started < 0.9
 
 
-def test_a_log_that_begins_in_a_turn_starts_in_it(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Speeds are measured at the reference point, 1.3 m behind the origin of the drawing, at which the car is placed."""
+def test_a_log_that_begins_in_a_turn_starts_in_it(
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Speeds are measured at the reference point, 1.3 m behind the origin of the drawing that is placed."""
     log = logged(car, tmp_path, {"initial.speed": 15.0, "initial.yaw": 1.0})
     _, record = compared(car, log, "--from", "2", "--to", "3", signals="chassis.wz,chassis.vy")
     assert "The start is as measured: initial.speed = " in capsys.readouterr().out
