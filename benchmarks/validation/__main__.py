@@ -42,9 +42,11 @@ COLUMNS = {
 PARTS = (
     ("the steering column does not give", {"steering.stiffness": 14000.0}),
     ("without anti-roll bars", {"front.anti_roll_bar.factor": 0.02, "rear.anti_roll_bar.factor": 0.02}),
-    ("the driver in the middle, as a part of the chassis", {"payload.driver.mass": 0.0}),
+    ("without the driver, who sits on the right", {"payload.driver.mass": 0.0}),
     ("inner steps of 10 ms", {"step_size": 0.01}),
 )
+LACKING = {k: f for k, f in COLUMNS.items() if k in ("model", "windows", "lateral", "departed")}
+STEP = 0.005  # s, inner one of the car
 CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
 
 
@@ -59,19 +61,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     drive = read_drive(options.file, options.log_aliases)
     simple = [fit(model, BODY, drive) for model in watched(MODELS)]
-    car = judge(options.car, options.file, options.log_aliases, {"step_size": 0.005})
-    parts = (
-        {}
-        if options.no_parts
-        else {
-            name: judge(options.car, options.file, options.log_aliases, {"step_size": 0.005, **values}, fitted=False)
-            for name, values in PARTS
-        }
-    )
+
+    def judged(settings: dict[str, float], brief: bool) -> Judged:
+        return judge(options.car, options.file, options.log_aliases, {"step_size": STEP} | settings, brief)
+
+    car = judged({}, brief=False)
+    parts = {} if options.no_parts else {name: judged(values, brief=True) for name, values in PARTS}
     rows = [_of_bicycle(f) for f in simple] + [_of_car("multibody car", car, FITTED_NUMBERS)]
     lacking = [_of_car(name, part, 0) for name, part in parts.items()]
     print_table(rows, COLUMNS)
-    print_table(lacking, {k: f for k, f in COLUMNS.items() if k not in ("numbers", "fitted")})
+    print_table(lacking, LACKING)
     for note in car.notes:
         print(f"note: {note}")
     record = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking}
@@ -89,15 +88,20 @@ def _of_bicycle(f: Fitted) -> dict[str, Any]:
     lateral = None if np.isnan(f.lateral) else f.lateral
     return {
         "model": f.model.name, "numbers": len(f.numbers), "fitted": f.fitted, "windows": f.windows, "whole": f.whole,
-        "lateral": lateral, "departed": f.departed,
+        "lateral": lateral, "departed": str(f.departed),
     }  # fmt: skip
 
 
 def _of_car(name: str, j: Judged, numbers: int) -> dict[str, Any]:
     return {
-        "model": name, "numbers": numbers, "fitted": j.fitted, "windows": j.windows, "whole": j.whole,
-        "lateral": j.lateral, "departed": ", ".join(j.departed) or 0,
-    }  # fmt: skip
+        "model": name,
+        "numbers": numbers,
+        "fitted": None if np.isnan(j.fitted) else j.fitted,
+        "windows": j.windows,
+        "whole": None if np.isnan(j.whole) else j.whole,
+        "lateral": j.lateral,
+        "departed": ", ".join(j.departed) or "0",
+    }
 
 
 def _numbers(simple: Sequence[Fitted]) -> list[dict[str, Any]]:
@@ -145,7 +149,7 @@ def blocks(
             )
     return {
         "models": table(rows, COLUMNS),
-        "parts": table(lacking, {k: f for k, f in COLUMNS.items() if k not in ("numbers", "fitted")}),
+        "parts": table(lacking, LACKING),
         "numbers": table(_numbers(simple), {"model": "", "found": "", "starts": ""}),
         **{f"by {quantity}": text for quantity, text in by.items()},
         "notes": "\n".join(f"- {note}" for note in car.notes),

@@ -24,7 +24,7 @@ class Judged:
 
     Parameters
     ----------
-    fitted, windows, whole, lateral : float
+    fitted, whole, windows, lateral : float
         As of `benchmarks.validation.fitting.Fitted`.
     departed : list of str
         Windows that were not fitted and departed: their begin, s, and the signal.
@@ -37,8 +37,8 @@ class Judged:
     """
 
     fitted: float
-    windows: float
     whole: float
+    windows: float
     lateral: float
     departed: list[str]
     bins: list[dict[str, Any]]
@@ -47,7 +47,7 @@ class Judged:
     path: Array
 
 
-def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], fitted: bool = True) -> Judged:
+def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief: bool = False) -> Judged:
     """Drive a car through a log in windows and without restart.
 
     Parameters
@@ -56,8 +56,8 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], fitted
         What ``ali3 compare`` takes: an FMU, or a car.
     settings : dict of str to float
         Parameters that are set.
-    fitted : bool
-        Whether the windows that were fitted are driven too; else `fitted` is NaN.
+    brief : bool
+        Drive only the windows that were not fitted; `fitted` and `whole` are then NaN.
     """
     windows = ["--windows", f"{LENGTH:g}", "--window-every", f"{EVERY:g}"]
     with tempfile.TemporaryDirectory() as folder:
@@ -71,22 +71,17 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], fitted
             assert status in (0, 1), "the command has said why"
             return json.loads(record.read_text(encoding="utf-8")), out / f"{log.stem}.csv"
 
-        first = _rms(run("fitted", *windows, "--seconds", text_of(FITTED))[0], YAW) if fitted else math.nan
         others = run("others", *windows, "--seconds", text_of(JUDGED))[0]
+        departed = [f"{w['begin']:g} s ({w['departed']})" for w in others["windows"] if w["departed"]]
+        told = _rms(others, YAW), _rms(others, LATERAL), departed, others["bins"]
+        if brief:
+            return Judged(math.nan, math.nan, *told, [], np.zeros(0), np.zeros(0))
+        first = _rms(run("fitted", *windows, "--seconds", text_of(FITTED))[0], YAW)
         whole, signals = run("whole")
         time, path = _signal(signals, f"{YAW}.simulated [rad/s]")
         measured = _signal(signals, f"{YAW}.measured [rad/s]")[1]
-    return Judged(
-        first,
-        _rms(others, YAW),
-        _rms_inside(time, path - measured, JUDGED),
-        _rms(others, LATERAL),
-        [f"{w['begin']:g} s ({w['departed']})" for w in others["windows"] if w["departed"]],
-        others["bins"],
-        whole["notes"] + whole["problems"],
-        time,
-        path,
-    )
+    error = _rms_inside(time, path - measured, JUDGED)
+    return Judged(first, error, *told, whole["notes"] + whole["problems"], time, path)
 
 
 def _rms(record: dict[str, Any], signal: str) -> float:

@@ -70,8 +70,8 @@ def measured_start(
         )
     if rate is not None and abs(rate) > _TURNS and "initial.yaw_rate" not in (start | dict(given)):
         notes.append(
-            f"The log begins in a turn of {rate:.3g} rad/s; the FMU has no parameter initial.yaw_rate and starts straight, "
-            "so that the first seconds differ (--from begins elsewhere, --skip leaves them out of the comparison)."
+            f"The log begins in a turn of {rate:.3g} rad/s; the FMU has no parameter initial.yaw_rate and "
+            "starts straight: the first seconds differ (--from begins elsewhere, --skip leaves them out)."
         )
     return start, notes
 

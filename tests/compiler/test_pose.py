@@ -53,7 +53,7 @@ def test_pose_slides_and_turns_the_whole_scene():
     s = Simulation(compile(trolley()), pose=Pose(3.0, -2.0, 0.4, yaw, speed, left, rate)).sensors
     c, d = np.cos(yaw), np.sin(yaw)
     turn = np.array([[c, -d, 0], [d, c, 0], [0, 0, 1]])
-    expected = turn @ ([speed, left, 0.0] + np.cross([0.0, 0.0, rate], [0.5, 0.7, 0.3]))
+    expected = turn @ (np.array([speed, left, 0.0]) + np.cross([0.0, 0.0, rate], [0.5, 0.7, 0.3]))
     np.testing.assert_allclose([s["vx"], s["vy"], s["vz"]], expected, rtol=0, atol=EXACT)
     assert s["turn"] == pytest.approx(rate, abs=EXACT)
     assert s["hinge"] == pytest.approx(0.0, abs=EXACT)
