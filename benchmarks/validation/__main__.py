@@ -29,7 +29,7 @@ from mbs import Settings
 HERE = Path(__file__).parent
 PAGE = DOCS / "validation.md"
 BODY = Body(982.0, 1605.0, 1.33, 1.07)  # of the publication that the car file names; inertia of a box of its outline
-FITTED_NUMBERS = 6  # of the car, marked [F] in its file
+FITTED_NUMBERS = 7  # marked [F] in the file of the car and, of the sensor, in that of the log
 COLUMNS = {
     "model": "",
     "numbers": "d",

@@ -90,7 +90,9 @@ def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
     try:
         with gzip.open(path) if path.suffix.lower() == ".gz" else path.open("rb") as stream:
             content = stream.read(400_000)
-    except (OSError, EOFError, zlib.error) as error:
+    except (EOFError, zlib.error) as error:
+        raise HostError(f"The log {path} cannot be unpacked: {error}.") from None
+    except OSError as error:
         raise HostError(f"The log {path} cannot be read: {reason(error)}.") from None
     if b"\0" in content:
         raise HostError(f"The log {path} is no text; logs are read as CSV or Parquet (MDF files can be converted).")
