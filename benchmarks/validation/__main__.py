@@ -40,7 +40,7 @@ COLUMNS = {
     "departed": "",
 }
 PARTS = (
-    ("the steering column does not give", {"steering.stiffness": 14000.0}),
+    ("steering three times as stiff", {"steering.stiffness": 400.0}),
     ("without anti-roll bars", {"front.anti_roll_bar.factor": 0.02, "rear.anti_roll_bar.factor": 0.02}),
     ("without the driver, who sits on the right", {"payload.driver.mass": 0.0}),
     ("inner steps of 10 ms", {"step_size": 0.01}),
@@ -55,7 +55,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = parser_of("validation", __doc__, chart="measured and predicted yaw rate")
     parser.add_argument("file", type=Path, metavar="FILE", help="log of the drive: CSV, perhaps packed (.csv.gz)")
     parser.add_argument("--car", default="ferrari_250_lm", help="FMU or car; default: %(default)s")
-    parser.add_argument("--log-aliases", type=Path, default=HERE / "ferrari_250_lm.toml", metavar="FILE")
+    parser.add_argument(
+        "--log-aliases", type=Path, default=HERE / "ferrari_250_lm_log.toml", metavar="FILE", help="of the log as it is"
+    )
+    parser.add_argument(
+        "--car-aliases", type=Path, default=HERE / "ferrari_250_lm.toml", metavar="FILE", help="with fitted offsets"
+    )
     parser.add_argument("--page", action="store_true", help="write the tables of docs/validation.md")
     parser.add_argument("--no-parts", action="store_true", help="without the cars that lack a part")
     options = parser.parse_args(arguments)
@@ -63,7 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     simple = [fit(model, BODY, drive) for model in watched(MODELS)]
 
     def judged(settings: dict[str, float], brief: bool) -> Judged:
-        return judge(options.car, options.file, options.log_aliases, {"step_size": STEP} | settings, brief)
+        return judge(options.car, options.file, options.car_aliases, {"step_size": STEP} | settings, brief)
 
     car = judged({}, brief=False)
     parts = {} if options.no_parts else {name: judged(values, brief=True) for name, values in PARTS}
