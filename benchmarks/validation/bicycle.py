@@ -101,6 +101,7 @@ def _root(x: Array) -> Array:
 
 _UNDERSTEER = Unknown("understeer", "s2/m", -0.01, 0.02)
 _STIFFNESS = Unknown("front stiffness", "N/rad", 2e4, 6e5), Unknown("rear stiffness", "N/rad", 2e4, 2e6)
+_LINEAR = Unknown("front stiffness", "N/rad", 2e4, 3e5), Unknown("rear stiffness", "N/rad", 2e4, 4e5)
 _GRIP = (Unknown("grip", "1", 0.8, 2.5),)
 _GRIPS = Unknown("front grip", "1", 0.8, 2.5), Unknown("rear grip", "1", 0.8, 2.5)
 _OFFSET = Unknown("steering offset", "rad", -0.02, 0.02)
@@ -112,14 +113,14 @@ _BY_BRAKING = Unknown("steering by ax", "rad s2/m", -0.002, 0.002)
 MODELS = (
     Model("kinematic", ()),
     Model("steady understeer", (_UNDERSTEER,)),
-    Model("linear bicycle", _STIFFNESS, _linear),
+    Model("linear bicycle", _LINEAR, _linear),
     Model("saturating bicycle, tanh", (*_STIFFNESS, *_GRIP, _OFFSET), _saturating(np.tanh)),
     Model("x/sqrt(1 + x2), two grips, yaw inertia", (*_STIFFNESS, *_GRIPS, _OFFSET, _INERTIA), _saturating(_root)),
     Model(
         "tanh, two grips, longitudinal load transfer", (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT), _saturating(np.tanh)
     ),
     Model(
-        "and steering factor, steering by ax",
+        "the same and steering factor, steering by ax",
         (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT, _FACTOR, _BY_BRAKING),
         _saturating(np.tanh),
     ),
