@@ -6,9 +6,10 @@ its arguments, prints its tables and writes its files; what it measures is in th
 - `shared`: arguments, progress, the machine, timing, tables, charts and files;
 - `baselines`: classical methods in Python; `peers`: other engines;
 - `references`: exact motions and stored runs of other programs, which tests use too;
-- `car`, `paper`, `methods`: what is measured on the car, for the tables of the paper, and about the methods.
+- `car`, `paper`, `methods`: what is measured on the car, for the tables of the paper, and about the methods;
+- `validation`: cars against measured drives, beside simple models that are fitted.
 
 Commands and rooms import no command, and a room imports only rooms that stand before it in `ROOMS`.
 """
 
-ROOMS = ("shared", "baselines", "references", "peers", "car", "paper", "methods")
+ROOMS = ("shared", "baselines", "references", "peers", "car", "paper", "methods", "validation")

@@ -63,7 +63,7 @@ def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dic
         h = float(system.meta["experiment"]["step_s"])
         try:
             if system.meta["floating"]:
-                kernel.set_pose(0.0, 0.0, 0.0, 0.0, _SPEED)
+                kernel.set_pose(speed=_SPEED)
             kernel.initialise(0.0)
             for k in range(min(round(SECONDS / h), _MOST_STEPS)):
                 largest = np.maximum(largest, np.abs(kernel.sensors()))

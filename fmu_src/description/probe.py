@@ -23,7 +23,15 @@ _SEED = 20_261_120
 _INITIAL_TRIES = 6
 _STEP_TRIES = 9
 _STEPS = 40
-_POSE = {"initial.x": 20.0, "initial.y": 20.0, "initial.z": 0.2, "initial.yaw": 1.0, "initial.speed": 20.0}
+_POSE = {
+    "initial.x": 20.0,
+    "initial.y": 20.0,
+    "initial.z": 0.2,
+    "initial.yaw": 1.0,
+    "initial.speed": 20.0,
+    "initial.lateral_speed": 1.0,
+    "initial.yaw_rate": 0.5,
+}
 _OPEN_RANGE = 10.0
 # Shares of the ranges in turn: a mechanism may not bear all of them.
 _SHARES = (1.0, 0.1, 0.01)
@@ -192,7 +200,7 @@ class _Tries:
     def _start(self, kernel: Instance, values: dict[int, float]) -> list[float] | None:
         """Sensors of the initial state; None where there is none with these values."""
         kernel.reset()
-        pose = [0.0] * 5
+        pose = [0.0] * len(_POSE)
         try:
             for i, value in values.items():
                 v = self.table[i]

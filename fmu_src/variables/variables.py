@@ -22,6 +22,8 @@ _POSE = (
     ("initial.z", "m", "Initial height above the position as drawn or of rest; positive drops the scene"),
     ("initial.yaw", "rad", "Initial turn about the origin of the drawing, positive to the left of the earth's x axis"),
     ("initial.speed", "m/s", "Initial speed along the heading, wheels rolling"),
+    ("initial.lateral_speed", "m/s", "Initial speed of the origin of the drawing to the left of the heading"),
+    ("initial.yaw_rate", "rad/s", "Initial yaw rate, positive to the left"),
 )
 STEP_SIZE = "step_size"
 _DEPRECATED = "deprecated"
@@ -67,7 +69,7 @@ class Variable:
         What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
         ``step_iterations``, ``solver``, what the solver says about itself, ``capped_residual`` or ``constant``.
     index : int
-        Number of that input, parameter, sensor or figure of the solver; place in (x, y, z, yaw, speed) for ``pose``;
+        Number of that input, parameter, sensor or figure of the solver; place in `_POSE` for ``pose``;
         0 for others.
     start, min, max : float, optional
         In `unit`.

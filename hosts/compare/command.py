@@ -33,6 +33,13 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.co
     )
     add_option(parser, "--from", dest="begin")
     add_option(parser, "--to", dest="end")
+    parser.add_argument(
+        "--seconds", metavar="A:B,...", help="compare and fit only these seconds of the log, such as 0:80,160:240"
+    )
+    parser.add_argument(
+        "--windows", type=number, metavar="T", help="drive windows of this length, each from its measured state, s"
+    )
+    parser.add_argument("--window-every", type=number, metavar="T", help="from one window to the next, s; default: T")
     parser.add_argument("--skip", type=number, default=0.0, metavar="T", help="first seconds that are not compared")
     add_option(parser, "--step", "that of the FMU")
     parser.add_argument(

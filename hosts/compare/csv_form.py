@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gzip
 import re
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -86,8 +88,10 @@ def find_form(path: Path, wish: Form) -> FoundForm:
 
 def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
     try:
-        with path.open("rb") as stream:
+        with gzip.open(path) if path.suffix.lower() == ".gz" else path.open("rb") as stream:
             content = stream.read(400_000)
+    except (EOFError, zlib.error) as error:
+        raise HostError(f"The log {path} cannot be unpacked: {error}.") from None
     except OSError as error:
         raise HostError(f"The log {path} cannot be read: {reason(error)}.") from None
     if b"\0" in content:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
@@ -15,27 +17,49 @@ class Curve:
     Attributes
     ----------
     end : float
-        s; it begins at 0.
+        s; it begins at 0. Runs that were put one after the other have a spline each.
     """
 
     def __init__(self, result: Result, name: str) -> None:
         values = result[name]
         self.end = float(result.time[-1])
-        # Four points are the fewest of a spline whose ends have no condition.
-        self._spline = CubicSpline(result.time, values) if len(values) > 3 else None
-        self._few = (result.time, values)
+        parts = [slice(a, b) for a, b in pairwise([*result.starts, len(values)])]
+        self._parts = [_Part(result.time[part], values[part]) for part in parts]
+        # Between two runs the earlier one holds up to the middle.
+        self._edges = np.array([0.5 * (a.end + b.begin) for a, b in pairwise(self._parts)])
 
     def __call__(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
         """Values at times in s."""
-        if self._spline is None:
-            return np.interp(t, *self._few)
-        return np.asarray(self._spline(np.clip(t, 0.0, self.end)))
+        return self._of(t, 0)
 
     def slope(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
         """Derivative by the time at times in s."""
+        return self._of(t, 1)
+
+    def _of(self, t: NDArray[np.float64], order: int) -> NDArray[np.float64]:
+        if len(self._parts) == 1:
+            return self._parts[0](t, order)
+        found, number = np.empty(len(t)), np.searchsorted(self._edges, t)
+        for k in np.unique(number).tolist():
+            found[number == k] = self._parts[k](t[number == k], order)
+        return found
+
+
+class _Part:
+    """A run between its points."""
+
+    def __init__(self, time: NDArray[np.float64], values: NDArray[np.float64]) -> None:
+        self.begin, self.end = float(time[0]), float(time[-1])
+        # Four points are the fewest of a spline whose ends have no condition.
+        self._spline = CubicSpline(time, values) if len(values) > 3 else None
+        self._few = (time, values)
+
+    def __call__(self, t: NDArray[np.float64], order: int) -> NDArray[np.float64]:
         if self._spline is None:
-            return np.zeros(len(t))
-        return np.asarray(np.where((t >= 0.0) & (t <= self.end), self._spline(np.clip(t, 0.0, self.end), 1), 0.0))
+            return np.zeros(len(t)) if order else np.interp(t, *self._few)
+        inside = (t >= self.begin) & (t <= self.end)
+        found = self._spline(np.clip(t, self.begin, self.end), order)
+        return np.asarray(np.where(inside, found, 0.0) if order else found)
 
 
 class SensedCurve(Curve):

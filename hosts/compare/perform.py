@@ -20,6 +20,7 @@ from hosts.compare.residuals import NUISANCES, Unknown, nuisances
 from hosts.compare.results import Outcome, paths_of, write_outcome
 from hosts.compare.task import Task, prepare
 from hosts.compare.wanted import wanted_parameters
+from hosts.compare.windows import held_words, window_words, windows
 from hosts.compare.words import common_words, table
 from hosts.driving.co_simulation import Result
 
@@ -39,9 +40,11 @@ def perform(options: argparse.Namespace) -> int:
     wanted = _wanted(options, task)
     for note in task.notes:
         print(f"note: {note}", flush=True)
-    with Replay(options.fmu, task.aliases, task.manoeuvre, task.step, task.speed, task.pedal) as replay:
+    with Replay(options.fmu, task.aliases, task.stretches, task.step) as replay:
         before, problems = _first(options, task, replay)
         print(table(before))
+        if task.windowed:
+            print(window_words(windows(before, task.stretches)))
         for line in [*common_words(before), *problems]:
             print(line, flush=True)
         found, after = None, None
@@ -59,6 +62,8 @@ def perform(options: argparse.Namespace) -> int:
     if found is not None and after is not None:
         print("with the fitted parameters" + (" and sensors:" if wanted.nuisances else ":"))
         print(table(after))
+        if task.windowed:
+            print(window_words(windows(after, task.stretches)))
         print(fit_table(found))
         problems, more = problems + fit_problems(found), fit_notes(found)
         notes += more
@@ -77,9 +82,11 @@ def _wanted(options: argparse.Namespace, task: Task) -> _Fitting:
     nuisances(names, task.outputs, {}, options.longest_delay)  # their names
     if names and not options.fit:
         raise HostError("--nuisance goes with --fit; delays and drift are estimated without both.")
-    begin = task.manoeuvre.start  # as set, or as measured
+    if task.windowed and any(t.startswith("initial.") for t in options.fit):
+        raise HostError("--fit initial.* does not go with --windows: each window begins in its own measured state.")
+    begin = task.stretches[0].manoeuvre.start  # as set, or as measured
     sought = [t.partition("=")[0].strip() for t in options.fit]
-    if sought and "initial.speed" in begin and "initial.speed" not in (*task.set_values, *sought):
+    if sought and not task.windowed and "initial.speed" in begin and "initial.speed" not in (*task.set_values, *sought):
         task.notes.append(
             "initial.speed is as measured in the first tenth of a second; its error goes into what is fitted: "
             "--fit initial.speed=LOW:HIGH finds it too."
@@ -89,10 +96,10 @@ def _wanted(options: argparse.Namespace, task: Task) -> _Fitting:
 
 def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Comparison, list[str]]:
     result = replay.run()
-    problems = []
+    problems, told = [], len(task.notes)
     if result.failed_steps:
         problems.append(
-            f"The FMU refused a step at {result.simulated:.4g} s of {task.manoeuvre.stop_time:.4g} s"
+            f"The FMU refused a step at {result.simulated:.4g} s of {task.stretches[0].end:.4g} s"
             f"{f': {result.messages[-1]}' if result.messages else ''}; only what lies before is compared."
         )
     finite = {n: s for n, s in task.outputs.items() if math.isfinite(float(result[n].sum()))}
@@ -103,6 +110,9 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
     for name in task.outputs:
         if name not in enough:
             problems.append(f"'{name}' is not compared: it is not finite, or has too few samples.")
+    task.notes.extend(held_words(result, task.stretches))
+    for note in task.notes[told:]:
+        print(f"note: {note}", flush=True)
     compared = compare(enough, {n: Curve(result, n) for n in enough}, options.longest_delay, options.skip)
     odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for s in compared.signals.values()]
     return compared, problems + [line for line in (odd_speed(task.outputs), *odd) if line]
@@ -122,7 +132,7 @@ def _fit(
         print("note: the FMU does not repeat itself to the last bit.")
     outputs = {n: task.outputs[n] for n in before.signals}
     guesses = _delays(before, wanted.nuisances)
-    outputs = overlapping(outputs, task.manoeuvre.stop_time, options.skip, guesses)
+    outputs = overlapping(outputs, task.end, options.skip, guesses)
     unknowns = [*wanted.parameters, *nuisances(wanted.nuisances, outputs, guesses, options.longest_delay)]
     with tqdm(desc="fit", unit="run", delay=2.0) as bar:
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from hosts.common.numbers import Value
 from hosts.compare.follower import demanded
 from hosts.compare.log import Signal
+from hosts.compare.stretches import Stretch, joined
 from hosts.driving.co_simulation import Result, run
 from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre
@@ -67,8 +68,11 @@ def _kept(signal: Signal, time: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.round(signal.values[np.maximum(rows, 0)]))
 
 
+_GAINS = 0.8, 0.5, 0.1  # pedal per m/s, per m and per m/s2: the speed is to be as measured, not comfortable
+
+
 def _holder(speed: Signal, pedal: float) -> SpeedHolder:
-    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)), pedal=pedal)
+    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)), *_GAINS, pedal=pedal)
 
 
 class Replay:
@@ -82,10 +86,8 @@ class Replay:
         Our names for its variables.
     step : float
         Communication step, s.
-    speed : Signal, optional
-        That a driver holds by the pedals.
-    pedal : float
-        With which the driver starts.
+    stretches : sequence of Stretch
+        That are driven one after the other, each from its start.
 
     Attributes
     ----------
@@ -99,17 +101,15 @@ class Replay:
         self,
         path: Path,
         aliases: Aliases,
-        manoeuvre: Manoeuvre,
+        stretches: Sequence[Stretch],
         step: float,
-        speed: Signal | None = None,
-        pedal: float = 0.0,
     ) -> None:
         self._path, self._aliases = path, aliases
-        self.manoeuvre, self.step = manoeuvre, step
-        self._speed, self._pedal = speed, pedal
+        self.stretches, self.step = list(stretches), step
         self.said: dict[str, int] = {}
         self._fmu: Fmu | None = None
         self._can_reset: bool | None = None
+        self._driven = False
         self.runs = 0
 
     def __enter__(self) -> Replay:
@@ -126,7 +126,7 @@ class Replay:
             self._fmu = None
 
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
-        """Drive with other start values than those of the manoeuvre.
+        """Drive all stretches with other start values than those of their manoeuvres.
 
         Parameters
         ----------
@@ -136,26 +136,38 @@ class Replay:
         Returns
         -------
         Result
-            Under our names.
+            Under our names; several stretches as `joined` puts them.
+        """
+        results = [self.drive(stretch, values) for stretch in self.stretches]
+        self.runs += 1
+        for message in dict.fromkeys(m for result in results for m in result.messages):
+            self.said[message] = self.said.get(message, 0) + 1
+        return results[0] if len(results) == 1 else joined(results, self.stretches)
+
+    def drive(self, stretch: Stretch, values: Mapping[str, Value] | None = None) -> Result:
+        """Drive one stretch.
+
+        Parameters
+        ----------
+        values : mapping of str to float, int, bool or str, optional
+            Start values by our names.
         """
         if self._fmu is not None and self._can_reset is False:
             self._close()
         if self._fmu is None:
             self._fmu = Fmu(self._path)
-        elif self.runs:
+        elif self._driven:
             self._fmu.reset()
-        manoeuvre = self.manoeuvre
+        self._driven = True
+        manoeuvre = stretch.manoeuvre
         if values:
             manoeuvre = replace(manoeuvre, start={**manoeuvre.start, **values})
-        self.runs += 1
         fmu = AliasedFmu(self._fmu, self._aliases)
         # A pilot has a memory: each run has its own.
-        driver = None if self._speed is None else _holder(self._speed, self._pedal)
+        driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal)
         self._fmu.messages.clear()
         result = run(fmu, manoeuvre, self.step, driver)
         derive_columns(result, self._aliases)
-        for message in dict.fromkeys(result.messages):
-            self.said[message] = self.said.get(message, 0) + 1
         return result
 
     def check_reset(self) -> bool:

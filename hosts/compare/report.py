@@ -13,10 +13,12 @@ from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 from hosts.compare.fit import Fit
 from hosts.compare.fit_words import fit_rows
+from hosts.compare.windows import Bin
 from hosts.compare.words import unit_shown
 
 _COLUMNS = ("signal", "unit", "rms", "normalised", "mean", "largest", "at, s", "correlation", "rating",
             "corridor", "phase", "magnitude", "slope", "delay, ms")  # fmt: skip
+_BIN_COLUMNS = ("signal", "where", "from, to", "samples", "rms", "mean")
 _FOOT = (
     "Deviations are simulated minus measured, at the samples of the log, with no delay taken out. Normalised: rms over "
     "the standard deviation of the measured signal. The rating is like ISO/TS 18571, by public descriptions of it, at "
@@ -30,6 +32,7 @@ def write_report(
     before: Comparison,
     after: Comparison | None,
     fit: Fit | None,
+    told: Sequence[Bin],
     notes: Sequence[str],
     problems: Sequence[str],
     paths: Mapping[str, Path],
@@ -38,6 +41,8 @@ def write_report(
 
     Parameters
     ----------
+    told : sequence of Bin
+        Deviations by measured speed and lateral acceleration.
     paths : mapping of str to Path
         ``.html`` is written; ``.png`` is there and goes into it.
     """
@@ -64,10 +69,26 @@ def write_report(
             f"<p>All signals together: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late, its clock "
             f"{1e6 * c.drift:.3g} ± {1e6 * c.drift_error:.2g} ppm fast.</p>"
         )
+    if told:
+        parts += ["<h2>By speed and lateral acceleration</h2>", html.table(_BIN_COLUMNS, _bin_rows(told), "numbers")]
     parts.append(html.picture(paths[".png"].read_bytes(), title))
     parts += [f'<p class="note">{escape(line)}</p>' for line in notes]
     parts.append(f"<footer>{_FOOT}</footer>")
     write_text(paths[".html"], html.report(title, "\n".join(parts)))
+
+
+def _bin_rows(told: Sequence[Bin]) -> list[Sequence[str]]:
+    return [
+        [
+            b.signal,
+            f"{b.quantity}, {b.unit}",
+            f"{b.low:g} to {b.high:g}",
+            str(b.samples),
+            f"{b.rms:.4g}",
+            f"{b.mean:.4g}",
+        ]
+        for b in told
+    ]
 
 
 def _rows(comparison: Comparison) -> list[Sequence[str]]:

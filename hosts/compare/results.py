@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ from hosts.compare.page import comparison_figure, write_picture, write_summary
 from hosts.compare.report import write_report
 from hosts.compare.result_files import measure_records, write_json, write_signals
 from hosts.compare.task import Task
+from hosts.compare.windows import bins, windows
 from hosts.fmu.fmu import described
 from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.variables import Variables
@@ -40,6 +41,11 @@ class Outcome:
     notes: list[str]
     problems: list[str]
 
+    @property
+    def best(self) -> Comparison:
+        """With fitted parameters where there are some."""
+        return self.before if self.after is None else self.after
+
 
 def paths_of(options: argparse.Namespace) -> dict[str, Path]:
     """The files to be written by suffix; `FileError` at once, before the work, if they cannot be."""
@@ -62,7 +68,8 @@ def write_outcome(
     write_signals(outcome.before, outcome.after, paths[".csv"])
     write_picture(comparison_figure(outcome.before, outcome.after, title, task.inputs), paths[".png"])
     write_summary(outcome.before, outcome.after, title, paths["_summary.svg"].with_suffix(""))
-    write_report(title, outcome.before, outcome.after, outcome.fit, outcome.notes, outcome.problems, paths)
+    told = bins(outcome.best, task.scales)
+    write_report(title, outcome.before, outcome.after, outcome.fit, told, outcome.notes, outcome.problems, paths)
     if outcome.fit is not None:
         values = task.aliases.values(dict(task.set_values) | outcome.fit.parameters)
         description = described(options.fmu)
@@ -76,11 +83,14 @@ def write_outcome(
 def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
     record: dict[str, Any] = {
         "step_s": task.step,
-        "start": task.manoeuvre.start,
+        "start": task.stretches[0].manoeuvre.start,
         "notes": outcome.notes,
         "problems": outcome.problems,
         "measures": measure_records(measures(outcome.before)),
+        "bins": [asdict(b) for b in bins(outcome.best, task.scales)],
     }
+    if task.windowed:
+        record["windows"] = [asdict(w) for w in windows(outcome.best, task.stretches)]
     if outcome.fit is not None and outcome.after is not None:
         f = outcome.fit
         record["fitted_measures"] = measure_records(measures(outcome.after))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +22,7 @@ _MOVES, _TURNS = 0.5, 0.02  # m/s, rad/s
 def measured_start(
     fmu: AliasedFmu, signals: Mapping[str, Signal], given: Mapping[str, Value]
 ) -> tuple[dict[str, Value], list[str]]:
-    """Start values of speed and pose as they are measured, where the FMU has such parameters.
+    """Start values of speeds and pose as they are measured, where the FMU has such parameters.
 
     Parameters
     ----------
@@ -43,7 +43,13 @@ def measured_start(
     start: dict[str, Value] = {}
     notes = []
     speed = next((at_start(signals[n]) for n in ("speed", "chassis.vx") if n in signals), None)
-    for name, value in (("initial.speed", speed), ("initial.yaw", _of(signals, "chassis.yaw"))):
+    across, rate = (_of(signals, f"chassis.{n}") for n in ("vy", "wz"))
+    for name, value in (
+        ("initial.speed", speed),
+        ("initial.yaw", _of(signals, "chassis.yaw")),
+        ("initial.lateral_speed", across),
+        ("initial.yaw_rate", rate),
+    ):
         if value is not None and name in fmu.variables and name not in given:
             start[name] = value
     for axis in "xy":
@@ -62,46 +68,63 @@ def measured_start(
         notes.append(
             "The log has no 'speed': the car starts at rest; if it moved, set it by --set initial.speed=VALUE."
         )
-    rate = _of(signals, "chassis.wz")
-    if rate is not None and abs(rate) > _TURNS:
+    if rate is not None and abs(rate) > _TURNS and "initial.yaw_rate" not in (start | dict(given)):
         notes.append(
-            f"The log begins in a turn of {rate:.3g} rad/s; the car starts straight, so that the first seconds differ "
-            "(--from begins elsewhere, --skip leaves them out of the comparison)."
+            f"The log begins in a turn of {rate:.3g} rad/s; the FMU has no parameter initial.yaw_rate and "
+            "starts straight: the first seconds differ (--from begins elsewhere, --skip leaves them out)."
         )
     return start, notes
 
 
-def placed(
-    fmu_path: Path, aliases: Aliases, start: Mapping[str, Value], measured: Mapping[str, Value]
-) -> dict[str, Value]:
-    """Initial place so that the reference point, not the origin of the car's drawing, starts where it was measured.
+def reference_point(fmu_path: Path, aliases: Aliases, start: Mapping[str, Value]) -> tuple[float, float]:
+    """Where the reference point of the car at rest lies from the origin of its drawing, forward and to the left, m.
+
+    Parameters
+    ----------
+    start : mapping of str to float, int, bool or str
+        Start values; those of pose and speed are not used.
+
+    Returns
+    -------
+    tuple of float
+        Zero where the FMU does not tell its place.
+    """
+    with Fmu(fmu_path) as opened:
+        fmu = AliasedFmu(opened, aliases)
+        names = [f"chassis.{a}" for a in "xy"]
+        if any(n not in fmu.variables for n in names):
+            return 0.0, 0.0
+        fmu.initialise({n: v for n, v in start.items() if not n.startswith("initial.")})
+        found = np.empty(len(names))
+        fmu.reader(names)(found)
+    x, y = np.nan_to_num(found, posinf=0.0, neginf=0.0).tolist()
+    return x, y
+
+
+def of_origin(start: Mapping[str, Value], measured: Collection[str], point: tuple[float, float]) -> dict[str, Value]:
+    """Start values of the origin of the car's drawing, from those that were measured of its reference point.
 
     Parameters
     ----------
     start : mapping
         All start values.
-    measured : mapping
-        Those of `measured_start`.
-
-    Returns
-    -------
-    dict
-        `start` with a corrected place.
+    measured : collection of str
+        Which of them were measured.
+    point : tuple of float
+        Of `reference_point`.
     """
-    axes = [a for a in "xy" if f"initial.{a}" in measured]
-    if not axes:
-        return dict(start)
-    with Fmu(fmu_path) as opened:
-        fmu = AliasedFmu(opened, aliases)
-        names = [f"chassis.{a}" for a in axes]
-        fmu.initialise(start)
-        found = np.empty(len(names))
-        fmu.reader(names)(found)
     made = dict(start)
-    for axis, value in zip(axes, found.tolist(), strict=True):
-        wanted = float(measured[f"initial.{axis}"])
-        if math.isfinite(value):
-            made[f"initial.{axis}"] = wanted - (value - wanted)
+    yaw, rate = (float(start.get(f"initial.{n}", 0.0)) for n in ("yaw", "yaw_rate"))
+    c, s = math.cos(yaw), math.sin(yaw)
+    moved = {
+        "initial.x": c * point[0] - s * point[1],
+        "initial.y": s * point[0] + c * point[1],
+        "initial.speed": -rate * point[1],
+        "initial.lateral_speed": rate * point[0],
+    }
+    for name, by in moved.items():
+        if name in measured:
+            made[name] = float(start[name]) - by
     return made
 
 

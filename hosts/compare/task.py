@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -18,8 +18,11 @@ from hosts.compare.log_aliases import LogAliases, check_of_fmu, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
-from hosts.compare.start_values import measured_start, placed
-from hosts.compare.starting_pedal import starting_pedal
+from hosts.compare.road_wheels import ANGLES, mean_angle, steering_for
+from hosts.compare.start_values import measured_start, of_origin, reference_point
+from hosts.compare.starting_pedal import starting_pedals
+from hosts.compare.stretches import GAP, Spans, Stretch, begins, in_spans, one_after_the_other, spans
+from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.run_checks import check_columns, communication_step
 from hosts.fmu.aliased_fmu import AliasedFmu
@@ -43,7 +46,9 @@ class Task:
     aliases : Aliases
         Of the FMU.
     inputs, outputs : dict of str to Signal
-        From time 0 on.
+        From time 0 on; outputs of windows one window after the other.
+    stretches : list of Stretch
+        What is driven.
     step : float
         s.
     slopes : bool
@@ -52,23 +57,28 @@ class Task:
         Of the FMU, by our names.
     set_values : dict
         Start values that the user has set.
-    speed : Signal, optional
-        Measured, where a driver holds it in place of the measured pedals.
-    pedal : float
-        With which that driver starts; negative: of the brake.
+    windowed : bool
+        Whether the stretches are windows, each from its measured state.
+    scales : dict of str to Signal
+        Measured speed and lateral acceleration at the places of the outputs.
     """
 
     aliases: Aliases
     inputs: dict[str, Signal]
     outputs: dict[str, Signal]
-    manoeuvre: Manoeuvre
+    stretches: list[Stretch]
     step: float
     slopes: bool
     parameters: dict[str, Variable]
     set_values: dict[str, Value]
     notes: list[str]
-    speed: Signal | None = None
-    pedal: float = 0.0
+    windowed: bool = False
+    scales: dict[str, Signal] = field(default_factory=dict)
+
+    @property
+    def end(self) -> float:
+        """Of what is compared, s."""
+        return self.stretches[-1].place + self.stretches[-1].end
 
 
 def prepare(options: argparse.Namespace) -> Task:
@@ -89,7 +99,10 @@ def prepare(options: argparse.Namespace) -> Task:
         log = log_for(fmu, raw, log_aliases, aliases.why_missing)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
-        followed = _add_steering(fmu, log, inputs, outputs, notes)
+        settings = settings_of(opened.table, wishes(options), {}, "")
+        by_theirs = {n: aliases.names([n])[0] for n in settings.start}
+        given = {by_theirs[n]: v for n, v in settings.start.items()}
+        followed = _add_steering(fmu, log, inputs, outputs, notes, aliases, given)
         pedals = _held_speed(fmu, log, inputs, notes) if options.hold_speed else None
         if not inputs and pedals is None:
             raise HostError(
@@ -104,25 +117,70 @@ def prepare(options: argparse.Namespace) -> Task:
         speed = None if pedals is None else _shifted({"speed": pedals}, options)["speed"]
         check_inputs(fmu, inputs, options.longest_gap, notes)
         note_gaps(outputs, notes)
-        settings = settings_of(opened.table, wishes(options), {}, "")
-        by_theirs = {n: aliases.names([n])[0] for n in settings.start}
-        given = {by_theirs[n]: v for n, v in settings.start.items()}
-        start, words = measured_start(fmu, outputs | log_at(log, options), given)
-        notes += words
-        everything = placed(options.fmu, aliases, start | given, start)
-        step = communication_step(fmu, Manoeuvre("", np.zeros(0), {}, end), _step(fmu, inputs, options))
+        wanted = spans(options.seconds)
+        parts = _parts(options, wanted, end)
+        step = communication_step(fmu, Manoeuvre("", np.zeros(0), {}, parts[0][1]), _step(fmu, inputs, options))
         whole = {n for n in inputs if fmu.variables[n].type == "Integer"}
         slopes = opened.follows_slopes
-        manoeuvre = inputs_of(options.log.stem, inputs, everything, end, step, not slopes, whole, followed)
-        for name in followed:
-            variable = fmu.table[name]
-            np.clip(manoeuvre.inputs[name], variable.low, variable.high, out=manoeuvre.inputs[name])
-        check_columns(fmu, manoeuvre)
-        parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter"}
-    pedal = 0.0 if speed is None else starting_pedal(options.fmu, aliases, manoeuvre, step, speed)
+        everything = outputs | log_at(log, options)
+        point = reference_point(options.fmu, aliases, given)
+        stretches: list[Stretch] = []
+        for begin, length in parts:
+            start, words = measured_start(fmu, cut(everything, begin, begin + length), given)
+            notes += words if not stretches else []
+            manoeuvre = inputs_of(
+                options.log.stem,
+                cut(inputs, begin, begin + length),
+                of_origin(start | given, start, point),
+                length,
+                step,
+                not slopes,
+                whole,
+                followed,
+            )
+            for name in followed:
+                variable = fmu.table[name]
+                np.clip(manoeuvre.inputs[name], variable.low, variable.high, out=manoeuvre.inputs[name])
+            check_columns(fmu, manoeuvre)
+            held_speed = None if speed is None else cut({"": speed}, begin, begin + length)[""]
+            stretches.append(Stretch(manoeuvre, held_speed, 0.0, begin, len(stretches) * (length + GAP)))
+        parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in held}
     if speed is not None:
+        stretches = starting_pedals(options.fmu, aliases, stretches, step)
+        pedal = stretches[0].pedal
         notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
-    return Task(aliases, inputs, outputs, manoeuvre, step, slopes, parameters, given, notes, speed, pedal)
+    scales = scales_of(everything)
+    if options.windows is not None:
+        notes.append(f"The start of each of the {len(stretches)} windows is as measured; these are those of the first.")
+        outputs, scales = (one_after_the_other(signals, stretches) for signals in (outputs, scales))
+    elif wanted is not None:
+        begin = options.begin or 0.0
+        moved = tuple((a - begin, b - begin) for a, b in wanted)
+        outputs = {n: in_spans(s, moved) for n, s in outputs.items()}
+    windowed = options.windows is not None
+    return Task(aliases, inputs, outputs, stretches, step, slopes, parameters, given, notes, windowed, scales)
+
+
+def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> list[tuple[float, float]]:
+    """Begin and length of what is driven, s after --from."""
+    begin = options.begin or 0.0
+    if options.windows is None:
+        if options.window_every is not None:
+            raise HostError("--window-every goes with --windows, the length of a window.")
+        return [(0.0, end)]
+    every = options.windows if options.window_every is None else options.window_every
+    if not (0.0 < options.windows <= end and every > 0.0):
+        raise HostError(
+            f"--windows {options.windows:g}, one every {every:g} s; both must be positive, within {end:g} s."
+        )
+    if options.skip:
+        raise HostError("--skip does not go with --windows: each begins in its measured state.")
+    last = begin + end + 1e-9
+    found = [t for t in begins(wanted or ((begin, last),), options.windows, every) if t >= begin]
+    found = [t - begin for t in found if t + options.windows <= last]
+    if not found:
+        raise HostError(f"No window of {options.windows:g} s lies in --seconds {options.seconds} and in the log.")
+    return [(t, options.windows) for t in found]
 
 
 def log_at(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
@@ -177,9 +235,15 @@ def _chosen(log: Log, fmu: AliasedFmu, options: argparse.Namespace) -> tuple[dic
 
 
 def _add_steering(
-    fmu: AliasedFmu, log: Log, inputs: dict[str, Signal], outputs: dict[str, Signal], notes: list[str]
+    fmu: AliasedFmu,
+    log: Log,
+    inputs: dict[str, Signal],
+    outputs: dict[str, Signal],
+    notes: list[str],
+    aliases: Aliases,
+    given: Mapping[str, Value],
 ) -> dict[str, float]:
-    """A car that is steered by a normalised input, and a log with the angle of the steering wheel.
+    """A car that is steered by a normalised input, and a log with the angle of the steering wheel or of road wheels.
 
     Returns
     -------
@@ -187,27 +251,41 @@ def _add_steering(
         The input that the car follows, with the frequency of its follower, Hz; empty where there is none.
     """
     largest, frequency = fmu.constants().get(_ANGLE_MAX), fmu.constants().get(_FREQUENCY)
-    if _ANGLE in log.outputs and largest and _STEERING in fmu.names("input") and _STEERING not in inputs:
+    if _STEERING not in fmu.names("input") or _STEERING in inputs:
+        return {}
+    road = mean_angle(log.outputs)
+    if _ANGLE in log.outputs and largest:
         if any(n.startswith("steering_wheel_angle") for n in inputs):
             return {}
         angle = log.outputs[_ANGLE]
         outputs.pop(_ANGLE, None)  # what drives is not compared
         inputs[_STEERING] = replace(angle, name=_STEERING, unit="1", values=angle.values / largest)
         notes.append(f"'{_STEERING}' is the measured {_ANGLE} over {_ANGLE_MAX} = {largest:.4g} rad.")
-        if frequency:
-            notes.append(
-                f"The steering wheel turns as measured: the demand leads by what its follower of {frequency:.4g} Hz is "
-                "late."
-            )
-            return {_STEERING: frequency}
-    return {}
+    elif road is not None:
+        for name in ANGLES:
+            outputs.pop(name, None)
+        inputs[_STEERING] = steering_for(fmu.path, aliases, given, road)
+        notes.append(f"'{_STEERING}' is that at which the standing car turns its wheels as measured ({road.source}).")
+    else:
+        return {}
+    if not frequency:
+        return {}
+    notes.append(
+        f"The steering wheel turns as measured: the demand leads by what its follower of {frequency:.4g} Hz is late."
+    )
+    return {_STEERING: frequency}
 
 
 def _shifted(signals: Mapping[str, Signal], options: argparse.Namespace) -> dict[str, Signal]:
     begin = options.begin or 0.0
     end = math.inf if options.end is None else options.end
-    cut = {n: s.between(begin, end) for n, s in signals.items()}
-    return {n: replace(s, time=s.time - begin) for n, s in cut.items()}
+    return cut(signals, begin, end)
+
+
+def cut(signals: Mapping[str, Signal], begin: float, end: float) -> dict[str, Signal]:
+    """Signals between two times, from time 0 on."""
+    parts = {n: s.between(begin, end) for n, s in signals.items()}
+    return {n: replace(s, time=s.time - begin) for n, s in parts.items()}
 
 
 def _window(

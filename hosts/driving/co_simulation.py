@@ -50,6 +50,8 @@ class Result:
         Those of them that were to move between the steps: the FMU takes no input derivatives, or a driver acts on them.
     jumps : dict of int to list of float
         By the number of a row: inputs before a jump at its time, where the row alone does not tell them.
+    starts : list of int
+        Rows at which runs begin that were put one after the other.
     """
 
     names: list[str]
@@ -63,6 +65,7 @@ class Result:
     held: list[str] = field(default_factory=list)
     late: list[str] = field(default_factory=list)
     jumps: dict[int, list[float]] = field(default_factory=dict)
+    starts: list[int] = field(default_factory=lambda: [0])
 
     def __contains__(self, name: str) -> bool:
         return name in self.names

@@ -38,6 +38,7 @@ LIMITS = {
     "ALI3_OPEN": "A row that is open by less, m, is not why something failed.",
     "ALI3_FARTHEST": "Largest distance of a start, m.",
     "ALI3_FASTEST": "Largest speed of a start, m/s.",
+    "ALI3_POSE": "Numbers of a pose.",
     "ALI3_BALANCE_WRONG": "Energy balance above which, at any time, no run was right that was tried.",
     "ALI3_HALVINGS_SUSPECT": "Halvings per step above which a run is suspect.",
     "ALI3_SYSTEM_VERSION": "Of the System file.",

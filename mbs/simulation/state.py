@@ -21,7 +21,11 @@ class Pose:
     yaw : float
         Turn about the vertical, rad.
     speed : float
-        Along the turned forward direction, m/s.
+        Along the turned forward direction, wheels rolling, m/s.
+    lateral_speed : float
+        To the left of it, m/s.
+    yaw_rate : float
+        Positive to the left, rad/s. Both speeds are those of the origin of the drawing, about which it turns.
 
     Raises
     ------
@@ -34,9 +38,11 @@ class Pose:
     z: float = 0.0
     yaw: float = 0.0
     speed: float = 0.0
+    lateral_speed: float = 0.0
+    yaw_rate: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("x", "y", "z", "yaw", "speed"):
+        for name in ("x", "y", "z", "yaw", "speed", "lateral_speed", "yaw_rate"):
             check = number if name == "yaw" else finite  # the kernel says which starts are too far and too fast
             object.__setattr__(self, name, check(getattr(self, name), f"The {name} of a pose", ValueError))
 

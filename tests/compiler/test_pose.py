@@ -29,6 +29,8 @@ def trolley(floating=True):
         m.sense_position(f"v{c}", arm, (0.5, 0.7, 0.3), c, order=1)
     m.sense_angle("yaw", frame, "yaw")
     m.sense_coordinate("angle", angle)
+    m.sense_coordinate("hinge", angle, order=1)
+    m.sense_rotation("turn", frame, "z", order=1)
     m.sense_coordinate("spin", m.spins[0], order=1)
     return m
 
@@ -42,6 +44,19 @@ def test_pose_moves_turns_and_starts_the_whole_scene():
     np.testing.assert_allclose([s["vx"], s["vy"], s["vz"]], [speed * c, speed * d, 0.0], rtol=0, atol=EXACT)
     assert s["yaw"] == pytest.approx(yaw, abs=EXACT)
     assert s["angle"] == pytest.approx(0.2, abs=EXACT)
+    assert s["spin"] == pytest.approx(speed / 0.3, rel=EXACT)
+
+
+def test_pose_slides_and_turns_the_whole_scene():
+    """Each point has the velocity of the origin and that of the turn about it; the hinge and the spin stay."""
+    yaw, speed, left, rate = 0.9, 7.0, -1.5, 0.6
+    s = Simulation(compile(trolley()), pose=Pose(3.0, -2.0, 0.4, yaw, speed, left, rate)).sensors
+    c, d = np.cos(yaw), np.sin(yaw)
+    turn = np.array([[c, -d, 0], [d, c, 0], [0, 0, 1]])
+    expected = turn @ (np.array([speed, left, 0.0]) + np.cross([0.0, 0.0, rate], [0.5, 0.7, 0.3]))
+    np.testing.assert_allclose([s["vx"], s["vy"], s["vz"]], expected, rtol=0, atol=EXACT)
+    assert s["turn"] == pytest.approx(rate, abs=EXACT)
+    assert s["hinge"] == pytest.approx(0.0, abs=EXACT)
     assert s["spin"] == pytest.approx(speed / 0.3, rel=EXACT)
 
 

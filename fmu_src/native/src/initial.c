@@ -83,7 +83,7 @@ static ali3_status apply_limit(slave *s) {
 
 static ali3_status apply(slave *s) {
   const slave_table *t = &slave_the_table;
-  double pose[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
+  double pose[ALI3_POSE] = {0.0};
   bool posed = false;
   ali3_status status = ali3_reset(s->fidelity.kernel);
   if (status == ALI3_OK) status = apply_limit(s);
@@ -95,8 +95,7 @@ static ali3_status apply(slave *s) {
     pose[v->index] = s->value[i];
     posed = posed || s->value[i] != 0.0;
   }
-  if (status == ALI3_OK && posed)
-    status = ali3_set_pose(s->fidelity.kernel, pose[0], pose[1], pose[2], pose[3], pose[4]);
+  if (status == ALI3_OK && posed) status = ali3_set_pose(s->fidelity.kernel, pose);
   return status == ALI3_OK ? ali3_initialise(s->fidelity.kernel, s->calls.start_time) : status;
 }
 

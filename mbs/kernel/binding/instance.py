@@ -12,7 +12,7 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_void_
 from typing import Any
 
 from ..header.enumerations import Doubt
-from ..header.limits import OPEN
+from ..header.limits import OPEN, POSE
 from ..header.structures import ControlFields, InputTable, InputTables, RecordFields, ReportFields, SettingsFields
 from .buffers import buffer, numbers
 from .errors import KernelError, status_text
@@ -168,9 +168,19 @@ class Instance:
         self._library.ali3_wheel_in_road(self._handle, byref(element), text, len(text))
         return element.value, text.value.decode(errors="replace")
 
-    def set_pose(self, x: float, y: float, z: float, yaw: float, speed: float) -> None:
-        """Start of a scene that is not tied to the ground (m, rad, m/s); before `initialise`."""
-        self._check(self._library.ali3_set_pose(self._handle, x, y, z, yaw, speed))
+    def set_pose(
+        self,
+        x: float = 0.0,
+        y: float = 0.0,
+        z: float = 0.0,
+        yaw: float = 0.0,
+        speed: float = 0.0,
+        lateral_speed: float = 0.0,
+        yaw_rate: float = 0.0,
+    ) -> None:
+        """Start of a scene that is not tied to the ground (m, rad, m/s, rad/s); before `initialise`."""
+        pose = (x, y, z, yaw, speed, lateral_speed, yaw_rate)
+        self._check(self._library.ali3_set_pose(self._handle, numbers(pose, POSE, "pose")))
 
     def set_q(self, q: Sequence[float] | None, qd: Sequence[float] | None = None) -> None:
         """Coordinates (nq,) and rates (nq,) to start from; before `initialise`."""

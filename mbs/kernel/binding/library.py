@@ -35,7 +35,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_set_parameter": (c_int32, [c_void_p, c_int32, c_double]),
     "ali3_try_parameter": (c_int32, [c_void_p, c_int32, c_double]),
     "ali3_get_parameter": (c_int32, [c_void_p, c_int32, _DOUBLES]),
-    "ali3_set_pose": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double]),
+    "ali3_set_pose": (c_int32, [c_void_p, _DOUBLES]),
     "ali3_set_q": (c_int32, [c_void_p, _DOUBLES, _DOUBLES]),
     "ali3_set_switch": (c_int32, [c_void_p, c_int32, c_int32]),
     "ali3_get_switch": (c_int32, [c_void_p, c_int32, POINTER(c_int32)]),

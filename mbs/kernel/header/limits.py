@@ -6,6 +6,8 @@ FARTHEST = 1e8
 """Largest distance of a start, m."""
 FASTEST = 1e6
 """Largest speed of a start, m/s."""
+POSE = 7
+"""Numbers of a pose."""
 BALANCE_WRONG = 0.036
 """Energy balance above which, at any time, no run was right that was tried."""
 HALVINGS_SUSPECT = 0.1

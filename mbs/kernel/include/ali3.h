@@ -201,7 +201,9 @@ ALI3_API ali3_status ali3_get_input(const ali3_instance *in, int32_t index, doub
 ALI3_API ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value);
 ALI3_API ali3_status ali3_try_parameter(ali3_instance *in, int32_t index, double value);
 ALI3_API ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value);
-ALI3_API ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed);
+/* x, y, z, yaw, speed along the heading, speed to its left and yaw rate of the origin of the drawing. */
+#define ALI3_POSE 7
+ALI3_API ali3_status ali3_set_pose(ali3_instance *in, const double *pose);
 ALI3_API ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd); /* before initialise */
 /* Rows of a switch on or off: before initialise as drawn; later they hold the values they have at that moment, the
  * velocities are projected, accelerations and multipliers computed again; report.energy_jump has the change of energy.

@@ -112,7 +112,7 @@ struct ali3_instance {
   ali3_vectors before; /* the state before a step where branches may be near */
   bool mode_known, branch_near;
   /* of start_equilibrium.c: where a start is and how a pose moves it; the last pose; who placed the present start */
-  double *start_q, *pose_0, *pose_cos, *pose_sin, pose[5];
+  double *start_q, *pose_0, *pose_cos, *pose_sin, pose[ALI3_POSE];
   int32_t placed;
   bool start_moved; /* not as in the file */
   double *watched, *work_sum, *stage_power; /* work.c: of the last ali3_forces; of the stages of a step */

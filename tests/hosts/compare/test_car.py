@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -26,6 +27,7 @@ steering_wheel_angle = "Lenkrad"
 speed = "v"
 "chassis.wz" = "Gierrate"
 "chassis.ay" = "ay"
+"chassis.vy" = "vq"
 "chassis.x" = { name = "Ost", unit = "m" }
 "chassis.y" = { name = "Nord", unit = "m" }
 "chassis.yaw" = { name = "Kurs", unit = "deg" }
@@ -65,6 +67,9 @@ def logged(car: Path, folder: Path, start: Mapping[str, float], delay: float = 0
         "v [km/h]": out("speed", 3.6, 0.05),
         "Gierrate [°/s]": out("chassis.wz", 180.0 / np.pi, 0.004),
         "ay [g]": out("chassis.ay", 1.0 / 9.80665, 0.1),
+        "vq [m/s]": out("chassis.vy", 1.0, 0.01),
+        "Rad links [rad]": out("wheel_FL.steer", 1.0),
+        "Rad rechts [rad]": out("wheel_FR.steer", 1.0),
         "Ost": out("chassis.x", 1.0, 0.01),
         "Nord": out("chassis.y", 1.0, 0.01),
         "Kurs": out("chassis.yaw", 180.0 / np.pi, 0.002),
@@ -150,9 +155,69 @@ def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys:
     assert 0.2 < started < 0.9
 
 
-def test_a_log_that_begins_in_a_turn_says_so(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_log_that_begins_in_a_turn_starts_in_it(
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Speeds are measured at the reference point, 1.3 m behind the origin of the drawing that is placed."""
+    log = logged(car, tmp_path, {"initial.speed": 15.0, "initial.yaw": 1.0})
+    _, record = compared(car, log, "--from", "2", "--to", "3", signals="chassis.wz,chassis.vy")
+    assert "The start is as measured: initial.speed = " in capsys.readouterr().out
+    assert abs(record["start"]["initial.yaw_rate"]) > 0.1
+    with (tmp_path / "out" / "fahrt.csv").open(encoding="utf-8") as stream:
+        first = {k: float(v) for k, v in next(csv.DictReader(stream)).items() if v}
+    for name, unit, near in (("chassis.wz", "rad/s", 2e-3), ("chassis.vy", "m/s", 0.01)):
+        assert first[f"{name}.simulated [{unit}]"] == pytest.approx(first[f"{name}.measured [{unit}]"], abs=near)
+    # The body begins upright and has to roll first.
+    assert values(record)["chassis.wz.rms"] < 0.01
+
+
+def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The second half is left out; a window whose car has another grip departs from none, but is off by more."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
-    compared(car, log, "--from", "2")
-    said = capsys.readouterr().out
-    assert "The start is as measured: initial.speed = " in said
-    assert "begins in a turn of" in said
+    parts = ("--windows", "1", "--window-every", "0.5", "--seconds", "0.5:3")
+    _, record = compared(car, log, *parts, signals="chassis.wz")
+    assert "4 windows; none has departed." in capsys.readouterr().out
+    assert [(w["begin"], w["end"]) for w in record["windows"]] == [(0.5, 1.5), (1.0, 2.0), (1.5, 2.5), (2.0, 3.0)]
+    rms = [w["rms"]["chassis.wz"] for w in record["windows"]]
+    assert values(record)["chassis.wz.rms"] == pytest.approx(np.sqrt(np.mean(np.square(rms))), rel=0.02)
+    assert max(rms) < 0.02
+    told = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
+    assert sum(b["samples"] for b in told) == 4 * 101
+    assert {(b["low"], b["high"]) for b in told} >= {(0.0, 2.0), (2.0, 4.0)}
+    _, other = compared(car, log, *parts, "--set", "front.tyre.grip=0.2", signals="chassis.wz")
+    assert max(w["rms"]["chassis.wz"] for w in other["windows"]) > 3.0 * max(rms)
+
+
+def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path) -> None:
+    """The linkage of this car is rigid, so that the angles on the road tell that of the steering wheel."""
+    log = logged(car, tmp_path, {"initial.speed": 15.0})
+    aliases = log.with_suffix(".toml")
+    by_hand = compared(car, log, signals="chassis.wz")[1]
+    text = aliases.read_text(encoding="utf-8")
+    road = '"wheel_FL.steer" = "Rad links"\n"wheel_FR.steer" = "Rad rechts"'
+    aliases.write_text(text.replace('steering_wheel_angle = "Lenkrad"', road), encoding="utf-8")
+    by_road = compared(car, log, signals="chassis.wz")[1]
+    assert any("at which the standing car turns its wheels as measured" in n for n in by_road["notes"])
+    one, other = (values(r)["chassis.wz.rms"] for r in (by_hand, by_road))
+    assert other < one + 0.002
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--seconds", "3:1"), "its times must be finite and in their order"),
+        (("--seconds", "now"), "it must be of the form A:B,C:D"),
+        (("--window-every", "1"), "--window-every goes with --windows"),
+        (("--windows", "9"), "within 4.94 s"),
+        (("--windows", "1", "--skip", "1"), "--skip does not go with --windows"),
+        (("--windows", "2", "--seconds", "0:1"), "No window of 2 s lies in --seconds 0:1"),
+        (("--windows", "1", "--fit", "initial.speed=1:20"), "--fit initial.* does not go with --windows"),
+    ],
+)
+def test_windows_that_cannot_be_are_refused(
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: tuple[str, ...], words: str
+) -> None:
+    log = logged(car, tmp_path, {"initial.speed": 15.0})
+    arguments = [str(car), str(log), "--log-aliases", str(log.with_suffix(".toml")), "--out", str(tmp_path / "out")]
+    assert main([*arguments, *options]) == 2
+    assert words in capsys.readouterr().err

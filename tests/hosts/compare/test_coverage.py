@@ -12,6 +12,7 @@ from pendulum import END, measured, measured_pull, motion
 from hosts.compare.fit import Fit, fit, overlapping
 from hosts.compare.replay import Replay, inputs_of
 from hosts.compare.residuals import Unknown, nuisances
+from hosts.compare.stretches import Stretch
 from hosts.driving.co_simulation import Result
 from hosts.fmu.aliases.alias import Aliases
 
@@ -26,7 +27,7 @@ UNKNOWNS = [
 @pytest.fixture(scope="module")
 def replay(tuned: Path) -> Iterator[Replay]:
     manoeuvre = inputs_of("log", {"pull": measured_pull()}, {}, END, STEP)
-    with Replay(tuned, Aliases(), manoeuvre, STEP) as made:
+    with Replay(tuned, Aliases(), [Stretch(manoeuvre)], STEP) as made:
         assert made.check_reset()
         yield made
 

@@ -111,7 +111,7 @@ ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
     if (in->start_moved) set_start(in, in->stage);
   }
   if (in->placed == ALI3_PLACED_BY_POSE)
-    return ali3_set_pose(in, in->pose[0], in->pose[1], in->pose[2], in->pose[3], in->pose[4]);
+    return ali3_set_pose(in, in->pose);
   memcpy(in->now.q, in->start_q, (size_t)S->size.nq * sizeof(double));
   return ALI3_OK;
 }

@@ -176,18 +176,22 @@ ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value
   return ALI3_OK;
 }
 
-ali3_status ali3_set_pose(ali3_instance *in, double x, double y, double z, double yaw, double speed) {
-  const double given[5] = {x, y, z, yaw, speed};
-  if (in == NULL || !in->system->size.has_pose || !ali3_finite(given, 5)) return ALI3_BAD_ARGUMENT;
-  if (fmax(fabs(x), fmax(fabs(y), fabs(z))) > ALI3_FARTHEST || fabs(speed) > ALI3_FASTEST) return ALI3_TOO_FAR;
+ali3_status ali3_set_pose(ali3_instance *in, const double *pose) {
+  if (in == NULL || pose == NULL || !in->system->size.has_pose || !ali3_finite(pose, ALI3_POSE))
+    return ALI3_BAD_ARGUMENT;
+  const double x = pose[0], y = pose[1], z = pose[2], yaw = pose[3], speed = pose[4], left = pose[5], rate = pose[6];
+  if (fmax(fabs(x), fmax(fabs(y), fabs(z))) > ALI3_FARTHEST) return ALI3_TOO_FAR;
+  if (fmax(fabs(speed), fabs(left)) > ALI3_FASTEST || fabs(rate) > ALI3_FASTEST) return ALI3_TOO_FAR;
   const ali3_system *S = in->system;
   const double c = ali3_cos(yaw), s = ali3_sin(yaw);
   for (int32_t i = 0; i < S->size.nq; i++) {
     in->now.q[i] = in->pose_0[i] + c * in->pose_cos[i] + s * in->pose_sin[i] + x * S->pose_x[i] + y * S->pose_y[i] +
                    z * S->pose_z[i];
     in->now.qd[i] = speed * (c * S->pose_x[i] + s * S->pose_y[i] + S->pose_speed[i]);
+    if (left != 0.0) in->now.qd[i] += left * (c * S->pose_y[i] - s * S->pose_x[i]);
+    if (rate != 0.0) in->now.qd[i] += rate * (c * in->pose_sin[i] - s * in->pose_cos[i]);
   }
-  memcpy(in->pose, given, sizeof given);
+  memmove(in->pose, pose, sizeof in->pose);
   in->placed = ALI3_PLACED_BY_POSE;
   in->to_lift = true;
   in->initialised = 0;

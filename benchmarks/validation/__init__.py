@@ -1,0 +1,1 @@
+"""Cars against measured drives: `python -m benchmarks.validation FILE`."""

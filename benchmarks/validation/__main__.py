@@ -1,0 +1,165 @@
+"""A car against its measured drive: ``python -m benchmarks.validation FILE [--json FILE] [--page] [--chart FILE]``.
+
+FILE is the log of a Ferrari 250 LM on a race track (see `docs/validation.md` for where it comes from), or another log
+with its alias file and car. Simple models are fitted on the same seconds as the car was, and all are judged on others.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ali3.files import write_text
+from ali3.running import run_command
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.machine import describe
+from benchmarks.shared.pages import DOCS, replace, table
+from benchmarks.shared.tables import print_table
+from benchmarks.validation.bicycle import MODELS, Body
+from benchmarks.validation.chart import draw
+from benchmarks.validation.drive import read_drive
+from benchmarks.validation.fitting import Fitted, fit
+from benchmarks.validation.multibody import LATERAL, YAW, Judged, judge
+from mbs import Settings
+
+HERE = Path(__file__).parent
+PAGE = DOCS / "validation.md"
+BODY = Body(982.0, 1605.0, 1.33, 1.07)  # of the publication that the car file names; inertia of a box of its outline
+FITTED_NUMBERS = 7  # marked [F] in the file of the car and, of the sensor, in that of the log
+COLUMNS = {
+    "model": "",
+    "numbers": "d",
+    "fitted": ".4f",
+    "windows": ".4f",
+    "whole": ".4f",
+    "lateral": ".2f",
+    "departed": "",
+}
+PARTS = (
+    ("steering three times as stiff", {"steering.stiffness": 400.0}),
+    ("without anti-roll bars", {"front.anti_roll_bar.factor": 0.02, "rear.anti_roll_bar.factor": 0.02}),
+    ("without the driver, who sits on the right", {"payload.driver.mass": 0.0}),
+    ("inner steps of 10 ms", {"step_size": 0.01}),
+)
+LACKING = {k: f for k, f in COLUMNS.items() if k in ("model", "windows", "lateral", "departed")}
+STEP = 0.005  # s, inner one of the car
+CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Fit, judge, print, and write what was asked for."""
+    parser = parser_of("validation", __doc__, chart="measured and predicted yaw rate")
+    parser.add_argument("file", type=Path, metavar="FILE", help="log of the drive: CSV, perhaps packed (.csv.gz)")
+    parser.add_argument("--car", default="ferrari_250_lm", help="FMU or car; default: %(default)s")
+    parser.add_argument(
+        "--log-aliases", type=Path, default=HERE / "ferrari_250_lm_log.toml", metavar="FILE", help="of the log as it is"
+    )
+    parser.add_argument(
+        "--car-aliases", type=Path, default=HERE / "ferrari_250_lm.toml", metavar="FILE", help="with fitted offsets"
+    )
+    parser.add_argument("--page", action="store_true", help="write the tables of docs/validation.md")
+    parser.add_argument("--no-parts", action="store_true", help="without the cars that lack a part")
+    options = parser.parse_args(arguments)
+    drive = read_drive(options.file, options.log_aliases)
+    simple = [fit(model, BODY, drive) for model in watched(MODELS)]
+
+    def judged(settings: dict[str, float], brief: bool) -> Judged:
+        return judge(options.car, options.file, options.car_aliases, {"step_size": STEP} | settings, brief)
+
+    car = judged({}, brief=False)
+    parts = {} if options.no_parts else {name: judged(values, brief=True) for name, values in PARTS}
+    rows = [_of_bicycle(f) for f in simple] + [_of_car("multibody car", car, FITTED_NUMBERS)]
+    lacking = [_of_car(name, part, 0) for name, part in parts.items()]
+    print_table(rows, COLUMNS)
+    print_table(lacking, LACKING)
+    for note in car.notes:
+        print(f"note: {note}")
+    record = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking}
+    save_rows(options.json, describe("validation", Settings(), **record), rows)
+    if options.page:
+        text = replace(PAGE.read_text(encoding="utf-8"), blocks(rows, lacking, simple, car))
+        write_text(PAGE, text)
+    if options.chart:
+        chosen = simple[CHART_MODEL]
+        draw(drive, car.time, car.path, chosen.path, chosen.model.name, options.chart)
+    return 0
+
+
+def _of_bicycle(f: Fitted) -> dict[str, Any]:
+    lateral = None if np.isnan(f.lateral) else f.lateral
+    return {
+        "model": f.model.name, "numbers": len(f.numbers), "fitted": f.fitted, "windows": f.windows, "whole": f.whole,
+        "lateral": lateral, "departed": str(f.departed),
+    }  # fmt: skip
+
+
+def _of_car(name: str, j: Judged, numbers: int) -> dict[str, Any]:
+    return {
+        "model": name,
+        "numbers": numbers,
+        "fitted": None if np.isnan(j.fitted) else j.fitted,
+        "windows": j.windows,
+        "whole": None if np.isnan(j.whole) else j.whole,
+        "lateral": j.lateral,
+        "departed": ", ".join(j.departed) or "0",
+    }
+
+
+def _numbers(simple: Sequence[Fitted]) -> list[dict[str, Any]]:
+    """What was fitted to each simple model, and what each start of the fit found."""
+    return [
+        {
+            "model": f.model.name,
+            "found": ", ".join(f"{u.name} {x:.4g} {u.unit}".rstrip("1").rstrip() for u, x in _named(f)),
+            "starts": ", ".join(f"{x:.4f}" for x in sorted(f.found)),
+        }
+        for f in simple
+        if len(f.numbers)
+    ]
+
+
+def _named(f: Fitted) -> list[tuple[Any, float]]:
+    return list(zip(f.model.unknowns, f.numbers.tolist(), strict=True))
+
+
+def blocks(
+    rows: Sequence[dict[str, Any]], lacking: Sequence[dict[str, Any]], simple: Sequence[Fitted], car: Judged
+) -> dict[str, str]:
+    """The tables of the page by their marks."""
+    by = {}
+    for quantity in ("speed", "lateral acceleration"):
+        told = [b for b in car.bins if b["quantity"] == quantity]
+        lines = []
+        for low, high, unit in sorted({(b["low"], b["high"], b["unit"]) for b in told}):
+            of = {b["signal"]: b for b in told if b["low"] == low}
+            lines.append(
+                {
+                    f"{quantity}, {unit}": f"{low:g} to {high:g}",
+                    "samples": of[YAW]["samples"],
+                    "yaw rate, rms": of[YAW]["rms"],
+                    "yaw rate, mean": of[YAW]["mean"],
+                    "lateral velocity, rms": of[LATERAL]["rms"],
+                    "lateral velocity, mean": of[LATERAL]["mean"],
+                }
+            )
+        if lines:
+            keys = list(lines[0])
+            by[quantity] = table(
+                lines,
+                {keys[0]: "", keys[1]: "d", **dict.fromkeys(keys[2:4], "+.4f"), **dict.fromkeys(keys[4:], "+.2f")},
+            )
+    return {
+        "models": table(rows, COLUMNS),
+        "parts": table(lacking, LACKING),
+        "numbers": table(_numbers(simple), {"model": "", "found": "", "starts": ""}),
+        **{f"by {quantity}": text for quantity, text in by.items()},
+        "notes": "\n".join(f"- {note}" for note in car.notes),
+    }
+
+
+if __name__ == "__main__":
+    sys.exit(run_command(main))

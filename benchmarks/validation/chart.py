@@ -1,0 +1,56 @@
+"""Measured and predicted yaw rate over seconds that were not fitted."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.shared.command import pyplot, save_chart
+from benchmarks.validation.drive import JUDGED, Array, Drive
+
+_MEASURED, _CAR, _BICYCLE = "#8a8a8a", "#0b62c4", "#d55e00"
+
+
+def draw(drive: Drive, time: Array, car: Array, bicycle: Array, name: str, file: Path) -> None:
+    """Draw the first of `JUDGED`, each model driven without restart from the first second of the drive.
+
+    Parameters
+    ----------
+    time, car : ndarray of shape (m,)
+        Yaw rate of the multibody car, s and rad/s.
+    bicycle : ndarray of shape (n,)
+        Yaw rate of a bicycle at the samples of the drive.
+    name : str
+        Of that bicycle.
+    """
+    plt = pyplot()
+    begin, end = JUDGED[0]
+    rows = (drive.time >= begin) & (drive.time <= end)
+    t = drive.time[rows]
+    measured, simulated = np.degrees(drive.yaw_rate[rows]), np.degrees(np.interp(t, time, car))
+    plain = np.degrees(bicycle[rows])
+    figure, (over, rest) = plt.subplots(
+        2, 1, figsize=(10.0, 5.4), sharex=True, height_ratios=(2.0, 1.0), layout="constrained"
+    )
+    over.plot(t, measured, color=_MEASURED, linewidth=3.0, label="measured")
+    over.plot(t, simulated, color=_CAR, linewidth=1.2, label="multibody car")
+    over.set_ylabel("yaw rate, deg/s")
+    over.set_title(
+        "Ferrari 250 LM on a race track: seconds that were not fitted, without restart since second 0",
+        loc="left",
+        fontsize=11,
+    )
+    over.legend(ncols=2, loc="upper right", frameon=False)
+    rest.plot(t, plain - measured, color=_BICYCLE, linewidth=0.9, label=f"bicycle: {name}")
+    rest.plot(t, simulated - measured, color=_CAR, linewidth=0.9, label="multibody car")
+    rest.axhline(0.0, color="#444444", linewidth=0.8)
+    rest.set_ylabel("error, deg/s")
+    rest.set_xlabel("time, s")
+    rest.legend(ncols=2, loc="upper right", frameon=False)
+    for axes in (over, rest):
+        axes.margins(x=0)
+        axes.spines[["top", "right"]].set_visible(False)
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high + 0.18 * (high - low))
+    save_chart(figure, file)

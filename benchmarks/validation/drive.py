@@ -1,0 +1,106 @@
+"""A measured drive as equally spaced samples, and the seconds that models are fitted and judged on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import butter, sosfiltfilt
+
+from hosts.common.errors import HostError
+from hosts.common.units import unit_definition
+from hosts.compare.log_aliases import read_log_aliases
+from hosts.compare.log_file import read_log
+
+Array = NDArray[np.float64]
+Spans = tuple[tuple[float, float], ...]
+
+LENGTH, EVERY = 10.0, 5.0  # s: of a window, and from one to the next
+FITTED: Spans = ((0.0, 80.0), (160.0, 240.0))  # s that models are fitted on
+JUDGED: Spans = ((80.0, 160.0), (240.0, 275.0))  # s that tell what they predict
+CUT_OFF = 2.0  # Hz, of the accelerations that move load between the axles
+_UNEVEN = 1e-3  # of the interval between samples
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A measured drive.
+
+    Parameters
+    ----------
+    time : ndarray of shape (n,)
+        Equally spaced, s.
+    steer : ndarray of shape (n,)
+        Mean angle of both front wheels on the road, positive to the left, rad.
+    vx, vy : ndarray of shape (n,)
+        Of the centre of mass in axes of the car, y to the left, m/s.
+    yaw_rate : ndarray of shape (n,)
+        rad/s.
+    """
+
+    time: Array
+    steer: Array
+    vx: Array
+    vy: Array
+    yaw_rate: Array
+
+    @property
+    def interval(self) -> float:
+        """Between samples, s."""
+        return float(self.time[1] - self.time[0])
+
+    @property
+    def ax(self) -> Array:
+        """Acceleration of the centre of mass along x, vx' - yaw_rate vy, below 2 Hz, m/s2, of shape (n,)."""
+        raw = np.gradient(self.vx, self.interval) - self.yaw_rate * self.vy
+        return np.asarray(sosfiltfilt(butter(2, CUT_OFF, fs=1.0 / self.interval, output="sos"), raw))
+
+    def inside(self, spans: Spans) -> NDArray[np.bool_]:
+        """Which samples lie in spans of time, ends included; of shape (n,)."""
+        edge = 0.5 * self.interval
+        return np.any([(self.time >= a - edge) & (self.time <= b + edge) for a, b in spans], axis=0)
+
+
+def text_of(spans: Spans) -> str:
+    """Spans as ``ali3 compare --seconds`` takes them."""
+    return ",".join(f"{a:g}:{b:g}" for a, b in spans)
+
+
+def read_drive(file: Path, aliases: Path) -> Drive:
+    """Read a log.
+
+    Parameters
+    ----------
+    file : Path
+        CSV, perhaps packed (.gz).
+    aliases : Path
+        Its alias file, with the angles of both front wheels, the speeds and the yaw rate.
+
+    Raises
+    ------
+    HostError
+        A column is missing, or its samples are not equally spaced.
+    """
+    form = read_log_aliases(aliases)
+    raw = read_log(file, form.form)
+
+    def column(name: str, unit: str) -> Array:
+        if name not in form.columns:
+            raise HostError(f"{aliases} has no '{name}', which this needs.")
+        c = form.columns[name]
+        factor = unit_definition(c.unit or unit, c.name).factor
+        return (raw.numbers(c.name) - c.offset) / c.factor * factor
+
+    time = raw.numbers(form.clock.name or "time")
+    if np.ptp(np.diff(time)) > 2.0 * _UNEVEN * float(np.median(np.diff(time))) + 1e-9:
+        raise HostError(f"The samples of {file} are not equally spaced.")
+    steer = 0.5 * (column("wheel_FL.steer", "rad") + column("wheel_FR.steer", "rad"))
+    return Drive(
+        time - time[0],
+        steer,
+        column("chassis.vx", "m/s"),
+        column("chassis.vy", "m/s"),
+        column("chassis.wz", "rad/s"),
+    )

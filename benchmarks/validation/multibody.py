@@ -1,0 +1,101 @@
+"""The multibody car in the same drive, by ``ali3 compare`` as a user calls it."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.validation.drive import EVERY, FITTED, JUDGED, LENGTH, Array, Spans, text_of
+from hosts.compare.command import main as compare
+
+YAW, LATERAL = "chassis.wz", "chassis.vy"
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A car that was driven through the measured drive.
+
+    Parameters
+    ----------
+    fitted, whole, windows, lateral : float
+        As of `benchmarks.validation.fitting.Fitted`.
+    departed : list of str
+        Windows that were not fitted and departed: their begin, s, and the signal.
+    bins : list of dict
+        Deviations by speed and lateral acceleration in those windows.
+    notes : list of str
+        What the command said.
+    time, path : ndarray of shape (n,)
+        Yaw rate of the run without restart, s and rad/s.
+    """
+
+    fitted: float
+    whole: float
+    windows: float
+    lateral: float
+    departed: list[str]
+    bins: list[dict[str, Any]]
+    notes: list[str]
+    time: Array
+    path: Array
+
+
+def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief: bool = False) -> Judged:
+    """Drive a car through a log in windows and without restart.
+
+    Parameters
+    ----------
+    car : str
+        What ``ali3 compare`` takes: an FMU, or a car.
+    settings : dict of str to float
+        Parameters that are set.
+    brief : bool
+        Drive only the windows that were not fitted; `fitted` and `whole` are then NaN.
+    """
+    windows = ["--windows", f"{LENGTH:g}", "--window-every", f"{EVERY:g}"]
+    with tempfile.TemporaryDirectory() as folder:
+
+        def run(name: str, *options: str) -> tuple[dict[str, Any], Path]:
+            out = Path(folder, name)
+            given = [part for key, value in settings.items() for part in ("--set", f"{key}={value!r}")]
+            record = out / "record.json"
+            arguments = [car, str(log), "--log-aliases", str(aliases), "--hold-speed", *options, *given]
+            status = compare([*arguments, "--signals", f"{YAW},{LATERAL}", "--out", str(out), "--json", str(record)])
+            assert status in (0, 1), "the command has said why"
+            return json.loads(record.read_text(encoding="utf-8")), out / f"{log.stem}.csv"
+
+        others = run("others", *windows, "--seconds", text_of(JUDGED))[0]
+        departed = [f"{w['begin']:g} s ({w['departed']})" for w in others["windows"] if w["departed"]]
+        told = _rms(others, YAW), _rms(others, LATERAL), departed, others["bins"]
+        if brief:
+            return Judged(math.nan, math.nan, *told, [], np.zeros(0), np.zeros(0))
+        first = _rms(run("fitted", *windows, "--seconds", text_of(FITTED))[0], YAW)
+        whole, signals = run("whole")
+        time, path = _signal(signals, f"{YAW}.simulated [rad/s]")
+        measured = _signal(signals, f"{YAW}.measured [rad/s]")[1]
+    error = _rms_inside(time, path - measured, JUDGED)
+    return Judged(first, error, *told, whole["notes"] + whole["problems"], time, path)
+
+
+def _rms(record: dict[str, Any], signal: str) -> float:
+    """Of all windows alike, as those of the bicycles."""
+    return float(np.sqrt(np.mean([w["rms"][signal] ** 2 for w in record["windows"]])))
+
+
+def _rms_inside(time: Array, error: Array, spans: Spans) -> float:
+    inside = np.any([(time >= a - 1e-9) & (time <= b + 1e-9) for a, b in spans], axis=0)
+    return float(np.sqrt(np.mean(error[inside] ** 2)))
+
+
+def _signal(file: Path, name: str) -> tuple[Array, Array]:
+    with file.open(encoding="utf-8", newline="") as stream:
+        rows = [(r["time [s]"], r[name]) for r in csv.DictReader(stream) if r[name]]
+    found = np.array(rows, dtype=np.float64)
+    return found[:, 0], found[:, 1]

@@ -1,0 +1,79 @@
+"""The steering that gives the measured angles of the front wheels on the road, were the linkage rigid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.compare.log import Signal
+from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.fmu import Fmu
+
+ANGLES = ("wheel_FL.steer", "wheel_FR.steer")
+_POINTS = 21  # of the curve between both locks
+_FRICTION = "road.friction"  # none: standing tyres would hold the wheels back
+_STEP, _SETTLING = 0.01, 50  # s, steps until a column has come to rest
+
+
+def mean_angle(signals: Mapping[str, Signal]) -> Signal | None:
+    """Mean of the measured angles of both front wheels, or the one that there is."""
+    there = [signals[n] for n in ANGLES if n in signals]
+    if not there:
+        return None
+    first = there[0]
+    values = np.mean([np.interp(first.time, s.time, s.values) for s in there], axis=0)
+    return replace(first, source=" and ".join(s.source for s in there), values=values)
+
+
+def steering_for(path: Path, aliases: Aliases, start: Mapping[str, Value], angle: Signal) -> Signal:
+    """The input ``steering`` at which the standing car turns its front wheels by the measured angle on the mean.
+
+    Parameters
+    ----------
+    path : Path
+        FMU.
+    start : mapping of str to float, int, bool or str
+        Start values.
+    angle : Signal
+        Of `mean_angle`.
+
+    Raises
+    ------
+    HostError
+        The wheels of the FMU do not follow its steering, or the measured angle lies beyond both locks.
+
+    Notes
+    -----
+    Angles that a logger has computed from that of the steering wheel do not know what the linkage gives under load; an
+    FMU whose column or frame gives turns its wheels by less than `angle` then, as the car does.
+    """
+    steering, found = np.linspace(-1.0, 1.0, _POINTS), np.empty(_POINTS)
+    values = np.empty(len(ANGLES))
+    with Fmu(path) as opened:
+        for k, x in enumerate(steering.tolist()):
+            if k:
+                opened.reset()
+            fmu = AliasedFmu(opened, aliases)
+            slippery = {_FRICTION: 0.0} if _FRICTION in fmu.variables else {}
+            fmu.initialise({**start, **slippery, "steering": x})
+            for step in range(_SETTLING):
+                fmu.step(step * _STEP, _STEP)
+            fmu.reader(ANGLES)(values)
+            found[k] = values.mean()
+    rises = np.diff(found)
+    if not (rises > 0.0).all():
+        raise HostError(f"{path.name} does not turn its front wheels by 'steering'; the angles cannot be replayed.")
+    largest = float(np.max(np.abs(angle.values)))
+    if largest > min(-found[0], found[-1]):
+        raise HostError(
+            f"The log turns the front wheels by up to {math.degrees(largest):.3g} deg; {path.name} by "
+            f"{math.degrees(-found[0]):.3g} to the right and {math.degrees(found[-1]):.3g} to the left at full lock."
+        )
+    return replace(angle, name="steering", unit="1", values=np.interp(angle.values, found, steering))

@@ -1,0 +1,142 @@
+"""What windows of a log tell: deviations of each, which have departed, and deviations by speed and acceleration."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.compare.comparison import Comparison
+from hosts.compare.log import Signal
+from hosts.compare.stretches import Stretch
+from hosts.driving.co_simulation import Result
+
+_LEAST = 20  # samples of a bin that is shown
+_BINS: Mapping[str, tuple[str, float]] = {"speed": ("m/s", 10.0), "lateral acceleration": ("m/s2", 2.0)}
+
+
+@dataclass(frozen=True)
+class Window:
+    """A window that was driven from the measured state.
+
+    Parameters
+    ----------
+    begin, end : float
+        In the log, s.
+    rms : dict of str to float
+        Of the deviation of each signal, in its unit.
+    departed : str
+        The signal whose deviation exceeds the range of what was measured in all windows; empty: none.
+    """
+
+    begin: float
+    end: float
+    rms: dict[str, float]
+    departed: str
+
+
+@dataclass(frozen=True)
+class Bin:
+    """Deviations of a signal where a measured quantity lies between two values.
+
+    Parameters
+    ----------
+    quantity, unit : str
+        By which is told, and its unit.
+    """
+
+    signal: str
+    quantity: str
+    unit: str
+    low: float
+    high: float
+    samples: int
+    rms: float
+    mean: float
+
+
+def windows(comparison: Comparison, stretches: Sequence[Stretch]) -> list[Window]:
+    """Deviations of each window."""
+    found = []
+    ranges = {n: float(np.ptp(s.measured.values)) for n, s in comparison.signals.items()}
+    for stretch in stretches:
+        rms, departed = {}, ""
+        for name, s in comparison.signals.items():
+            part = s.measured.between(stretch.place, stretch.place + stretch.end)
+            error = s.simulated(part.time) - part.values
+            rms[name] = float(np.sqrt(np.mean(error**2)))
+            if not np.max(np.abs(error)) <= ranges[name]:
+                departed = departed or name
+        found.append(Window(stretch.begin, stretch.begin + stretch.end, rms, departed))
+    return found
+
+
+def window_words(found: Sequence[Window]) -> str:
+    """How many windows there are, and which have departed, in a sentence."""
+    gone = [w for w in found if w.departed]
+    if not gone:
+        return f"{len(found)} windows; none has departed."
+    which = ", ".join(f"{w.begin:g} s ({w.departed})" for w in gone)
+    return (
+        f"{len(found)} windows; {len(gone)} departed, by more than the range of what was measured: those from {which}."
+    )
+
+
+def scales_of(signals: Mapping[str, Signal]) -> dict[str, Signal]:
+    """Measured speed, and size of the lateral acceleration: as measured, else yaw rate times speed."""
+    speed = next((signals[n] for n in ("speed", "chassis.vx") if n in signals), None)
+    found = {} if speed is None else {"speed": speed}
+    rate, ay = signals.get("chassis.wz"), signals.get("chassis.ay")
+    if rate is not None and speed is not None:
+        values = np.abs(rate.values * np.interp(rate.time, speed.time, speed.values))
+        found["lateral acceleration"] = Signal("", "", "m/s2", rate.time, values)
+    elif ay is not None:
+        found["lateral acceleration"] = Signal("", "", "m/s2", ay.time, np.abs(ay.values))
+    return found
+
+
+def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
+    """Deviations by speed and by lateral acceleration.
+
+    Parameters
+    ----------
+    scales : mapping of str to Signal
+        Of `scales_of`, at the places of what is compared.
+    """
+    found = []
+    for name, s in comparison.signals.items():
+        error = s.simulated(s.measured.time) - s.measured.values
+        for quantity, scale in scales.items():
+            unit, width = _BINS[quantity]
+            number = np.floor(np.interp(s.measured.time, scale.time, scale.values) / width)
+            for k in np.unique(number):
+                e = error[number == k]
+                if len(e) >= _LEAST:
+                    rms = float(np.sqrt(np.mean(e**2)))
+                    low = float(k * width)
+                    found.append(Bin(name, quantity, unit, low, low + width, len(e), rms, float(np.mean(e))))
+    return found
+
+
+def held_words(result: Result, stretches: Sequence[Stretch]) -> list[str]:
+    """How well a driver has held the speed, and by which forces, in a sentence; none where no driver did."""
+    held = [(s.place + s.speed.time, s.speed.values) for s in stretches if s.speed is not None]
+    if not held or "speed" not in result:
+        return []
+    time, values = (np.concatenate(parts) for parts in zip(*held, strict=True))
+    error = np.interp(time, result.time, result["speed"]) - values
+    text = (
+        f"The driver held the speed within {np.sqrt(np.mean(error**2)):.2g} m/s rms ({np.mean(error):+.1g} on the mean)"
+    )
+    forces = [_axle(result, axle) for axle in "FR"]
+    if any(f is None for f in forces):
+        return [f"{text}."]
+    front, rear = (float(np.sqrt(np.mean(f**2))) for f in forces if f is not None)
+    return [f"{text}, by forces along the wheels of {front:.3g} N rms in front and {rear:.3g} N behind."]
+
+
+def _axle(result: Result, axle: str) -> NDArray[np.float64] | None:
+    names = [f"wheel_{axle}{side}.Fx" for side in "LR"]
+    return sum((result[n] for n in names), np.zeros(len(result.time))) if all(n in result for n in names) else None

@@ -1,0 +1,89 @@
+"""Fits of bicycles against a drive that another program has integrated, with numbers that are known."""
+
+from __future__ import annotations
+
+import gzip
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from benchmarks.validation import fitting
+from benchmarks.validation.bicycle import MODELS, Body, simulate
+from benchmarks.validation.drive import Drive, read_drive
+from hosts.common.errors import HostError
+
+BODY = Body(1000.0, 1500.0, 1.3, 1.1)
+STIFFNESS, GRIP, OFFSET = (80e3, 120e3), 1.1, 0.002
+END, H = 275.0, 0.01
+PLACES = {model.name: k for k, model in enumerate(MODELS)}
+
+
+def steer(t: float) -> float:
+    return 0.05 * np.sin(0.7 * t) + 0.04 * np.sin(0.23 * t + 1.0)
+
+
+def speed(t: float) -> float:
+    return 27.0 + 8.0 * np.sin(0.11 * t)
+
+
+@pytest.fixture(scope="module")
+def drive() -> Drive:
+    """Two wheels, forces grip * load * tanh(stiffness * slip / (grip * load)), by SciPy's LSODA."""
+    load = BODY.mass * 9.81 / BODY.wheelbase * np.array([BODY.rear, BODY.front])
+
+    def rates(t: float, x: np.ndarray) -> list[float]:
+        vy, r = x
+        v, d = speed(t), steer(t) + OFFSET
+        slip = np.arctan2(vy + BODY.front * r, v) - d, np.arctan2(vy - BODY.rear * r, v)
+        front, rear = (-GRIP * f * np.tanh(c * a / (GRIP * f)) for f, c, a in zip(load, STIFFNESS, slip, strict=True))
+        front *= np.cos(d)
+        return [(front + rear) / BODY.mass - v * r, (BODY.front * front - BODY.rear * rear) / BODY.yaw_inertia]
+
+    t = np.arange(0.0, END + 0.5 * H, H)
+    x = solve_ivp(rates, (0.0, END), [0.0, 0.0], method="LSODA", t_eval=t, rtol=1e-9, atol=1e-9).y
+    return Drive(t, np.array([steer(s) for s in t]), np.array([speed(s) for s in t]), x[0], x[1])
+
+
+def test_the_fit_finds_the_numbers_of_a_drive(drive: Drive, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fitting, "STARTS", 2)
+    model = MODELS[PLACES["saturating bicycle, tanh"]]
+    found = fitting.fit(model, BODY, drive)
+    assert np.max(np.abs(drive.yaw_rate * drive.vx)) > 0.75 * 9.81 * GRIP  # the curves bend
+    np.testing.assert_allclose(found.numbers, [*STIFFNESS, GRIP, OFFSET], rtol=0.01)
+    assert max(found.fitted, found.windows, found.whole) < 3e-4
+    assert found.lateral < 0.01
+    assert found.departed == 0
+    linear = fitting.fit(MODELS[PLACES["linear bicycle"]], BODY, drive)
+    assert linear.windows > 20.0 * found.windows
+
+
+def test_the_steps_of_a_bicycle_are_fine_enough(drive: Drive) -> None:
+    """Heun's method at the samples against LSODA, over the whole drive."""
+    model = MODELS[PLACES["saturating bicycle, tanh"]]
+    numbers = np.array([[*STIFFNESS, GRIP, OFFSET]])
+    vy, rate = simulate(model, BODY, drive, np.array([0]), len(drive.time) - 1, numbers)
+    assert np.max(np.abs(rate[0, 0] - drive.yaw_rate)) < 0.01 * np.max(np.abs(drive.yaw_rate))
+    assert np.max(np.abs(vy[0, 0] - drive.vy)) < 0.02
+
+
+def test_a_packed_log_is_read_by_its_alias_file(tmp_path: Path) -> None:
+    """Signs, units and offsets of the alias file; the angles of both wheels are averaged."""
+    (tmp_path / "a.toml").write_text(
+        '[time]\nname = "t"\n[signals]\n"wheel_FL.steer" = { name = "l", unit = "deg" }\n'
+        '"wheel_FR.steer" = { name = "r", unit = "deg", factor = -1.0, offset = 2.0 }\n'
+        '"chassis.vx" = { name = "v", unit = "km/h" }\n"chassis.vy" = "w"\n"chassis.wz" = "y"\n',
+        encoding="utf-8",
+    )
+    rows = "\n".join(f"{5 + 0.01 * k:.2f},{k},{2 - 3 * k},36,0.5,0.1" for k in range(20))
+    with gzip.open(tmp_path / "log.csv.gz", "wt", encoding="utf-8") as stream:
+        stream.write(f"t,l,r,v,w,y\n{rows}\n")
+    found = read_drive(tmp_path / "log.csv.gz", tmp_path / "a.toml")
+    np.testing.assert_allclose(found.steer, np.radians(2.0 * np.arange(20)))
+    assert (found.time[0], found.interval) == (0.0, pytest.approx(0.01))
+    assert found.vx[0] == pytest.approx(10.0)
+    assert (found.vy[0], found.yaw_rate[0]) == (0.5, 0.1)
+    (tmp_path / "a.toml").write_text('[time]\nname = "t"\n[signals]\n"chassis.vx" = "v"\n', encoding="utf-8")
+    with pytest.raises(HostError, match=r"has no 'wheel_FL\.steer'"):
+        read_drive(tmp_path / "log.csv.gz", tmp_path / "a.toml")
