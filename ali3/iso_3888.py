@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 from typing import Literal
@@ -14,8 +13,6 @@ _SECTIONS: dict[Track, tuple[float, ...]] = {
     "ISO 3888-2": (12.0, 13.5, 11.0, 12.5, 12.0),
 }
 """Lengths, m: a lane, the way to the next one, and so on."""
-
-_CONES_APART = 5.0  # m, about
 
 
 @dataclass(frozen=True)
@@ -71,21 +68,3 @@ def lanes(track: Track, vehicle_width: float, x_start: float = 0.0) -> tuple[Gat
         last = max(1.3 * vehicle_width + 0.25, 3.0)
         edges = ((-first, first), (beside, beside + vehicle_width + 1.0), (-first, last - first))
     return tuple(Gate(ends[2 * k], ends[2 * k + 1], right, left) for k, (right, left) in enumerate(edges))
-
-
-def cone_places(gates: Sequence[Gate]) -> list[tuple[float, float]]:
-    """Where cones stand along both edges of lanes: at their ends and about every 5 m.
-
-    Returns
-    -------
-    list of (x, y)
-        m.
-    """
-    places = []
-    for gate in gates:
-        length = gate.x_end - gate.x_start
-        parts = max(1, round(length / _CONES_APART))
-        for k in range(parts + 1):
-            x = gate.x_start + length * k / parts
-            places += [(x, gate.y_right), (x, gate.y_left)]
-    return places

@@ -9,8 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.iso_3888 import Gate, Track, lanes
-from hosts.common.errors import HostError
+from ali3.iso_3888 import Gate
 
 # How far the path's curves reach into the lanes, m: it widens the bends and uses little of the room beside the car.
 EASE = 5.0
@@ -85,29 +84,3 @@ class Course:
                         out = np.maximum(cy[inside] - gate.y_left, gate.y_right - cy[inside])
                         worst = max(worst, float(out.max()))
         return worst
-
-
-TRACKS: dict[str, Track] = {"iso_3888_1": "ISO 3888-1", "iso_3888_2": "ISO 3888-2"}
-"""By the names that manoeuvres have for them."""
-
-
-def course_of(name: str, vehicle_width: float, x_start: float = 15.0) -> Course:
-    """The course of a name.
-
-    Parameters
-    ----------
-    name : str
-        One of `TRACKS`.
-    vehicle_width : float
-        Without mirrors, m.
-    x_start : float
-        Where the first lane begins, m.
-
-    Raises
-    ------
-    HostError
-        If there is none.
-    """
-    if name not in TRACKS:
-        raise HostError(f"There is no course '{name}'; known are: {', '.join(TRACKS)}.")
-    return Course(TRACKS[name], lanes(TRACKS[name], vehicle_width, x_start))

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ali3.iso_3888 import cone_places
+from ali3.cones import cone_places
 from hosts.driving.course import Course
 
 

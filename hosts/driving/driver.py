@@ -7,7 +7,7 @@ from dataclasses import fields
 
 from ali3.decimal_number import parse_number
 from hosts.common.errors import HostError
-from hosts.driving.course import course_of
+from hosts.driving.courses import course_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.pilot import ACTS, SENSES

@@ -10,7 +10,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from hosts.driving.course import course_of
+from hosts.driving.courses import course_of
 from hosts.fmu.fmu import StepRefusedError
 from hosts.plant.car import Car
 from hosts.plant.lane import Lane

@@ -69,9 +69,6 @@ def write_record(
     driver : Driver, optional
         Who has steered; with its course the view draws its cones.
     """
-    course = None
-    if driver is not None:
-        course = {"name": manoeuvre.driver["course"], "vehicle_width": driver.settings.vehicle_width}
     state = None
     if manoeuvre.state is not None:
         state = {"file": write_state(manoeuvre.state, file).name, "time": manoeuvre.state_time}
@@ -88,7 +85,9 @@ def write_record(
         "held": result.held,
         "jumps": {k: [float(result.time[k]), *before] for k, before in result.jumps.items()},
         "state": state,
-        "course": course,
+        "course": None
+        if driver is None
+        else {"track": driver.course.name, "vehicle_width": driver.settings.vehicle_width},
         "outputs_from": next(iter(fmu.names("output")), ""),
     }
     write_text(file, json.dumps(record, indent=2, ensure_ascii=False) + "\n")

@@ -169,12 +169,15 @@ def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> d
     course = record.get("course")
     if course is None:
         return scene
-    from hosts.driving.course import course_of
     from hosts.driving.course_scenery import with_course
+    from hosts.driving.courses import TRACKS, course_of
 
-    name, width = (course.get(key) if isinstance(course, dict) else None for key in ("name", "vehicle_width"))
-    if not isinstance(name, str) or not isinstance(width, (int, float)) or not 0.0 < width < _WIDEST:
-        raise HostError(f"{file}, the record of the result, does not say by 'course' a name and a vehicle_width, m.")
+    track, width = (course.get(key) if isinstance(course, dict) else None for key in ("track", "vehicle_width"))
+    name = next((name for name, known in TRACKS.items() if known == track), None)
+    if name is None or not isinstance(width, (int, float)) or not 0.0 < width < _WIDEST:
+        raise HostError(
+            f"{file}, the record of the result, does not say by 'course' a track of ISO 3888 and a vehicle_width, m."
+        )
     return with_course(scene, course_of(name, float(width)))
 
 

@@ -12,6 +12,7 @@ from mbs.results.left_out import LeftOut
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.simulation.follower import NO_PORTS, Follower, names_left_out
 from mbs.simulation.prepared_system import prepared
+from mbs.simulation.restored import restored
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
@@ -47,7 +48,7 @@ def left_out_of_run(
     state = simulation.instance.save()
 
     def compute(samples: int, stride: int) -> dict[str, Array]:
-        follower, again = Follower(system), SteppedSystem.restored(system, settings, roads, state)
+        follower, again = Follower(system), restored(system, settings, roads, state)
         rows, t0 = [follower.values(again.instance)], again.time
         signals = InputSignals(inputs, prepared(system)[1]["inputs"])
         signals.attach(again.instance, t0, t0 + (samples - 1) * every * h, 1e-6 * h)

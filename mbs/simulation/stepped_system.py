@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from mbs.common.checks import instance_of
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import Instance, LoadedSystem
 from mbs.results.run_report import Report
-from mbs.results.simulation_error import SimulationError
 from mbs.settings.settings import Settings
-from mbs.simulation.follower import Readings
 from mbs.simulation.large_bending import BendingWatch
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.state import State
@@ -43,30 +39,6 @@ class SteppedSystem:
         self.step_tried = 0.0
         self.road_paths: dict[int, str] = {}
 
-    @staticmethod
-    def restored(system: System, settings: Settings, road_paths: Mapping[int, str], state: bytes) -> SteppedSystem:
-        """Another one that goes on from a state of the same System.
-
-        Parameters
-        ----------
-        state : bytes
-            By `Instance.save`.
-
-        Raises
-        ------
-        SimulationError
-            The file of a road can no longer be read.
-        """
-        other = SteppedSystem(system, settings)
-        try:
-            for road, path in road_paths.items():
-                other.instance.set_road(road, path)
-        except KernelError as error:
-            raise SimulationError(str(error), 0.0, error.status) from error
-        other.road_paths = dict(road_paths)
-        other.instance.restore(state)
-        return other
-
     @property
     def time(self) -> float:
         """Time of the state, s."""
@@ -74,12 +46,9 @@ class SteppedSystem:
 
     @property
     def sensors(self) -> dict[str, float]:
-        """Sensor values at the state, by name; those that the System leaves out are found when one is first read."""
+        """Values of the sensors that the System computes, at the state, by name."""
         values = zip(self._meta["sensors"], self.instance.sensors(), strict=True)
-        found = {s["name"]: v for s, v in values if s.get("computed", True)}
-        if len(found) == len(self._meta["sensors"]):
-            return found
-        return Readings(found, self.system, self.instance)
+        return {s["name"]: v for s, v in values if s.get("computed", True)}
 
     @property
     def report(self) -> Report:

@@ -38,8 +38,10 @@ from mbs.simulation.arguments import (
 )
 from mbs.simulation.chosen_run import check_tolerance_settings, record_times, to_tolerance
 from mbs.simulation.fixed_steps import fixed_step_run
+from mbs.simulation.follower import Readings
 from mbs.simulation.parameter_warning import tell_unworkable
 from mbs.simulation.refusal import refusal
+from mbs.simulation.restored import restored
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
@@ -103,6 +105,12 @@ class Simulation(SteppedSystem):
             self._call(f"The starting {placed} was refused", lambda: self.instance.set_pose(*astuple(placed)))
         self._call("The start could not be made consistent", lambda: self.instance.initialise(start))
         self._started = True
+
+    @property
+    def sensors(self) -> dict[str, float]:
+        """Sensor values at the state, by name; those that the System leaves out are found when one is first read."""
+        found = super().sensors
+        return found if len(found) == len(self._meta["sensors"]) else Readings(found, self.system, self.instance)
 
     def set_input(self, name: str, value: float) -> None:
         """Value of an input from now on.
@@ -414,7 +422,7 @@ class Simulation(SteppedSystem):
         return trajectory
 
     def _at(self, state: bytes) -> SteppedSystem:
-        return SteppedSystem.restored(self.system, self.settings, self.road_paths, state)
+        return restored(self.system, self.settings, self.road_paths, state)
 
     def _warn_once(self) -> None:
         """The part of `simulate`'s check that costs nothing."""

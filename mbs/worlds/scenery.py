@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3 import iso_3888
+from ali3.cones import cone_places as places_beside
+from ali3.iso_3888 import lanes
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.layers import CourseLayer
 from mbs.worlds.terrain import Terrain
@@ -68,7 +69,7 @@ def cone_places(cones: Cones) -> list[tuple[float, float]]:
         local = [(cones.distance * k, 0.0) for k in range(cones.slalom)]
     else:
         assert cones.lane_change is not None
-        local = iso_3888.cone_places(iso_3888.lanes(cones.lane_change, cones.vehicle_width))
+        local = places_beside(lanes(cones.lane_change, cones.vehicle_width))
     x, y, yaw = cones.start
     c, s = math.cos(math.radians(yaw)), math.sin(math.radians(yaw))
     return [(x + c * u - s * v, y + s * u + c * v) for u, v in local]

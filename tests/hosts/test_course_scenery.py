@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ali3.iso_3888 import cone_places, lanes
+from ali3.cones import cone_places
+from ali3.iso_3888 import lanes
 from hosts.common.errors import HostError
 from hosts.common.world_record import world_beside
-from hosts.driving.course import course_of
 from hosts.driving.course_scenery import with_course
+from hosts.driving.courses import course_of
 
 WIDTH = 1.6
 COURSE = course_of("iso_3888_1", WIDTH)

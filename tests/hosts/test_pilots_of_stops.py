@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from hosts.driving.course import course_of
+from hosts.driving.courses import course_of
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.course_from_here import CourseFromHere
 from hosts.driving.pilots.fixed_steering import FixedSteering

@@ -14,7 +14,8 @@ from hosts.catalogue.lane_change_measures import Passage, measures_of, plots_of
 from hosts.catalogue.preparation import held, with_step_up_to
 from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
 from hosts.common.errors import HostError
-from hosts.driving.course import Course, course_of
+from hosts.driving.course import Course
+from hosts.driving.courses import course_of
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.course_from_here import CourseFromHere
 from hosts.driving.pilots.line_follower import LineFollower

@@ -1,0 +1,32 @@
+"""The courses that manoeuvres name."""
+
+from __future__ import annotations
+
+from ali3.iso_3888 import Track, lanes
+from hosts.common.errors import HostError
+from hosts.driving.course import Course
+
+TRACKS: dict[str, Track] = {"iso_3888_1": "ISO 3888-1", "iso_3888_2": "ISO 3888-2"}
+"""By the names that manoeuvres have for them."""
+
+
+def course_of(name: str, vehicle_width: float, x_start: float = 15.0) -> Course:
+    """The course of a name.
+
+    Parameters
+    ----------
+    name : str
+        One of `TRACKS`.
+    vehicle_width : float
+        Without mirrors, m.
+    x_start : float
+        Where the first lane begins, m.
+
+    Raises
+    ------
+    HostError
+        If there is none.
+    """
+    if name not in TRACKS:
+        raise HostError(f"There is no course '{name}'; known are: {', '.join(TRACKS)}.")
+    return Course(TRACKS[name], lanes(TRACKS[name], vehicle_width, x_start))
