@@ -10,20 +10,20 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 37500,
+    "build": 37700,
     "build --kernel": 500,
-    "car": 32800,
+    "car": 33150,
     "run": 4000,
-    "run, all of it": 6200,
+    "run, all of it": 6250,
     "view": 1150,
-    "simulator": 9000,
-    "simulator, all of it": 15400,
+    "simulator": 9100,
+    "simulator, all of it": 15450,
     "check": 5600,
-    "catalogue": 7050,
-    "compare": 8450,
-    "study": 9200,
-    "study --run": 7800,
-    "study, all of it": 15400,
+    "catalogue": 8200,
+    "compare": 9000,
+    "study": 9250,
+    "study --run": 7850,
+    "study, all of it": 15500,
     "road": 950,
 }
 """Lines; a command that needs fewer takes its number down with it."""
