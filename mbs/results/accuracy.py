@@ -102,7 +102,7 @@ class Accuracy:
 
 
 def judged_sensors(system: System) -> dict[str, list[str]]:
-    """Names of the sensors that a repeat is judged by, by unit.
+    """Names of the sensors that a repeat is judged by, by unit, of those that the System computes.
 
     Positions and lengths, angles that are not wrapped, forces of elements such as wheel loads; of a System without
     them velocities. Wrapped angles, gears, energies and accelerations change in jumps, or change sign, where a small
@@ -111,6 +111,8 @@ def judged_sensors(system: System) -> dict[str, list[str]]:
     arrays = system.arrays
     found: dict[str, list[str]] = {}
     for i, sensor in enumerate(system.meta["sensors"]):
+        if not sensor.get("computed", True):
+            continue
         kind, unit = SensorType(arrays["sen_type"][i]), sensor["unit"]
         first, last = arrays["sen_int_ptr"][i : i + 2]
         order = int(arrays["sen_int"][first]) if kind in WITH_ORDER and last > first else 0

@@ -138,7 +138,7 @@ def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
     assert "is not an FMU (not a zip archive)" in refusal(text, capsys)
     assert "There is no file" in refusal(tmp_path / "None.fmu", capsys)
     assert "has no drawing of itself (resources/geometry.json)" in refusal(changed(tuned, tmp_path, same, None), capsys)
-    for scene, words in (({"format": "x"}, 'format is "x"'), (b"{", "is no JSON")):
+    for scene, words in (({"format": "x"}, "format is 'x'"), (b"{", "is no JSON")):
         content = scene if isinstance(scene, bytes) else json.dumps(scene).encode()
         fmu = changed(tuned, tmp_path, lambda name, old, put=content: put if name == SCENE else old)
         assert words in refusal(fmu, capsys)

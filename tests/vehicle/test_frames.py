@@ -55,7 +55,7 @@ def test_a_frame_of_the_user_carries_the_car_in_every_fidelity(small: Car) -> No
     assert rest[1]["wheel_FL.Fz"] == pytest.approx(rest[0]["wheel_FL.Fz"], rel=1e-6)
     assert rest[3]["wheel_FL.Fz"] == pytest.approx(rest[0]["wheel_FL.Fz"], rel=1e-3)
     for name in ("bending_moment.F", "axial_force.H", "stress.F", "stress.G", "stress.H"):
-        assert rest[0][name] == 0.0
+        assert rest[0][name] == pytest.approx(rest[1][name], rel=1e-3)
         assert abs(rest[1][name]) > 0.1
         assert rest[3][name] == pytest.approx(rest[1][name], rel=2e-3)
     assert "bending_moment.G" not in rest[1]

@@ -72,7 +72,7 @@ def test_a_limit_of_nothing_is_told_and_the_others_are_judged(tmp_path: Path) ->
     assert kept(made)["a", "peak"] is False
     assert [fault.removeprefix(f"{given.file}: limits.") for fault in faults] == [
         "'peek': there is no measure 'peek'; there are drop.peak, drop.critical_speed, drop.rest.",
-        "'rest.unit': there is no measure 'rest.unit'; did you mean 'drop.rest'?",
+        "'rest.unit': there is no measure 'rest.unit'; there are drop.peak, drop.critical_speed, drop.rest.",
         "'drop.peak' and another limit are both of 'drop.peak'; give one of them.",
     ]
     (fault,) = limits(tmp_path, 'peak = {max = 1, unit = "m"}').judged({"drop": {"a": record(2.0)}})[1]
