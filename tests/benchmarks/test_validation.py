@@ -46,6 +46,7 @@ def drive() -> Drive:
     return Drive(t, np.array([steer(s) for s in t]), np.array([speed(s) for s in t]), x[0], x[1])
 
 
+@pytest.mark.slow
 def test_the_fit_finds_the_numbers_of_a_drive(drive: Drive, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fitting, "STARTS", 2)
     model = MODELS[PLACES["saturating bicycle, tanh"]]

@@ -104,7 +104,7 @@ def test_each_table_and_key_that_is_missing(name):
         except CarFileError as error:
             (line,) = sentences(error, "x: ")
             assert line.startswith(f"x: {path}")
-            assert "is missing" in line
+            assert "is missing" in line or not keys_of(table_at(Car, outer, data))[last].is_required(), line
         else:
             assert named or not keys_of(table_at(Car, outer, data))[last].is_required(), path
 
