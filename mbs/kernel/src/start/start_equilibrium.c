@@ -110,8 +110,7 @@ ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
     in->start_moved = most > (S->n_static_q > 0 ? 0.0 : SAME);
     if (in->start_moved) set_start(in, in->stage);
   }
-  if (in->placed == ALI3_PLACED_BY_POSE)
-    return ali3_set_pose(in, in->pose);
+  if (in->placed == ALI3_PLACED_BY_POSE) return ali3_set_pose(in, in->pose);
   memcpy(in->now.q, in->start_q, (size_t)S->size.nq * sizeof(double));
   return ALI3_OK;
 }
