@@ -113,7 +113,11 @@ def test_parameters_do_together_what_the_file_would_do(name):
     """A few at a time, each of which is seen in its run."""
     car = load(name)
     # without an assistance the file has no limit for it
-    without = {"steering.assistance"} if getattr(car.steering, "assistance", 1.0) == 0.0 else set()
+    without = (
+        {"steering.assistance", "steering.assistance_limit"}
+        if getattr(car.steering, "assistance", 1.0) == 0.0
+        else set()
+    )
     paths = [path for path in car.values() if path not in {*ALONE, *without}]
     groups = -(-len(paths) // TOGETHER)
     alone = [[path] for path in load(name).values() if path in ALONE]
