@@ -14,6 +14,7 @@ from hosts.common.errors import HostError
 from hosts.common.world_record import world_beside
 from hosts.driving.course_scenery import with_course
 from hosts.driving.courses import course_of
+from hosts.view.view_sources import _with_course
 
 WIDTH = 1.6
 COURSE = course_of("iso_3888_1", WIDTH)
@@ -70,3 +71,13 @@ def test_the_world_of_a_road_file_lies_beside_it(tmp_path: Path) -> None:
     road.with_suffix(".json").write_text(json.dumps(record | {"version": 2}))
     with pytest.raises(HostError, match=r"test\.json is no world of version 1, which this version of ali3 reads"):
         world_beside(road)
+
+
+def test_the_record_of_a_run_brings_the_cones_of_its_driver(tmp_path: Path) -> None:
+    """As `ali3 run` writes it: the track by its name in the standard."""
+    record, file = {"course": {"track": COURSE.name, "vehicle_width": WIDTH}}, tmp_path / "run.json"
+    assert _with_course({"roads": [LEVEL]}, record, file) == with_course({"roads": [LEVEL]}, COURSE)
+    assert _with_course({"roads": [LEVEL]}, {"course": None}, file) == {"roads": [LEVEL]}
+    for course in ({"track": "ISO 1"}, {"track": COURSE.name, "vehicle_width": -1.0}, "ISO 3888-1"):
+        with pytest.raises(HostError, match="does not say by 'course' a track of ISO 3888 and a vehicle_width"):
+            _with_course({"roads": [LEVEL]}, {"course": course}, file)
