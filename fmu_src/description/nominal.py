@@ -57,6 +57,7 @@ def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dic
         Up to where a drive is refused; the start of another where one does not begin.
     """
     sensed = {i: v.index for i, v in enumerate(table) if v.source == "sensor"}
+    moved = [v for v in table if v.source == "input" and not v.whole]
     largest = np.zeros(max(sensed.values(), default=-1) + 1)
     for system in systems:
         kernel = Instance(LoadedSystem(system.to_bytes(drawing=False)))
@@ -67,7 +68,7 @@ def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dic
             kernel.initialise(0.0)
             for k in range(min(round(SECONDS / h), _MOST_STEPS)):
                 largest = np.maximum(largest, np.abs(kernel.sensors()))
-                for n, v in enumerate(v for v in table if v.source == "input" and not v.whole):
+                for n, v in enumerate(moved):
                     kernel.set_input(v.index, _moved(v, math.sin(math.tau * _FIRST * _RATIO**n * k * h)))
                 kernel.step(h)
         except KernelError:

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 import mbs
 from fmu_src.description.description import number, to_bytes
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.simulation.refusal import refusal
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 _NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
@@ -106,22 +107,30 @@ def _run(
     inputs: Mapping[str, Column],
 ) -> ReferenceRun:
     simulation = mbs.Simulation(system)
+    instance = simulation.instance
     ported = None if follower is None else Instance(LoadedSystem(follower.to_bytes(drawing=False)))
     sensors = system.meta["sensors"]
     left_out = np.array([not entry.get("computed", True) for entry in sensors])
+    names, starts = [e["name"] for e in system.meta["inputs"]], np.arange(steps) * step
+    held = {names.index(name): np.interp(starts, corners, values) for name, values in inputs.items()}
     times, rows, every = [], [], max(1, steps // _ROWS)
     for k in range(steps + 1):
         if k % every == 0:
-            row = np.array(simulation.instance.sensors())
+            simulation.step(step, 0)  # none, but the warning of what the steps before did to the balance of energy
+            row = np.array(instance.sensors())
             if ported is not None:
-                ported.follow(simulation.instance)
+                ported.follow(instance)
                 row = np.where(left_out, np.array(ported.sensors()), row)
             times.append(simulation.time)
             rows.append(row)
         if k < steps:
-            for name, values in inputs.items():
-                simulation.set_input(name, float(np.interp(k * step, corners, values)))
-            simulation.step(step)
+            for index, values in held.items():
+                instance.set_input(index, values[k])
+            try:
+                instance.step(step)
+            except KernelError as error:
+                what = f"The step from t = {simulation.time:g} s with h = {step:g} s failed"
+                raise refusal(simulation, what, error) from None
     columns = {entry["name"]: column for entry, column in zip(sensors, np.array(rows).T, strict=True)}
     return ReferenceRun(np.array(times), columns, corners, dict(inputs))
 
