@@ -47,6 +47,7 @@ def metadata(
             }
             | ({"whole": True} if i.whole else {})
             | ({"port": True} if i.port else {})
+            | ({"normal": i.normal} if i.normal else {})
             for i in model.inputs
         ],
         "sensors": [

@@ -13,7 +13,7 @@ from mbs.elements.input_force import InputForce
 from mbs.elements.lift import Lift
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_angle import SpinAngle
 from mbs.elements.spin_torque import SpinTorque
@@ -43,6 +43,7 @@ __all__ = [
     "MagicTyre",
     "Output",
     "PlaneRoad",
+    "PortRoad",
     "Road",
     "ScalarSpringDamper",
     "SpinAngle",

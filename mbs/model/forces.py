@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.common.affine import AffineVector
-from mbs.common.checks import array, direction, instance_of, number, one_of, shown, whole
+from mbs.common.checks import array, direction, instance_of, not_negative, number, one_of, shown, whole
 from mbs.common.errors import ModelError
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
@@ -19,7 +19,7 @@ from mbs.elements.drag import Drag
 from mbs.elements.input_force import InputForce
 from mbs.elements.lift import Lift
 from mbs.elements.record import ElementRecord
-from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
+from mbs.elements.road import ANSWER, GridRoad, KerbRoad, PlaneRoad, PortRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
@@ -29,7 +29,7 @@ from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate
 from mbs.model.ends import FixedEnd, body_and_point, different
 from mbs.model.flexible import FlexibleBody
-from mbs.model.inputs import owned_input
+from mbs.model.inputs import new_input, owned_input
 from mbs.model.records import Input, RoadFileParameter
 from mbs.roads.road_file import RoadFile
 
@@ -232,7 +232,7 @@ class ForceVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        road : PlaneRoad, KerbRoad, GridRoad or RoadFile
+        road : PlaneRoad, KerbRoad, GridRoad, PortRoad or RoadFile
             Of `mbs.elements`, or a file (`mbs.RoadFile`).
         file : str, optional
             Name of a parameter, as ``"road.file"``, that exchanges this road for one of a file before a start: of an
@@ -250,8 +250,10 @@ class ForceVocabulary(BodyVocabulary):
         ModelError
             The file is no road.
         """
-        kinds = (PlaneRoad, KerbRoad, GridRoad, RoadFile)
-        instance_of(kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad, GridRoad or RoadFile")
+        kinds = (PlaneRoad, KerbRoad, GridRoad, PortRoad, RoadFile)
+        instance_of(
+            kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad, GridRoad, PortRoad or RoadFile"
+        )
         k, start = len(self.roads), ""
         if isinstance(road, RoadFile):
             road.check()
@@ -263,6 +265,45 @@ class ForceVocabulary(BodyVocabulary):
             self.road_files.append(RoadFileParameter(self.unique("parameter", file), k, start))
         self.roads.append(road)
         return k
+
+    def road_answer(self, name: str, *, friction: float = 0.9) -> int:
+        """Seven inputs by which another program says what the road is like at a point: for a `PortRoad`.
+
+        They are the point that it was asked for, with which the answer holds whenever it comes, and height, unit
+        normal and friction there: ``name_x``, ``name_y``, ``name_height``, ``name_normal_x``, ``name_normal_y``,
+        ``name_normal_z`` and ``name_friction``. The road goes on from there as the plane that they give. They start as
+        level ground at height 0. A step with a normal that is no unit vector upwards is refused.
+
+        Parameters
+        ----------
+        friction : float
+            At the start.
+
+        Returns
+        -------
+        int
+            The number of the first input.
+        """
+        far, up = 1e7, {"normal_x": 1, "normal_y": 2, "normal_z": 3}
+        starts = {"normal_z": 1.0, "friction": not_negative(friction, f"The friction of road answer '{name}'")}
+        limits = {"friction": (0.0, 10.0), "height": (-1e4, 1e4)} | dict.fromkeys(up, (-1.1, 1.1))
+        units, words = dict.fromkeys(("x", "y", "height"), "m"), {"x": "x", "y": "y", "height": "height"}
+        first = len(self.inputs)
+        for what in ANSWER:
+            at = "of the point that the answer on the road holds for, earth" if what in "xy" else "of the road there"
+            word = words.get(what, f"{what[-1]} of the unit normal, earth, upwards," if what in up else what)
+            new_input(
+                self,
+                f"{name}_{what}",
+                starts.get(what, 0.0),
+                *limits.get(what, (-far, far)),
+                units.get(what, "1"),
+                f"{word} {at}",
+                False,
+                True,
+                up.get(what, 0),
+            )
+        return first
 
     def contact_points(
         self, name: str, body: Body, points: ArrayLike, *, road: int, contact: ContactPoints

@@ -21,6 +21,7 @@ def new_input(
     description: str,
     whole: bool,
     port: bool = False,
+    normal: int = 0,
 ) -> Input:
     """Register an input; limits may be infinite."""
     low, high = limit(min, f"The min of input '{name}'"), limit(max, f"The max of input '{name}'")
@@ -37,7 +38,7 @@ def new_input(
         _check_whole(name, {"min": low, "max": high, "start": value}, unit)
     as_port = flag(port, f"The port of input '{name}'")
     number_of, own = len(model.inputs), model.unique("input", name)
-    channel = Input(own, number_of, value, low, high, unit, description, bool(whole), bool(as_port))
+    channel = Input(own, number_of, value, low, high, unit, description, bool(whole), bool(as_port), normal)
     model.inputs.append(channel)
     return channel
 

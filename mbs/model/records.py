@@ -28,7 +28,10 @@ class Constant:
 
 @dataclass(frozen=True)
 class Input:
-    """A number that a host sets at every step; `index` is its place in the System, `port` whether it is a port."""
+    """A number that a host sets at every step; `index` is its place in the System, `port` whether it is a port.
+
+    `normal` is 1, 2 or 3 for the components of a road's normal, which stand side by side, else 0.
+    """
 
     name: str
     index: int
@@ -39,6 +42,7 @@ class Input:
     description: str
     whole: bool = False
     port: bool = False
+    normal: int = 0
 
 
 @dataclass(frozen=True)

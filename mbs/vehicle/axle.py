@@ -106,7 +106,7 @@ class Axle(Section):
             diametral_inertia=self.wheel.diametral_inertia,
         )
         made = self.tyre.tyre(corner.side.name)
-        tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.road))
+        tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.wheel_roads.get(w, b.road)))
         for name, real in self.tyre.parameters.items():
             b.tie(self.tyre, name, tyre, real)
         return spin

@@ -36,6 +36,10 @@ class CarBuilder:
     ----------
     m : Model
         Gets bodies, joints and elements.
+    road : int
+        Number of the road under the chassis.
+    wheel_roads : mapping of str to int
+        Those under wheels that have one of their own.
     inputs : mapping of str to Input
         Of the driver, by name.
     ports : Ports
@@ -51,6 +55,7 @@ class CarBuilder:
     inputs: Mapping[str, Input]
     ports: Ports = field(default_factory=Ports)
     port_inputs: list[Input] = field(default_factory=list)
+    wheel_roads: Mapping[str, int] = field(default_factory=dict)
     _chassis: Mount | None = None
     _tied: dict[str, _Tied] = field(default_factory=dict)
 

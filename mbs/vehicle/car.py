@@ -49,7 +49,7 @@ from mbs.vehicle.outputs import (
     wheel_poses,
     work_outputs,
 )
-from mbs.vehicle.port_parts import driver_inputs, port_outputs, torque_ports
+from mbs.vehicle.port_parts import driver_inputs, port_outputs, road_ports, torque_ports
 from mbs.vehicle.road import level_within, tell_steep_face
 from mbs.vehicle.schema_version import of_this_version
 from mbs.vehicle.shapes.car_shapes import car_shapes
@@ -182,7 +182,8 @@ class Car(CarContent):
         self.aerodynamics.build(b, self.vehicle.reference_point, axles)
         b.parameters(self.order, working_ranges(self))
         frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in axles.items())
-        self.road.parameters(m, road, b.road, ", ".join(frictions))
+        if self.ports.road is None:
+            self.road.parameters(m, road, b.road, ", ".join(frictions))
         self._outputs(b, steered, spins, fidelity)
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
@@ -209,7 +210,12 @@ class Car(CarContent):
         m.start_in_equilibrium = level_within(road, self.footprint)
         m.stop_time, m.step = 10.0, 0.002
         inputs = driver_inputs(m, self.ports)
-        return CarBuilder(m, m.road(road or self.road.default(), file="road.file"), inputs, self.ports)
+        if self.ports.road is None:
+            return CarBuilder(m, m.road(road or self.road.default(), file="road.file"), inputs, self.ports)
+        if road is not None:
+            raise ModelError(f"The road of the car '{self.name}' is at ports (ports.road); it takes no other.")
+        whole_road, wheel_roads = road_ports(m, self.road)
+        return CarBuilder(m, whole_road, inputs, self.ports, wheel_roads=wheel_roads)
 
     def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add steering and front axle, then the rear axle.

@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal
 
+from mbs.elements.road import PortRoad
 from mbs.elements.spin_torque import SpinTorque
 from mbs.model import Model
 from mbs.model.carried import Spin
 from mbs.model.records import Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
 from mbs.vehicle.drives import Drive
 from mbs.vehicle.ports import Ports
+from mbs.vehicle.road import RoadSection
 
+WHEELS = ("FL", "FR", "RL", "RR")
 LARGEST_TORQUE = 1e4  # N m on a wheel: end of the range of the port
 
 
@@ -65,6 +69,29 @@ def torque_ports(
         drive.turning_parts(b, spins)
 
 
+def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
+    """Answers of another program on the road under each wheel, and the mean of them under the chassis.
+
+    Parameters
+    ----------
+    m : Model
+        Gets inputs and roads.
+    road : RoadSection
+        Friction until there are answers.
+
+    Returns
+    -------
+    int
+        The road under the chassis.
+    dict of str to int
+        Those under the wheels.
+    """
+    friction = road.friction * road.friction_factor
+    first = {w: m.road_answer(f"wheel_{w}.road", friction=friction) for w in WHEELS}
+    under = {w: m.road(PortRoad([k])) for w, k in first.items()}
+    return m.road(PortRoad(list(first.values()))), under
+
+
 def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
     """What loops through ports need beside the outputs that every car has.
 
@@ -101,6 +128,10 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
         text = "force of the damper without spring and stops, tension positive"
         m.sense_element(f"damper_{w}.force", damper, "damper_force", description=text)
     elements = [element for element in m.elements if element.name.startswith("port ")]
+    if car.ports.road is not None:
+        standing = [e for e in m.elements if e.name.startswith("tyre ") or e.name == GROUND_CONTACT]
+        told = "what answers on the road have added to the energy stored in tyres and ground since the start"
+        m.sense_energy("energy.road", "by inputs", standing, description=told)
     text = "work of the ports since the start; that of the brakes is in energy.brakes"
     if elements:
         m.sense_energy("energy.ports", "nonconservative", elements, description=text)
