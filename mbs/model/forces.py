@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
@@ -266,7 +267,7 @@ class ForceVocabulary(BodyVocabulary):
         self.roads.append(road)
         return k
 
-    def road_answer(self, name: str, *, friction: float = 0.9) -> int:
+    def road_answer(self, name: str, *, friction: float = 0.9, near: str = "") -> int:
         """Seven inputs by which another program says what the road is like at a point: for a `PortRoad`.
 
         They are the point that it was asked for, with which the answer holds whenever it comes, and height, unit
@@ -278,15 +279,18 @@ class ForceVocabulary(BodyVocabulary):
         ----------
         friction : float
             At the start.
+        near : str, optional
+            Name of the sensor of the x of what meets the road there, whose y and z follow it: an FMU tells, once, when
+            the point of the answer is more than 10 m away from it.
 
         Returns
         -------
         int
             The number of the first input.
         """
-        far, up = 1e7, {"normal_x": 1, "normal_y": 2, "normal_z": 3}
+        up = {"normal_x": 1, "normal_y": 2, "normal_z": 3}
         starts = {"normal_z": 1.0, "friction": not_negative(friction, f"The friction of road answer '{name}'")}
-        limits = {"friction": (0.0, 10.0), "height": (-1e4, 1e4)} | dict.fromkeys(up, (-1.1, 1.1))
+        limits = {"friction": (0.0, 10.0)} | dict.fromkeys(up, (-1.1, 1.1))
         units, words = dict.fromkeys(("x", "y", "height"), "m"), {"x": "x", "y": "y", "height": "height"}
         first = len(self.inputs)
         for what in ANSWER:
@@ -296,12 +300,14 @@ class ForceVocabulary(BodyVocabulary):
                 self,
                 f"{name}_{what}",
                 starts.get(what, 0.0),
-                *limits.get(what, (-far, far)),
+                *limits.get(what, (-math.inf, math.inf)),
                 units.get(what, "1"),
                 f"{word} {at}",
                 False,
                 True,
                 up.get(what, 0),
+                near if what == "x" else "",
+                {"x": 1.0, "y": 1.0, "height": 0.02, "friction": 0.2 * friction}.get(what, 0.02),
             )
         return first
 

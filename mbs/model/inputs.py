@@ -22,6 +22,8 @@ def new_input(
     whole: bool,
     port: bool = False,
     normal: int = 0,
+    near: str = "",
+    tried: float | None = None,
 ) -> Input:
     """Register an input; limits may be infinite."""
     low, high = limit(min, f"The min of input '{name}'"), limit(max, f"The max of input '{name}'")
@@ -38,7 +40,7 @@ def new_input(
         _check_whole(name, {"min": low, "max": high, "start": value}, unit)
     as_port = flag(port, f"The port of input '{name}'")
     number_of, own = len(model.inputs), model.unique("input", name)
-    channel = Input(own, number_of, value, low, high, unit, description, bool(whole), bool(as_port), normal)
+    channel = Input(own, number_of, value, low, high, unit, description, bool(whole), bool(as_port), normal, near, tried)
     model.inputs.append(channel)
     return channel
 

@@ -30,7 +30,8 @@ class Constant:
 class Input:
     """A number that a host sets at every step; `index` is its place in the System, `port` whether it is a port.
 
-    `normal` is 1, 2 or 3 for the components of a road's normal, which stand side by side, else 0.
+    `normal` is 1, 2 or 3 for the components of a road's normal, which stand side by side, else 0; `near` names the
+    sensor of the x of the wheel that an answer on the road is for; trials of an FMU move it by `tried` from its start.
     """
 
     name: str
@@ -43,6 +44,19 @@ class Input:
     whole: bool = False
     port: bool = False
     normal: int = 0
+    near: str = ""
+    tried: float | None = None
+
+
+@dataclass(frozen=True)
+class Ahead:
+    """An output of FMUs alone: what a sensor will read at the next communication point, by the sensor of its rate."""
+
+    name: str
+    unit: str
+    description: str
+    value: str
+    rate: str
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from mbs.elements.road import PortRoad
 from mbs.elements.spin_torque import SpinTorque
 from mbs.model import Model
 from mbs.model.carried import Spin
-from mbs.model.records import Input
+from mbs.model.records import Ahead, Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
@@ -87,7 +87,7 @@ def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
         Those under the wheels.
     """
     friction = road.friction * road.friction_factor
-    first = {w: m.road_answer(f"wheel_{w}.road", friction=friction) for w in WHEELS}
+    first = {w: m.road_answer(f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS}
     under = {w: m.road(PortRoad([k])) for w, k in first.items()}
     return m.road(PortRoad(list(first.values()))), under
 
@@ -122,6 +122,10 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
         for k, c in enumerate("xyz"):
             text = f"velocity of the centre of the wheel along the earth's {c} axis"
             m.sense_coordinate(f"wheel_{w}.earth_v{c}", spin.centre[k], order=1, unit="m/s", description=text)
+        for c in "xy" if car.ports.road is not None else "":
+            text = f"{c} of the contact point at the next communication point, if it comes as late as the last: to ask for"
+            place, rate = f"wheel_{w}.contact_{c}", f"wheel_{w}.earth_v{c}"
+            m.ahead.append(Ahead(f"wheel_{w}.road_ahead_{c}", "m", text, place, rate))
         damper = f"damper {w}" if f"damper {w}" in named else f"spring {w}"
         text = "rate of the length of the damper, positive in rebound"
         m.sense_element(f"damper_{w}.speed", damper, "rate", description=text)

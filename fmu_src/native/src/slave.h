@@ -19,13 +19,14 @@ typedef enum {
   SLAVE_SENSOR,
   SLAVE_SOLVER,          /* what the solver says about itself: ali3_solver_value */
   SLAVE_CAPPED_RESIDUAL, /* of the last communication step */
+  SLAVE_AHEAD, /* an output at the next communication point, by its rate */
   SLAVE_CONSTANT /* the start is its value */
 } slave_source;
 
 typedef struct {
   const char *name, *unit; /* the unit as it stands behind a number */
   slave_source source;
-  int32_t index;          /* of that input, parameter, sensor or ALI3_SOLVER_*; place in x, y, z, yaw, speed */
+  int32_t index;          /* of that input, parameter, sensor, variable ahead or ALI3_SOLVER_*; place in x, y, z, yaw, speed */
   double start, min, max; /* infinite where open */
   bool whole;             /* an integer of FMI */
   bool fixed;             /* a parameter that can be set before the first step only */
@@ -33,6 +34,8 @@ typedef struct {
   int32_t road;           /* a parameter of the built-in form of this road, without effect on a file; -1: of none */
   uint64_t uncomputed;    /* bits of the fidelities whose System leaves it out */
   double least, most;     /* between which a parameter works; infinite where that is not known */
+  int32_t normal; /* 1, 2, 3: of an input that is a component of the normal of a road, with its neighbours; else 0 */
+  int32_t other; /* variable: of an answer's x the x of the wheel it is for, ahead: the rate; -1: none */
 } slave_variable;
 
 typedef struct {
@@ -81,7 +84,10 @@ enum {
   SLAVE_GIVEN = 1,
   SLAVE_HELD_AT_END = 2,
   SLAVE_HELD_LAST = 4,
-  SLAVE_HELD_FLAT = 8
+  SLAVE_HELD_FLAT = 8,
+  SLAVE_HELD_NORMAL = 16,
+  SLAVE_FAR = 32,
+  SLAVE_SAID = 63
 }; /* bits of an input: set by the host, said once */
 enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* what was said of limited iterations */
 
@@ -192,6 +198,7 @@ const char *slave_worst_row(slave *s, char *text, size_t size);
 slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value);
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value);
 bool slave_outputs(slave *s);
+void slave_ahead(const slave *s, double *derivative);
 bool slave_is_output(uint32_t reference);
 
 slave_status slave_may_set(slave *s, uint32_t reference, double value); /* the answer it would get; nothing is set */
@@ -226,6 +233,10 @@ bool slave_wants_end(const slave *s);
 slave_status slave_watch(slave *s);
 void slave_watch_outputs(slave *s);
 void slave_watch_ports(slave *s);
+
+/* road_answers.c: normals that are none hold the last ones, answers on places far from the wheel are told */
+void slave_hold_normals(slave *s);
+void slave_watch_answers(slave *s);
 
 /* derivatives.c */
 slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order, const double *value);
