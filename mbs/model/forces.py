@@ -24,6 +24,7 @@ from mbs.elements.road import ANSWER, GridRoad, KerbRoad, PlaneRoad, PortRoad, R
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
+from mbs.elements.wind import Wind
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin
@@ -174,9 +175,16 @@ class ForceVocabulary(BodyVocabulary):
         return self.add(InputForce(channel.index, (factor,)).record(name, [expression]))
 
     def drag(
-        self, name: str, body: Body, point: ArrayLike, *, drag_area: float, air_density: float = 1.225
+        self,
+        name: str,
+        body: Body,
+        point: ArrayLike,
+        *,
+        drag_area: float,
+        air_density: float = 1.225,
+        wind: Wind | None = None,
     ) -> ElementRecord:
-        """Aerodynamic drag in still air at a point.
+        """Aerodynamic drag at a point.
 
         Parameters
         ----------
@@ -186,9 +194,11 @@ class ForceVocabulary(BodyVocabulary):
             Drag coefficient times frontal area, m2.
         air_density : float
             kg/m3.
+        wind : Wind, optional
+            How the air moves; by default it is still.
         """
         self.owned(body, f"The drag '{name}'")
-        return self.add(Drag(drag_area, air_density).record(name, self._end((body, point), f"drag '{name}'")))
+        return self.add(Drag(drag_area, air_density).record(name, self._end((body, point), f"drag '{name}'"), wind))
 
     def lift(
         self,
@@ -200,8 +210,9 @@ class ForceVocabulary(BodyVocabulary):
         up: ArrayLike,
         lift_area: float,
         air_density: float = 1.225,
+        wind: Wind | None = None,
     ) -> ElementRecord:
-        """Aerodynamic lift in still air at a point, along an axis of the body.
+        """Aerodynamic lift at a point, along an axis of the body.
 
         Parameters
         ----------
@@ -214,6 +225,8 @@ class ForceVocabulary(BodyVocabulary):
             Lift coefficient times frontal area, m2; negative: downforce.
         air_density : float
             kg/m3.
+        wind : Wind, optional
+            How the air moves; by default it is still.
 
         Raises
         ------
@@ -226,7 +239,7 @@ class ForceVocabulary(BodyVocabulary):
             owned.vector(direction(axis, self.dimension, f"the {word} axis of {what}"))
             for axis, word in ((forward, "forward"), (up, "upward"))
         ]
-        return self.add(Lift(lift_area, air_density).record(name, self._end((body, point), what), *axes))
+        return self.add(Lift(lift_area, air_density).record(name, self._end((body, point), what), *axes, wind))
 
     def road(self, road: Road | RoadFile, *, file: str | None = None) -> int:
         """Add a road.

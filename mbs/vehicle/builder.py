@@ -40,6 +40,8 @@ class CarBuilder:
         Number of the road under the chassis.
     wheel_roads : mapping of str to int
         Those under wheels that have one of their own.
+    port_senses : list of callable
+        Add the outputs of ports, which come after all others.
     inputs : mapping of str to Input
         Of the driver, by name.
     ports : Ports
@@ -56,6 +58,7 @@ class CarBuilder:
     ports: Ports = field(default_factory=Ports)
     port_inputs: list[Input] = field(default_factory=list)
     wheel_roads: Mapping[str, int] = field(default_factory=dict)
+    port_senses: list[Callable[[], object]] = field(default_factory=list)
     _chassis: Mount | None = None
     _tied: dict[str, _Tied] = field(default_factory=dict)
 

@@ -49,7 +49,7 @@ from mbs.vehicle.outputs import (
     wheel_poses,
     work_outputs,
 )
-from mbs.vehicle.port_parts import driver_inputs, port_outputs, road_ports, torque_ports
+from mbs.vehicle.port_parts import driver_inputs, force_ports, port_outputs, road_ports, torque_ports, wind_port
 from mbs.vehicle.road import level_within, tell_steep_face
 from mbs.vehicle.schema_version import of_this_version
 from mbs.vehicle.shapes.car_shapes import car_shapes
@@ -179,7 +179,9 @@ class Car(CarContent):
         else:
             torque_ports(b, spins, self.drive, self.ports.torque)
         axles = {"front": self.front, "rear": self.rear}
-        self.aerodynamics.build(b, self.vehicle.reference_point, axles)
+        if self.ports.forces is not None:
+            force_ports(b, self, self.ports.forces)
+        self.aerodynamics.build(b, self.vehicle.reference_point, axles, wind_port(b))
         b.parameters(self.order, working_ranges(self))
         frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in axles.items())
         if self.ports.road is None:

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Literal
 
+import numpy as np
+
+from mbs.common.affine import AffineVector
+from mbs.elements.body_force import BodyForce
+from mbs.elements.body_torque import BodyTorque
 from mbs.elements.road import PortRoad
 from mbs.elements.spin_torque import SpinTorque
+from mbs.elements.wind import Wind
 from mbs.model import Model
 from mbs.model.carried import Spin
 from mbs.model.records import Ahead, Input
@@ -19,6 +26,8 @@ from mbs.vehicle.road import RoadSection
 
 WHEELS = ("FL", "FR", "RL", "RR")
 LARGEST_TORQUE = 1e4  # N m on a wheel: end of the range of the port
+LARGEST_FORCE, LARGEST_MOMENT = 1e5, 1e5  # N, N m, on the chassis
+FASTEST_WIND = 100.0  # m/s
 
 
 def driver_inputs(m: Model, ports: Ports) -> dict[str, Input]:
@@ -67,6 +76,51 @@ def torque_ports(
         b.m.add(SpinTorque(channel.index).record(f"port drive {w}", *axes, spin.coordinate))
     if kind == "half_shafts":
         drive.turning_parts(b, spins)
+
+
+def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"]) -> None:
+    """Forces and torques of other programs on the chassis, and how its points there move.
+
+    Parameters
+    ----------
+    axes : {"earth", "vehicle"}
+        Of forces and torques.
+    """
+    m = b.m
+    frame = [AffineVector.constant(v) for v in np.eye(3)] if axes == "earth" else b.chassis.contact_frame[1]
+    for name, place in (car.ports.force_points or {"reference": car.vehicle.reference_point}).items():
+        point = b.chassis.place(place)
+        sets = []
+        for letter, unit, largest, what in (("F", "N", LARGEST_FORCE, "force"), ("M", "N.m", LARGEST_MOMENT, "torque")):
+            for c in "xyz":
+                text = f"{what} on the chassis along the {c} axis of the {axes}, acting at the point '{name}'"
+                sets.append(b.port(f"point_{name}.{letter}{c}", -largest, largest, unit, text).index)
+        m.add(BodyForce(sets[:3]).record(f"port force {name}", point, frame))
+        turned = BodyTorque(sets[3:], "earth" if axes == "earth" else "body")
+        m.add(turned.record(f"port torque {name}", b.chassis.contact_frame[1]))
+        for order, prefix, what in ((0, "", "place"), (1, "v", "velocity")):
+            for k, c in enumerate("xyz"):
+                text = f"{what} of the point '{name}' of the chassis along the earth's {c} axis"
+                unit = "m/s" if order else "m"
+                b.port_senses.append(
+                    partial(
+                        *(m.sense_coordinate, f"point_{name}.{prefix}{c}", point[k]),
+                        order=order,
+                        unit=unit,
+                        description=text,
+                    )
+                )
+
+
+def wind_port(b: CarBuilder) -> Wind | None:
+    """Air that moves by inputs, where there is the port."""
+    if b.ports.wind is None:
+        return None
+    turn = 2.0 * np.pi
+    text = "speed of the air over the ground"
+    speed = b.port("wind.speed", 0.0, FASTEST_WIND, "m/s", text)
+    text = "heading that the air moves to, from the earth's x axis, positive to the left"
+    return Wind(speed.index, b.port("wind.heading", -turn, turn, "rad", text).index)
 
 
 def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
@@ -131,6 +185,8 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
         m.sense_element(f"damper_{w}.speed", damper, "rate", description=text)
         text = "force of the damper without spring and stops, tension positive"
         m.sense_element(f"damper_{w}.force", damper, "damper_force", description=text)
+    for sense in b.port_senses:
+        sense()
     elements = [element for element in m.elements if element.name.startswith("port ")]
     if car.ports.road is not None:
         standing = [e for e in m.elements if e.name.startswith("tyre ") or e.name == GROUND_CONTACT]

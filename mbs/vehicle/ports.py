@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from typing import Literal, get_args
 
-from mbs.vehicle.quantities import BrakePressure, Frequency
+from pydantic import Field
+
+from mbs.vehicle.names import Name
+from mbs.vehicle.quantities import BrakePressure, Frequency, Point
 from mbs.vehicle.section import Section
 
 
-PORTS = ("torque", "brakes", "steering", "road")
+PORTS = ("torque", "brakes", "steering", "road", "forces", "wind")
 
 
 class Ports(Section):
@@ -26,6 +29,12 @@ class Ports(Section):
     """Travel of a `rack_by_angle` in place of the driver's demands, or force on the rack of a `column` beside them."""
     road: Literal["planes"] | None = None
     """Height, normal and friction of the road at the points that other programs were asked for, in place of the road."""
+    forces: Literal["earth", "vehicle"] | None = None
+    """Forces and torques on the chassis at `force_points`, along these axes."""
+    wind: Literal["speed"] | None = None
+    """Speed and heading of air that moves over the ground."""
+    force_points: dict[Name, Point] = Field(default_factory=dict)
+    """Where the forces act, as drawn, such as a hitch; left and right are as given; by default the reference point."""
     full_pressure: BrakePressure = 10e6
     """Pressure in the brakes of the wheels at which they have the torque of the full pedal."""
     rack_frequency: Frequency = 50.0

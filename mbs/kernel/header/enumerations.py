@@ -215,3 +215,5 @@ class ElementType(IntEnum):
     TORSION_BAR = 17
     SPIN_ANGLE = 18
     MAGIC_TYRE = 19
+    WIND_DRAG = 20
+    HUB_WRENCH = 21
