@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, vector, whole
+from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, shown, vector, whole
 from mbs.common.errors import ModelError
 from mbs.elements.reals import Check, NotNegative, Number, Positive, Reals, declared, reals_of
 from mbs.kernel.header.enumerations import RoadType
@@ -159,9 +159,10 @@ class PortRoad:
     @property
     def real(self) -> tuple[float, ...]:
         """Checked numbers for the System."""
-        if not len(self.first):
-            raise ModelError("A road at ports needs at least one answer.")
-        return (float(len(self.first)), *(float(whole(k, "The input of a road at a port", 0)) for k in self.first))
+        what = "The first inputs of a road at ports"
+        if not isinstance(self.first, (list, tuple)) or not self.first:
+            raise ModelError(f"{what} are {shown(self.first)}; they must be a list of at least one number.")
+        return (float(len(self.first)), *(float(whole(k, f"{what} have one that", 0)) for k in self.first))
 
 
 Road = PlaneRoad | KerbRoad | GridRoad | PortRoad
