@@ -209,7 +209,7 @@ class Car(CarContent):
         """An empty model with road and inputs."""
         m = Model(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
         m.floating = True
-        m.start_in_equilibrium = level_within(road, self.footprint)
+        m.start_in_equilibrium = self.ports.tyre is None and level_within(road, self.footprint)
         m.stop_time, m.step = 10.0, 0.002
         inputs = driver_inputs(m, self.ports)
         if self.ports.road is None:
@@ -332,6 +332,10 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
     faults = car_faults(car)
     if faults:
         raise CarFileError(_told(what, faults))
+    if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
+        own = {name: kind for name, kind in data["ports"].items() if name != "tyre"}
+        car_from({**data, "ports": own}, folder, what, warn=warn)
+        return car
     if not at_rest:
         return car
     if car.has_frame:

@@ -11,6 +11,7 @@ import numpy as np
 from mbs.common.affine import AffineVector
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
+from mbs.elements.record import ElementRecord
 from mbs.elements.road import PortRoad
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.wind import Wind
@@ -146,6 +147,23 @@ def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
     return m.road(PortRoad(list(first.values()))), under
 
 
+def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
+    """Radius and moments of the tyre of a wheel.
+
+    Parameters
+    ----------
+    w : str
+        The wheel, as "FL".
+    """
+    m.sense_element(f"wheel_{w}.loaded_radius", tyre, "loaded_radius")
+    if "overturning_moment" in {output.name for output in tyre.outputs}:
+        m.sense_element(f"wheel_{w}.Mx", tyre, "overturning_moment")
+    else:
+        text = "overturning moment of the tyre about the contact point: 0, as its disc has no width"
+        m.sense_constant(f"wheel_{w}.Mx", 0.0, unit="N.m", description=text)
+    m.sense_element(f"wheel_{w}.My", tyre, "rolling_moment")
+
+
 def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
     """What loops through ports need beside the outputs that every car has.
 
@@ -163,16 +181,14 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
         m.sense_coordinate(f"chassis.earth_v{c}", reference[k], order=1, unit="m/s", description=text)
     named = {element.name: element for element in m.elements}
     for w, spin in spins.items():
+        if car.ports.torque is None and w[0].lower() == car.drive.wheels[0]:
+            text = "torque of the drive on the wheel about its axis, positive forward"
+            m.sense_element(f"wheel_{w}.drive_torque", "drive", "wheel_torque", description=text)
         if car.ports.torque is not None:
             m.sense_element(f"wheel_{w}.drive_power", f"port drive {w}", "power")
         m.sense_element(f"wheel_{w}.brake_power", f"brake {w}", "power")
-        m.sense_element(f"wheel_{w}.loaded_radius", f"tyre {w}", "loaded_radius")
-        if "overturning_moment" in {output.name for output in named[f"tyre {w}"].outputs}:
-            m.sense_element(f"wheel_{w}.Mx", f"tyre {w}", "overturning_moment")
-        else:
-            text = "overturning moment of the tyre about the contact point: 0, as its disc has no width"
-            m.sense_constant(f"wheel_{w}.Mx", 0.0, unit="N.m", description=text)
-        m.sense_element(f"wheel_{w}.My", f"tyre {w}", "rolling_moment")
+        if car.ports.tyre is None:
+            tyre_outputs(m, w, named[f"tyre {w}"])
         for k, c in enumerate("xyz"):
             text = f"velocity of the centre of the wheel along the earth's {c} axis"
             m.sense_coordinate(f"wheel_{w}.earth_v{c}", spin.centre[k], order=1, unit="m/s", description=text)

@@ -11,7 +11,7 @@ from mbs.vehicle.quantities import BrakePressure, Frequency, Point
 from mbs.vehicle.section import Section
 
 
-PORTS = ("torque", "brakes", "steering", "road", "forces", "wind")
+PORTS = ("torque", "brakes", "steering", "road", "tyre", "forces", "wind")
 
 
 class Ports(Section):
@@ -29,6 +29,8 @@ class Ports(Section):
     """Travel of a `rack_by_angle` in place of the driver's demands, or force on the rack of a `column` beside them."""
     road: Literal["planes"] | None = None
     """Height, normal and friction of the road at the points that other programs were asked for, in place of the road."""
+    tyre: Literal["hub"] | None = None
+    """Forces and moments on the hubs of the wheels, earth axes, in place of the tyres."""
     forces: Literal["earth", "vehicle"] | None = None
     """Forces and torques on the chassis at `force_points`, along these axes."""
     wind: Literal["speed"] | None = None
