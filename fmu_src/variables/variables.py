@@ -67,8 +67,8 @@ class Variable:
         One sentence.
     source : str
         What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
-        ``step_iterations``, ``solver``, what the solver says about itself, ``capped_residual``, ``ahead``, what an output will be at the
-        next communication point, or ``constant``.
+        ``step_iterations``, ``solver``, what the solver says about itself, ``capped_residual``,
+        ``ahead``, what an output will be at the next communication point, or ``constant``.
     index : int
         Number of that input, parameter, sensor or figure of the solver; place in `_POSE` for ``pose``, in the table
         for ``ahead``; 0 for others.
@@ -88,10 +88,10 @@ class Variable:
         Between which values of a parameter the model does what it is made for.
     port : bool
         Of an input: whether another program sets it at every step.
-    normal : int
-        Of an input: 1, 2 or 3, where it is that component of a road's normal; else 0.
+    role : int
+        Of an input, see `mbs.model.records.Role`.
     other : int
-        Place in the table: of the x of an answer on the road that of the x of its wheel, ``ahead`` that of the rate;
+        Place in the table: of an input with a role that of the output it is watched by, ``ahead`` that of the rate;
         else -1.
     tried : float, optional
         Of an input: how far the trials at build time move it from its start; by default over its range.
@@ -114,7 +114,7 @@ class Variable:
     uncomputed: tuple[int, ...] = ()
     works: tuple[float, float] | None = None
     port: bool = False
-    normal: int = 0
+    role: int = 0
     other: int = -1
     tried: float | None = None
 
@@ -336,7 +336,7 @@ def _ranged(
         road=entry.get("road", -1),
         works=tuple(entry["works"]) if "works" in entry else None,
         port=bool(entry.get("port", False)),
-        normal=int(entry.get("normal", 0)),
+        role=int(entry.get("role", 0)),
         tried=entry.get("tried"),
     )
 

@@ -48,7 +48,7 @@ def metadata(
             }
             | ({"whole": True} if i.whole else {})
             | ({"port": True} if i.port else {})
-            | ({"normal": i.normal} if i.normal else {})
+            | ({"role": int(i.role)} if i.role else {})
             | ({"tried": i.tried} if i.tried is not None else {})
             | ({"near": i.near} if i.near else {})
             for i in model.inputs

@@ -32,7 +32,7 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.ends import FixedEnd, body_and_point, different
 from mbs.model.flexible import FlexibleBody
 from mbs.model.inputs import new_input, owned_input
-from mbs.model.records import Input, RoadFileParameter
+from mbs.model.records import Input, RoadFileParameter, Role
 from mbs.roads.road_file import RoadFile
 
 
@@ -301,7 +301,7 @@ class ForceVocabulary(BodyVocabulary):
         int
             The number of the first input.
         """
-        up = {"normal_x": 1, "normal_y": 2, "normal_z": 3}
+        up, roles = ("normal_x", "normal_y", "normal_z"), {"x": Role.ANSWER, "normal_x": Role.NORMAL}
         starts = {"normal_z": 1.0, "friction": not_negative(friction, f"The friction of road answer '{name}'")}
         limits = {"friction": (0.0, 10.0)} | dict.fromkeys(up, (-1.1, 1.1))
         units, words = dict.fromkeys(("x", "y", "height"), "m"), {"x": "x", "y": "y", "height": "height"}
@@ -318,7 +318,7 @@ class ForceVocabulary(BodyVocabulary):
                 f"{word} {at}",
                 False,
                 True,
-                up.get(what, 0),
+                roles.get(what, Role.NONE),
                 near if what == "x" else "",
                 {"x": 1.0, "y": 1.0, "height": 0.02, "friction": 0.2 * friction}.get(what, 0.02),
             )

@@ -8,7 +8,7 @@ from mbs.common.checks import flag, limit, number, shown, text
 from mbs.common.errors import ModelError
 from mbs.elements.record_checks import MOST
 from mbs.model.core import ModelCore
-from mbs.model.records import Input
+from mbs.model.records import Input, Role
 
 
 def new_input(
@@ -21,7 +21,7 @@ def new_input(
     description: str,
     whole: bool,
     port: bool = False,
-    normal: int = 0,
+    role: Role = Role.NONE,
     near: str = "",
     tried: float | None = None,
 ) -> Input:
@@ -40,7 +40,7 @@ def new_input(
         _check_whole(name, {"min": low, "max": high, "start": value}, unit)
     as_port = flag(port, f"The port of input '{name}'")
     number_of, own = len(model.inputs), model.unique("input", name)
-    channel = Input(own, number_of, value, low, high, unit, description, bool(whole), bool(as_port), normal, near, tried)
+    channel = Input(own, number_of, value, low, high, unit, description, bool(whole), bool(as_port), role, near, tried)
     model.inputs.append(channel)
     return channel
 

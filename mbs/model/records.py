@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import IntEnum
 
 from mbs.common.affine import Affine
 from mbs.kernel.header.enumerations import GuideType, ParameterTarget
@@ -26,12 +27,24 @@ class Constant:
     description: str
 
 
+class Role(IntEnum):
+    """What an FMU watches an input for."""
+
+    NONE = 0
+    NORMAL = 1
+    """x of the unit normal of a road, whose y and z follow it."""
+    ANSWER = 2
+    """x of the point of an answer on a road; `near` is the sensor of the x of what meets the road there."""
+    HUB = 3
+    """x of the force of a tyre; `near` is the sensor of the velocity of the hub along x."""
+
+
 @dataclass(frozen=True)
 class Input:
     """A number that a host sets at every step; `index` is its place in the System, `port` whether it is a port.
 
-    `normal` is 1, 2 or 3 for the components of a road's normal, which stand side by side, else 0; `near` names the
-    sensor of the x of the wheel that an answer on the road is for; trials of an FMU move it by `tried` from its start.
+    An FMU watches inputs with a `role`, by the sensor `near` and those after it; its trials move it by `tried` from its
+    start.
     """
 
     name: str
@@ -43,7 +56,7 @@ class Input:
     description: str
     whole: bool = False
     port: bool = False
-    normal: int = 0
+    role: Role = Role.NONE
     near: str = ""
     tried: float | None = None
 

@@ -121,7 +121,7 @@ class CarContent(Section):
             yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
         if self.ports.tyre is not None and self.ports.road is not None:
             yield (
-                "ports.tyre and ports.road are both there; the road under a tyre at a port is that of the program which "
+                "ports.tyre and ports.road are both there; the road under a tyre at a port is that of the program that "
                 "has the tyre, so leave one of them out."
             )
         port = self.ports.steering

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried import Spin
+from mbs.model.records import Role
 from mbs.vehicle.builder import CarBuilder
 
 LARGEST = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
@@ -22,7 +23,9 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin) -> None:
     for letter, (unit, largest, what) in LARGEST.items():
         for c in "xyz":
             text = f"{what} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"
-            channels.append(b.port(f"wheel_{wheel}.hub_{letter}{c}", -largest, largest, unit, text).index)
+            watched = (Role.HUB, f"wheel_{wheel}.earth_vx") if not channels else ()
+            channel = b.port(f"wheel_{wheel}.hub_{letter}{c}", -largest, largest, unit, text, *watched)
+            channels.append(channel.index)
     b.m.add(HubWrench(channels).record(f"port hub {wheel}", spin.centre, spin.axis, spin.coordinate))
 
     def outputs() -> None:

@@ -106,21 +106,26 @@ def wheel_outputs(b: CarBuilder, spin: Spin, w: str) -> None:
             f"wheel_{w}.inclination",
             f"tyre {w}",
             "inclination",
-            description="of the wheel plane from the road's normal about the wheel's x axis, top right positive (ISO 8855)",
+            description="of the wheel plane from the road's normal about the wheel's x axis, top right positive "
+            "(ISO 8855)",
         )
     m.sense_coordinate(
         f"wheel_{w}.omega", spin, order=1, description="absolute angular velocity, positive forward", display_unit="rpm"
     )
     _travel(m, chassis, spin, w)
     for name, output in (
-        ("Fx", "longitudinal_force"),
-        ("Fy", "lateral_force"),
-        ("Fz", "vertical_force"),
-        ("Mz", "aligning_moment"),
-        ("slip", "slip"),
-        ("slip_angle", "slip_angle"),
-        ("deflection", "deflection"),
-    ) if b.ports.tyre is None else ():
+        (
+            ("Fx", "longitudinal_force"),
+            ("Fy", "lateral_force"),
+            ("Fz", "vertical_force"),
+            ("Mz", "aligning_moment"),
+            ("slip", "slip"),
+            ("slip_angle", "slip_angle"),
+            ("deflection", "deflection"),
+        )
+        if b.ports.tyre is None
+        else ()
+    ):
         m.sense_element(f"wheel_{w}.{name}", f"tyre {w}", output)
     m.sense_element(f"wheel_{w}.brake_torque", f"brake {w}", "torque")
     m.sense_element(f"spring_{w}.length", f"spring {w}", "length")

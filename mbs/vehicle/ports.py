@@ -10,7 +10,6 @@ from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import BrakePressure, Frequency, Point
 from mbs.vehicle.section import Section
 
-
 PORTS = ("torque", "brakes", "steering", "road", "tyre", "forces", "wind")
 
 
@@ -28,7 +27,7 @@ class Ports(Section):
     steering: Literal["rack_position", "rack_force"] | None = None
     """Travel of a `rack_by_angle` in place of the driver's demands, or force on the rack of a `column` beside them."""
     road: Literal["planes"] | None = None
-    """Height, normal and friction of the road at the points that other programs were asked for, in place of the road."""
+    """Height, normal and friction of the road at points that other programs were asked for, in place of the road."""
     tyre: Literal["hub"] | None = None
     """Forces and moments on the hubs of the wheels, earth axes, in place of the tyres."""
     forces: Literal["earth", "vehicle"] | None = None

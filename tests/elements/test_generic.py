@@ -202,7 +202,7 @@ def test_drag_opposes_the_speed_with_its_square() -> None:
 
 
 def test_in_wind_the_velocity_over_the_air_counts() -> None:
-    """Wind of 30 m/s along the heading -20 rad: the element moves over it at v - w; with the wind itself there is none."""
+    """Wind of 30 m/s along the heading -20 rad: the element moves over it at v - w."""
     w = 30.0 * np.array([np.cos(-20.0), np.sin(-20.0), 0.0])
     v, still = np.array([3.0, -4.0, 12.0]), elements()["drag in space"]
     drag = elements()["drag in wind"]
@@ -258,7 +258,10 @@ def test_bad_data_are_refused_with_a_sentence(make: object, sentence: str) -> No
         make()  # type: ignore[operator]
 
 
-@pytest.mark.parametrize("name", ["input force", "body force in space", "torque in earth axes", "drag in wind", "lift in wind", "wrench on a hub"])
+@pytest.mark.parametrize(
+    "name",
+    ["input force", "body force in space", "torque in earth axes", "drag in wind", "lift in wind", "wrench on a hub"],
+)
 def test_kernel_refuses_an_input_that_does_not_exist(name: str) -> None:
     element = elements()[name]
     assert element.check(n_inputs=3) is None

@@ -1,4 +1,4 @@
-"""A road that other programs answer for, at the slave: points ahead, normals that are none, answers far away, states."""
+"""A road that other programs answer for, at the slave: points ahead, normals, answers far away, states."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def test_a_state_with_everything_said_is_set_again(host, sledge, kind) -> None:
 
 
 def test_answers_under_steps_jumps_nan_and_silence_never_go_unreported(host, sledge) -> None:
-    """Whatever comes, the outputs stay finite; a value that is not used as given, or a step that is refused, is told."""
+    """Whatever comes, the outputs stay finite; what is not used as given, and a refused step, is told."""
     for seed in range(6):
         h, random, time = host(sledge).start(LEVEL), np.random.default_rng(seed), 0.0
         values = [math.nan, math.inf, -1e6, 1e6, 0.0, 1.0, -1.0, 0.5]

@@ -95,7 +95,7 @@ def test_what_the_answers_lift_is_booked_apart_from_the_tyres() -> None:
 
 
 def test_a_raised_road_does_the_work_that_the_tyres_store() -> None:
-    """A jump of the height by d at rest: the energy of four springs k, loaded by F, rises by the sum of F d + k d^2/2."""
+    """A jump of the height by d at rest: the energy of springs k, loaded by F, rises by the sum of F d + k d^2/2."""
     s, d = mbs.Simulation(at_ports()), 0.004
     s.step(0.002, 50)
     before = s.sensors

@@ -81,8 +81,7 @@ int ali3_road_contacts(const ali3_road *road, const double centre[3], const doub
 int32_t ali3_road_numbers(const ali3_road *road, double numbers[ALI3_ROAD_NUMBERS], double *friction_factor) {
   const int32_t type = type_of(road), n = type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
   *friction_factor = factor_of(road);
-  for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++)
-    numbers[i] = type < ALI3_ROAD_GRID && i < n ? reals_of(road)[i] : 0.0;
+  for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++) numbers[i] = type < ALI3_ROAD_GRID && i < n ? reals_of(road)[i] : 0.0;
   return type;
 }
 
@@ -210,7 +209,8 @@ const char *ali3_road_check(int32_t type, const double *real, int32_t nreal) {
       if (real[i] < 0.0) return negative;
     return 0;
   case ALI3_ROAD_PORT:
-    return nreal < 2 || real[0] != nreal - 1 ? "a road at a port needs the number of its answers and an input of each" : 0;
+    return nreal < 2 || real[0] != nreal - 1 ? "a road at a port needs the number of its answers and an input of each"
+                                             : 0;
   default:
     return "unknown type of road";
   }

@@ -3,9 +3,9 @@
  * a body between the wheels, the mean over a place, by the inverse squares of the distances to the points asked for. */
 #include "road_port.h"
 
+#include "../../include/ali3.h"
 #include "../algebra/small_vectors.h"
 #include "half_space.h"
-#include "../../include/ali3.h"
 
 static const double NEAR = 0.01; /* m: a point asked for that is nearer counts as this near */
 static const double UPRIGHT = 0.02; /* least upward component of a normal */

@@ -17,13 +17,8 @@
 /* Forces at in->now with given inputs. */
 static void forces(ali3_instance *in, const double *input, double *Q, double *potential) {
   const ali3_vectors *v = &in->now;
-  const ali3_force_call call = {.q = v->q,
-                                .qd = v->qd,
-                                .y_old = v->y,
-                                .Q = Q,
-                                .y_new = in->y_work,
-                                .out = in->out_work,
-                                .potential = potential};
+  const ali3_force_call call = {
+      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = Q, .y_new = in->y_work, .out = in->out_work, .potential = potential};
   in->force_input = input;
   ali3_forces(in, &call);
   in->force_input = in->input;
