@@ -291,7 +291,7 @@ class ForceVocabulary(BodyVocabulary):
         Parameters
         ----------
         friction : float
-            At the start.
+            Coefficient of friction at the start.
         near : str, optional
             Name of the sensor of the x of what meets the road there, whose y and z follow it: an FMU tells, once, when
             the point of the answer is more than 10 m away from it.

@@ -5,7 +5,8 @@
 #include "slave.h"
 
 static const double FAR_AWAY = 10.0; /* m */
-static const double LONG_STEP = 5.001e-3, SLOW = 10.0; /* s, m/s; measured, see docs/fmu.md */
+static const double SLOW = 10.0; /* m/s; this and the steps are measured, see docs/fmu.md */
+static const double LONG_STEP = 5.001e-3, LONGEST_STEP = 10.001e-3; /* s */
 
 /* Before a step or a start. The last normal is that of the kernel, at a start that of the table. */
 void slave_hold_normals(slave *s) {
@@ -50,14 +51,13 @@ static void watch_hub(slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
   const double step = (double)s->made.n * s->made.h, *velocity = &s->value[v->other];
   const double speed = sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]);
-  if (!(step > LONG_STEP && speed < SLOW)) return;
+  if (!(step > LONGEST_STEP || (step > LONG_STEP && speed < SLOW))) return;
   s->said[i] |= SLAVE_FAR;
-  slave_say(
-      s, SLAVE_WARNING,
-      "At %.6g s the wheel at '%s' moves at %.3g m/s and the communication step is %g s: below %g m/s forces of "
-      "tyres that are held for longer than 5 ms may shake the wheel. Take shorter communication steps, or set the "
-      "derivatives of the forces. This is said once.",
-      ali3_time(s->fidelity.kernel), v->name, speed, step, SLOW);
+  slave_say(s, SLAVE_WARNING,
+            "At %.6g s the wheel at '%s' moves at %.3g m/s and the communication step is %g s: forces of tyres "
+            "that are held for longer than 5 ms below %g m/s, or for longer than 10 ms, may shake it. Take shorter "
+            "communication steps. This is said once.",
+            ali3_time(s->fidelity.kernel), v->name, speed, step, SLOW);
 }
 
 /* After the outputs are known. */
