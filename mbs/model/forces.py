@@ -262,7 +262,7 @@ class ForceVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            The file is no road.
+            The file is no road, or a road at ports asks for inputs that the model does not have.
         """
         kinds = (PlaneRoad, KerbRoad, GridRoad, PortRoad, RoadFile)
         instance_of(
@@ -275,6 +275,11 @@ class ForceVocabulary(BodyVocabulary):
             file = file or ("road.file" if k == 0 else f"road_{k}.file")
             road = road.road
         _ = road.real  # its numbers are looked at
+        if isinstance(road, PortRoad) and max(road.first) + len(ANSWER) > len(self.inputs):
+            raise ModelError(
+                f"A road at ports has its first inputs {list(road.first)}, but the model '{self.name}' has "
+                f"{len(self.inputs)}; `road_answer` makes them."
+            )
         if file is not None:
             self.road_files.append(RoadFileParameter(self.unique("parameter", file), k, start))
         self.roads.append(road)

@@ -67,6 +67,9 @@ TYRE = Tyre(
     reference_friction=1.0,
 )
 
+ANSWERED = Model("answered")
+ANSWERED.road_answer("road")
+
 USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "AutomaticDrive": (AutomaticDrive(200.0, 1e5), lambda e: e.record("e", SPIN, SPIN, F, G, 0)),
     "BodyForce": (BodyForce([0, None, 1]), lambda e: e.record("e", POINT, FRAME)),
@@ -93,7 +96,7 @@ USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "Tyre": (TYRE, lambda e: e.record("e", POINT, F, SPIN, 0)),
     "PlaneRoad": (PlaneRoad(), Model("roads").road),
     "KerbRoad": (KerbRoad(1.0, 0.1), Model("roads").road),
-    "PortRoad": (PortRoad([0]), Model("roads").road),
+    "PortRoad": (PortRoad([0]), ANSWERED.road),
     "Wind": (Wind(0, 1), lambda e: Drag(0.5).record("e", POINT, e)),
     "GridRoad": (GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((2, 5)), np.ones((2, 5))), Model("roads").road),
 }

@@ -157,3 +157,14 @@ def test_no_other_road_fits_and_the_own_one_is_left_out() -> None:
         car.model(mbs.elements.PlaneRoad())
     names = [p.name for p in car.model().parameters]
     assert not [n for n in names if n.startswith("road.")]
+
+
+@pytest.mark.parametrize(
+    ("first", "sentence"),
+    [([1], "has 7; `road_answer` makes them"), ([], "must be a list of at least one number"), ([0.5], "whole number")],
+)
+def test_a_road_of_inputs_that_are_none_is_refused(first: list[float], sentence: str) -> None:
+    m = mbs.Model("answered")
+    m.road_answer("road")
+    with pytest.raises(mbs.ModelError, match=sentence):
+        m.road(PortRoad(first))  # type: ignore[arg-type]
