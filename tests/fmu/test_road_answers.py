@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import itertools
 import math
+import subprocess
 from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
+
+from tests.fmu.native import compile_host, unpack
 
 OK = 0
 ANSWER = [f"road_{name}" for name in ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")]
@@ -129,3 +132,18 @@ def test_the_scene_stands_in_the_description(sledge) -> None:
     assert variables["road_ahead_x"].causality == "output"
     assert [variables[name].causality for name in ANSWER] == ["input"] * 7
     assert all(a.valueReference < b.valueReference for a, b in itertools.pairwise(variables[n] for n in ANSWER))
+
+
+def test_the_host_in_c_gets_the_same_bits(host, build, tmp_path) -> None:
+    sledge = build("answered", "native")
+    unpack(sledge, tmp_path / "fmu")
+    library = next((tmp_path / "fmu" / "binaries" / fmpy.platform).iterdir())
+    answers = LEVEL | {"road_height": 0.25, "road_normal_x": -0.06, "road_normal_z": math.sqrt(1.0 - 0.06**2)}
+    h = host(sledge).start(answers)
+    h.run(20, 0.01)
+    words = [str(compile_host(tmp_path)), str(library), (tmp_path / "fmu" / "resources").as_uri()]
+    words += [h.description.guid, "20", "0.01", *2 * [str(h.references["x"])]]
+    words += [word for name, value in answers.items() for word in ("--set", f"{name}={value!r}")]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert h.get("x") < -1e-3
+    assert float.fromhex(done.stdout.split()[-1]) == h.get("x")
