@@ -72,7 +72,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         "--ports",
         metavar="LIST",
         help="inputs of a --car at which other programs take the place of its parts, as torque,brakes=pressure: torque "
-        "(=half_shafts or =hub_motors), brakes (=torque or =pressure), steering (=rack_position or =rack_force)",
+        "(=half_shafts or =hub_motors), brakes (=torque or =pressure), steering (=rack_position or =rack_force), road, "
+        "forces (=earth or =vehicle), wind, tyre",
     )
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")

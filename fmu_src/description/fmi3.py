@@ -125,27 +125,65 @@ def terminals(arrays: Sequence[Array]) -> bytes:
                 memberName=member.name.rpartition(".")[2],
                 variableKind="signal",
             )
-    for name, flow, potential in plugs:
+    for name, members in plugs:
         terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="plug")
-        for variable, of_flow, kind in ((flow, "flow", "inflow"), (potential, "potential", "signal")):
-            named = {"variableName": variable, "memberName": of_flow, "variableKind": kind}
+        for variable, member, kind in members:
+            named = {"variableName": variable, "memberName": member, "variableKind": kind}
             ElementTree.SubElement(terminal, "TerminalMemberVariable", named)
     return to_bytes(root)
 
 
-# Last part of the name of a port that a flow goes in by, and of the output that is its potential.
-_PLUGS = {"drive_torque": "omega", "steering_rack_actuator_force": "steering_rack"}
+_FORCE = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+_ANSWER = ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")
+# By the last part of the name of its first port: what a terminal is called, and its members, each the last part of the
+# name of a variable, the name that a partner has for it, and its kind. Those that a model does not have are left out.
+_PLUGS = {
+    "drive_torque": ("drive_torque_port", (("drive_torque", "flow", "inflow"), ("omega", "potential", "signal"))),
+    "steering_rack_actuator_force": (
+        "steering_rack_actuator_force_port",
+        (("steering_rack_actuator_force", "flow", "inflow"), ("steering_rack", "potential", "signal")),
+    ),
+    "road_x": (
+        "road_port",
+        (
+            *((f"road_{name}", name, "signal") for name in _ANSWER),
+            *((name, name, "signal") for name in ("contact", "contact_x", "contact_y", "contact_z")),
+            *((f"road_ahead_{c}", f"ahead_{c}", "signal") for c in "xy"),
+        ),
+    ),
+    "hub_Fx": (
+        "hub_port",
+        (
+            *((f"hub_{name}", name, "inflow") for name in _FORCE),
+            *((name, name, "signal") for name in ("position", "x", "y", "z", "axis", "axis_x", "axis_y", "axis_z")),
+            *((f"earth_v{c}", f"v{c}", "signal") for c in "xyz"),
+            *((f"axis_rate_{c}", f"axis_rate_{c}", "signal") for c in "xyz"),
+            ("omega", "omega", "signal"),
+        ),
+    ),
+    "Fx": (
+        "port",
+        (
+            *((name, name, "inflow") for name in _FORCE),
+            *((name, name, "signal") for name in ("position", "x", "y", "z", "velocity", "vx", "vy", "vz")),
+        ),
+    ),
+}
 
 
-def _plugs(arrays: Sequence[Array]) -> list[tuple[str, str, str]]:
-    """Name, flow and potential of the terminals of ports that are flows."""
+def _plugs(arrays: Sequence[Array]) -> list[tuple[str, list[tuple[str, str, str]]]]:
+    """Names and members of the terminals of ports: variable, name for the partner, kind."""
     names = {array.name for array in arrays}
     found = []
     for array in arrays:
         prefix, dot, last = array.name.rpartition(".")
-        potential = f"{prefix}{dot}{_PLUGS.get(last, '')}"
-        if array.of.port and last in _PLUGS and potential in names:
-            found.append((f"{prefix}{dot}{last}_port", array.name, potential))
+        if not array.of.port or last not in _PLUGS:
+            continue
+        called, members = _PLUGS[last]
+        there = [(f"{prefix}{dot}{name}", member, kind) for name, member, kind in members]
+        there = [member for member in there if member[0] in names]
+        if len(there) > 1:
+            found.append((f"{prefix}{dot}{called}", there))
     return found
 
 

@@ -79,5 +79,7 @@ def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dic
 def _moved(v: Variable, part: float) -> float:
     """An input at a part from -1 to 1 of its share of the range."""
     start = v.start or 0.0
+    if v.tried is not None:
+        return start + _SHARE * part * v.tried
     low, high = (start + s * _OPEN if end is None else end for s, end in ((-1.0, v.min), (1.0, v.max)))
     return start + _SHARE * (part * (high - start) if part > 0.0 else -part * (low - start))

@@ -190,6 +190,8 @@ class _Tries:
         v = self.table[i]
         span = _POSE.get(v.name, _OPEN_RANGE) if v.source == "pose" else _OPEN_RANGE
         centre = v.start or 0.0
+        if v.tried is not None:
+            return centre + self.share * rng.uniform(-v.tried, v.tried)
         low = v.min if v.min is not None else min(centre - span, v.max if v.max is not None else centre)
         high = v.max if v.max is not None else max(centre + span, low)
         if v.source == "pose":

@@ -88,6 +88,7 @@ def _in_turn(entries: Sequence[Mapping[str, Any]], stop: float) -> tuple[Column,
     moving = []
     for entry in entries:
         start, ends = float(entry["start"]), [entry["max"], entry["min"]]  # None: open
+        ends = [start + entry["tried"]] if "tried" in entry else ends
         far = next((float(end) for end in ends if end is not None and abs(end) < 1e300 and end != start), None)
         if far is not None and not entry.get("whole"):
             moving.append((str(entry["name"]), start, start + _PART * (far - start)))

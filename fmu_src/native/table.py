@@ -19,6 +19,7 @@ _SOURCES = {
     "sensor": "SLAVE_SENSOR",
     "solver": "SLAVE_SOLVER",
     "capped_residual": "SLAVE_CAPPED_RESIDUAL",
+    "ahead": "SLAVE_AHEAD",
     "constant": "SLAVE_CONSTANT",
 }
 
@@ -62,7 +63,8 @@ def c_table(
         f"    {{{c_string(v.name)}, {c_string(unit)}, {_SOURCES[v.source]}, {v.index}, "
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
         f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {str(v.port).lower()}, {v.road}, {bits:#x}, "
-        f"{_number((v.works or [None])[0], '-HUGE_VAL')}, {_number((v.works or [None])[-1], 'HUGE_VAL')}}},"
+        f"{_number((v.works or [None])[0], '-HUGE_VAL')}, {_number((v.works or [None])[-1], 'HUGE_VAL')}, "
+        f"{v.role}, {v.other}}},"
         for v, unit, bits in zip(table, units, uncomputed, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))

@@ -67,10 +67,11 @@ class Variable:
         One sentence.
     source : str
         What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
-        ``step_iterations``, ``solver``, what the solver says about itself, ``capped_residual`` or ``constant``.
+        ``step_iterations``, ``solver``, what the solver says about itself, ``capped_residual``,
+        ``ahead``, what an output will be at the next communication point, or ``constant``.
     index : int
-        Number of that input, parameter, sensor or figure of the solver; place in `_POSE` for ``pose``;
-        0 for others.
+        Number of that input, parameter, sensor or figure of the solver; place in `_POSE` for ``pose``, in the table
+        for ``ahead``; 0 for others.
     start, min, max : float, optional
         In `unit`.
     display_unit : str, optional
@@ -87,6 +88,13 @@ class Variable:
         Between which values of a parameter the model does what it is made for.
     port : bool
         Of an input: whether another program sets it at every step.
+    role : int
+        Of an input, see `mbs.model.records.Role`.
+    other : int
+        Place in the table: of an input with a role that of the output it is watched by, ``ahead`` that of the rate;
+        else -1.
+    tried : float, optional
+        Of an input: how far the trials at build time move it from its start; by default over its range.
     """
 
     name: str
@@ -106,6 +114,9 @@ class Variable:
     uncomputed: tuple[int, ...] = ()
     works: tuple[float, float] | None = None
     port: bool = False
+    role: int = 0
+    other: int = -1
+    tried: float | None = None
 
 
 _CAPPED_RESIDUAL = Variable(
@@ -202,7 +213,9 @@ def variable_table(
         if name not in sensed
     ]
     table += [v for v in (_CAPPED_RESIDUAL,) if v.name not in sensed]
+    table += _ahead(meta, table)
     table += [_constant(entry) for entry in meta.get("constants", ())]
+    table = _near(meta, table)
     table = [replace(v, name=_NUMBERED.sub("_", v.name)) for v in table]
     _check(table)
     return _distinct(table)
@@ -238,6 +251,25 @@ def _sensor(entry: Mapping[str, Any], index: int) -> Variable:
         display_unit=entry.get("display_unit") or _display(entry["name"], unit),
         whole=whole,
     )
+
+
+def _ahead(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]:
+    place = {v.name: k for k, v in enumerate(table)}
+    return [
+        Variable(
+            *(entry["name"], "output", "continuous", canonical_unit(entry["unit"]), entry["description"], "ahead"),
+            index=place[entry["value"]],
+            other=place[entry["rate"]],
+        )
+        for entry in meta.get("ahead", ())
+    ]
+
+
+def _near(meta: Mapping[str, Any], table: Sequence[Variable]) -> list[Variable]:
+    """With the places of the outputs that inputs name."""
+    place = {v.name: k for k, v in enumerate(table)}
+    near = {entry["name"]: place[entry["near"]] for entry in meta["inputs"] if "near" in entry}
+    return [replace(v, other=near[v.name]) if v.source == "input" and v.name in near else v for v in table]
 
 
 def _constant(entry: Mapping[str, Any]) -> Variable:
@@ -304,6 +336,8 @@ def _ranged(
         road=entry.get("road", -1),
         works=tuple(entry["works"]) if "works" in entry else None,
         port=bool(entry.get("port", False)),
+        role=int(entry.get("role", 0)),
+        tried=entry.get("tried"),
     )
 
 

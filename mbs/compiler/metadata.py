@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import asdict
 from typing import Any
 
 from mbs.common.checks import flag, positive
@@ -47,6 +48,9 @@ def metadata(
             }
             | ({"whole": True} if i.whole else {})
             | ({"port": True} if i.port else {})
+            | ({"role": int(i.role)} if i.role else {})
+            | ({"tried": i.tried} if i.tried is not None else {})
+            | ({"near": i.near} if i.near else {})
             for i in model.inputs
         ],
         "sensors": [
@@ -71,6 +75,7 @@ def metadata(
         "constants": [
             {"name": c.name, "unit": c.unit, "description": c.description, "value": c.value} for c in model.constants
         ],
+        **({"ahead": [asdict(a) for a in model.ahead]} if model.ahead else {}),
         "elements": [
             {
                 "name": e.name,

@@ -9,11 +9,12 @@ from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.elements.drag import Drag
 from mbs.elements.electric_drive import ElectricDrive
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
+from mbs.elements.hub_wrench import HubWrench
 from mbs.elements.input_force import InputForce
 from mbs.elements.lift import Lift
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_angle import SpinAngle
 from mbs.elements.spin_torque import SpinTorque
@@ -21,6 +22,7 @@ from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.spring_damper_table import SpringDamperTable
 from mbs.elements.torsion_bar import TorsionBar
 from mbs.elements.tyre import Tyre, TyreCurve
+from mbs.elements.wind import Wind
 from mbs.kernel.header.enumerations import ElementType
 
 __all__ = [
@@ -37,12 +39,14 @@ __all__ = [
     "EndStops",
     "GridRoad",
     "GyroscopicSpin",
+    "HubWrench",
     "InputForce",
     "KerbRoad",
     "Lift",
     "MagicTyre",
     "Output",
     "PlaneRoad",
+    "PortRoad",
     "Road",
     "ScalarSpringDamper",
     "SpinAngle",
@@ -52,4 +56,5 @@ __all__ = [
     "TorsionBar",
     "Tyre",
     "TyreCurve",
+    "Wind",
 ]

@@ -9,19 +9,22 @@ from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Number, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import size
+from mbs.elements.wind import Wind
 from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)
 class Lift:
-    """Lift rho A v^2 / 2 of a body in still air; several, one per axle, make a pitching moment too."""
+    """Lift rho A v^2 / 2 of a body in the air; several, one per axle, make a pitching moment too."""
 
     lift_area: Number
     """Lift coefficient times frontal area, m^2; a negative one gives downforce."""
     air_density: NotNegative = 1.225
     """kg/m^3."""
 
-    def record(self, name: str, point: AffineVector, forward: AffineVector, up: AffineVector) -> ElementRecord:
+    def record(
+        self, name: str, point: AffineVector, forward: AffineVector, up: AffineVector, wind: Wind | None = None
+    ) -> ElementRecord:
         """The force element.
 
         Parameters
@@ -31,6 +34,8 @@ class Lift:
         forward, up : AffineVector
             Unit vectors of the body, as many components: v is the speed of the point along the first, the force acts
             along the second.
+        wind : Wind, optional
+            How the air moves, in space; by default it is still.
         """
         what = f"the lift '{name}'"
         size(point, (2, 3), f"The point of {what}")
@@ -45,5 +50,6 @@ class Lift:
             ElementType.LIFT,
             (*point.components, *forward.components, *up.components),
             *columns(reals_of(self, what, ("air_density", "lift_area"))),
+            wind.integers(what) if wind else (),
             outputs=(Output("force", "N", "lift, positive along the upward axis"),),
         )

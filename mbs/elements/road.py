@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, vector
+from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, shown, vector, whole
 from mbs.common.errors import ModelError
 from mbs.elements.reals import Check, NotNegative, Number, Positive, Reals, declared, reals_of
 from mbs.kernel.header.enumerations import RoadType
@@ -136,4 +136,33 @@ class GridRoad:
         return (*head, *heights.ravel().tolist(), *frictions.ravel().tolist())
 
 
-Road = PlaneRoad | KerbRoad | GridRoad
+ANSWER = ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")
+"""Inputs of an answer on a road, in the order of the kernel."""
+
+
+@dataclass(frozen=True)
+class PortRoad:
+    """A road that other programs answer for: a plane by inputs, made by `Model.road_answer`.
+
+    Parameters
+    ----------
+    first : sequence of int
+        Of each answer the number of the first of its inputs `ANSWER`. Of several answers a place has the mean, by the
+        inverse squares of its distances to their points.
+    """
+
+    first: Sequence[int]
+    type: ClassVar[RoadType] = RoadType.PORT
+    real_names: ClassVar[tuple[str, ...]] = ()
+    real_checks: ClassVar[tuple[Check, ...]] = ()
+
+    @property
+    def real(self) -> tuple[float, ...]:
+        """Checked numbers for the System."""
+        what = "The first inputs of a road at ports"
+        if not isinstance(self.first, (list, tuple)) or not self.first:
+            raise ModelError(f"{what} are {shown(self.first)}; they must be a list of at least one number.")
+        return (float(len(self.first)), *(float(whole(k, f"{what} have one that", 0)) for k in self.first))
+
+
+Road = PlaneRoad | KerbRoad | GridRoad | PortRoad

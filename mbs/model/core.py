@@ -13,7 +13,7 @@ from mbs.elements.record import ElementRecord
 from mbs.elements.road import Road
 from mbs.model.carried import Payload, Spin
 from mbs.model.joints.joint import Joint
-from mbs.model.records import Armature, Constant, Guide, Input, Parameter, RoadFileParameter, Switch
+from mbs.model.records import Ahead, Armature, Constant, Guide, Input, Parameter, RoadFileParameter, Switch
 from mbs.model.register import Register
 from mbs.model.sensor import Sensor
 
@@ -42,6 +42,7 @@ class ModelCore(Register):
         self.guides: list[Guide] = []
         self.switches: list[Switch] = []
         self.roads: list[Road] = []
+        self.ahead: list[Ahead] = []
         self.road_files: list[RoadFileParameter] = []
         self.sensors: list[Sensor] = []
         self.payloads: list[Payload] = []

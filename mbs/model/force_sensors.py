@@ -18,7 +18,7 @@ from mbs.model.ports import PortedBody
 from mbs.model.sensor import Sensor
 from mbs.model.sensors import SensorBase
 
-WORKS = ("work", "nonconservative")
+WORKS = ("work", "nonconservative", "by inputs")
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
 
 
@@ -127,10 +127,12 @@ class ForceSensorVocabulary(SensorBase):
 
         Parameters
         ----------
-        kind : {"kinetic", "gravity", "elastic", "total", "work", "nonconservative"}
+        kind : {"kinetic", "gravity", "elastic", "total", "work", "nonconservative", "by inputs"}
             The elastic energy is that of springs and flexible bodies. Work is that of all forces of the elements;
-            nonconservative together with the change of their own potential energy, so that springs have none. Work
-            that is lost, in a damper or a brake, is negative.
+            nonconservative together with the change of their own potential energy, so that springs have none, but for
+            what jumps of inputs, as of a `PortRoad`, add to that, which is "by inputs" (with the method "ali3p" and
+            generalised-alpha; with others it stays nonconservative). Work that is lost, in a damper or a brake, is
+            negative.
         elements : ElementRecord, str or sequence of them
             Of a work: force elements of this model or their names, whose works are added.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.common.affine import AffineVector
-from mbs.common.checks import array, direction, instance_of, number, one_of, shown, whole
+from mbs.common.checks import array, direction, instance_of, not_negative, number, one_of, shown, whole
 from mbs.common.errors import ModelError
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
@@ -19,18 +20,19 @@ from mbs.elements.drag import Drag
 from mbs.elements.input_force import InputForce
 from mbs.elements.lift import Lift
 from mbs.elements.record import ElementRecord
-from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
+from mbs.elements.road import ANSWER, GridRoad, KerbRoad, PlaneRoad, PortRoad, Road
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
+from mbs.elements.wind import Wind
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate
 from mbs.model.ends import FixedEnd, body_and_point, different
 from mbs.model.flexible import FlexibleBody
-from mbs.model.inputs import owned_input
-from mbs.model.records import Input, RoadFileParameter
+from mbs.model.inputs import new_input, owned_input
+from mbs.model.records import Input, RoadFileParameter, Role
 from mbs.roads.road_file import RoadFile
 
 
@@ -173,9 +175,16 @@ class ForceVocabulary(BodyVocabulary):
         return self.add(InputForce(channel.index, (factor,)).record(name, [expression]))
 
     def drag(
-        self, name: str, body: Body, point: ArrayLike, *, drag_area: float, air_density: float = 1.225
+        self,
+        name: str,
+        body: Body,
+        point: ArrayLike,
+        *,
+        drag_area: float,
+        air_density: float = 1.225,
+        wind: Wind | None = None,
     ) -> ElementRecord:
-        """Aerodynamic drag in still air at a point.
+        """Aerodynamic drag at a point.
 
         Parameters
         ----------
@@ -185,9 +194,11 @@ class ForceVocabulary(BodyVocabulary):
             Drag coefficient times frontal area, m2.
         air_density : float
             kg/m3.
+        wind : Wind, optional
+            How the air moves; by default it is still.
         """
         self.owned(body, f"The drag '{name}'")
-        return self.add(Drag(drag_area, air_density).record(name, self._end((body, point), f"drag '{name}'")))
+        return self.add(Drag(drag_area, air_density).record(name, self._end((body, point), f"drag '{name}'"), wind))
 
     def lift(
         self,
@@ -199,8 +210,9 @@ class ForceVocabulary(BodyVocabulary):
         up: ArrayLike,
         lift_area: float,
         air_density: float = 1.225,
+        wind: Wind | None = None,
     ) -> ElementRecord:
-        """Aerodynamic lift in still air at a point, along an axis of the body.
+        """Aerodynamic lift at a point, along an axis of the body.
 
         Parameters
         ----------
@@ -213,6 +225,8 @@ class ForceVocabulary(BodyVocabulary):
             Lift coefficient times frontal area, m2; negative: downforce.
         air_density : float
             kg/m3.
+        wind : Wind, optional
+            How the air moves; by default it is still.
 
         Raises
         ------
@@ -225,14 +239,14 @@ class ForceVocabulary(BodyVocabulary):
             owned.vector(direction(axis, self.dimension, f"the {word} axis of {what}"))
             for axis, word in ((forward, "forward"), (up, "upward"))
         ]
-        return self.add(Lift(lift_area, air_density).record(name, self._end((body, point), what), *axes))
+        return self.add(Lift(lift_area, air_density).record(name, self._end((body, point), what), *axes, wind))
 
     def road(self, road: Road | RoadFile, *, file: str | None = None) -> int:
         """Add a road.
 
         Parameters
         ----------
-        road : PlaneRoad, KerbRoad, GridRoad or RoadFile
+        road : PlaneRoad, KerbRoad, GridRoad, PortRoad or RoadFile
             Of `mbs.elements`, or a file (`mbs.RoadFile`).
         file : str, optional
             Name of a parameter, as ``"road.file"``, that exchanges this road for one of a file before a start: of an
@@ -248,10 +262,12 @@ class ForceVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            The file is no road.
+            The file is no road, or a road at ports asks for inputs that the model does not have.
         """
-        kinds = (PlaneRoad, KerbRoad, GridRoad, RoadFile)
-        instance_of(kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad, GridRoad or RoadFile")
+        kinds = (PlaneRoad, KerbRoad, GridRoad, PortRoad, RoadFile)
+        instance_of(
+            kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad, GridRoad, PortRoad or RoadFile"
+        )
         k, start = len(self.roads), ""
         if isinstance(road, RoadFile):
             road.check()
@@ -259,10 +275,59 @@ class ForceVocabulary(BodyVocabulary):
             file = file or ("road.file" if k == 0 else f"road_{k}.file")
             road = road.road
         _ = road.real  # its numbers are looked at
+        if isinstance(road, PortRoad) and max(road.first) + len(ANSWER) > len(self.inputs):
+            raise ModelError(
+                f"A road at ports has its first inputs {list(road.first)}, but the model '{self.name}' has "
+                f"{len(self.inputs)}; `road_answer` makes them."
+            )
         if file is not None:
             self.road_files.append(RoadFileParameter(self.unique("parameter", file), k, start))
         self.roads.append(road)
         return k
+
+    def road_answer(self, name: str, *, friction: float = 0.9, near: str = "") -> int:
+        """Seven inputs by which another program says what the road is like at a point: for a `PortRoad`.
+
+        They are the point that it was asked for, with which the answer holds whenever it comes, and height, unit
+        normal and friction there: ``name_x``, ``name_y``, ``name_height``, ``name_normal_x``, ``name_normal_y``,
+        ``name_normal_z`` and ``name_friction``. The road goes on from there as the plane that they give. They start as
+        level ground at height 0. A step with a normal that is no unit vector upwards is refused.
+
+        Parameters
+        ----------
+        friction : float
+            Coefficient of friction at the start.
+        near : str, optional
+            Name of the sensor of the x of what meets the road there, whose y and z follow it: an FMU tells, once, when
+            the point of the answer is more than 10 m away from it.
+
+        Returns
+        -------
+        int
+            The number of the first input.
+        """
+        up, roles = ("normal_x", "normal_y", "normal_z"), {"x": Role.ANSWER, "normal_x": Role.NORMAL}
+        starts = {"normal_z": 1.0, "friction": not_negative(friction, f"The friction of road answer '{name}'")}
+        limits = {"friction": (0.0, 10.0)} | dict.fromkeys(up, (-1.1, 1.1))
+        units, words = dict.fromkeys(("x", "y", "height"), "m"), {"x": "x", "y": "y", "height": "height"}
+        first = len(self.inputs)
+        for what in ANSWER:
+            at = "of the point that the answer on the road holds for, earth" if what in "xy" else "of the road there"
+            word = words.get(what, f"{what[-1]} of the unit normal, earth, upwards," if what in up else what)
+            new_input(
+                self,
+                f"{name}_{what}",
+                starts.get(what, 0.0),
+                *limits.get(what, (-math.inf, math.inf)),
+                units.get(what, "1"),
+                f"{word} {at}",
+                False,
+                True,
+                roles.get(what, Role.NONE),
+                near if what == "x" else "",
+                {"x": 1.0, "y": 1.0, "height": 0.02, "friction": 0.2 * friction}.get(what, 0.02),
+            )
+        return first
 
     def contact_points(
         self, name: str, body: Body, points: ArrayLike, *, road: int, contact: ContactPoints

@@ -8,7 +8,7 @@ from mbs.common.checks import flag, limit, number, shown, text
 from mbs.common.errors import ModelError
 from mbs.elements.record_checks import MOST
 from mbs.model.core import ModelCore
-from mbs.model.records import Input
+from mbs.model.records import Input, Role
 
 
 def new_input(
@@ -21,6 +21,9 @@ def new_input(
     description: str,
     whole: bool,
     port: bool = False,
+    role: Role = Role.NONE,
+    near: str = "",
+    tried: float | None = None,
 ) -> Input:
     """Register an input; limits may be infinite."""
     low, high = limit(min, f"The min of input '{name}'"), limit(max, f"The max of input '{name}'")
@@ -37,7 +40,7 @@ def new_input(
         _check_whole(name, {"min": low, "max": high, "start": value}, unit)
     as_port = flag(port, f"The port of input '{name}'")
     number_of, own = len(model.inputs), model.unique("input", name)
-    channel = Input(own, number_of, value, low, high, unit, description, bool(whole), bool(as_port))
+    channel = Input(own, number_of, value, low, high, unit, description, bool(whole), bool(as_port), role, near, tried)
     model.inputs.append(channel)
     return channel
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import IntEnum
 
 from mbs.common.affine import Affine
 from mbs.kernel.header.enumerations import GuideType, ParameterTarget
@@ -26,9 +27,25 @@ class Constant:
     description: str
 
 
+class Role(IntEnum):
+    """What an FMU watches an input for."""
+
+    NONE = 0
+    NORMAL = 1
+    """x of the unit normal of a road, whose y and z follow it."""
+    ANSWER = 2
+    """x of the point of an answer on a road; `near` is the sensor of the x of what meets the road there."""
+    HUB = 3
+    """x of the force of a tyre; `near` is the sensor of the velocity of the hub along x."""
+
+
 @dataclass(frozen=True)
 class Input:
-    """A number that a host sets at every step; `index` is its place in the System, `port` whether it is a port."""
+    """A number that a host sets at every step; `index` is its place in the System, `port` whether it is a port.
+
+    An FMU watches inputs with a `role`, by the sensor `near` and those after it; its trials move it by `tried` from its
+    start.
+    """
 
     name: str
     index: int
@@ -39,6 +56,20 @@ class Input:
     description: str
     whole: bool = False
     port: bool = False
+    role: Role = Role.NONE
+    near: str = ""
+    tried: float | None = None
+
+
+@dataclass(frozen=True)
+class Ahead:
+    """An output of FMUs alone: what a sensor will read at the next communication point, by the sensor of its rate."""
+
+    name: str
+    unit: str
+    description: str
+    value: str
+    rate: str
 
 
 @dataclass(frozen=True)

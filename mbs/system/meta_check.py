@@ -15,10 +15,11 @@ _LISTS: dict[str, dict[str, type]] = {
     "elements": {"name": str, "type": str, "outputs": list},
     "switches": {"name": str},
     "constants": _TEXTS | {"value": float},
+    "ahead": _TEXTS | {"value": str, "rate": str},
     "road_files": {"name": str, "road": int, "start": str, "description": str},
 }
 # Of files written before there were any.
-_OPTIONAL = ("constants", "road_files")
+_OPTIONAL = ("constants", "road_files", "ahead")
 # Where the arrays say how many entries there are.
 _COUNTED = {"rows": "row_const", "inputs": "input_start", "sensors": "sen_type", "parameters": "par_value"}
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from mbs.elements.wind import Wind
 from mbs.vehicle.axes import FORWARD, UP
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.builder import CarBuilder
@@ -12,7 +13,7 @@ from mbs.vehicle.section import Section
 
 
 class Aerodynamics(Section):
-    """Still air."""
+    """Still air, but for a wind by ports; drag of every direction is that of the drag area."""
 
     drag_area: Area
     """Drag coefficient times frontal area."""
@@ -23,7 +24,7 @@ class Aerodynamics(Section):
     lift_area_rear: LiftArea | None = None
     """Lift coefficient of the rear axle times frontal area; negative: downforce; without it none is computed."""
 
-    def build(self, b: CarBuilder, centre: Point, axles: Mapping[str, Axle]) -> None:
+    def build(self, b: CarBuilder, centre: Point, axles: Mapping[str, Axle], wind: Wind | None = None) -> None:
         """Add the drag and the lift of the axles that have one.
 
         Parameters
@@ -32,6 +33,8 @@ class Aerodynamics(Section):
             Where the drag acts, m.
         axles : mapping of str to Axle
             "front" and "rear".
+        wind : Wind, optional
+            How the air moves; by default it is still.
         """
         drag = b.m.drag(
             "drag",
@@ -39,6 +42,7 @@ class Aerodynamics(Section):
             centre,
             drag_area=self.drag_area,
             air_density=self.air_density,
+            wind=wind,
         )
         b.tie(self, "drag_area", drag, "drag_area")
         frame = b.chassis.frame
@@ -55,6 +59,7 @@ class Aerodynamics(Section):
                 up=UP,
                 lift_area=area,
                 air_density=self.air_density,
+                wind=wind,
             )
             b.tie(self, f"lift_area_{name}", lift, "lift_area")
             b.tie(self, "air_density", lift, "air_density")

@@ -10,6 +10,7 @@ from mbs.model.carried import Spin
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.hub_port import hub_port
 from mbs.vehicle.quantities import PartMass, Point, WheelInertia
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
@@ -105,8 +106,11 @@ class Axle(Section):
             spin_inertia=self.wheel.spin_inertia,
             diametral_inertia=self.wheel.diametral_inertia,
         )
+        if b.ports.tyre is not None:
+            hub_port(b, w, spin)
+            return spin
         made = self.tyre.tyre(corner.side.name)
-        tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.road))
+        tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.wheel_roads.get(w, b.road)))
         for name, real in self.tyre.parameters.items():
             b.tie(self.tyre, name, tyre, real)
         return spin

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from mbs.model import Model
+from mbs.model.inputs import new_input
 from mbs.model.parameters import Owner
-from mbs.model.records import Input
+from mbs.model.records import Input, Role
 from mbs.vehicle.chassis.mount import Mount
 from mbs.vehicle.ports import Ports
 from mbs.vehicle.quantities import Quantity
@@ -36,6 +37,12 @@ class CarBuilder:
     ----------
     m : Model
         Gets bodies, joints and elements.
+    road : int
+        Number of the road under the chassis.
+    wheel_roads : mapping of str to int
+        Those under wheels that have one of their own.
+    port_senses : list of callable
+        Add the outputs of ports, which come after all others.
     inputs : mapping of str to Input
         Of the driver, by name.
     ports : Ports
@@ -51,6 +58,8 @@ class CarBuilder:
     inputs: Mapping[str, Input]
     ports: Ports = field(default_factory=Ports)
     port_inputs: list[Input] = field(default_factory=list)
+    wheel_roads: Mapping[str, int] = field(default_factory=dict)
+    port_senses: list[Callable[[], object]] = field(default_factory=list)
     _chassis: Mount | None = None
     _tied: dict[str, _Tied] = field(default_factory=dict)
 
@@ -64,15 +73,26 @@ class CarBuilder:
     def chassis(self, mount: Mount) -> None:
         self._chassis = mount
 
-    def port(self, name: str, least: float, largest: float, unit: str, description: str) -> Input:
+    def port(
+        self,
+        name: str,
+        least: float,
+        largest: float,
+        unit: str,
+        description: str,
+        role: Role = Role.NONE,
+        near: str = "",
+    ) -> Input:
         """An input that another program sets, 0 until then.
 
         Parameters
         ----------
         least, largest : float
             Ends of its range, at which larger values are held, in `unit`.
+        role, near : Role, str
+            What an FMU watches it for, by which sensor.
         """
-        channel = self.m.input(name, min=least, max=largest, unit=unit, description=description, port=True)
+        channel = new_input(self.m, name, 0.0, least, largest, unit, description, False, True, role, near)
         self.port_inputs.append(channel)
         return channel
 

@@ -49,7 +49,7 @@ from mbs.vehicle.outputs import (
     wheel_poses,
     work_outputs,
 )
-from mbs.vehicle.port_parts import driver_inputs, port_outputs, torque_ports
+from mbs.vehicle.port_parts import driver_inputs, force_ports, port_outputs, road_ports, torque_ports, wind_port
 from mbs.vehicle.road import level_within, tell_steep_face
 from mbs.vehicle.schema_version import of_this_version
 from mbs.vehicle.shapes.car_shapes import car_shapes
@@ -179,10 +179,13 @@ class Car(CarContent):
         else:
             torque_ports(b, spins, self.drive, self.ports.torque)
         axles = {"front": self.front, "rear": self.rear}
-        self.aerodynamics.build(b, self.vehicle.reference_point, axles)
+        if self.ports.forces is not None:
+            force_ports(b, self, self.ports.forces)
+        self.aerodynamics.build(b, self.vehicle.reference_point, axles, wind_port(b))
         b.parameters(self.order, working_ranges(self))
         frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in axles.items())
-        self.road.parameters(m, road, b.road, ", ".join(frictions))
+        if self.ports.road is None:
+            self.road.parameters(m, road, b.road, ", ".join(frictions))
         self._outputs(b, steered, spins, fidelity)
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
@@ -206,10 +209,15 @@ class Car(CarContent):
         """An empty model with road and inputs."""
         m = Model(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
         m.floating = True
-        m.start_in_equilibrium = level_within(road, self.footprint)
+        m.start_in_equilibrium = self.ports.tyre is None and level_within(road, self.footprint)
         m.stop_time, m.step = 10.0, 0.002
         inputs = driver_inputs(m, self.ports)
-        return CarBuilder(m, m.road(road or self.road.default(), file="road.file"), inputs, self.ports)
+        if self.ports.road is None:
+            return CarBuilder(m, m.road(road or self.road.default(), file="road.file"), inputs, self.ports)
+        if road is not None:
+            raise ModelError(f"The road of the car '{self.name}' is at ports (ports.road); it takes no other.")
+        whole_road, wheel_roads = road_ports(m, self.road)
+        return CarBuilder(m, whole_road, inputs, self.ports, wheel_roads=wheel_roads)
 
     def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add steering and front axle, then the rear axle.
@@ -324,6 +332,10 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
     faults = car_faults(car)
     if faults:
         raise CarFileError(_told(what, faults))
+    if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
+        own = {name: kind for name, kind in data["ports"].items() if name != "tyre"}
+        car_from({**data, "ports": own}, folder, what, warn=warn)
+        return car
     if not at_rest:
         return car
     if car.has_frame:

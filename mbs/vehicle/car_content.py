@@ -119,6 +119,11 @@ class CarContent(Section):
         if isinstance(self.front.suspension, TwistBeam):
             kind = self.front.suspension.kind
             yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
+        if self.ports.tyre is not None and self.ports.road is not None:
+            yield (
+                "ports.tyre and ports.road are both there; the road under a tyre at a port is that of the program that "
+                "has the tyre, so leave one of them out."
+            )
         port = self.ports.steering
         if port is not None and (port == "rack_force") != (self.steering.kind == "column"):
             yield (

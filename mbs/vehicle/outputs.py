@@ -101,24 +101,30 @@ def wheel_outputs(b: CarBuilder, spin: Spin, w: str) -> None:
         (spin.axis, left, forward),
         description="deprecated, not the camber of ISO 8855 but a turn about the vehicle's x axis: use inclination",
     )
-    m.sense_element(
-        f"wheel_{w}.inclination",
-        f"tyre {w}",
-        "inclination",
-        description="of the wheel plane from the road's normal about the wheel's x axis, top right positive (ISO 8855)",
-    )
+    if b.ports.tyre is None:
+        m.sense_element(
+            f"wheel_{w}.inclination",
+            f"tyre {w}",
+            "inclination",
+            description="of the wheel plane from the road's normal about the wheel's x axis, top right positive "
+            "(ISO 8855)",
+        )
     m.sense_coordinate(
         f"wheel_{w}.omega", spin, order=1, description="absolute angular velocity, positive forward", display_unit="rpm"
     )
     _travel(m, chassis, spin, w)
     for name, output in (
-        ("Fx", "longitudinal_force"),
-        ("Fy", "lateral_force"),
-        ("Fz", "vertical_force"),
-        ("Mz", "aligning_moment"),
-        ("slip", "slip"),
-        ("slip_angle", "slip_angle"),
-        ("deflection", "deflection"),
+        (
+            ("Fx", "longitudinal_force"),
+            ("Fy", "lateral_force"),
+            ("Fz", "vertical_force"),
+            ("Mz", "aligning_moment"),
+            ("slip", "slip"),
+            ("slip_angle", "slip_angle"),
+            ("deflection", "deflection"),
+        )
+        if b.ports.tyre is None
+        else ()
     ):
         m.sense_element(f"wheel_{w}.{name}", f"tyre {w}", output)
     m.sense_element(f"wheel_{w}.brake_torque", f"brake {w}", "torque")
@@ -149,7 +155,7 @@ def wheel_poses(b: CarBuilder, spin: Spin, w: str) -> None:
             description=f"q{c} of the orientation of the wheel's carrier, which does not spin, scalar first (qw), from "
             "drawing to earth axes",
         )
-    for name in ("contact", "normal"):
+    for name in ("contact", "normal") if b.ports.tyre is None else ():
         for c in "xyz":
             m.sense_element(f"wheel_{w}.{name}_{c}", f"tyre {w}", f"{name}_{c}")
 

@@ -3,18 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Literal
 
+import numpy as np
+
+from mbs.common.affine import AffineVector
+from mbs.elements.body_force import BodyForce
+from mbs.elements.body_torque import BodyTorque
+from mbs.elements.record import ElementRecord
+from mbs.elements.road import PortRoad
 from mbs.elements.spin_torque import SpinTorque
+from mbs.elements.wind import Wind
 from mbs.model import Model
 from mbs.model.carried import Spin
-from mbs.model.records import Input
+from mbs.model.records import Ahead, Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
 from mbs.vehicle.drives import Drive
 from mbs.vehicle.ports import Ports
+from mbs.vehicle.road import RoadSection
 
+WHEELS = ("FL", "FR", "RL", "RR")
 LARGEST_TORQUE = 1e4  # N m on a wheel: end of the range of the port
+LARGEST_FORCE, LARGEST_MOMENT = 1e5, 1e5  # N, N m, on the chassis
+FASTEST_WIND = 100.0  # m/s
 
 
 def driver_inputs(m: Model, ports: Ports) -> dict[str, Input]:
@@ -65,6 +79,91 @@ def torque_ports(
         drive.turning_parts(b, spins)
 
 
+def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"]) -> None:
+    """Forces and torques of other programs on the chassis, and how its points there move.
+
+    Parameters
+    ----------
+    axes : {"earth", "vehicle"}
+        Of forces and torques.
+    """
+    m = b.m
+    frame = [AffineVector.constant(v) for v in np.eye(3)] if axes == "earth" else b.chassis.contact_frame[1]
+    for name, place in (car.ports.force_points or {"reference": car.vehicle.reference_point}).items():
+        point = b.chassis.place(place)
+        sets = []
+        for letter, unit, largest, what in (("F", "N", LARGEST_FORCE, "force"), ("M", "N.m", LARGEST_MOMENT, "torque")):
+            for c in "xyz":
+                text = f"{what} on the chassis along the {c} axis of the {axes}, acting at the point '{name}'"
+                sets.append(b.port(f"point_{name}.{letter}{c}", -largest, largest, unit, text).index)
+        m.add(BodyForce(sets[:3]).record(f"port force {name}", point, frame))
+        turned = BodyTorque(sets[3:], "earth" if axes == "earth" else "body")
+        m.add(turned.record(f"port torque {name}", b.chassis.contact_frame[1]))
+        for order, prefix, what in ((0, "", "place"), (1, "v", "velocity")):
+            for k, c in enumerate("xyz"):
+                text = f"{what} of the point '{name}' of the chassis along the earth's {c} axis"
+                unit = "m/s" if order else "m"
+                b.port_senses.append(
+                    partial(
+                        *(m.sense_coordinate, f"point_{name}.{prefix}{c}", point[k]),
+                        order=order,
+                        unit=unit,
+                        description=text,
+                    )
+                )
+
+
+def wind_port(b: CarBuilder) -> Wind | None:
+    """Air that moves by inputs, where there is the port."""
+    if b.ports.wind is None:
+        return None
+    turn = 2.0 * np.pi
+    text = "speed of the air over the ground"
+    speed = b.port("wind.speed", 0.0, FASTEST_WIND, "m/s", text)
+    text = "heading that the air moves to, from the earth's x axis, positive to the left"
+    return Wind(speed.index, b.port("wind.heading", -turn, turn, "rad", text).index)
+
+
+def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
+    """Answers of another program on the road under each wheel, and the mean of them under the chassis.
+
+    Parameters
+    ----------
+    m : Model
+        Gets inputs and roads.
+    road : RoadSection
+        Friction until there are answers.
+
+    Returns
+    -------
+    int
+        The road under the chassis.
+    dict of str to int
+        Those under the wheels.
+    """
+    friction = road.friction * road.friction_factor
+    first = {w: m.road_answer(f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS}
+    under = {w: m.road(PortRoad([k])) for w, k in first.items()}
+    return m.road(PortRoad(list(first.values()))), under
+
+
+def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
+    """Radius and moments of the tyre of a wheel.
+
+    Parameters
+    ----------
+    w : str
+        The wheel, as "FL".
+    """
+    m.sense_element(f"wheel_{w}.loaded_radius", tyre, "loaded_radius")
+    if "overturning_moment" in {output.name for output in tyre.outputs}:
+        m.sense_element(f"wheel_{w}.Mx", tyre, "overturning_moment")
+    else:
+        text = "overturning moment of the tyre about the contact point: 0, as its disc has no width"
+        m.sense_constant(f"wheel_{w}.Mx", 0.0, unit="N.m", description=text)
+    m.sense_element(f"wheel_{w}.My", tyre, "rolling_moment")
+
+
 def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
     """What loops through ports need beside the outputs that every car has.
 
@@ -82,25 +181,35 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
         m.sense_coordinate(f"chassis.earth_v{c}", reference[k], order=1, unit="m/s", description=text)
     named = {element.name: element for element in m.elements}
     for w, spin in spins.items():
+        if car.ports.torque is None and w[0].lower() == car.drive.wheels[0]:
+            text = "torque of the drive on the wheel about its axis, positive forward"
+            m.sense_element(f"wheel_{w}.drive_torque", "drive", "wheel_torque", description=text)
         if car.ports.torque is not None:
             m.sense_element(f"wheel_{w}.drive_power", f"port drive {w}", "power")
         m.sense_element(f"wheel_{w}.brake_power", f"brake {w}", "power")
-        m.sense_element(f"wheel_{w}.loaded_radius", f"tyre {w}", "loaded_radius")
-        if "overturning_moment" in {output.name for output in named[f"tyre {w}"].outputs}:
-            m.sense_element(f"wheel_{w}.Mx", f"tyre {w}", "overturning_moment")
-        else:
-            text = "overturning moment of the tyre about the contact point: 0, as its disc has no width"
-            m.sense_constant(f"wheel_{w}.Mx", 0.0, unit="N.m", description=text)
-        m.sense_element(f"wheel_{w}.My", f"tyre {w}", "rolling_moment")
+        if car.ports.tyre is None:
+            tyre_outputs(m, w, named[f"tyre {w}"])
         for k, c in enumerate("xyz"):
             text = f"velocity of the centre of the wheel along the earth's {c} axis"
             m.sense_coordinate(f"wheel_{w}.earth_v{c}", spin.centre[k], order=1, unit="m/s", description=text)
+        for c in "xy" if car.ports.road is not None else "":
+            text = (
+                f"{c} of the contact point at the next communication point, if that step is like the last: to ask for"
+            )
+            place, rate = f"wheel_{w}.contact_{c}", f"wheel_{w}.earth_v{c}"
+            m.ahead.append(Ahead(f"wheel_{w}.road_ahead_{c}", "m", text, place, rate))
         damper = f"damper {w}" if f"damper {w}" in named else f"spring {w}"
         text = "rate of the length of the damper, positive in rebound"
         m.sense_element(f"damper_{w}.speed", damper, "rate", description=text)
         text = "force of the damper without spring and stops, tension positive"
         m.sense_element(f"damper_{w}.force", damper, "damper_force", description=text)
+    for sense in b.port_senses:
+        sense()
     elements = [element for element in m.elements if element.name.startswith("port ")]
+    if car.ports.road is not None:
+        standing = [e for e in m.elements if e.name.startswith("tyre ") or e.name == GROUND_CONTACT]
+        told = "what answers on the road have added to the energy stored in tyres and ground since the start"
+        m.sense_energy("energy.road", "by inputs", standing, description=told)
     text = "work of the ports since the start; that of the brakes is in energy.brakes"
     if elements:
         m.sense_energy("energy.ports", "nonconservative", elements, description=text)

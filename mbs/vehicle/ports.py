@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
-from mbs.vehicle.quantities import BrakePressure, Frequency
+from pydantic import Field
+
+from mbs.vehicle.names import Name
+from mbs.vehicle.quantities import BrakePressure, Frequency, Point
 from mbs.vehicle.section import Section
+
+PORTS = ("torque", "brakes", "steering", "road", "tyre", "forces", "wind")
 
 
 class Ports(Section):
@@ -21,6 +26,16 @@ class Ports(Section):
     """Torques, or pressures of brakes in the wheels, in place of the brake pedal; the hand brake stays."""
     steering: Literal["rack_position", "rack_force"] | None = None
     """Travel of a `rack_by_angle` in place of the driver's demands, or force on the rack of a `column` beside them."""
+    road: Literal["planes"] | None = None
+    """Height, normal and friction of the road at points that other programs were asked for, in place of the road."""
+    tyre: Literal["hub"] | None = None
+    """Forces and moments on the hubs of the wheels, earth axes, in place of the tyres."""
+    forces: Literal["earth", "vehicle"] | None = None
+    """Forces and torques on the chassis at `force_points`, along these axes."""
+    wind: Literal["speed"] | None = None
+    """Speed and heading of air that moves over the ground."""
+    force_points: dict[Name, Point] = Field(default_factory=dict)
+    """Where the forces act, as drawn, such as a hitch; left and right are as given; by default the reference point."""
     full_pressure: BrakePressure = 10e6
     """Pressure in the brakes of the wheels at which they have the torque of the full pedal."""
     rack_frequency: Frequency = 50.0
@@ -29,7 +44,7 @@ class Ports(Section):
     @property
     def any(self) -> bool:
         """Whether there is a port."""
-        return not (self.torque is None and self.brakes is None and self.steering is None)
+        return any(getattr(self, name) is not None for name in PORTS)
 
 
 def chosen_ports(text: str) -> dict[str, str]:
@@ -40,7 +55,7 @@ def chosen_ports(text: str) -> dict[str, str]:
     ValueError
         It is no such list; the message names the ports and their kinds.
     """
-    known = {name: _kinds(name) for name in ("torque", "brakes", "steering")}
+    known = {name: _kinds(name) for name in PORTS}
     chosen: dict[str, str] = {}
     for word in text.split(","):
         name, equals, kind = (part.strip() for part in word.partition("="))
@@ -56,5 +71,4 @@ def chosen_ports(text: str) -> dict[str, str]:
 
 
 def _kinds(name: str) -> tuple[str, ...]:
-    items = Ports.model_json_schema()["properties"][name]["anyOf"][0]["enum"]
-    return tuple(items)
+    return get_args(get_args(Ports.model_fields[name].annotation)[0])

@@ -38,7 +38,7 @@ EXPORT int32_t harness_start(int32_t type, const int32_t sizes[5], const double 
                              const int32_t *integer, int32_t road_type, int32_t road_nreal, const double *road_real,
                              double out[2]) {
   const ali3_element_type *t = ali3_element_type_get(type);
-  const ali3_road road = {road_type, road_nreal, road_real, NULL};
+  const ali3_road road = {road_type, road_nreal, road_real, NULL, NULL};
   const ali3_element_args a = {
       .nsig = sizes[0], .nreal = sizes[1], .nint = sizes[2], .u = u, .real = real, .integer = integer, .roads = &road};
   if (!t->start) return 0;
@@ -54,7 +54,7 @@ EXPORT double harness_evaluate(int32_t type, int32_t accepted, int32_t discrete,
                                int32_t road_type, int32_t road_nreal, const double *road_real, double *f, double *S,
                                double *out) {
   const ali3_element_type *t = ali3_element_type_get(type);
-  const ali3_road road = {road_type, road_nreal, road_real, NULL};
+  const ali3_road road = {road_type, road_nreal, road_real, NULL, NULL};
   ali3_element_args a = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], u, ud, y_old, y_new, h, wC,
                          wK,       real,     integer,  input,    &road,    f, S,  out,   0.0,   0, 0};
   memset(f, 0, (size_t)sizes[0] * sizeof *f);
@@ -71,7 +71,7 @@ EXPORT const char *harness_road_check(int32_t type, const double *real, int32_t 
 /* out: per contact penetration, point, normal, down, cosine, friction (12 numbers) */
 EXPORT int32_t harness_contacts(int32_t type, int32_t nreal, const double *real, const double *centre,
                                 const double *axis, double radius, double out[24]) {
-  const ali3_road road = {type, nreal, real, NULL};
+  const ali3_road road = {type, nreal, real, NULL, NULL};
   ali3_contact contact[2];
   const int32_t count = ali3_road_contacts(&road, centre, axis, radius, contact);
   for (int32_t i = 0; i < count; i++) {

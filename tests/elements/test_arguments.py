@@ -22,10 +22,12 @@ from mbs.elements import (
     EndStops,
     GridRoad,
     GyroscopicSpin,
+    HubWrench,
     InputForce,
     KerbRoad,
     Lift,
     PlaneRoad,
+    PortRoad,
     ScalarSpringDamper,
     SpinAngle,
     SpinTorque,
@@ -33,6 +35,7 @@ from mbs.elements import (
     SpringDamperTable,
     TorsionBar,
     Tyre,
+    Wind,
 )
 from mbs.vehicle import load
 from tests.wrong_values import as_scalars, problems_of
@@ -64,6 +67,9 @@ TYRE = Tyre(
     reference_friction=1.0,
 )
 
+ANSWERED = Model("answered")
+ANSWERED.road_answer("road")
+
 USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "AutomaticDrive": (AutomaticDrive(200.0, 1e5), lambda e: e.record("e", SPIN, SPIN, F, G, 0)),
     "BodyForce": (BodyForce([0, None, 1]), lambda e: e.record("e", POINT, FRAME)),
@@ -75,6 +81,7 @@ USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "ElectricDrive": (ElectricDrive(200.0, 1e5, 9.0), lambda e: e.record("e", SPIN, SPIN, F, G, 0, 1)),
     "EndStops": (EndStops(), lambda e: SpringDamper(1.0, stops=e).record("e", POINT)),
     "GyroscopicSpin": (GyroscopicSpin(1.0), lambda e: e.record("e", F, G, SPIN)),
+    "HubWrench": (HubWrench([0, 1, 2, 3, 4, 5]), lambda e: e.record("e", POINT, F, SPIN)),
     "InputForce": (InputForce(0, (1.0,)), lambda e: e.record("e", [SPIN])),
     "Lift": (Lift(0.5), lambda e: e.record("e", POINT, F, G)),
     "ScalarSpringDamper": (ScalarSpringDamper(1.0, 1.0, 1.0, 1.0), lambda e: e.record("e", SPIN)),
@@ -89,6 +96,8 @@ USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "Tyre": (TYRE, lambda e: e.record("e", POINT, F, SPIN, 0)),
     "PlaneRoad": (PlaneRoad(), Model("roads").road),
     "KerbRoad": (KerbRoad(1.0, 0.1), Model("roads").road),
+    "PortRoad": (PortRoad([0]), ANSWERED.road),
+    "Wind": (Wind(0, 1), lambda e: Drag(0.5).record("e", POINT, e)),
     "GridRoad": (GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((2, 5)), np.ones((2, 5))), Model("roads").road),
 }
 

@@ -16,6 +16,7 @@ from mbs.elements import (
     EndStops,
     GridRoad,
     GyroscopicSpin,
+    HubWrench,
     InputForce,
     KerbRoad,
     Lift,
@@ -26,6 +27,7 @@ from mbs.elements import (
     SpringDamper,
     SpringDamperTable,
     TorsionBar,
+    Wind,
 )
 from tests.elements.harness import Element, contacts, signals, vectors
 from tests.elements.tyre_data import tyre_element
@@ -58,6 +60,9 @@ def elements() -> dict[str, Element]:
                 ((-0.2, -9e3), (-0.1, -2e3), (0.1, 2e3)), ((-1.0, -2e3), (0.0, 0.0), (0.5, 500.0)), 0.5
             ).record("s", p)
         ),
+        "drag in wind": Element(Drag(0.8).record("d", p, Wind(0, 1))),
+        "lift in wind": Element(Lift(0.3).record("l", p, a, b, Wind(0, 1))),
+        "wrench on a hub": Element(HubWrench((0, 1, 0, 1, 0, 1)).record("w", p, a, chi[0])),
         "lift": Element(Lift(0.3).record("l", p, a, b)),
         "brake": Element(Brake(650.0, 2e5, 600.0).record("b", f, g, chi[0], 0)),
         "coordinate friction": Element(CoordinateFriction(2.0, 400.0, 7.0).record("f", signals(1)[0])),

@@ -13,6 +13,7 @@ from mbs.elements import (
     Drag,
     EndStops,
     GyroscopicSpin,
+    HubWrench,
     InputForce,
     Lift,
     ScalarSpringDamper,
@@ -20,6 +21,7 @@ from mbs.elements import (
     SpinTorque,
     SpringDamper,
     SpringDamperTable,
+    Wind,
 )
 from tests.elements.harness import Element, frame, signals, tangent_by_differences, vectors
 
@@ -59,6 +61,9 @@ def elements() -> dict[str, Element]:
         "spin torque": Element(SpinTorque(1, 1.5).record("t", f, g, chi[0])),
         "drag in space": Element(Drag(0.8).record("d", p)),
         "lift in space": Element(Lift(0.3).record("l", *vectors(3, 3, 3))),
+        "drag in wind": Element(Drag(0.8).record("d", p, Wind(0, 1))),
+        "lift in wind": Element(Lift(0.3).record("l", *vectors(3, 3, 3), Wind(0, 1))),
+        "wrench on a hub": Element(HubWrench((0, 1, 2, 1, 2, 0)).record("w", f, g, chi[0])),
         "lift in the plane": Element(Lift(-3.0).record("l", *vectors(2, 2, 2))),
         "spring by table": Element(
             SpringDamperTable(
@@ -196,6 +201,31 @@ def test_drag_opposes_the_speed_with_its_square() -> None:
     )
 
 
+def test_in_wind_the_velocity_over_the_air_counts() -> None:
+    """Wind of 30 m/s along the heading -20 rad: the element moves over it at v - w."""
+    w = 30.0 * np.array([np.cos(-20.0), np.sin(-20.0), 0.0])
+    v, still = np.array([3.0, -4.0, 12.0]), elements()["drag in space"]
+    drag = elements()["drag in wind"]
+    assert np.allclose(drag(np.zeros(3), v, inputs=INPUTS).f, still(np.zeros(3), v - w).f, rtol=1e-12)
+    assert np.allclose(drag(np.zeros(3), w, inputs=INPUTS).f, 0.0, atol=1e-12)
+    u = np.r_[np.zeros(3), 0.6, 0.8, 0.0, 0.0, 0.0, 1.0]
+    ud, relative = np.r_[v, np.zeros(6)], np.r_[v - w, np.zeros(6)]
+    lift, calm = elements()["lift in wind"], elements()["lift in space"]
+    assert np.allclose(lift(u, ud, inputs=INPUTS).f, calm(u, relative).f, rtol=1e-12)
+
+
+def test_a_wrench_on_a_hub_has_the_power_of_force_and_moment() -> None:
+    """The moment about the axis turns the wheel, the rest its carrier."""
+    rng = np.random.default_rng(7)
+    e, omega, v, spin = frame(rng)[:, 0], rng.normal(size=3), rng.normal(size=3), 40.0
+    force, moment = np.array(INPUTS), np.array([INPUTS[1], INPUTS[2], INPUTS[0]])
+    r = elements()["wrench on a hub"](np.r_[0.1, 0.2, 0.3, e, 0.7], np.r_[v, np.cross(omega, e), spin], inputs=INPUTS)
+    wheel = omega - (omega @ e) * e + spin * e
+    assert r.f @ np.r_[v, np.cross(omega, e), spin] == pytest.approx(force @ v + moment @ wheel, rel=1e-11)
+    assert r.out["power"] == pytest.approx(force @ v + moment @ wheel, rel=1e-11)
+    assert r.f[6] == pytest.approx(moment @ e)
+
+
 @pytest.mark.parametrize(
     ("make", "sentence"),
     [
@@ -228,7 +258,10 @@ def test_bad_data_are_refused_with_a_sentence(make: object, sentence: str) -> No
         make()  # type: ignore[operator]
 
 
-@pytest.mark.parametrize("name", ["input force", "body force in space", "torque in earth axes"])
+@pytest.mark.parametrize(
+    "name",
+    ["input force", "body force in space", "torque in earth axes", "drag in wind", "lift in wind", "wrench on a hub"],
+)
 def test_kernel_refuses_an_input_that_does_not_exist(name: str) -> None:
     element = elements()[name]
     assert element.check(n_inputs=3) is None

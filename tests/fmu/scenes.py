@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import mbs
-from mbs.elements import CoordinateFriction, EndStops
+from mbs.elements import ContactPoints, CoordinateFriction, EndStops, PortRoad
+from mbs.model.records import Ahead
 
 
 def crane(mass: float = 2.0, name: str = "crane") -> mbs.Model:
@@ -76,6 +77,26 @@ def towed() -> mbs.Model:
         m.force(name, body, inputs=(channel, None))
     m.sense_position("x", body, component="x")
     m.sense_input("used", pushes[0])
+    return m
+
+
+def answered() -> mbs.Model:
+    """A sledge without friction on a road that other programs answer for."""
+    m = mbs.Model("answered")
+    m.floating = True
+    body = m.body("body", mass=50.0, com=(0.0, 0.0, 0.3), inertia=(2.0, 3.0, 4.0))
+    push = m.input("push", min=-100.0, max=100.0, unit="N")
+    m.force("push", body, inputs=(push, None, None))
+    road = m.road(PortRoad([m.road_answer("road", friction=0.0, near="x")]))
+    feet = [(x, y, 0.0) for x in (-0.4, 0.4) for y in (-0.3, 0.3)]
+    m.contact_points("feet", body, feet, road=road, contact=ContactPoints.for_mass(12.5, loss=1.0))
+    for c in "xyz":
+        m.sense_position(c, body, component=c)
+    for c in "xy":
+        m.sense_position(f"v{c}", body, component=c, order=1)
+    m.sense_element("load", "feet", "normal_force")
+    m.sense_energy("lifted", "by inputs", "feet")
+    m.ahead.append(Ahead("road_ahead_x", "m", "x at the next communication point", "x", "vx"))
     return m
 
 

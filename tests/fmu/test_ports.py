@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import subprocess
 from pathlib import Path
+from xml.etree import ElementTree
 
 import fmpy
 import numpy as np
 import pytest
 
 from fmu_src.description.fmi3 import terminals
-from fmu_src.variables.arrays import scalars
+from fmu_src.variables.arrays import arrays, scalars
 from fmu_src.variables.variables import variable_table
 from tests.fmu.native import compile_host, unpack
 
@@ -109,6 +110,40 @@ def test_libcosim_and_the_host_in_c_get_the_same_bits(host, build, tmp_path) -> 
         [*words, "--set", "left.push=4", "--set", "right.push=-1"], capture_output=True, text=True, check=True
     )
     assert float.fromhex(done.stdout.split()[-1]) == at_start.get("x")
+
+
+@pytest.mark.parametrize(
+    ("inputs", "outputs", "wanted"),
+    [
+        (
+            [f"wheel_FL.road_{name}" for name in ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")],
+            ["wheel_FL.contact_x", "wheel_FL.road_ahead_x", "wheel_FL.Fz"],
+            {"wheel_FL.road_port": "x y height normal_x normal_y normal_z friction contact_x ahead_x"},
+        ),
+        (
+            [f"wheel_FL.hub_{name}" for name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")],
+            ["wheel_FL.x", "wheel_FL.earth_vx", "wheel_FL.omega"],
+            {"wheel_FL.hub_port": "Fx Fy Fz Mx My Mz x vx omega"},
+        ),
+        (
+            [f"point_hitch.{name}" for name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")],
+            [f"point_hitch.{name}" for name in ("x", "y", "z", "vx", "vy", "vz")],
+            {"point_hitch.port": "Fx Fy Fz Mx My Mz position velocity"},
+        ),
+    ],
+)
+def test_ports_have_terminals_that_a_partner_matches_by_names(inputs, outputs, wanted) -> None:
+    """Forces flow in, all else are signals; vectors of outputs are arrays."""
+    ranges = {"unit": "1", "description": "x, y, z", "start": 0.0, "min": -1.0, "max": 1.0}
+    entries = [{"name": name, "port": True} | ranges for name in inputs]
+    sensors = [{"name": name, "unit": "m", "description": name[-1]} for name in outputs]
+    meta = {"inputs": entries, "parameters": [], "sensors": sensors}
+    root = ElementTree.fromstring(terminals(arrays(variable_table(meta, pose=False, step_size=0.01))))
+    plugs = [t for t in root.iter("Terminal") if t.get("matchingRule") == "plug"]
+    assert {t.get("name"): " ".join(str(v.get("memberName")) for v in t) for t in plugs} == wanted
+    kinds = {v.get("memberName"): v.get("variableKind") for t in plugs for v in t}
+    assert {kind for name, kind in kinds.items() if name[0] in "FM"} <= {"inflow"}
+    assert {kind for name, kind in kinds.items() if name[0] not in "FM"} == {"signal"}
 
 
 def test_flows_have_a_terminal_with_their_kinds() -> None:

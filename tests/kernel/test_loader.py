@@ -56,7 +56,7 @@ def test_a_good_file_is_loaded_with_its_sizes() -> None:
     assert (sizes.nq, sizes.nc, sizes.nu, sizes.ng, sizes.ne, sizes.ns, sizes.np, sizes.nf) == (5, 3, 1, 2, 1, 7, 1, 3)
 
 
-@pytest.mark.parametrize("integers", [[], [0, 0], [2, 1, 0], [0, 1, 1], [0, 1, -1], [0, 2, 0], [0, 1, 0, 0]])
+@pytest.mark.parametrize("integers", [[], [0, 0], [3, 1, 0], [0, 1, 1], [0, 1, -1], [0, 2, 0], [0, 1, 0, 0]])
 def test_sensors_of_work_name_elements(integers: list[int]) -> None:
     builder = everything()
     builder.sensors[-1] = (SensorType.WORK, integers, [])

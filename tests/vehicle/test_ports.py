@@ -263,6 +263,6 @@ def test_ports_that_do_not_fit_are_one_sentence() -> None:
         with pytest.raises(CarFileError, match=word):
             make()
     assert chosen_ports("torque, brakes=pressure") == {"torque": "half_shafts", "brakes": "pressure"}
-    for text in ("", "tyre", "torque=axle", "torque,torque=hub_motors", "brakes="):
+    for text in ("", "tyres", "torque=axle", "torque,torque=hub_motors", "brakes="):
         with pytest.raises(ValueError, match=r"torque \(half_shafts or hub_motors\)"):
             chosen_ports(text)

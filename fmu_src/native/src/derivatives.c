@@ -130,6 +130,7 @@ slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unkno
   const bool initial = (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) != 0;
   const slave_status status = initial ? initial_derivative(s, known, n_known, seed, left_out, all)
                                       : step_derivative(s, known, n_known, seed, left_out, all);
+  slave_ahead(s, all);
   for (size_t i = 0; i < n_unknown && status == SLAVE_OK; i++) out[i] = all[unknown[i]];
   s->memory.release(all);
   return status;

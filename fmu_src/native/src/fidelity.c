@@ -8,13 +8,14 @@
 static bool table_fits(const ali3_system *system, size_t fidelity) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(system);
+  const int32_t n = (int32_t)t->n_variables;
   if (t->n_variables < t->n_known + (size_t)z.ns) return false;
   if (t->first_row[fidelity + 1] - t->first_row[fidelity] != (size_t)z.nc) return false;
   for (size_t i = 0; i < t->n_variables; i++) {
     const slave_variable *v = &t->variable[i];
-    const int32_t limit[] = {z.nu, z.np, z.has_pose ? ALI3_POSE : 0, 1, 1, 1, z.ns, ALI3_SOLVER_COUNT, 1, 1};
+    const int32_t limit[] = {z.nu, z.np, z.has_pose ? ALI3_POSE : 0, 1, 1, 1, z.ns, ALI3_SOLVER_COUNT, 1, n, 1};
     if ((i < t->n_known) != (v->source < SLAVE_SENSOR)) return false;
-    if (v->index < 0 || v->index >= limit[v->source]) return false;
+    if (v->index < 0 || v->index >= limit[v->source] || v->other >= n) return false;
   }
   return true;
 }

@@ -103,6 +103,7 @@ bool slave_initialise(slave *s) {
   char text[SLAVE_TEXT / 2];
   slave_stale(s);
   if (!slave_fidelity_choose(s)) return false;
+  slave_hold_normals(s);
   const ali3_status status = apply(s);
   s->calls.initialised = status == ALI3_OK;
   s->calls.capped_residual = 0.0;

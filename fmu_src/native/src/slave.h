@@ -19,20 +19,28 @@ typedef enum {
   SLAVE_SENSOR,
   SLAVE_SOLVER,          /* what the solver says about itself: ali3_solver_value */
   SLAVE_CAPPED_RESIDUAL, /* of the last communication step */
+  SLAVE_AHEAD, /* an output at the next communication point, by its rate */
   SLAVE_CONSTANT /* the start is its value */
 } slave_source;
+
+/* What inputs at ports are: x of the normal of a road, whose y and z follow; x of an answer on the road; x of the force
+ * on a hub. */
+enum { SLAVE_NO_ROLE, SLAVE_NORMAL, SLAVE_ANSWER, SLAVE_HUB };
 
 typedef struct {
   const char *name, *unit; /* the unit as it stands behind a number */
   slave_source source;
-  int32_t index;          /* of that input, parameter, sensor or ALI3_SOLVER_*; place in x, y, z, yaw, speed */
+  int32_t index; /* of that input, parameter, sensor, variable ahead or ALI3_SOLVER_*; place in x, y, z, yaw, speed */
   double start, min, max; /* infinite where open */
-  bool whole;             /* an integer of FMI */
-  bool fixed;             /* a parameter that can be set before the first step only */
-  bool port;              /* an input that another program sets at every step */
-  int32_t road;           /* a parameter of the built-in form of this road, without effect on a file; -1: of none */
-  uint64_t uncomputed;    /* bits of the fidelities whose System leaves it out */
-  double least, most;     /* between which a parameter works; infinite where that is not known */
+  bool whole; /* an integer of FMI */
+  bool fixed; /* a parameter that can be set before the first step only */
+  bool port; /* an input that another program sets at every step */
+  int32_t road; /* a parameter of the built-in form of this road, without effect on a file; -1: of none */
+  uint64_t uncomputed; /* bits of the fidelities whose System leaves it out */
+  double least, most; /* between which a parameter works; infinite where that is not known */
+  int32_t role; /* of an input, SLAVE_NO_ROLE ... */
+  int32_t
+      other; /* variable: of an answer the x of the wheel it is for, of a hub its velocity, ahead: the rate; or -1 */
 } slave_variable;
 
 typedef struct {
@@ -42,17 +50,17 @@ typedef struct {
 } slave_text;
 
 typedef struct {
-  const char *token;           /* GUID or instantiation token */
-  unsigned char identity[16];  /* the same as bytes */
+  const char *token; /* GUID or instantiation token */
+  unsigned char identity[16]; /* the same as bytes */
   const slave_variable *variable;
   size_t n_variables, n_known; /* known: inputs and parameters; then come outputs, then constants */
-  const char *const *row;      /* names of the constraint rows of all Systems */
-  const size_t *first_row;     /* n_systems + 1 */
-  const char *const *element;  /* names of the force elements of all Systems */
+  const char *const *row; /* names of the constraint rows of all Systems */
+  const size_t *first_row; /* n_systems + 1 */
+  const char *const *element; /* names of the force elements of all Systems */
   const size_t *first_element; /* n_systems + 1 */
-  size_t n_systems;            /* to choose from by the fidelity */
-  const int32_t *follower;     /* n_systems: the one with ports that computes what each leaves out; -1: none */
-  const slave_text *text;      /* variables that are text; numbered by themselves */
+  size_t n_systems; /* to choose from by the fidelity */
+  const int32_t *follower; /* n_systems: the one with ports that computes what each leaves out; -1: none */
+  const slave_text *text; /* variables that are text; numbered by themselves */
   size_t n_texts;
   size_t
       roll; /* output that is more than a quarter turn when the vehicle lies upside down; n_variables: there is none */
@@ -81,7 +89,10 @@ enum {
   SLAVE_GIVEN = 1,
   SLAVE_HELD_AT_END = 2,
   SLAVE_HELD_LAST = 4,
-  SLAVE_HELD_FLAT = 8
+  SLAVE_HELD_FLAT = 8,
+  SLAVE_HELD_NORMAL = 16,
+  SLAVE_FAR = 32, /* also of a hub: that it is slow for the step */
+  SLAVE_SAID = 63
 }; /* bits of an input: set by the host, said once */
 enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* what was said of limited iterations */
 
@@ -192,6 +203,7 @@ const char *slave_worst_row(slave *s, char *text, size_t size);
 slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value);
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value);
 bool slave_outputs(slave *s);
+void slave_ahead(const slave *s, double *derivative);
 bool slave_is_output(uint32_t reference);
 
 slave_status slave_may_set(slave *s, uint32_t reference, double value); /* the answer it would get; nothing is set */
@@ -226,6 +238,11 @@ bool slave_wants_end(const slave *s);
 slave_status slave_watch(slave *s);
 void slave_watch_outputs(slave *s);
 void slave_watch_ports(slave *s);
+
+/* wheel_answers.c: normals that are none hold the last ones; answers far from a wheel, and steps that are long for a
+ * tyre, are told */
+void slave_hold_normals(slave *s);
+void slave_watch_answers(slave *s);
 
 /* derivatives.c */
 slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, const int32_t *order, const double *value);

@@ -117,11 +117,11 @@ static const char *bad_value(const unsigned char *p) {
     if (i < t->n_known && t->variable[i].whole && v != floor(v)) return "a number in them is out of its range";
   }
   const unsigned char *flag = p + numbers * sizeof v;
-  for (size_t i = 0; i < 2 * t->n_known; i++)
-    if (flag[i] > 1) return "a flag in them is neither 0 nor 1";
+  for (size_t i = 0; i < t->n_known; i++)
+    if (flag[i] > 1 || flag[t->n_known + i] > SLAVE_SAID) return "a flag in them is none";
   for (size_t i = 0; i < t->n_known; i++)
     if (flag[i] && t->variable[i].source != SLAVE_INPUT && t->variable[i].source != SLAVE_PARAMETER)
-      return "a flag in them is neither 0 nor 1";
+      return "a flag in them is none";
   const unsigned char *text = flag + 2 * t->n_known;
   for (size_t k = 0; k < t->n_texts; k++, text += SLAVE_MOST_TEXT) {
     const unsigned char *end = memchr(text, 0, SLAVE_MOST_TEXT);

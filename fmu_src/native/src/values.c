@@ -11,6 +11,19 @@ bool slave_is_output(uint32_t reference) {
   return reference >= t->n_known && reference < t->n_variables && t->variable[reference].source != SLAVE_CONSTANT;
 }
 
+/* At the end of a communication step like the last one, before the first of an inner step. */
+static double ahead(const slave *s, const slave_variable *v, const double *value) {
+  const double step = s->made.n > 0 ? (double)s->made.n * s->made.h : s->value[s->step_reference];
+  return value[v->index] + step * value[v->other];
+}
+
+/* Of the derivatives of sensors, those of what is ahead. */
+void slave_ahead(const slave *s, double *derivative) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = t->n_known; i < t->n_variables; i++)
+    if (t->variable[i].source == SLAVE_AHEAD) derivative[i] = ahead(s, &t->variable[i], derivative);
+}
+
 bool slave_outputs(slave *s) {
   const slave_table *t = &slave_the_table;
   if (s->outputs_fresh) return true;
@@ -21,11 +34,13 @@ bool slave_outputs(slave *s) {
     if (v->source == SLAVE_CONSTANT) break; /* they come last */
     s->value[i] = v->source == SLAVE_SENSOR   ? s->sensors[v->index]
                   : v->source == SLAVE_SOLVER ? ali3_solver_value(s->fidelity.kernel, v->index)
+                  : v->source == SLAVE_AHEAD  ? ahead(s, v, s->value) /* of sensors, which stand before */
                                               : s->calls.capped_residual;
   }
   s->outputs_fresh = true;
   s->followed = false;
   slave_watch_outputs(s);
+  slave_watch_answers(s);
   return true;
 }
 

@@ -29,6 +29,7 @@ class Status(IntEnum):
     ROAD_LOST = 20
     TOO_DEAR = 21
     WHEEL_IN_ROAD = 22
+    BAD_NORMAL = 23
 
 
 class Update(IntEnum):
@@ -92,6 +93,7 @@ class RoadType(IntEnum):
     PLANE = 0
     KERB = 1
     GRID = 2
+    PORT = 3
 
 
 class SensorReads(IntEnum):
@@ -213,3 +215,5 @@ class ElementType(IntEnum):
     TORSION_BAR = 17
     SPIN_ANGLE = 18
     MAGIC_TYRE = 19
+    WIND_DRAG = 20
+    HUB_WRENCH = 21

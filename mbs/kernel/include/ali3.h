@@ -43,6 +43,7 @@ typedef enum {
   ALI3_ROAD_LOST,         /* a part of a road's file cannot be read or was altered; see ali3_road_lost */
   ALI3_TOO_DEAR,          /* a step whose parts took more iterations than a step may cost */
   ALI3_WHEEL_IN_ROAD,     /* the centre of a wheel is deep in a grid road; see ali3_wheel_in_road */
+  ALI3_BAD_NORMAL,        /* the inputs of a road at a port give no normal; see ali3_is_road_normal */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -160,6 +161,8 @@ ALI3_API ali3_status ali3_set_road(ali3_instance *in, int32_t road, const char *
                                    size_t message_size);
 /* After ALI3_ROAD_LOST: what is wrong with which part of a file, in words without a full stop; else "". */
 ALI3_API const char *ali3_road_lost(const ali3_instance *in);
+/* Whether a vector is a normal that a road at a port can have: of length 1 within a tenth, and pointing up. */
+ALI3_API int ali3_is_road_normal(const double n[3]);
 /* The first wheel whose centre is half a radius below a road that is a grid, where its contact is lost, as a sentence without its full
  * stop; ALI3_OK and "" if there is none, else ALI3_WHEEL_IN_ROAD. *element: its number, or -1. */
 ALI3_API ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *text, size_t size);

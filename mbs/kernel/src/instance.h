@@ -28,6 +28,7 @@ typedef struct {
   /* work.c: since the start; potential at the start; power, then forces, at the end of the last step; of the last step
    * mean forces, ways of their signals */
   double *work, *stored, *watched, *step_force, *step_way;
+  double *by_inputs; /* n_input_work: what jumps of inputs since the start added to the stored energy */
 } ali3_vectors;
 
 enum { ALI3_STAGES = 12, ALI3_RADAU = 3 }; /* of runge_kutta.c, radau.c */

@@ -81,6 +81,18 @@ class Mount:
     drive_axes: tuple[AffineVector, AffineVector]
     contact_frame: tuple[AffineVector, list[AffineVector], np.ndarray]
 
+    def place(self, point: ArrayLike) -> AffineVector:
+        """A point in the contact frame, which takes forces at any fidelity.
+
+        Parameters
+        ----------
+        point : array_like, shape (3,)
+            In the drawing, m.
+        """
+        origin, axes, at = self.contact_frame
+        x, y, z = (float(v) for v in np.subtract(vector(point, 3, "a point of the chassis"), at))
+        return origin + axes[0] * x + axes[1] * y + axes[2] * z
+
     @property
     def lever_carrier(self) -> Body:
         """What levers of anti-roll bars turn on."""

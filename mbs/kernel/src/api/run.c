@@ -45,7 +45,8 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
   in->report = none;
   ali3_roads_forgive(in);
   ali3_vectors_copy(in, &in->start, &in->now);
-  ali3_status status = ali3_start_in_equilibrium(in, t0);
+  ali3_status status = ali3_roads_normals(in);
+  if (status == ALI3_OK) status = ali3_start_in_equilibrium(in, t0);
   if (status == ALI3_OK) ali3_start_on_road(in);
   if (status == ALI3_OK) status = ali3_solve_initial(in, t0);
   if (status == ALI3_OK) {

@@ -24,6 +24,8 @@
   X(16, coordinate_friction) \
   X(17, torsion_bar) \
   X(18, spin_angle) \
-  X(19, magic_tyre)
+  X(19, magic_tyre) \
+  X(20, wind_drag) \
+  X(21, hub_wrench)
 /* clang-format on */
 #endif

@@ -1,15 +1,18 @@
 /* Aerodynamic lift rho A v^2 / 2 of a body in still air, along its axis upwards, at a point; v is the speed of the point
- * along the axis forwards.
+ * along the axis forwards. With integers, see moving_air.h, v is that over moving air.
  * Signals: point, forward and upward axis of the body, 2 or 3 components each. Reals: air density kg/m^3, lift area
  * m^2 (negative: downforce). Outputs: lift N. */
 #include "../algebra/small_vectors.h"
 #include "element.h"
+#include "moving_air.h"
 
 enum { AIR_DENSITY, LIFT_AREA, REALS };
 
 static void evaluate(ali3_element_args *a) {
   const int32_t n = a->nsig / 3;
-  const double *velocity = a->ud, *forward = a->u + n, *up = a->u + 2 * n;
+  double over[3];
+  const double *velocity = a->nint > 0 ? over : a->ud, *forward = a->u + n, *up = a->u + 2 * n;
+  if (a->nint > 0) ali3_over_air(a->input, a->integer, a->ud, over);
   const double factor = 0.5 * a->real[AIR_DENSITY] * a->real[LIFT_AREA];
   double v = 0.0;
   for (int32_t i = 0; i < n; i++) v += velocity[i] * forward[i];
@@ -35,7 +38,10 @@ static void evaluate(ali3_element_args *a) {
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
+  (void)nreal, (void)n_roads;
+  if (nint != 0 && (nint != AIR_INPUTS || nsig != 9)) return "lift in moving air needs space and two inputs";
+  const char *text = nint > 0 ? ali3_check_air(integer, n_inputs) : 0;
+  if (text != 0) return text;
   if (nsig != 6 && nsig != 9) return "lift needs the 2 or 3 components of a point and of two axes";
   return real[AIR_DENSITY] < 0.0 ? "the air density must not be negative" : 0;
 }
@@ -44,6 +50,7 @@ const ali3_element_type ali3_lift = {
     .evaluate = evaluate,
     .nsig = -1,
     .nreal = REALS,
+    .nint = -1,
     .nout = 1,
     .check = check,
 };

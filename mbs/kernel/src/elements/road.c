@@ -5,6 +5,7 @@
 #include "../roads/grid.h"
 #include "disc_on_grid.h"
 #include "plane_and_kerb.h"
+#include "road_port.h"
 
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
 
@@ -29,6 +30,7 @@ static const double *reals_of(const ali3_road *road) {
 /* 1 where a plane or kerb was written without one. */
 static double factor_of(const ali3_road *road) {
   if (road->type == ALI3_ROAD_GRID) return road->real[GRID_FRICTION];
+  if (road->type == ALI3_ROAD_PORT) return 1.0;
   const int32_t place = road->type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
   return place < road->nreal ? road->real[place] : 1.0;
 }
@@ -69,6 +71,7 @@ int ali3_road_contacts(const ali3_road *road, const double centre[3], const doub
                        ali3_contact out[2]) {
   const int32_t type = type_of(road);
   const double factor = factor_of(road);
+  if (type == ALI3_ROAD_PORT) return ali3_port_contact(road, centre, axis, radius, out);
   if (type != ALI3_ROAD_GRID) return ali3_contacts_by_numbers(type, reals_of(road), factor, centre, axis, radius, out);
   const int count = grid(road, centre, axis, radius, out);
   for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(factor, out[i].friction);
@@ -78,8 +81,7 @@ int ali3_road_contacts(const ali3_road *road, const double centre[3], const doub
 int32_t ali3_road_numbers(const ali3_road *road, double numbers[ALI3_ROAD_NUMBERS], double *friction_factor) {
   const int32_t type = type_of(road), n = type == ALI3_ROAD_PLANE ? PLANE_FACTOR : KERB_FACTOR;
   *friction_factor = factor_of(road);
-  for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++)
-    numbers[i] = type != ALI3_ROAD_GRID && i < n ? reals_of(road)[i] : 0.0;
+  for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++) numbers[i] = type < ALI3_ROAD_GRID && i < n ? reals_of(road)[i] : 0.0;
   return type;
 }
 
@@ -152,6 +154,13 @@ int ali3_road_clearance(const ali3_road *road, const double point[3], ali3_clear
   }
   if (type == ALI3_ROAD_KERB) count = kerb_clearance(p, point, out);
   if (type == ALI3_ROAD_GRID) count = grid_clearance(road, point, out);
+  if (type == ALI3_ROAD_PORT) {
+    double foot[3];
+    const ali3_surface under = ali3_port_surface(road, point, foot);
+    plane_clearance(under.normal, foot, point, out);
+    out->friction = under.friction;
+    count = 1;
+  }
   for (int i = 0; i < count; i++) out[i].friction = ali3_friction_product(factor_of(road), out[i].friction);
   return count;
 }
@@ -172,6 +181,7 @@ double ali3_road_top(const ali3_road *road, const double place[3], double reach)
            ali3_hypot(p[PLANE_GRADE_X], p[PLANE_GRADE_Y]) * reach;
   if (type == ALI3_ROAD_KERB)
     return p[KERB_LOWER] + (p[KERB_SIDE] * (place[0] - p[KERB_X]) > reach ? 0.0 : p[KERB_STEP]);
+  if (type == ALI3_ROAD_PORT) return ali3_port_top(road, place, reach);
   return grid_of(road, &g) ? ali3_grid_top(&g, place, reach) : -INFINITY;
 }
 
@@ -198,6 +208,9 @@ const char *ali3_road_check(int32_t type, const double *real, int32_t nreal) {
     for (int64_t i = GRID_DATA + (int64_t)nx * ny; i < nreal; i++)
       if (real[i] < 0.0) return negative;
     return 0;
+  case ALI3_ROAD_PORT:
+    return nreal < 2 || real[0] != nreal - 1 ? "a road at a port needs the number of its answers and an input of each"
+                                             : 0;
   default:
     return "unknown type of road";
   }

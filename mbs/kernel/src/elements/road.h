@@ -12,6 +12,7 @@ struct ali3_road { /* typedef in element.h */
   int32_t type, nreal;
   const double *real;
   ali3_road_file *file; /* in place of the road's own numbers, all but its friction factor; NULL: none */
+  const double *const *input; /* where the inputs of the System are that a road at a port reads */
 };
 #endif
 typedef struct ali3_road ali3_road;
@@ -21,6 +22,7 @@ enum { /* `RoadType` in Python is read from here */
        ALI3_ROAD_KERB, /* [x of the edge, lower height, step height, side, friction, its factor or nothing]; the upper part is at
                           smaller x for side 1, at larger x for -1 */
        ALI3_ROAD_GRID, /* [nx, ny, x0, y0, dx, dy, friction factor, nx*ny heights, nx*ny frictions], y runs fastest */
+       ALI3_ROAD_PORT, /* [number of answers, the first of 7 inputs of each: x, y, height, normal (3), friction] */
        ALI3_ROAD_COUNT
 };
 
@@ -47,6 +49,8 @@ static inline ali3_contact ali3_no_contact(void) {
  * d(centre). */
 int ali3_road_contacts(const ali3_road *road, const real centre[3], const real axis[3], real radius,
                        ali3_contact out[2]);
+
+enum { ALI3_ROAD_INPUTS = 7 }; /* of an answer of a road at a port */
 
 /* What kind of road it is, its numbers where it is a plane or a kerb, and the factor of its friction. */
 enum { ALI3_ROAD_NUMBERS = 5 };

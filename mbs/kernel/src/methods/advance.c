@@ -27,7 +27,9 @@ ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   if (status == ALI3_OK) in->t_now = t;
   if (status == ALI3_OK && method->motion != NULL) method->motion(in, h);
   if (status != ALI3_OK && ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
-  if (status == ALI3_OK || status == ALI3_BAD_ARGUMENT || depth <= 0 || in->settings.step_iterations > 0) return status;
+  if (status == ALI3_OK || status == ALI3_BAD_ARGUMENT || status == ALI3_BAD_NORMAL || depth <= 0 ||
+      in->settings.step_iterations > 0)
+    return status;
   in->report.halvings++;
   ali3_back_up(in);
   const ali3_status first = ali3_advance(in, t - 0.5 * h, 0.5 * h, depth - 1);

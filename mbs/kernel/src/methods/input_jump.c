@@ -15,15 +15,10 @@
 #include "input_jump.h"
 
 /* Forces at in->now with given inputs. */
-static void forces(ali3_instance *in, const double *input, double *Q) {
+static void forces(ali3_instance *in, const double *input, double *Q, double *potential) {
   const ali3_vectors *v = &in->now;
-  const ali3_force_call call = {.q = v->q,
-                                .qd = v->qd,
-                                .y_old = v->y,
-                                .Q = Q,
-                                .y_new = in->y_work,
-                                .out = in->out_work,
-                                .potential = in->potential_work};
+  const ali3_force_call call = {
+      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = Q, .y_new = in->y_work, .out = in->out_work, .potential = potential};
   in->force_input = input;
   ali3_forces(in, &call);
   in->force_input = in->input;
@@ -42,9 +37,10 @@ static ali3_status input_change(ali3_instance *in, double h, const double *befor
   const ali3_system *S = in->system;
   const ali3_vectors *v = &in->now;
   const int32_t nq = S->size.nq;
-  forces(in, before, in->x);
+  forces(in, before, in->x, in->next.potential); /* of a step that is to come: it writes them again */
   for (int32_t i = 0; i < S->n_work_force; i++) force[i] = in->watched[S->n_work + i];
-  forces(in, behind, in->Q);
+  forces(in, behind, in->Q, in->potential_work);
+  ali3_work_of_inputs(in, in->next.potential, in->potential_work);
   *jumps = memcmp(in->x, in->Q, (size_t)nq * sizeof(double)) != 0;
   if (!*jumps) return ALI3_OK;
   for (int32_t i = 0; i < nq; i++) in->x[i] = in->Q[i] - in->x[i];

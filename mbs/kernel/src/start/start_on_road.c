@@ -52,7 +52,7 @@ void ali3_start_on_road(ali3_instance *in) {
   const ali3_system *S = in->system;
   double lift = -INFINITY, part;
   in->lift = in->uneven = 0.0;
-  if (!in->to_lift || !S->size.has_pose || !ali3_roads_from_files(in)) return;
+  if (!in->to_lift || !S->size.has_pose || !ali3_roads_from_outside(in)) return;
   const bool touching = drawn_depths(in);
   for (int32_t e = 0; e < S->size.ne; e++)
     if (S->el_kind[e]->depth != NULL && (!touching || in->potential_work[e] > 0.0))

@@ -8,6 +8,7 @@
 #include "../algebra/finite.h"
 #include "../instance.h"
 #include "inputs.h"
+#include "road_files.h"
 
 static const double NEAR = 1e-9; /* of a step: a part that ends so near to its end ends there */
 /* Of a value that is reached and set again, or of a table at one of its times, from either side. */
@@ -50,10 +51,10 @@ ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h) {
   memcpy(in->input_begin, in->t_now == in->whole_time ? in->input_from : in->now.used,
          (size_t)S->size.nu * sizeof(double));
   memcpy(in->input, in->input_to, (size_t)S->size.nu * sizeof(double));
-  if (!(left > fmax(NEAR * in->whole_length, 4.0 * DBL_EPSILON * fabs(t)))) return ALI3_OK; /* late times are coarse */
-  for (int32_t i = 0; i < S->size.nu; i++)
-    in->input[i] -= left / in->whole_length * (in->input_to[i] - in->input_from[i]);
-  return ALI3_OK;
+  if (left > fmax(NEAR * in->whole_length, 4.0 * DBL_EPSILON * fabs(t))) /* late times are coarse */
+    for (int32_t i = 0; i < S->size.nu; i++)
+      in->input[i] -= left / in->whole_length * (in->input_to[i] - in->input_from[i]);
+  return ali3_roads_normals(in);
 }
 
 /* in->input_middle becomes the inputs at a share, 0 to 1, of the step that was given to ali3_inputs_begin. */

@@ -39,6 +39,7 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_BAD_ROAD] = "the file is not a valid road",
       [ALI3_TOO_DEAR] = "the step and its parts took more than 1000 iterations, as many as a step may cost",
       [ALI3_ROAD_LOST] = "a part of the road cannot be read from its file",
+      [ALI3_BAD_NORMAL] = "the normal of a road at a port must be a unit vector that points up",
       [ALI3_WHEEL_IN_ROAD] = "the centre of a wheel is below the road, where its contact is lost",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
@@ -156,9 +157,11 @@ ali3_status ali3_reset(ali3_instance *in) {
     const ali3_road road = {.type = S->road_type[r],
                             .nreal = S->road_real_ptr[r + 1] - S->road_real_ptr[r],
                             .real = in->road_real + S->road_real_ptr[r],
-                            .file = in->road[r].file};
+                            .file = in->road[r].file,
+                            .input = &in->force_input};
     in->road[r] = in->own_road[r] = road;
     in->own_road[r].file = NULL;
+    in->own_road[r].input = &S->input_start; /* the drawing is one on what the inputs start with */
   }
   return ali3_parameters_apply(in);
 }

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../elements/road.h"
+#include "../elements/road_port.h"
 #include "../files/crc32.h"
 #include "../roads/road_file.h"
 
@@ -35,10 +35,16 @@ void ali3_roads_forgive(ali3_instance *in) {
     if (in->road[r].file != NULL) ali3_road_file_forgive(in->road[r].file);
 }
 
-bool ali3_roads_from_files(const ali3_instance *in) {
+bool ali3_roads_from_outside(const ali3_instance *in) {
   for (int32_t r = 0; r < in->system->nr; r++)
-    if (in->road[r].file != NULL) return true;
+    if (in->road[r].file != NULL || in->road[r].type == ALI3_ROAD_PORT) return true;
   return false;
+}
+
+ali3_status ali3_roads_normals(const ali3_instance *in) {
+  for (int32_t r = 0; r < in->system->nr; r++)
+    if (!ali3_port_normals(&in->road[r])) return ALI3_BAD_NORMAL;
+  return ALI3_OK;
 }
 
 const char *ali3_road_lost(const ali3_instance *in) {

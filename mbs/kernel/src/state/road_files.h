@@ -6,7 +6,10 @@
 /* ALI3_ROAD_LOST where a part of a file could not be read since ali3_roads_forgive. */
 ali3_status ali3_roads_status(const ali3_instance *in);
 void ali3_roads_forgive(ali3_instance *in);
-bool ali3_roads_from_files(const ali3_instance *in);
+/* Whether a road is a file or at ports: how high it lies under a start is not known before. */
+bool ali3_roads_from_outside(const ali3_instance *in);
+/* ALI3_BAD_NORMAL where the inputs in use give a road at a port none. */
+ali3_status ali3_roads_normals(const ali3_instance *in);
 /* Checksum of the System and of what its roads are. */
 uint32_t ali3_model_crc(const ali3_instance *in);
 void ali3_roads_close(ali3_instance *in);

@@ -35,6 +35,7 @@ void ali3_vectors_place(const ali3_system *s, ali3_vectors *v, ali3_pool *pool) 
   v->watched = ali3_pool_numbers(pool, (size_t)s->n_work + (size_t)s->n_work_force);
   v->step_force = ali3_pool_numbers(pool, (size_t)s->n_work_force);
   v->step_way = ali3_pool_numbers(pool, (size_t)s->n_work_force);
+  v->by_inputs = ali3_pool_numbers(pool, (size_t)s->n_input_work);
 }
 
 size_t ali3_vector_count(const ali3_system *s) {

@@ -25,6 +25,7 @@ void ali3_work_start(const ali3_instance *in, ali3_vectors *v) {
     v->work[k] = 0.0;
     v->stored[k] = v->potential[S->work_element[k]];
   }
+  if (S->n_input_work > 0) memset(v->by_inputs, 0, (size_t)S->n_input_work * sizeof(double));
 }
 
 /* Forces at in->now with the inputs of the last step, for a method that did not make that step. */
@@ -93,13 +94,26 @@ void ali3_work_beside(ali3_instance *in, double dt) {
   ali3_work_stage(in, dt, in->watched, v->work);
 }
 
-/* Sum over the n elements in `element`; kind 1: with the change of their potentials since the start. */
+/* A jump of the inputs at in->now, of which in->next is a copy, from where the elements stored `before` (ne) to where
+ * they store `behind`. */
+void ali3_work_of_inputs(ali3_instance *in, const double *before, const double *behind) {
+  const ali3_system *S = in->system;
+  for (int32_t k = 0; k < S->n_input_work; k++) {
+    in->now.by_inputs[k] += behind[S->work_element[k]] - before[S->work_element[k]];
+    in->next.by_inputs[k] = in->now.by_inputs[k];
+  }
+}
+
+/* Sum over the n elements in `element`; kind 1: with the change of their potentials since the start, but for what the
+ * inputs did to them, which is kind 2. */
 double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element) {
   double sum = 0.0;
   for (int32_t i = 0; i < n; i++) {
     const int32_t e = element[i], k = in->system->work_of[e];
-    sum += in->now.work[k];
-    if (kind == 1) sum += in->now.potential[e] - in->now.stored[k];
+    const double by_inputs = k < in->system->n_input_work ? in->now.by_inputs[k] : 0.0;
+    if (kind < 2) sum += in->now.work[k];
+    if (kind == 1) sum += in->now.potential[e] - in->now.stored[k] - by_inputs;
+    if (kind == 2) sum += by_inputs;
   }
   return sum;
 }

@@ -15,5 +15,6 @@ void ali3_work_stage(const ali3_instance *in, double weight, const double *power
 void ali3_work_recall(ali3_instance *in);
 void ali3_work_first(ali3_instance *in, double weight);
 void ali3_work_beside(ali3_instance *in, double dt);
+void ali3_work_of_inputs(ali3_instance *in, const double *before, const double *behind);
 double ali3_work_sum(const ali3_instance *in, int32_t kind, int32_t n, const int32_t *element);
 #endif

@@ -59,8 +59,8 @@
   X(18, REACTION_PRODUCTS, reaction_products, "n(rSSSG)", 0, 1, NEVER, ROWS, \
     "n, then n times: row, 3 signals, guide (-1: none)", "n weights", \
     "sum weight * lam_user * u * u * u * s: forces along turning lines, of driven distances, moments of joints") \
-  X(19, WORK, work, "bN(e)", 0, 0, NEVER, FORCES, \
-    "kind: 0 work, 1 nonconservative (with the change of the potentials), n, then n elements", "-", \
+  X(19, WORK, work, "dN(e)", 0, 0, NEVER, FORCES, \
+    "kind: 0 work, 1 nonconservative (with the change of the potentials), 2 of jumps of inputs on these, n, then n elements", "-", \
     "sum of the work of elements since the start, J") \
   X(20, MASS, mass, "", 1, 0, ALWAYS, MOTION, \
     "-", "mass without payloads, kg", "total mass, kg") \

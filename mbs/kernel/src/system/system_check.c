@@ -142,7 +142,14 @@ static const char *check_guide(const ali3_system *s, int32_t g, const double *gu
 
 static const char *check_road(const ali3_system *s, int32_t k, const double *road_real) {
   const int32_t real = s->road_real_ptr[k];
-  return ali3_road_check(s->road_type[k], road_real + real, s->road_real_ptr[k + 1] - real);
+  const int32_t n = s->road_real_ptr[k + 1] - real;
+  const char *text = ali3_road_check(s->road_type[k], road_real + real, n);
+  for (int32_t i = 1; text == NULL && s->road_type[k] == ALI3_ROAD_PORT && i < n; i++) {
+    const double first = road_real[real + i];
+    if (!(first >= 0.0 && first <= s->size.nu - ALI3_ROAD_INPUTS && first == floor(first)))
+      text = "a road at a port names inputs that do not exist";
+  }
+  return text;
 }
 
 static const char *check_payload(double mass) {

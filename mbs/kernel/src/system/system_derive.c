@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../elements/element.h"
+#include "../elements/road.h"
 #include "../system.h"
 #include "../tree/tree.h"
 #include "check.h"
@@ -230,6 +231,8 @@ static void derive_work(ali3_system *s) {
     s->n_work_force += s->el_sig_ptr[e + 1] - s->el_sig_ptr[e];
     s->work_ptr[s->n_work] = s->n_work_force;
   }
+  for (int32_t r = 0; r < s->nr; r++)
+    if (s->road_type[r] == ALI3_ROAD_PORT) s->n_input_work = s->n_work;
 }
 
 static int32_t first_nonzero(const double *v, int32_t n) {

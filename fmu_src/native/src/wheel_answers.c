@@ -1,0 +1,72 @@
+/* What other programs answer for a wheel: a normal of the road that is none holds the last one, an answer on a place far
+ * from the wheel is told, and so is a tyre whose step is long for its speed. */
+#include <math.h>
+
+#include "slave.h"
+
+static const double FAR_AWAY = 10.0; /* m */
+static const double SLOW = 10.0; /* m/s; this and the steps are measured, see docs/fmu.md */
+static const double LONG_STEP = 5.001e-3, LONGEST_STEP = 10.001e-3; /* s */
+
+/* Before a step or a start. The last normal is that of the kernel, at a start that of the table. */
+void slave_hold_normals(slave *s) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = 0; i + 2 < t->n_known; i++) {
+    double *n = &s->value[i], held[3];
+    if (t->variable[i].role != SLAVE_NORMAL || ali3_is_road_normal(n)) continue;
+    for (size_t k = 0; k < 3; k++) {
+      held[k] = t->variable[i + k].start;
+      if (s->calls.initialised) ali3_get_input(s->fidelity.kernel, t->variable[i + k].index, &held[k]);
+    }
+    if (!(s->said[i] & SLAVE_HELD_NORMAL))
+      slave_say(s, SLAVE_WARNING,
+                "The normal of the road '%s' and its neighbours was set to (%g, %g, %g); it must be a unit vector that "
+                "points up, and the last one, (%g, %g, %g), is held. This is said once.",
+                t->variable[i].name, n[0], n[1], n[2], held[0], held[1], held[2]);
+    s->said[i] |= SLAVE_HELD_NORMAL;
+    for (size_t k = 0; k < 3; k++) {
+      n[k] = held[k];
+      for (size_t order = 0; order < SLAVE_MOST_ORDERS; order++) s->slope[(i + k) * SLAVE_MOST_ORDERS + order] = 0.0;
+    }
+  }
+}
+
+static void watch_answer(slave *s, size_t i) {
+  const slave_variable *v = &slave_the_table.variable[i];
+  double square = 0.0;
+  for (size_t k = 0; k < 3; k++) {
+    const double gap = s->value[i + k] - s->value[(size_t)v->other + k];
+    square += gap * gap;
+  }
+  if (!(square > FAR_AWAY * FAR_AWAY)) return;
+  s->said[i] |= SLAVE_FAR;
+  slave_say(s, SLAVE_WARNING,
+            "At %.6g s the last answer on the road at '%s' holds for the point (%.6g, %.6g, %.6g), %.3g m from its "
+            "wheel; the road is taken to go on as a plane from there. This is said once.",
+            ali3_time(s->fidelity.kernel), v->name, s->value[i], s->value[i + 1], s->value[i + 2], sqrt(square));
+}
+
+/* A tyre that answers once in a long step shakes a slow wheel. */
+static void watch_hub(slave *s, size_t i) {
+  const slave_variable *v = &slave_the_table.variable[i];
+  const double step = (double)s->made.n * s->made.h, *velocity = &s->value[v->other];
+  const double speed = sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]);
+  if (!(step > LONGEST_STEP || (step > LONG_STEP && speed < SLOW))) return;
+  s->said[i] |= SLAVE_FAR;
+  slave_say(s, SLAVE_WARNING,
+            "At %.6g s the wheel at '%s' moves at %.3g m/s and the communication step is %g s: forces of tyres "
+            "that are held for longer than 5 ms below %g m/s, or for longer than 10 ms, may shake it. Take shorter "
+            "communication steps. This is said once.",
+            ali3_time(s->fidelity.kernel), v->name, speed, step, SLOW);
+}
+
+/* After the outputs are known. */
+void slave_watch_answers(slave *s) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = 0; i + 2 < t->n_known && s->made.n > 0; i++) {
+    const slave_variable *v = &t->variable[i];
+    if (v->other < 0 || s->said[i] & SLAVE_FAR) continue;
+    if (v->role == SLAVE_ANSWER) watch_answer(s, i);
+    if (v->role == SLAVE_HUB) watch_hub(s, i);
+  }
+}

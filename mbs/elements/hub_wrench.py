@@ -1,0 +1,49 @@
+"""Force and moment on the hub of a wheel, given by inputs in place of a tyre."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mbs.common.affine import Affine, AffineVector
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.record_checks import channels, size
+from mbs.kernel.header.enumerations import ElementType
+
+
+@dataclass(frozen=True)
+class HubWrench:
+    """Force and moment at the centre of a wheel that is reduced to its spin, earth axes.
+
+    The part of the moment about the axis of the wheel turns the wheel, the rest acts on its carrier.
+
+    Parameters
+    ----------
+    inputs : sequence of int
+        Numbers of the inputs: three components of the force, N, three of the moment, N m.
+    """
+
+    inputs: Sequence[int]
+
+    def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine) -> ElementRecord:
+        """The force element.
+
+        Parameters
+        ----------
+        centre : AffineVector
+            Of the wheel.
+        axis : AffineVector
+            Unit vector along its axis, to the left.
+        spin : Affine
+            Absolute spin of the wheel, rad.
+        """
+        what = f"the wrench '{name}'"
+        size(centre, (3,), f"The centre of {what}")
+        size(axis, (3,), f"The axis of {what}")
+        return ElementRecord(
+            name,
+            ElementType.HUB_WRENCH,
+            (*centre.components, *axis.components, spin),
+            integer=channels(self.inputs, 6, what),
+            outputs=(Output("power", "W", "power of force and moment on wheel and carrier together"),),
+        )

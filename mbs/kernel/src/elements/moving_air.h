@@ -1,0 +1,24 @@
+/* Air that moves over the ground, by inputs. */
+#ifndef ALI3_MOVING_AIR_H
+#define ALI3_MOVING_AIR_H
+#include <stdint.h>
+
+#include "../algebra/elementary.h"
+
+/* Inputs: speed of the air, m/s, and the heading that it moves to, rad from the x axis of the earth to the left. */
+enum { AIR_SPEED, AIR_HEADING, AIR_INPUTS };
+
+/* Velocity of a point, 3 components, over air by the inputs that `integer` names. */
+static inline void ali3_over_air(const double *input, const int32_t *integer, const double *velocity, double over[3]) {
+  const double speed = input[integer[AIR_SPEED]], heading = input[integer[AIR_HEADING]];
+  over[0] = velocity[0] - speed * ali3_cos(heading);
+  over[1] = velocity[1] - speed * ali3_sin(heading);
+  over[2] = velocity[2];
+}
+
+static inline const char *ali3_check_air(const int32_t *integer, int32_t n_inputs) {
+  for (int i = 0; i < AIR_INPUTS; i++)
+    if (integer[i] < 0 || integer[i] >= n_inputs) return "moving air names an input that does not exist";
+  return 0;
+}
+#endif

@@ -1,0 +1,90 @@
+/* A road that other programs answer for: the plane through the point they were asked for, which they name with the
+ * answer, so that it holds whenever it comes. Within a step a wheel goes on over the plane. Of several answers, as for
+ * a body between the wheels, the mean over a place, by the inverse squares of the distances to the points asked for. */
+#include "road_port.h"
+
+#include "../../include/ali3.h"
+#include "../algebra/small_vectors.h"
+#include "half_space.h"
+
+static const double NEAR = 0.01; /* m: a point asked for that is nearer counts as this near */
+static const double UPRIGHT = 0.02; /* least upward component of a normal */
+static const double OFF_UNIT = 0.1; /* of the length of a unit vector */
+
+int ali3_is_road_normal(const double n[3]) {
+  const double size = ali3_norm(n);
+  return fabs(size - 1.0) <= OFF_UNIT && n[2] >= UPRIGHT * size;
+}
+
+static const double *answer(const ali3_road *road, int32_t k) {
+  return *road->input + (int64_t)road->real[PORT_FIRST + k];
+}
+
+static int32_t answers(const ali3_road *road) { return (int32_t)road->real[PORT_ANSWERS]; }
+
+/* A unit vector; upwards where the inputs give none, which no step accepts. */
+static void normal_of(const double *given, double n[3]) {
+  const bool good = ali3_is_road_normal(given) != 0;
+  const double size = good ? ali3_norm(given) : 1.0;
+  for (int i = 0; i < 3; i++) n[i] = good ? given[i] / size : (i == 2);
+}
+
+ali3_surface ali3_port_surface(const ali3_road *road, const double place[3], double foot[3]) {
+  ali3_surface s = {0};
+  if (answers(road) == 1) {
+    const double *a = answer(road, 0);
+    normal_of(a + PORT_NORMAL, s.normal);
+    for (int i = 0; i < 3; i++) foot[i] = a[PORT_X + i];
+    s.height = a[PORT_HEIGHT];
+    s.friction = a[PORT_FRICTION];
+    return s;
+  }
+  double sum = 0.0, slope[2] = {0.0, 0.0};
+  for (int32_t k = 0; k < answers(road); k++) {
+    const double *a = answer(road, k), dx = place[0] - a[PORT_X], dy = place[1] - a[PORT_Y];
+    double n[3];
+    normal_of(a + PORT_NORMAL, n);
+    const double by[2] = {-n[0] / n[2], -n[1] / n[2]}, weight = 1.0 / (dx * dx + dy * dy + NEAR * NEAR);
+    s.height += weight * (a[PORT_HEIGHT] + by[0] * dx + by[1] * dy);
+    s.friction += weight * a[PORT_FRICTION];
+    slope[0] += weight * by[0], slope[1] += weight * by[1];
+    sum += weight;
+  }
+  s.height /= sum;
+  s.friction /= sum;
+  const double up[3] = {-slope[0] / sum, -slope[1] / sum, 1.0}, size = ali3_norm(up);
+  for (int i = 0; i < 3; i++) s.normal[i] = up[i] / size;
+  foot[0] = place[0], foot[1] = place[1], foot[2] = s.height;
+  return s;
+}
+
+int ali3_port_contact(const ali3_road *road, const double centre[3], const double axis[3], double radius,
+                      ali3_contact *out) {
+  double foot[3];
+  const ali3_surface under = ali3_port_surface(road, centre, foot);
+  ali3_half_space(centre, axis, radius, foot, under.normal, out);
+  out->friction = under.friction;
+  out->yielded = out->switching = 0.0;
+  return 1;
+}
+
+/* The mean of planes is nowhere above the highest of them. */
+double ali3_port_top(const ali3_road *road, const double place[3], double reach) {
+  double top = -INFINITY;
+  for (int32_t k = 0; k < answers(road); k++) {
+    const double *a = answer(road, k);
+    double n[3];
+    normal_of(a + PORT_NORMAL, n);
+    const double by[2] = {-n[0] / n[2], -n[1] / n[2]};
+    top = fmax(top, a[PORT_HEIGHT] + by[0] * (place[0] - a[PORT_X]) + by[1] * (place[1] - a[PORT_Y]) +
+                        ali3_hypot(by[0], by[1]) * reach);
+  }
+  return top;
+}
+
+bool ali3_port_normals(const ali3_road *road) {
+  if (road->type != ALI3_ROAD_PORT || road->file != NULL) return true;
+  for (int32_t k = 0; k < answers(road); k++)
+    if (!ali3_is_road_normal(answer(road, k) + PORT_NORMAL)) return false;
+  return true;
+}

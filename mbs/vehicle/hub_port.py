@@ -1,0 +1,37 @@
+"""Forces and moments of other programs on the hub of a wheel, in place of its tyre."""
+
+from __future__ import annotations
+
+from mbs.elements.hub_wrench import HubWrench
+from mbs.model.carried import Spin
+from mbs.model.records import Role
+from mbs.vehicle.builder import CarBuilder
+
+LARGEST = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
+"""Unit, end of the range and word by the letter."""
+
+
+def hub_port(b: CarBuilder, wheel: str, spin: Spin) -> None:
+    """Add inputs, their element, and what a tyre needs to know beside place, axis, velocity and speed of the wheel.
+
+    Parameters
+    ----------
+    wheel : str
+        Its name, as "FL".
+    """
+    channels = []
+    for letter, (unit, largest, what) in LARGEST.items():
+        for c in "xyz":
+            text = f"{what} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"
+            watched = (Role.HUB, f"wheel_{wheel}.earth_vx") if not channels else ()
+            channel = b.port(f"wheel_{wheel}.hub_{letter}{c}", -largest, largest, unit, text, *watched)
+            channels.append(channel.index)
+    b.m.add(HubWrench(channels).record(f"port hub {wheel}", spin.centre, spin.axis, spin.coordinate))
+
+    def outputs() -> None:
+        for k, c in enumerate("xyz"):
+            text = f"rate of the spin axis along the earth's {c} axis"
+            b.m.sense_coordinate(f"wheel_{wheel}.axis_rate_{c}", spin.axis[k], order=1, unit="1/s", description=text)
+        b.m.sense_element(f"wheel_{wheel}.hub_power", f"port hub {wheel}", "power")
+
+    b.port_senses.append(outputs)

@@ -1,0 +1,149 @@
+"""A road that other programs answer for, at the slave: points ahead, normals, answers far away, states."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import subprocess
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+from tests.fmu.native import compile_host, unpack
+
+OK = 0
+ANSWER = [f"road_{name}" for name in ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")]
+LEVEL = dict(zip(ANSWER, (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0), strict=True))
+
+
+@pytest.fixture
+def sledge(build, kind) -> Path:
+    return build("answered", kind)
+
+
+def test_the_point_ahead_is_that_of_the_next_communication_point(host, sledge) -> None:
+    """At constant speed it is met exactly; before the first step an inner step is looked ahead."""
+    h = host(sledge).start({"initial.speed": 2.0} | LEVEL)
+    inner = h.get("step_size")
+    assert h.get("road_ahead_x") == h.get("x") + inner * h.get("vx")
+    assert h.step(0.0, 0.02) == OK
+    for step, time in ((0.02, 0.02), (0.05, 0.04)):
+        ahead = h.get("road_ahead_x")
+        assert h.step(time, step) == OK
+        if step == 0.02:
+            assert h.get("x") == pytest.approx(ahead, abs=1e-9)
+    assert h.get("road_ahead_x") - h.get("x") == pytest.approx(0.05 * h.get("vx"))
+
+
+def test_a_normal_that_is_none_holds_the_last_one_with_one_warning(host, sledge) -> None:
+    tilted = {"road_normal_x": -0.05, "road_normal_z": math.sqrt(1.0 - 0.05**2)}
+    h, good = (host(sledge).start(LEVEL | tilted) for _ in range(2))
+    for time, bad in enumerate([(0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.3, 0.3, 0.3), (math.nan, 0.0, 0.7)]):
+        for name, value in zip(ANSWER[3:6], bad, strict=True):
+            assert h.set(name, value) == OK
+        for each in (h, good):
+            assert each.step(0.01 * time, 0.01) == OK
+    told = [text for text in h.messages if "normal of the road" in text]
+    assert len(told) == 1
+    assert "'road_normal_x' and its neighbours was set to (0, 0, 0)" in told[0]
+    assert "the last one, (-0.05, 0, 0.998749), is held" in told[0]
+    assert h.get("x") == good.get("x")
+    assert h.get("road_normal_x") == -0.05
+
+
+def test_a_start_with_a_normal_that_is_none_is_level(host, sledge) -> None:
+    h = host(sledge).start(LEVEL | {"road_normal_z": 0.0})
+    assert h.step(0.0, 0.01) == OK
+    assert [text for text in h.messages if "(0, 0, 1), is held" in text]
+
+
+def test_an_answer_far_from_what_it_is_for_is_told_once(host, sledge) -> None:
+    h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
+    for k in range(80):
+        assert h.step(0.01 * k, 0.01) == OK
+        h.get("x")
+    told = [text for text in h.messages if "last answer on the road" in text]
+    assert len(told) == 1
+    assert "'road_x' holds for the point (0, 0, 0), 10 m from its wheel" in told[0]
+
+
+def test_the_start_is_lifted_to_the_answer(host, sledge) -> None:
+    assert host(sledge).start(LEVEL | {"road_height": 2.0}).get("z") == pytest.approx(2.3, abs=1e-9)
+
+
+def test_a_state_with_everything_said_is_set_again(host, sledge, kind) -> None:
+    """Flags of what was said are more than zero and one."""
+    h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
+    h.set("push", 1e6)
+    h.set("road_height", math.nan)
+    for name in ANSWER[3:6]:
+        h.set(name, 0.0)
+    for k in range(60):
+        h.step(0.01 * k, 0.01)
+        h.get("x")
+    count, state = len(h.messages), h.slave.getFMUState()
+    h.step(0.6, 0.01)
+    first = h.get("x")
+    h.slave.setFMUState(state)
+    h.set("road_height", math.nan)
+    h.step(0.6, 0.01)
+    assert h.get("x") == first
+    assert len(h.messages) == count
+    h.slave.freeFMUState(state)
+
+
+def test_answers_under_steps_jumps_nan_and_silence_never_go_unreported(host, sledge) -> None:
+    """Whatever comes, the outputs stay finite; what is not used as given, and a refused step, is told."""
+    for seed in range(6):
+        h, random, time = host(sledge).start(LEVEL), np.random.default_rng(seed), 0.0
+        values = [math.nan, math.inf, -1e6, 1e6, 0.0, 1.0, -1.0, 0.5]
+        for _ in range(60):
+            for name in ANSWER:
+                if random.random() < 0.2:
+                    assert h.set(name, float(random.choice(values))) == OK
+            before = len(h.messages)
+            if h.step(time, 0.01) == OK:
+                time += 0.01
+            else:
+                assert len(h.messages) > before
+            assert math.isfinite(h.get("x") + h.get("z") + h.get("load"))
+        assert h.messages
+
+
+def test_derivatives_by_answers_are_those_of_differences(host, sledge) -> None:
+    """The step is made again with heights of 0.3 mm to each side; the point ahead follows by its speed."""
+    h = host(sledge).start({"initial.speed": 1.0} | LEVEL)
+    for k in range(50):
+        h.step(0.01 * k, 0.01)
+    references = {v.name: v.valueReference for v in h.description.modelVariables}
+    wanted = [references[n] for n in ("z", "x", "vx", "road_ahead_x")]
+    if h.description.fmiVersion.startswith("3"):
+        pytest.skip("FMPy has the same call under another name there")
+    found = h.slave.getDirectionalDerivative(wanted, [references["road_height"]], [1.0])
+    assert 0.0 < found[0] < 1.0
+    assert found[3] == pytest.approx(found[1] + 0.01 * found[2], abs=1e-12)
+
+
+def test_the_scene_stands_in_the_description(sledge) -> None:
+    description = fmpy.read_model_description(str(sledge))
+    variables = {v.name: v for v in description.modelVariables}
+    assert variables["road_ahead_x"].causality == "output"
+    assert [variables[name].causality for name in ANSWER] == ["input"] * 7
+    assert all(a.valueReference < b.valueReference for a, b in itertools.pairwise(variables[n] for n in ANSWER))
+
+
+def test_the_host_in_c_gets_the_same_bits(host, build, tmp_path) -> None:
+    sledge = build("answered", "native")
+    unpack(sledge, tmp_path / "fmu")
+    library = next((tmp_path / "fmu" / "binaries" / fmpy.platform).iterdir())
+    answers = LEVEL | {"road_height": 0.25, "road_normal_x": -0.06, "road_normal_z": math.sqrt(1.0 - 0.06**2)}
+    h = host(sledge).start(answers)
+    h.run(20, 0.01)
+    words = [str(compile_host(tmp_path)), str(library), (tmp_path / "fmu" / "resources").as_uri()]
+    words += [h.description.guid, "20", "0.01", *2 * [str(h.references["x"])]]
+    words += [word for name, value in answers.items() for word in ("--set", f"{name}={value!r}")]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert h.get("x") < -1e-3
+    assert float.fromhex(done.stdout.split()[-1]) == h.get("x")

@@ -1,0 +1,100 @@
+"""Copies of the tyres of the hatchback in a second place, at the ports of its hubs, and the table of where they shake.
+
+python -m tests.vehicle.second_tyres
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+import mbs
+from mbs.elements import PlaneRoad
+from mbs.kernel.binding import KernelError
+from tests.elements.harness import Element
+from tests.vehicle.test_ports import WHEELS, hatchback, simulation
+
+HUB = [f"hub_{letter}{c}" for letter in "FM" for c in "xyz"]
+INNER = 0.002  # s
+
+
+class SecondTyre:
+    """A tyre that knows how its hub moves alone."""
+
+    def __init__(self, wheel: str) -> None:
+        car = hatchback()
+        record = next(e for e in car.model().elements if e.name == f"tyre {wheel}")
+        self.wheel, self.element = wheel, Element(record, PlaneRoad(friction=car.road.friction))
+        self.states = np.array(record.states)
+
+    def wrench(self, now: dict[str, float], step: float) -> tuple[np.ndarray, float]:
+        """Force and moment on the hub, and the load, after a step to the present motion."""
+        names = [*"xyz", *(f"axis_{c}" for c in "xyz")]
+        rates = [*(f"earth_v{c}" for c in "xyz"), *(f"axis_rate_{c}" for c in "xyz"), "omega"]
+        u = np.array([*(now[f"wheel_{self.wheel}.{n}"] for n in names), 0.0])
+        ud = np.array([now[f"wheel_{self.wheel}.{n}"] for n in rates])
+        r = self.element(u, ud, self.states, step, accept=True)
+        self.states, axis = r.y, u[3:6]
+        return np.r_[r.f[:3], np.cross(axis, r.f[3:6]) + r.f[6] * axis], r.out["vertical_force"]
+
+
+def drive(
+    step: float, speed: float, *, slopes: bool = False, time: float = 0.6, steer: float = 0.3, throttle: float = 0.0
+) -> tuple[float, float, float, mbs.Simulation]:
+    """Deviations of load, path and speed of a wheel, each over its own size, from the closed car; and the loop.
+
+    With `slopes` the forces go on within a step as they went in the last one, as by derivatives of inputs.
+    """
+    closed, loop = simulation(hatchback, speed), simulation(hatchback, speed, tyre="hub")
+    names = [entry["name"] for entry in loop.system.meta["inputs"]]
+    tyres = [SecondTyre(w) for w in WHEELS]
+    places = [[names.index(f"wheel_{w}.{n}") for n in HUB] for w in WHEELS]
+    n, loads, last = max(1, round(step / INNER)), [], None
+    for k in range(round(time / step)):
+        now = loop.sensors
+        told = [tyre.wrench(now, step if k else 0.0) for tyre in tyres]
+        wrench = np.array([each for each, _ in told])
+        rate = np.zeros_like(wrench) if last is None or not slopes else (wrench - last) / step
+        last = wrench
+        loads.append([[closed.sensors[f"wheel_{w}.Fz"], load] for w, (_, load) in zip(WHEELS, told, strict=True)])
+        for s in (closed, loop):
+            s.set_input("steering", steer * np.sin(5.0 * s.time))
+            s.set_input("throttle", throttle)
+        for place, values in zip(places, wrench, strict=True):
+            for index, value in zip(place, values, strict=True):
+                loop.set_input(names[index], float(value))
+        row = np.array([loop.instance.get_input(i) for i in range(len(names))])
+        for j in range(n):
+            row[np.array(places)] = wrench + rate * (j + 1) * step / n
+            loop.instance.run(step / n, 1, row)
+        closed.step(step / n, n)
+    pairs, first, now = np.array(loads), closed.sensors, loop.sensors
+    away = [np.array([s["chassis.x"], s["chassis.y"]]) for s in (first, now)]
+    spins = [np.array([s[f"wheel_{w}.omega"] for w in WHEELS]) for s in (first, now)]
+    return (
+        float(np.sqrt(np.mean(np.diff(pairs) ** 2)) / pairs.mean()),
+        float(np.linalg.norm(away[0] - away[1]) / max(np.linalg.norm(away[0]), 1.0)),
+        float(np.abs(spins[1] - spins[0]).max() / max(np.abs(spins[0]).max(), 1.0)),
+        loop,
+    )
+
+
+def main() -> None:
+    """Print the deviation of the speed of the wheels, in per cent, held and with derivatives."""
+    steps = (0.001, 0.002, 0.005, 0.01, 0.02)
+    print("| speed, m/s | " + " | ".join(f"{1e3 * step:g} ms" for step in steps) + " |")
+    print("| --- |" + " --- |" * len(steps))
+    for speed in (20.0, 10.0, 5.0, 1.0, 0.0):
+        cells = []
+        for step in steps:
+            spins = []
+            for slopes in (False, True):
+                try:
+                    spins.append(f"{100.0 * drive(step, speed, slopes=slopes, time=1.0)[2]:.2g}")
+                except KernelError:
+                    spins.append("fails")
+            cells.append(", ".join(spins))
+        print(f"| {speed:g} | " + " | ".join(cells) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,132 @@
+"""Forces, wind and tyres at ports: closed forms, works that close, a copy of the tyre in a second place."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.vehicle import CarFileError
+from tests.vehicle.second_tyres import drive
+from tests.vehicle.test_ports import STEP, WHEELS, hatchback, simulation, system, with_ports
+
+STORED = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
+
+
+@pytest.mark.parametrize("axes", ["earth", "vehicle"])
+def test_works_of_forces_and_wind_close_the_balance(axes: str) -> None:
+    """To 1e-6 of the largest work, beside the step's own error."""
+    s = simulation(hatchback, 12.0, forces=axes, wind="speed")
+    start = s.sensors
+    for k in range(600):
+        s.set_input("point_reference.Fx", 2500.0)
+        s.set_input("point_reference.Fy", 2000.0 * np.sin(k / 100))
+        s.set_input("point_reference.Mz", 1500.0 * np.cos(k / 80))
+        s.set_input("wind.speed", 20.0)
+        s.set_input("wind.heading", 1.5)
+        s.step(STEP)
+    end = s.sensors
+    works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in STORED}
+    assert works["energy.ports"] > 1e4
+    left = end["energy.total"] - start["energy.total"] - sum(works.values())
+    own = abs(s.instance.report()["energy_error"])
+    assert abs(left) < 1e-6 * max(map(abs, works.values())) + own
+
+
+def test_a_hitch_pulls_as_a_trailer_does() -> None:
+    """Force F at a point h above the ground and d behind the rear axle: wheel loads move by F h and Fz d over the
+    wheelbase; the point tells where it is and how fast.
+    """
+    car = with_ports(hatchback(), forces="earth", force_points={"hitch": [-3.2, 0.0, 0.45]})
+    loads = {}
+    for pull in (0.0, 1.0):
+        s = mbs.Simulation(mbs.compile(car.model()), inputs={"brake": 1.0, "hand_brake": 1.0})
+        s.set_input("point_hitch.Fx", -600.0 * pull)
+        s.set_input("point_hitch.Fz", -700.0 * pull)
+        s.step(STEP, 3000)
+        loads[pull] = s.sensors
+    first, now = loads[0.0], loads[1.0]
+    front, back = (sum(now[f"wheel_{a}{b}.Fz"] - first[f"wheel_{a}{b}.Fz"] for b in "LR") for a in "FR")
+    assert front + back == pytest.approx(700.0, rel=1e-3)
+    arm = now["wheel_RL.contact_x"] - now["point_hitch.x"]
+    assert arm > 0.3
+    weight = sum(first[f"wheel_{w}.Fz"] for w in WHEELS)
+    about_rear = {}
+    for pull, at in loads.items():  # the car moves on its springs, so its weight has another lever
+        rear = at["wheel_RL.contact_x"]
+        fronts = sum(at[f"wheel_F{b}.Fz"] for b in "LR") * (at["wheel_FL.contact_x"] - rear)
+        about_rear[pull] = fronts - weight * (at["chassis.x"] - rear)
+    pulled = about_rear[1.0] - about_rear[0.0]
+    assert -pulled == pytest.approx(700.0 * arm + 600.0 * now["point_hitch.z"], rel=0.01)
+    moving = mbs.Simulation(mbs.compile(car.model()), pose=mbs.Pose(speed=8.0, yaw_rate=0.3))
+    motion = moving.sensors
+    turned = 0.3 * (motion["chassis.x"] - motion["point_hitch.x"])
+    assert motion["point_hitch.vy"] == pytest.approx(motion["chassis.earth_vy"] - turned, rel=1e-6)
+
+
+def test_a_torque_about_the_vertical_axis_turns_the_car_on_ice() -> None:
+    car = with_ports(hatchback(), forces="vehicle")
+    ice = mbs.Simulation(mbs.compile(car.model()), parameters={"road.friction": 0.0})
+    ice.set_input("point_reference.Mz", 1000.0)
+    ice.step(STEP, 100)
+    first = ice.sensors["chassis.wz"]
+    ice.set_input("point_reference.Mz", -1000.0)
+    ice.step(STEP, 100)
+    assert first > 0.05
+    assert abs(ice.sensors["chassis.wz"]) < 0.02 * first
+
+
+def test_head_wind_and_tail_wind_change_the_drag_by_the_speed_over_the_air() -> None:
+    drags = {}
+    for heading in (0.0, np.pi, None):
+        s = simulation(hatchback, 20.0, wind="speed")
+        s.set_input("wind.speed", 5.0 if heading is not None else 0.0)
+        s.set_input("wind.heading", heading or 0.0)
+        s.step(STEP)
+        drags[heading] = s.sensors["energy.drag"]
+    assert drags[np.pi] / drags[None] == pytest.approx((25.0 / 20.0) ** 2, rel=2e-3)
+    assert drags[0.0] / drags[None] == pytest.approx((15.0 / 20.0) ** 2, rel=2e-3)
+
+
+def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> None:
+    """By order one, held over 2 and 4 ms."""
+    (fine, path, _, loop), (coarse, *_) = (drive(step, 15.0, throttle=0.4) for step in (0.002, 0.004))
+    assert fine < 1e-2
+    assert path < 2e-3
+    assert 1.6 < coarse / fine < 2.6
+    end = loop.sensors
+    works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in STORED}
+    assert abs(works["energy.ports"]) > 100.0
+    assert works["energy.tyres"] == 0.0
+
+
+def test_long_steps_shake_a_slow_wheel_and_derivatives_calm_it() -> None:
+    """At 5 m/s and 10 ms: what the FMU warns of."""
+    held, followed, short = (drive(h, 5.0, slopes=s)[2] for h, s in ((0.01, False), (0.01, True), (0.004, False)))
+    assert held > 0.05
+    assert followed < 0.01
+    assert short < 0.01
+
+
+def test_what_a_tyre_at_a_port_replaces_is_left_out() -> None:
+    car = with_ports(hatchback(), tyre="hub")
+    m = car.model()
+    assert not [e.name for e in m.elements if e.name.startswith("tyre ")]
+    assert not [p.name for p in m.parameters if ".tyre." in p.name]
+    own = [s.name for s in hatchback().model().sensors]
+    mine = [s.name for s in m.sensors]
+    assert [n for n in mine if n in own] == [n for n in own if n in set(mine)]
+    assert "wheel_FL.Fz" not in mine
+    with pytest.raises(CarFileError, match=r"ports\.tyre and ports\.road"):
+        with_ports(hatchback(), tyre="hub", road="planes")
+
+
+def test_free_hubs_let_the_car_fall() -> None:
+    """Without tyres nothing carries it: its centre of mass has the acceleration of gravity."""
+    s = mbs.Simulation(system(hatchback, (("tyre", "hub"),)))
+    before = s.sensors
+    s.step(STEP, 50)
+    now = s.sensors
+    weight = sum(simulation(hatchback, 0.0).sensors[f"wheel_{w}.Fz"] for w in WHEELS)
+    fallen = now["energy.gravity"] - before["energy.gravity"]
+    assert fallen == pytest.approx(-weight * 0.5 * 9.81 * 0.1**2, rel=1e-3)
