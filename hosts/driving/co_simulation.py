@@ -79,7 +79,7 @@ def run_with_bar(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: P
     from tqdm import tqdm
 
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
-    with tqdm(total=steps, desc=what, unit="step", delay=2.0) as bar:
+    with tqdm(total=steps, desc=what, unit="step", delay=2.0, disable=None) as bar:
         return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
 
 

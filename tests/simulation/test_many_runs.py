@@ -25,7 +25,7 @@ from tests.simulation.many_cars import CARS, SLALOM, system
 
 # Two of the cars have springs with which no car works, so that their steps are halved and refused.
 pytestmark = [
-    pytest.mark.filterwarnings("ignore:Parameter:mbs.ParameterWarning"),
+    pytest.mark.filterwarnings("ignore:Variant .* Parameter:mbs.ParameterWarning"),
     pytest.mark.filterwarnings("ignore:Variant .. At .* too quick:mbs.AccuracyWarning"),  # stiff wheels at kerbs
 ]
 
