@@ -68,9 +68,7 @@ def steps_of(interval: float, step: float, what: str) -> int:
     every = round(interval / step) if math.isfinite(interval) else 0
     if every < 1 or abs(every * step - interval) > 1e-6 * interval:
         near = step * max(1, every)
-        raise HostError(
-            f"{what} is {interval:g} s, no whole multiple of the step of {step:g} s; take {near:g} s."
-        )
+        raise HostError(f"{what} is {interval:g} s, no whole multiple of the step of {step:g} s; take {near:g} s.")
     return every
 
 

@@ -22,7 +22,18 @@ H = 0.01
 def test_rows_at_an_interval_are_those_of_every_step(kerb_fmus: Path, tmp_path: Path) -> None:
     tables, said = {}, {}
     for name, more in (("all", ()), ("few", ("--interval", "0.05"))):
-        asked = ("--fidelity", "0", "-m", "step_steer", "--stop-time", "1.5", "--step", str(H), "--out", tmp_path / name)
+        asked = (
+            "--fidelity",
+            "0",
+            "-m",
+            "step_steer",
+            "--stop-time",
+            "1.5",
+            "--step",
+            str(H),
+            "--out",
+            tmp_path / name,
+        )
         done = run(main, kerb_fmus / "native.fmu", *asked, *more)
         assert done.returncode == 0, done.stderr
         (file,) = (tmp_path / name).glob("*.csv")

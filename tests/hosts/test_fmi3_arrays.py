@@ -34,7 +34,18 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     library = folder / f"StateSpace{fmpy.sharedLibraryExtension}"
     subprocess.run(
         [
-            *(sys.executable, "-m", "ziglang", "cc", "-target", build.host_target(), "-std=c11", "-O2", "-shared", "-fPIC"),
+            *(
+                sys.executable,
+                "-m",
+                "ziglang",
+                "cc",
+                "-target",
+                build.host_target(),
+                "-std=c11",
+                "-O2",
+                "-shared",
+                "-fPIC",
+            ),
             *("-ffp-contract=off", f"-I{FMI_HEADERS}", "-o", str(library)),
             str(HERE / "state_space" / "state_space.c"),
         ],
@@ -69,7 +80,7 @@ def test_a_run_with_inputs_and_parameters_that_are_elements(fmu: Path, tmp_path:
     found = pd.read_csv(file, comment="#")
     u = np.where(np.arange(100)[:, None] < 40, [0.5, 0.0, -1.0], [2.0, 0.0, 1.0])
     expected = motion(u, np.array([[0.0, 1.0], [-9.0, -0.4]])) * [1.0, 3.0]
-    got = np.column_stack([found[[n for n in found if n.startswith(f"y[{k}]")][0]] for k in (1, 2)])
+    got = np.column_stack([found[next(n for n in found if n.startswith(f"y[{k}]"))] for k in (1, 2)])
     assert np.abs(got - expected).max() < 1e-6 * np.abs(expected).max()
     assert np.abs(expected).max() > 0.5
 

@@ -68,4 +68,3 @@ def test_a_bar_that_comes_by_itself_is_for_terminals_alone(terminal, monkeypatch
         now[0] = 4.0
         bar.update(0.25)
     assert bool(stream.getvalue()) is terminal
-

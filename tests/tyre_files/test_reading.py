@@ -159,7 +159,10 @@ def test_signs_that_do_not_fit_are_refused(tmp_path: Path) -> None:
         (("TIME", ""), "TIME in [UNITS] is missing"),
         (("PDX1", "PDX1 = 0"), "PDX1 is missing or 0"),
         (("PKY2", ""), "PKY2 is missing or 0"),
-        (("PDX1", "PDX1 = '1.2'"), "PDX1 in [LONGITUDINAL_COEFFICIENTS] is the text '1.2'; it must be a number, without"),
+        (
+            ("PDX1", "PDX1 = '1.2'"),
+            "PDX1 in [LONGITUDINAL_COEFFICIENTS] is the text '1.2'; it must be a number, without",
+        ),
         (("FITTYP", "FITTYP = '61'"), "FITTYP in [MODEL] is the text '61'; it must be a number"),
         (("FNOMIN", "FNOMIN = 'heavy'"), "FNOMIN in [VERTICAL] is the text 'heavy'"),
         (("Q_FZ2", "Q_FZ2 = 100"), "Q_FZ2 must be below 96.83, or Q_FZ1 be given"),

@@ -56,7 +56,9 @@ def test_a_measure_that_does_not_exist_is_told_from_one_that_is_missing() -> Non
 
 
 def test_a_test_whose_name_begins_with_that_of_another() -> None:
-    frame = frame_of({"k": np.arange(2.0)}, {"turn.left.speed": [30.0, np.nan, 20.0, np.nan]}, {}, manoeuvres=("turn.left", "turn"))
+    frame = frame_of(
+        {"k": np.arange(2.0)}, {"turn.left.speed": [30.0, np.nan, 20.0, np.nan]}, {}, manoeuvres=("turn.left", "turn")
+    )
     frame.attrs |= {"tests": ["turn", "turn.left"], "units": {"turn.left.speed": "m/s"}}
     frame.attrs["limits"] = {"turn.left.speed": {"min": 25.0, "max": None, "unit": "m/s"}}
     frame.loc[frame["manoeuvre"] == "turn", "status"] = "failed"
