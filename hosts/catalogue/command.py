@@ -169,7 +169,7 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
 
     form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
     parts = [0.0] * len(tasks)
-    with tqdm(total=float(len(tasks)), bar_format=form, delay=2.0, desc="catalogue") as bar:
+    with tqdm(total=float(len(tasks)), bar_format=form, delay=2.0, desc="catalogue", disable=None) as bar:
 
         def progress(place: int, part: float) -> None:
             parts[place] = max(part, parts[place])

@@ -134,7 +134,7 @@ def _fit(
     guesses = _delays(before, wanted.nuisances)
     outputs = overlapping(outputs, task.end, options.skip, guesses)
     unknowns = [*wanted.parameters, *nuisances(wanted.nuisances, outputs, guesses, options.longest_delay)]
-    with tqdm(desc="fit", unit="run", delay=2.0) as bar:
+    with tqdm(desc="fit", unit="run", delay=2.0, disable=None) as bar:
 
         def simulate(values: Mapping[str, float]) -> Result | None:
             bar.update()

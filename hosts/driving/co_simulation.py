@@ -19,6 +19,8 @@ from hosts.fmu.fmu import StepRefusedError
 
 # Of a value that is reached at the end of a step and set again for the next.
 _ROUND_OFF = 1e-9
+DEAR = ("stress.", "bending_moment.")
+"""Outputs that an FMU may find when they are read: they are read where a row is recorded or who drives looks at one."""
 
 
 @dataclass(frozen=True)
@@ -74,13 +76,15 @@ class Result:
         return np.asarray(self.values[:, self.names.index(name)])
 
 
-def run_with_bar(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Pilot | None = None) -> Result:
+def run_with_bar(
+    fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Pilot | None = None, every: int = 1
+) -> Result:
     """`run` with a progress bar on the terminal."""
     from tqdm import tqdm
 
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
-    with tqdm(total=steps, desc=what, unit="step", delay=2.0) as bar:
-        return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n))
+    with tqdm(total=steps, desc=what, unit="step", delay=2.0, disable=None) as bar:
+        return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n), every=every)
 
 
 def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
@@ -119,15 +123,46 @@ class _NoOutputError(HostError, KeyError):
 
 
 class _Senses(Mapping[str, float]):
-    """The outputs of a row by name; those that nobody looks at cost nothing."""
+    """The outputs after a step by name.
 
-    def __init__(self, names: Sequence[str], row: NDArray[np.float64]) -> None:
+    Parameters
+    ----------
+    all_rows : bool
+        Whether the outputs of each step are recorded, so that none is read later than the others.
+    """
+
+    def __init__(self, fmu: SimulatedFmu, names: Sequence[str], all_rows: bool) -> None:
         self._places = {n: k for k, n in enumerate(names)}
-        self._row = row
+        self.row = np.empty(len(names))
+        later = [] if all_rows else [k for k, n in enumerate(names) if n.startswith(DEAR)]
+        self._later, self._fresh = frozenset(later), True
+        self._parts = [
+            (fmu.reader([names[k] for k in part]), np.empty(len(part)), np.array(part, dtype=np.intp))
+            for part in ([k for k in range(len(names)) if k not in self._later], later)
+            if part
+        ]
+
+    def read(self) -> None:
+        """Take over the outputs of now, but for those that are dear."""
+        self._fresh = not self._later
+        self._take(0)
+
+    def whole(self) -> NDArray[np.float64]:
+        """All outputs of now."""
+        if not self._fresh:
+            self._fresh = True
+            self._take(-1)
+        return self.row
+
+    def _take(self, part: int) -> None:
+        read, into, places = self._parts[part]
+        read(into)
+        self.row[places] = into
 
     def __getitem__(self, name: str) -> float:
         try:
-            return self._row.item(self._places[name])
+            place = self._places[name]
+            return (self.whole() if place in self._later else self.row).item(place)
         except KeyError:
             raise _NoOutputError(f"Who drives needs the output '{name}', which the FMU does not have.") from None
 
@@ -171,7 +206,8 @@ def run(
     until : callable, optional
         Of the time and the outputs; the run ends with the first step after which it is true.
     every : int
-        Steps from one recorded row to the next.
+        Steps from one recorded row to the next. Outputs that are `DEAR` are read in the others where who drives looks
+        at one.
 
     Returns
     -------
@@ -184,14 +220,13 @@ def run(
     inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
     discrete = {n for n in manoeuvre.inputs if fmu.variables[n].variability == "discrete"}
     whole = discrete | {n for n in manoeuvre.inputs if fmu.variables[n].type == "Integer"}
-    row = np.empty(len(outputs))
-    read_outputs, senses = fmu.reader(outputs), _Senses(outputs, row)
+    senses = _Senses(fmu, outputs, every == 1)
 
     first = manoeuvre.initial(whole)
     fmu.initialise({**manoeuvre.start, **first})
     if manoeuvre.state is not None:
         fmu.restore_bytes(manoeuvre.state)
-    read_outputs(row)
+    senses.read()
     acts = driver.act(0.0, senses) if driver is not None else {}
     missing = [n for n in acts if n not in inputs]
     if missing:
@@ -205,7 +240,7 @@ def run(
     for name, value in {**manoeuvre.start, **first}.items():
         if name in inputs and not isinstance(value, str):
             held[inputs.index(name)] = value
-    values[0, len(inputs) :] = row
+    values[0, len(inputs) :] = senses.whole()
     straight = [
         n for n in manoeuvre.inputs if n in fmu.names("input") and n not in {*whole, *acts, *manoeuvre.held}
     ]  # fmt: skip
@@ -242,9 +277,9 @@ def run(
             failed = 1
             break
         done = k + 1
-        read_outputs(row)
+        senses.read()
         if done % every == 0:
-            values[done // every] = [*held, *row]
+            values[done // every] = [*held, *senses.whole()]
         if done % 50 == 0:
             progress(done)
         if until is not None and until(done * step, senses):
@@ -255,7 +290,7 @@ def run(
     return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
-        step * every * np.arange(done // every + 1, dtype=np.float64),
+        step * (every * np.arange(done // every + 1, dtype=np.float64)),
         values[: done // every + 1],
         wall,
         done * step,

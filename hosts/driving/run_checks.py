@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from hosts.common.errors import HostError
@@ -46,6 +48,28 @@ def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | No
             "or a shorter time."
         )
     return step
+
+
+def steps_of(interval: float, step: float, what: str) -> int:
+    """How many communication steps an interval has.
+
+    Parameters
+    ----------
+    interval, step : float
+        s.
+    what : str
+        How messages call the interval.
+
+    Raises
+    ------
+    HostError
+        It is no whole multiple of the step.
+    """
+    every = round(interval / step) if math.isfinite(interval) else 0
+    if every < 1 or abs(every * step - interval) > 1e-6 * interval:
+        near = step * max(1, every)
+        raise HostError(f"{what} is {interval:g} s, no whole multiple of the step of {step:g} s; take {near:g} s.")
+    return every
 
 
 def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:

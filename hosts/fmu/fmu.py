@@ -226,7 +226,7 @@ class Fmu:
     def reset(self) -> None:
         """Back to before `initialise`, which then gives a new start."""
         try:
-            self._slave.reset()
+            self._instance.reset()
         except FMICallException as error:
             raise HostError(f"The FMU could not be reset: {self._last_message() or error}") from None
 

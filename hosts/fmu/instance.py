@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.fmi3 import FMU3Slave
-from fmpy.model_description import ModelDescription
+from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
@@ -70,6 +70,7 @@ class Instance:
         resources: str | None = None,
     ) -> None:
         self.three = str(description.fmiVersion).startswith("3")
+        self._arrays = _Arrays(description.modelVariables, self._read)
         arguments: dict[str, Any] = {
             "guid": token or description.guid,
             "unzipDirectory": str(folder),
@@ -112,17 +113,39 @@ class Instance:
     def set(self, values: Mapping[Place, Value]) -> None:
         """Set variables of any type."""
         for kind in dict.fromkeys(place.type for place in values):
-            found = {place.reference: value for place, value in values.items() if place.type == kind}
-            suffix = _NUMBERS[2 + self.three].get(kind, (kind,))[0]
-            of = {"Boolean": bool, "String": str}.get(kind, float if suffix in ("Real", "Float64", "Float32") else int)
-            getattr(self.slave, f"set{suffix}")(list(found), [of(value) for value in found.values()])
+            found: dict[int, list[Any]] = {}
+            for place, value in values.items():
+                if place.type == kind:
+                    found.setdefault(place.reference, self._arrays.row(place))[place.item] = value
+            getattr(self.slave, f"set{self._suffix(kind)}")(
+                list(found), [self._type(kind)(value) for row in found.values() for value in row]
+            )
+
+    def _suffix(self, kind: str) -> str:
+        """The end of the names of the functions of a type."""
+        return str(_NUMBERS[2 + self.three].get(kind, (kind,))[0])
+
+    def _type(self, kind: str) -> Callable[[Any], Any]:
+        numbers = float if self._suffix(kind) in ("Real", "Float64", "Float32") else int
+        return {"Boolean": _truth, "String": str}.get(kind, numbers)
+
+    def _read(self, place: Place) -> list[Any]:
+        """The values of an array as the FMU has them."""
+        return list(getattr(self.slave, f"get{self._suffix(place.type)}")([place.reference], place.size))
+
+    def reset(self) -> None:
+        """Back to before `initialise`."""
+        self.slave.reset()
+        self._arrays.reset()
 
     def setter(self, places: Sequence[Place]) -> Callable[[Sequence[float]], None]:
-        """A function that sets numbers; references and buffers are prepared once."""
+        """A function that sets numbers; without elements of arrays references and buffers are prepared once."""
+        if any(place.size > 1 for place in places):
+            return lambda values: self.set(dict(zip(places, values, strict=True)))
         writes = []
         for kind, mine in _by_type(places).items():
             call, references, buffer = self._prepared("Set", kind, [places[k].reference for k in mine], len(mine))
-            writes.append((call, references, buffer, mine, float if kind in ("Real", "Float64", "Float32") else int))
+            writes.append((call, references, buffer, mine, self._type(kind)))
         slave, counts = self.slave, self._counts
 
         def set_values(values: Sequence[float]) -> None:
@@ -177,6 +200,7 @@ class Instance:
     def restore(self, state: State) -> None:
         """Go on from a state, which stays valid."""
         (self.slave.setFMUState if self.three else self.slave.setFMUstate)(state)
+        self._arrays.forget()
 
     def free_state(self, state: State) -> None:
         """Free the memory of a state."""
@@ -197,6 +221,48 @@ class Instance:
             self.restore(state)
         finally:
             self.free_state(state)
+
+
+class _Arrays:
+    """Values of arrays that are set by their elements: FMI sets all of them at once.
+
+    Parameters
+    ----------
+    variables : sequence of ScalarVariable
+        Elements of an array in their order.
+    read : callable
+        Gives the values that an array has in the FMU, after its start.
+    """
+
+    def __init__(self, variables: Sequence[ScalarVariable], read: Callable[[Place], list[Any]]) -> None:
+        self._starts: dict[int, list[Any]] = {}
+        for v in variables:
+            self._starts.setdefault(v.valueReference, []).append(0 if v.start is None else v.start)
+        self._read, self._rows, self._from_fmu = read, dict[int, list[Any]](), False
+
+    def row(self, place: Place) -> list[Any]:
+        """All values of a variable as they were set last; of a scalar one that will be replaced."""
+        if place.size == 1:
+            return [None]
+        if place.reference not in self._rows:
+            start = self._starts[place.reference]
+            self._rows[place.reference] = self._read(place) if self._from_fmu else list(start)
+        return self._rows[place.reference]
+
+    def reset(self) -> None:
+        """Start values again."""
+        self._rows.clear()
+        self._from_fmu = False
+
+    def forget(self) -> None:
+        """The FMU has another state, and knows its values."""
+        self._rows.clear()
+        self._from_fmu = True
+
+
+def _truth(value: Any) -> bool:
+    """Of a value, or of a start value in a description."""
+    return value.strip().lower() in ("true", "1") if isinstance(value, str) else bool(value)
 
 
 def _span(places: NDArray[np.int64]) -> slice | NDArray[np.int64]:

@@ -58,7 +58,7 @@ def element_names(path: Path) -> dict[str, list[str]]:
 def scalars(
     description: ModelDescription, names: Mapping[str, Sequence[str]]
 ) -> tuple[list[ScalarVariable], dict[str, Place]]:
-    """All variables of a description, with an output of several values in its elements, and the place of each scalar.
+    """All variables of a description, arrays in their elements, and the place of each scalar.
 
     Parameters
     ----------
@@ -68,22 +68,21 @@ def scalars(
     Returns
     -------
     variables : list of ScalarVariable
-        An array that is no output stands as it is.
+        An array has as many as its dimensions say at the start; structural parameters cannot be set.
     places : dict of str to Place
     """
     variables: list[ScalarVariable] = []
     places: dict[str, Place] = {}
     for v in description.modelVariables:
-        if v.dimensions and v.causality != "output":
-            variables.append(v)
-            continue
         shape = v.shape or ()
         counted = [v.name + f"[{','.join(map(str, k))}]" for k in itertools.product(*(range(1, n + 1) for n in shape))]
         called = names.get(v.name, []) if shape else [v.name]
+        starts = (v.start or "").split() if shape else [v.start]  # one value is that of all elements
         for item, name in enumerate(called if len(called) == (len(counted) or 1) else counted):
             element = copy.copy(v)
             element.name, element.type = name, KINDS.get(v.type, v.type)
             element.dimensions, element.shape = [], ()
+            element.start = starts[item if len(starts) > 1 else 0] if starts else None
             variables.append(element)
             places[name] = Place(v.valueReference, v.type, item, len(counted) or 1)
     return variables, places

@@ -164,8 +164,7 @@ class Variables:
 
     def __init__(self, description: ModelDescription, program: str = "the FMU") -> None:
         units = {u.name: u for u in description.unitDefinitions}
-        self._variables = {v.name: _variable(v, units) for v in description.modelVariables if not v.dimensions}
-        self._arrays = {v.name for v in description.modelVariables if v.dimensions}
+        self._variables = {v.name: _variable(v, units) for v in description.modelVariables}
         self.names = list(self._variables)
 
     def __getitem__(self, name: str) -> Variable:
@@ -189,9 +188,11 @@ class Variables:
         HostError
             There is no such variable, or it may not be set.
         """
-        if name in self._arrays:
-            raise HostError(f"{source}: '{name}' is an array of the FMU; only scalars can be set here.")
         variable = self._variables.get(name)
+        if variable is None and (elements := [n for n in self.names if n.startswith(f"{name}[")]):
+            raise HostError(
+                f"{source}: '{name}' is an array of the FMU; set its elements, '{elements[0]}' to '{elements[-1]}'."
+            )
         if variable is None:
             raise HostError(f"{source}: the FMU has no parameter or input '{_line(name)}'{self._near(name)}")
         if variable.variability == "constant":

@@ -50,6 +50,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
     )
     add_option(parser, "--stop-time", "that of the manoeuvre, else that of the FMU")
     add_option(parser, "--step", "that of the FMU; of the kerb test 0.01")
+    add_option(parser, "--interval", "the step; stresses that the FMU finds when they are read are read at rows alone")
     add_option(parser, "--fidelity", "that of the FMU")
     add_setting_options(parser)
     add_option(parser, "--road")
@@ -61,7 +62,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
 def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.run.kerb import kerb_test
 
-    given = given_of(parser, options, ("manoeuvre", "stop_time", "road", "driver"))
+    given = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "road", "driver"))
     if given:
         raise HostError(f"{given[0]} does not go with --kerb, which says what is driven.")
     if options.fmu is not None and is_car(options.fmu):
@@ -75,7 +76,7 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.driving.co_simulation import run_with_bar
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
-    from hosts.driving.run_checks import check_columns, communication_step
+    from hosts.driving.run_checks import check_columns, communication_step, steps_of
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
     from hosts.recordings.load_manoeuvre import manoeuvre_of
@@ -101,7 +102,8 @@ def _run(options: argparse.Namespace) -> int:
         stem = path.stem if still else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
-        result = run_with_bar(fmu, manoeuvre, step, driver)
+        every = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
+        result = run_with_bar(fmu, manoeuvre, step, driver, every)
     course = driver.course if driver is not None else None
     outline = (driver.settings.vehicle_length, driver.settings.vehicle_width) if driver is not None else (0.0, 0.0)
     rows = summary(result, step, course, outline)

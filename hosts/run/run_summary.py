@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hosts.driving.co_simulation import Result
+from hosts.driving.co_simulation import DEAR, Result
 from hosts.driving.course import Course
 
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -44,6 +44,7 @@ def summary(
         What and how much.
     """
     rows: list[tuple[str, str]] = []
+    interval = float(result.time[1]) if len(result.time) > 1 else step
     if "chassis.x" in result and "chassis.y" in result:
         x, y = result["chassis.x"], result["chassis.y"]
         rows.append(("distance driven", f"{np.hypot(np.diff(x), np.diff(y)).sum():.2f} m"))
@@ -70,7 +71,7 @@ def summary(
         largest = max(loads, key=lambda w: float(loads[w].max()))
         at = result.time[int(loads[largest].argmax())]
         rows.append(("largest wheel load", f"{loads[largest].max():.0f} N ({largest}, at {at:.2f} s)"))
-        lift = "  ".join(f"{w} {1e3 * step * np.count_nonzero(f[1:] < _LIFT_FORCE):.0f}" for w, f in loads.items())
+        lift = "  ".join(f"{w} {1e3 * interval * np.count_nonzero(f[1:] < _LIFT_FORCE):.0f}" for w, f in loads.items())
         rows.append(("wheels in the air", f"{lift}  ms"))
     if course is not None and "chassis.x" in result and "chassis.y" in result and "chassis.yaw" in result:
         out = course.corners_outside(result["chassis.x"], result["chassis.y"], result["chassis.yaw"], *outline)
@@ -87,7 +88,10 @@ def summary(
         left = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
         count = f"{result['solver.capped_steps'][-1]:.0f}"
         rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {left:.2g} mm"))
-    rows.append(("failed steps", f"{result.failed_steps} of {len(result.time) - 1 + result.failed_steps}"))
+    if any(name.startswith(DEAR) and result[name].any() for name in result.names):
+        fewer = "" if interval > 1.5 * step else "; a longer --interval reads fewer"
+        rows.append(("stresses and moments", f"read at {len(result.time)} rows, every {1e3 * interval:g} ms{fewer}"))
+    rows.append(("failed steps", f"{result.failed_steps} of {round(result.simulated / step) + result.failed_steps}"))
     factor = result.simulated / result.wall if result.wall > 0.0 else float("inf")
     rows.append(
         (

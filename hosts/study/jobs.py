@@ -17,7 +17,7 @@ from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_file import SUFFIXES
 from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.driving.pilots.pilot import ACTS
-from hosts.driving.run_checks import check_columns, communication_step
+from hosts.driving.run_checks import check_columns, communication_step, steps_of
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.study.job import Job
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
@@ -119,12 +119,5 @@ def _sampling(study: StudyFile, stop: float, step: float, where: str) -> tuple[i
     """Steps between kept values of signals, and how many there are."""
     if study.signals is None:
         return 0, 0
-    interval = study.signals.interval
-    every = round(interval / step)
-    if every < 1 or abs(every * step - interval) > 1e-6 * interval:
-        near = step * max(1, every)
-        raise HostError(
-            f"{where}: signals.interval is {interval:g} s, no whole multiple of the step of {step:g} s; take "
-            f"{near:g} s."
-        )
+    every = steps_of(study.signals.interval, step, f"{where}: signals.interval")
     return every, max(1, round(stop / step)) // every + 1

@@ -17,7 +17,7 @@ from ali3.files import whole_file, write_text
 from hosts.common.display_units import shown_in
 from hosts.measures.limits import LimitEntry, limits_of
 from hosts.measures.measure import Limit
-from hosts.study.work import DONE
+from hosts.study.work import DONE, FAILED, MISSING
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -91,13 +91,14 @@ def shares(frame: pd.DataFrame) -> list[Share]:
     Notes
     -----
     A run without a result is outside of its limits: nobody knows that it keeps them. A run that lacks another measure
-    is judged by the one that it has.
+    is judged by the one that it has, and not at all by one that does not exist in it. Tables of before say of a run
+    that lacks some measure not which; there each that it has not counts as lacking.
     """
     about, found = frame.attrs, []
     points = frame["point"].to_numpy(dtype=np.int64)
     broken, known = (np.zeros(points.max(initial=-1) + 1, dtype=bool) for _ in range(2))
     lost = broken.copy()
-    manoeuvres, done = frame["manoeuvre"].astype(str).to_numpy(), frame["status"].astype(str).to_numpy() == DONE
+    manoeuvres = frame["manoeuvre"].astype(str).to_numpy()
     for column, record in about["limits"].items():
         limit = Limit("the study file", *limit_ends(record))
         values = frame[column].to_numpy(dtype=np.float64)
@@ -105,9 +106,9 @@ def shares(frame: pd.DataFrame) -> list[Share]:
             mine = manoeuvres == name
             finite = np.isfinite(values)
             within = mine & finite & (values >= limit.lowest) & (values <= limit.highest)
-            bare = mine & ~finite & ~done
+            bare = mine & ~finite & _should_be(column, frame)
             outside = bare | (mine & finite & ~within)
-            absent = int((mine & ~finite & done).sum())
+            absent = int((mine & ~finite & ~bare).sum())
             broken[points[outside]] = lost[points[bare]] = True
             known[points[within | outside]] = True
             found.append(_share(column, name, limit, record["unit"], (within, outside, bare), absent, about))
@@ -118,6 +119,16 @@ def shares(frame: pd.DataFrame) -> list[Share]:
     return found
 
 
+def _should_be(column: str, frame: pd.DataFrame) -> NDArray[np.bool_]:
+    """Which runs, if they have not this measure, lack it; in the others it does not exist."""
+    status = frame["status"].astype(str).to_numpy()
+    if "missing" not in frame:
+        return status != DONE
+    lacking = [None if names is None else names.split(MISSING) for names in frame["missing"].astype(object)]
+    named = [known is None or column in known for known in lacking]
+    return (status == FAILED) | ((status != DONE) & np.array(named, dtype=np.bool_))
+
+
 def limit_ends(record: Mapping[str, Any] | None) -> tuple[float, float]:
     """Least and largest value of a limit of `limits_record`; infinite where there is none."""
     low, high = (None, None) if record is None else (record["min"], record["max"])
@@ -126,8 +137,8 @@ def limit_ends(record: Mapping[str, Any] | None) -> tuple[float, float]:
 
 def _of_column(column: str, about: Mapping[str, Any]) -> list[str]:
     """Manoeuvres whose runs have a measure: the test that it is named after, else all that are no tests."""
-    tests = about["tests"]
-    return [n for n in tests if column.startswith(f"{n}.")] or [n for n in about["manoeuvres"] if n not in tests]
+    named = [n for n in about["tests"] if column.startswith(f"{n}.")]
+    return [max(named, key=len)] if named else [n for n in about["manoeuvres"] if n not in about["tests"]]
 
 
 def _share(

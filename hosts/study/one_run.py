@@ -156,6 +156,7 @@ def _of_result(result: Result, job: Job) -> Outcome:
 
 def _take(outcome: Outcome, measures: Sequence[tuple[str, Measure]]) -> None:
     outcome.measures = {name: float(m.value) for name, m in measures}
+    outcome.missing = tuple(name for name, m in measures if m.is_missing)
     missing = [f"{name}: {m.note or 'it is not a number'}" for name, m in measures if m.is_missing]
     if missing:
         more = [f"and {len(missing) - _MOST_NOTES} more"] if len(missing) > _MOST_NOTES else []

@@ -16,7 +16,7 @@ from ali3.files import whole_file
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.study.folder import RUNS, sync
-from hosts.study.work import FAILED, Chunk, Outcome, seed_of
+from hosts.study.work import FAILED, MISSING, Chunk, Outcome, seed_of
 
 _TYPES = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.int64(), "Boolean": pa.bool_()}
 _NAME = "part-{:06d}.parquet"
@@ -34,7 +34,7 @@ def table_schema(record: Mapping[str, Any]) -> Any:
     fields = [("index", pa.int64()), ("point", pa.int64()), ("manoeuvre", pa.string()), ("seed", pa.int64())]
     fields += [(name, _TYPES.get(p["kind"], pa.string())) for name, p in record["parameters"].items()]
     fields += [(name, pa.float64()) for name in record["measures"]]
-    fields += [("status", pa.string()), ("reason", pa.string()), ("messages", pa.string())]
+    fields += [("status", pa.string()), ("reason", pa.string()), ("missing", pa.string()), ("messages", pa.string())]
     fields += [("simulated", pa.float64()), ("wall_seconds", pa.float64())]
     made = [pa.field(name, kind, metadata={"unit": units[name]} if name in units else None) for name, kind in fields]
     return pa.schema(made, metadata={"PANDAS_ATTRS": json.dumps(attributes(record))})
@@ -130,6 +130,7 @@ class PartWriter:
                 rows[name].append(outcome.measures.get(name, np.nan))
             for name in ("status", "reason", "simulated"):
                 rows[name].append(getattr(outcome, name))
+            rows["missing"].append(MISSING.join(outcome.missing))
             rows["messages"].append(" ".join(outcome.messages))
             rows["wall_seconds"].append(outcome.wall)
         for name in self._record["parameters"]:

@@ -23,7 +23,10 @@ from hosts.study.points import Points, digest
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
 from hosts.study.work import Chunk, Work
 
-OWN_COLUMNS = ("index", "point", "manoeuvre", "seed", "status", "reason", "messages", "simulated", "wall_seconds")
+OWN_COLUMNS = (
+    *("index", "point", "manoeuvre", "seed"),
+    *("status", "reason", "missing", "messages", "simulated", "wall_seconds"),
+)
 
 
 @dataclass(frozen=True)

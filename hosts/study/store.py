@@ -36,9 +36,10 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
     -------
     DataFrame
         A row for each run that has ended, by its index. Columns: ``point``, ``manoeuvre``, ``seed``, the parameters by
-        their names in the FMU, the measures, ``status`` (``done``, ``incomplete`` where some measure is NaN,
-        ``failed``), ``reason``, ``messages`` of the FMU, ``simulated`` and ``wall_seconds``. ``attrs`` has units of
-        columns and the rest of what is known of the study.
+        their names in the FMU, the measures, ``status`` (``done``, ``incomplete`` where a measure is missing,
+        ``failed``), ``reason``, ``missing`` (names of measures that there should be; other NaN are of measures that the
+        run has not, as a critical speed), ``messages`` of the FMU, ``simulated`` and ``wall_seconds``. ``attrs`` has
+        units of columns and the rest of what is known of the study.
 
     Raises
     ------
@@ -54,7 +55,7 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
         tables = [pq.ParquetFile(file).read() for file in part_files(Path(folder))]
     except (pa.ArrowException, OSError) as error:
         raise HostError(f"A part of {folder} is damaged: {str(error).splitlines()[0]}.") from None
-    table = pa.concat_tables(tables) if tables else schema.empty_table()
+    table = pa.concat_tables(tables, promote_options="default") if tables else schema.empty_table()
     frame: pd.DataFrame = table.to_pandas().set_index("index").sort_index()
     frame.attrs = attributes(record)
     return frame

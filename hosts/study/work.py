@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from hosts.study.measures import StudyMeasure
 
 DONE, INCOMPLETE, FAILED = "done", "incomplete", "failed"
+MISSING = ", "
+"""Between the names in the column ``missing``; no name of a measure has it."""
 """How a run ended: every measure that exists is a number; some is none; there is no result."""
 
 
@@ -97,6 +99,8 @@ class Outcome:
         Of the measures of a test, where it is not yet known which there are.
     messages : tuple of str
         What the FMU said, and notes of a test; each sentence once.
+    missing : tuple of str
+        Measures that there should be and that the run did not yield; other NaN are of measures that it has not.
     """
 
     status: str = DONE
@@ -107,6 +111,7 @@ class Outcome:
     signals: NDArray[np.float64] | None = None
     units: dict[str, str] = field(default_factory=dict)
     messages: tuple[str, ...] = ()
+    missing: tuple[str, ...] = ()
 
 
 def seed_of(study_seed: int, point: int) -> int:

@@ -23,10 +23,15 @@ class Progress:
         Seconds before the bar appears.
     clock : callable
         Seconds, monotone.
+    everywhere : bool
+        Also where the stream is no terminal, such as a file, which the bar fills with control characters.
     """
 
-    def __init__(self, delay: float, clock: Callable[[], float] = time.perf_counter) -> None:
+    def __init__(
+        self, delay: float, clock: Callable[[], float] = time.perf_counter, *, everywhere: bool = True
+    ) -> None:
         self._clock, self._from = clock, clock() + delay
+        self._hidden = False if everywhere else None  # None: tqdm looks whether the stream is a terminal
         self._bar: tqdm[None] | None = None
 
     def __enter__(self) -> Progress:
@@ -43,7 +48,7 @@ class Progress:
                 return
             from tqdm import tqdm
 
-            self._bar = tqdm(total=1.0, initial=share, bar_format=_FORM)
+            self._bar = tqdm(total=1.0, initial=share, bar_format=_FORM, disable=self._hidden)
         self._bar.update(share - self._bar.n)
 
 
@@ -59,9 +64,9 @@ class Callback(Progress):
 
 
 def progress_for(choice: bool | Callable[[float], None] | None) -> Progress:
-    """Bar of a run: None after two seconds, True at once, False never; a function receives the share done."""
+    """Bar of a run: None after two seconds on a terminal, True at once, False never; a function receives the share."""
     if callable(choice):
         return Callback(choice)
     if choice is None:
-        return Progress(DELAY)
+        return Progress(DELAY, everywhere=False)
     return Progress(0.0 if choice else math.inf)

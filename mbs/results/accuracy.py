@@ -30,7 +30,8 @@ NEAR_LIMIT = (0.025, 0.25)  # estimates between which a third run decides
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
-INSTANTS = 50  # intervals at whose ends two runs are compared
+INSTANTS = 50  # intervals at whose ends two runs of many samples are compared
+WHOLE = 200  # intervals of a record that is compared at all its samples: they are too far apart for means of loads
 STILL = 1e-4  # of the largest value in the unit: a smaller range is rest
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 COORDINATES = "1"
@@ -172,8 +173,9 @@ def recorded_every(every: int, steps: int) -> int:
 
 
 def instants(samples: int) -> NDArray[np.int_]:
-    """Numbers of the samples at which two runs are compared."""
-    return np.unique(np.linspace(0, max(samples - 1, 0), INSTANTS + 1).round().astype(int))
+    """Numbers of the samples at which two runs are compared: all of a short record, 51 of a longer one."""
+    last = max(samples - 1, 0)
+    return np.unique(np.linspace(0, last, (last if last <= WHOLE else INSTANTS) + 1).round().astype(int))
 
 
 def extent(unit: str, values: Sequence[Array]) -> float:
@@ -193,7 +195,7 @@ def differences(
     groups: Mapping[str, Sequence[str]],
     extents: dict[str, float] | None = None,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
-    """Largest differences of two runs, at 51 instants and of loads between them.
+    """Largest differences of two runs, at their `instants` and of loads between them.
 
     `extents` are the largest ranges of runs before these, and grow with them.
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+PICKLED = "a run that was pickled has what was read of it before. Read the sensor before the run is pickled"
 
 
 class LeftOut:
@@ -56,7 +58,14 @@ class LeftOut:
 
     def thinned(self, every: int) -> LeftOut:
         """Of every so many samples of this one."""
-        return LeftOut(self.names, self._compute, self.reason, self._every * every)
+        made = LeftOut(self.names, self._compute, self.reason, self._every * every)
+        if self._compute is None and self._found is not None:
+            made._found = {name: values[::every] for name, values in self._found.items()}
+        return made
+
+    def __getstate__(self) -> dict[str, Any]:
+        lost = self._compute is not None and self._found is None
+        return {**self.__dict__, "_compute": None, "reason": PICKLED if lost else self.reason}
 
 
 def refused(name: str, reason: str) -> str:

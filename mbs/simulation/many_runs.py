@@ -51,6 +51,7 @@ from mbs.system.system import System
 METHOD = "ali3p"
 WIDTHS = (2, 4, 8)
 POLL = 0.1  # s between two looks at the progress
+_STARTING = threading.Lock()  # what a start warns of is caught for all threads at once
 
 
 @dataclass(frozen=True)
@@ -114,14 +115,17 @@ class _Run:
         signals = InputSignals(variant.inputs, meta["inputs"])
         first = signals.at(np.array([t0]), 1e-6 * h, after_jump=True)[0]
         names = [meta["inputs"][i]["name"] for i in signals.columns()]
-        self.simulation = Simulation(
-            system,
-            settings=settings,
-            inputs=dict(zip(names, first.tolist(), strict=True)),
-            parameters=variant.parameters,
-            pose=variant.pose,
-            t0=t0,
-        )
+        with _STARTING, warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            self.simulation = Simulation(
+                system,
+                settings=settings,
+                inputs=dict(zip(names, first.tolist(), strict=True)),
+                parameters=variant.parameters,
+                pose=variant.pose,
+                t0=t0,
+            )
+        self.told_at_start = [(w.category, str(w.message)) for w in caught]
         self.simulation.step_tried = h
         self.signals, self.h, self.t0, self.every = signals, h, t0, every
         self.before, self.alone, self.wall = self.simulation.report, 0, 0.0
@@ -153,7 +157,7 @@ class _Run:
 
     def _told(self, run: Trajectory) -> list[tuple[type[Warning], str]]:
         system, report = self.simulation.system, run.report
-        driven, told = len(system.arrays["gterm_row"]) > 0, list[tuple[type[Warning], str]]()
+        driven, told = len(system.arrays["gterm_row"]) > 0, list(self.told_at_start)
         if report is not None and accuracy.balance_says(report, METHOD, driven):
             told.append((AccuracyWarning, f"{accuracy.balance_text(report)} The result is wrong; take shorter steps."))
         told += [(AccuracyWarning, report.coarse_text)] if report is not None and report.coarse_text else []
@@ -204,10 +208,9 @@ def simulate_many(
 
     Warns
     -----
-    AccuracyWarning, BranchWarning, BendingWarning, RoadWarning
+    AccuracyWarning, BranchWarning, BendingWarning, ParameterWarning, RoadWarning
         As `simulate`, with the number of the variant. No run is repeated: where the energy balance is kept, nothing is
-        known of the error but `Trajectory.accuracy` and `Report.coarse_event`, of which it is warned. What `Simulation`
-        warns of at a start has no such number.
+        known of the error but `Trajectory.accuracy` and `Report.coarse_event`, of which it is warned.
 
     Raises
     ------

@@ -153,6 +153,18 @@ class System:
         made.ported = None  # it would not have them
         return made
 
+    def __reduce__(self) -> tuple[Callable[..., System], tuple[bytes, Frames | None]]:
+        """Pickled as its file with `frames`; `ported`, a function, is left behind."""
+        return _unpickled, (self.to_bytes(), self.frames)
+
+    def __copy__(self) -> System:
+        made = object.__new__(type(self))
+        made.__dict__.update(self.__dict__)
+        return made
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> System:
+        return self  # nothing of it changes
+
     def to_bytes(self, drawing: bool = True, modes: bool = True) -> bytes:
         """The System file; equal Systems give equal bytes.
 
@@ -257,6 +269,12 @@ class System:
             It is no valid System file.
         """
         return cls.from_bytes(read_bytes(path, _LARGEST))
+
+
+def _unpickled(data: bytes, frames: Frames | None) -> System:
+    made = System.from_bytes(data)
+    made.frames = frames
+    return made
 
 
 class _Arrays(Mapping[str, NDArray[Any]]):

@@ -12,7 +12,7 @@ from mbs.common.checks import one_of
 from mbs.elements.magic_tyre import SIGNS, MagicTyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 from mbs.tyre_files.property_text import PropertyText, TyreFileError, read_properties
-from mbs.tyre_files.units import in_si
+from mbs.tyre_files.units import POWERS, PRESSURES, in_si
 
 FITS = {5: "MF52", 6: "MF52", 51: "MF52", 52: "MF52", 61: "MF61", 62: "MF62"}
 """Version by FITTYP."""
@@ -69,7 +69,13 @@ _NEW = (  # from 6.1 on
     *("LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS", "PCFX1", "PCFX2", "PCFX3", "PCFY1", "PCFY2", "PCFY3"),
 )
 _OLD = ("PHY3", "PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "LGAX", "LGAY", "LGAZ", "LSGKP", "LSGAL", "QBZ4")
+_NUMBERS = {  # keys that are read and must be numbers
+    *(*MAGIC_COEFFICIENTS, *_NEEDED, *_ALIASES, *POWERS, *PRESSURES),
+    *("FITTYP", "USE_MODE", "LCZ", "Q_FZ1", "Q_FZ2", "Q_FZ3", "Q_FCX", "Q_FCY", "QFCX1", "QFCY1"),
+    *("KPUMIN", "KPUMAX", "ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"),
+}
 _STIFFNESS = (1e3, 1e8)  # N/m
+_ALIKE = 0.05  # of the vertical stiffness: what the file may say in two ways
 _RIM = 0.010  # m of rubber under a tyre that bottoms
 _BOTTOMS = 5.0  # stiffness of the rim over that of the tyre, where a file has none
 _LEAST = 0.05  # of friction and slip stiffness at the nominal load: below it a fit has left its range
@@ -160,8 +166,9 @@ def read_tyre(file: str | Path) -> TyreFile:
     missing = [section for section in _SECTIONS if section not in text.sections]
     if missing:
         raise text.fault(f"it has no section [{missing[0]}]; it may be cut, or no tyre property file.")
+    found = text.numbers(_NUMBERS)
     version = _version(text)
-    given = {_ALIASES.get(key, key): value for key, value in text.numbers().items()}
+    given = {_ALIASES.get(key, key): value for key, value in found.items()}
     numbers = in_si(text, given)
     lacking = [key for key in _NEEDED if not numbers.get(key)]
     if lacking:
@@ -254,9 +261,21 @@ def _vertical(text: PropertyText, numbers: dict[str, float], notes: list[str]) -
     if stiffness and not _STIFFNESS[0] < stiffness < _STIFFNESS[1]:
         raise text.fault(f"VERTICAL_STIFFNESS is {stiffness:g} N/m; it must lie between 1e3 and 1e8 N/m.")
     first, second = numbers.get("Q_FZ1", 0.0), numbers.get("Q_FZ2", 0.0)
+    at_load = (stiffness * radius / load) ** 2 - 4.0 * second  # Q_FZ1 squared: VERTICAL_STIFFNESS is at FNOMIN
     if second and not first:
-        first = math.sqrt(max((stiffness * radius / load) ** 2 - 4.0 * second, 0.0))
+        if stiffness and not at_load > 0.0:
+            raise text.fault(
+                f"Q_FZ2 is {second:g} and VERTICAL_STIFFNESS {stiffness:g} N/m: at FNOMIN the term of Q_FZ2 alone is "
+                f"stiffer. Q_FZ2 must be below {(0.5 * stiffness * radius / load) ** 2:.4g}, or Q_FZ1 be given."
+            )
+        first = math.sqrt(max(at_load, 0.0))
     if first:
+        nominal = math.sqrt(max(first**2 + 4.0 * second, 0.0)) * load / radius
+        if stiffness and abs(nominal / stiffness - 1.0) > _ALIKE:
+            notes.append(
+                f"VERTICAL_STIFFNESS is {stiffness:.4g} N/m and Q_FZ1 and Q_FZ2 give {nominal:.4g} N/m at FNOMIN; "
+                "the latter are used."
+            )
         stiffness = first * load / radius
     if not stiffness * scale > 0.0:
         raise text.fault("VERTICAL_STIFFNESS is missing or not positive, and Q_FZ1 too.")

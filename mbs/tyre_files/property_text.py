@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Container
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -49,18 +50,28 @@ class PropertyText:
         """A word in capitals; empty where there is none."""
         return str(self.sections.get(section, {}).get(key, "")).upper()
 
-    def numbers(self) -> dict[str, float]:
+    def numbers(self, expected: Container[str] = ()) -> dict[str, float]:
         """All numbers by their keys.
+
+        Parameters
+        ----------
+        expected : container of str
+            Keys whose values must be numbers.
 
         Raises
         ------
         TyreFileError
-            A key has two values in two sections.
+            A key has two values in two sections, or a text where a number is expected.
         """
         found: dict[str, float] = {}
-        for entries in self.sections.values():
+        for section, entries in self.sections.items():
             for key, value in entries.items():
                 if not isinstance(value, float):
+                    if key in expected:
+                        raise self.fault(
+                            f"{key} in [{section}] is the text {brief(value)}; it must be a number, without "
+                            "quotation marks."
+                        )
                     continue
                 if found.setdefault(key, value) != value:
                     raise self.fault(f"{key} is {found[key]:g} in one section and {value:g} in another.")

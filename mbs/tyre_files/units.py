@@ -36,14 +36,14 @@ _UNITS = {
         "PSI": _POUND / 0.0254**2,
     },
 }
-_POWERS = {  # of length, force and time
+POWERS = {  # of length, force and time
     **dict.fromkeys(("UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH", "BOTTOMING_RADIUS"), (1, 0, 0)),
     **dict.fromkeys(("FNOMIN", "FZMIN", "FZMAX"), (0, 1, 0)),
     **dict.fromkeys(("VERTICAL_STIFFNESS", "BOTTOM_STIFF", "LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS"), (-1, 1, 0)),
     "VERTICAL_DAMPING": (-1, 1, 1),
     **dict.fromkeys(("LONGVL", "VXLOW"), (1, 0, -1)),
 }
-_PRESSURES = ("INFLPRES", "NOMPRES")
+PRESSURES = ("INFLPRES", "NOMPRES")
 
 
 def in_si(text: PropertyText, numbers: dict[str, float]) -> dict[str, float]:
@@ -74,9 +74,9 @@ def in_si(text: PropertyText, numbers: dict[str, float]) -> dict[str, float]:
     pressure = scales.get("PRESSURE", force / length**2)
     found = dict(numbers)
     for key in numbers:
-        if key in _POWERS:
-            of_length, of_force, of_time = _POWERS[key]
+        if key in POWERS:
+            of_length, of_force, of_time = POWERS[key]
             found[key] *= length**of_length * force**of_force * time**of_time
-        elif key in _PRESSURES:
+        elif key in PRESSURES:
             found[key] *= pressure
     return found

@@ -51,8 +51,8 @@ def test_a_port_that_nobody_sets_is_told_after_the_first_step(host, towed) -> No
     h = host(towed).start()
     assert h.step(0.0, 0.01) == OK
     assert h.messages == [
-        "The port 'left.push' and 1 more was not set before the first step and holds 0 N until it is. This is said "
-        "once."
+        "2 ports were not set before the first step. Each holds its start value until it is set, as 'left.push' holds "
+        "0 N. This is said once."
     ]
     assert h.step(0.01, 0.01) == OK
     one = host(towed).start({"left.push": 1.0})

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 
 import numpy as np
 import pytest
 
 from mbs import (
     AccuracyWarning,
+    ParameterWarning,
     Pose,
     Settings,
     SimulationError,
@@ -25,7 +27,7 @@ from tests.simulation.many_cars import CARS, SLALOM, system
 
 # Two of the cars have springs with which no car works, so that their steps are halved and refused.
 pytestmark = [
-    pytest.mark.filterwarnings("ignore:Parameter:mbs.ParameterWarning"),
+    pytest.mark.filterwarnings("ignore::mbs.ParameterWarning"),
     pytest.mark.filterwarnings("ignore:Variant .. At .* too quick:mbs.AccuracyWarning"),  # stiff wheels at kerbs
 ]
 
@@ -119,3 +121,15 @@ def test_bad_arguments_are_refused(arguments: dict[str, object], words: str) -> 
 def test_a_variant_is_a_variant() -> None:
     with pytest.raises(ArgumentTypeError, match=r"Variant 0 .* a Variant"):
         simulate_many(system(), [{}], 1.0, 0.01)  # type: ignore[list-item]
+
+
+def test_a_value_with_which_no_car_works_is_told_with_the_number_of_its_variant() -> None:
+    """And each of them once, whatever their order in groups."""
+    variants = [Variant(), Variant({"front.tyre.stiffness": 1.2e6}), Variant({"front.tyre.stiffness": 1.3e6})]
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        simulate_many(system(), variants, 0.02, 0.002, lanes=2, progress=False)
+    told = [str(w.message) for w in caught if w.category is ParameterWarning]
+    assert [line.partition(", with which")[0] for line in told] == [
+        f"Variant {k}: Parameter 'front.tyre.stiffness' is set to 1.{k + 1}e+06 N/m" for k in (1, 2)
+    ]

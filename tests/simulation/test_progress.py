@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import math
+import sys
 
 import pytest
 
@@ -52,3 +54,17 @@ def test_the_bar_goes_to_the_error_stream(choice, capsys):
     captured = capsys.readouterr()
     assert captured.out == ""
     assert bool(captured.err) is (choice is True)
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_bar_that_comes_by_itself_is_for_terminals_alone(terminal, monkeypatch):
+    class Stream(io.StringIO):
+        def isatty(self):
+            return terminal
+
+    now, stream = [0.0], Stream()
+    monkeypatch.setattr(sys, "stderr", stream)
+    with Progress(DELAY, lambda: now[0], everywhere=False) as bar:
+        now[0] = 4.0
+        bar.update(0.25)
+    assert bool(stream.getvalue()) is terminal

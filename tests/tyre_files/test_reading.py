@@ -7,6 +7,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mbs.tyre_files import TyreFileError, read_tyre
@@ -114,6 +115,28 @@ def test_pressure_changes_the_forces_as_far_as_the_file_knows_it() -> None:
         read_tyre(SEDAN).tyre(pressure=2e5)
 
 
+def test_the_vertical_stiffness_of_a_file_is_that_at_the_nominal_load(tmp_path: Path) -> None:
+    """Fz = F0 (Q_FZ1 d/R + Q_FZ2 (d/R)^2), Pacejka 2012, eq. 4.E68: its slope at F0 is VERTICAL_STIFFNESS."""
+    f = read_tyre(OWN)
+    tyre = f.tyre(pressure=f.nominal_pressure)
+    radius, load, wanted, second = tyre.radius, tyre.nominal_load, 190000.0, 14.5
+    first = ((wanted * radius / load) ** 2 - 4.0 * second) ** 0.5
+
+    def force(d: float) -> float:
+        u, ud = np.zeros(7), np.zeros(7)
+        u[2], u[4] = radius * tyre.coefficients["Q_RE0"] - d, 1.0
+        return kernel(element_of(tyre), u, ud)[1]
+
+    for d in (0.005, 0.015, 0.04):
+        assert force(d) == pytest.approx(load * (first * d / radius + second * (d / radius) ** 2), rel=1e-9)
+    nominal = radius * ((first**2 + 4.0 * second) ** 0.5 - first) / (2.0 * second)
+    assert force(nominal) == pytest.approx(load, rel=1e-9)
+    assert (force(nominal + 1e-5) - force(nominal - 1e-5)) / 2e-5 == pytest.approx(wanted, rel=1e-6)
+    both = read_tyre(changed(tmp_path, ("Q_FZ2", f"Q_FZ2 = {second}\nQ_FZ1 = 15.0")))
+    (note,) = (n for n in both.notes if "VERTICAL_STIFFNESS" in n)
+    assert note.startswith("VERTICAL_STIFFNESS is 1.9e+05 N/m and Q_FZ1 and Q_FZ2 give 1.624e+05 N/m at FNOMIN")
+
+
 def test_signs_that_do_not_fit_are_refused(tmp_path: Path) -> None:
     with pytest.raises(TyreFileError, match=r"PKY1 is -17\.5; with the signs 'adapted_sae' it must be positive"):
         read_tyre(OWN).tyre(signs="adapted_sae")
@@ -136,6 +159,13 @@ def test_signs_that_do_not_fit_are_refused(tmp_path: Path) -> None:
         (("TIME", ""), "TIME in [UNITS] is missing"),
         (("PDX1", "PDX1 = 0"), "PDX1 is missing or 0"),
         (("PKY2", ""), "PKY2 is missing or 0"),
+        (
+            ("PDX1", "PDX1 = '1.2'"),
+            "PDX1 in [LONGITUDINAL_COEFFICIENTS] is the text '1.2'; it must be a number, without",
+        ),
+        (("FITTYP", "FITTYP = '61'"), "FITTYP in [MODEL] is the text '61'; it must be a number"),
+        (("FNOMIN", "FNOMIN = 'heavy'"), "FNOMIN in [VERTICAL] is the text 'heavy'"),
+        (("Q_FZ2", "Q_FZ2 = 100"), "Q_FZ2 must be below 96.83, or Q_FZ1 be given"),
         (("PCX1", "PCX1 = 1.2.3"), "PCX1 is '1.2.3'; it must be a number"),
         (("PCX1", "PCX1 = nan"), "it must be a number"),
         (("PCX1", "PCX1 = 1e999"), "it must be finite"),

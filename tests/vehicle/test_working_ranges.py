@@ -8,7 +8,9 @@ import pytest
 
 from mbs import ParameterWarning, Pose, Simulation, compile, simulate
 from mbs.vehicle import car_names, load
-from mbs.vehicle.checks.working import SUNK, working_ranges
+from mbs.vehicle.car import car_from
+from mbs.vehicle.changes import changed_content
+from mbs.vehicle.checks.working import FAST, SUNK, working_ranges
 
 BAD = {
     "front.tyre.stiffness": (1e4, 2e6),
@@ -16,6 +18,8 @@ BAD = {
     "rear.spring.factor": (0.1,),
     "rear.damper.factor": (0.0,),
     "brakes.torque": (30.0, 2e4),
+    "drive.max_torque": (5.0, 4.8e3),
+    "aerodynamics.drag_area": (19.0,),
 }
 WHEELS = ("FL", "FR", "RL", "RR")
 system = cache(lambda name: compile(load(name).model()))
@@ -42,6 +46,42 @@ def test_they_are_told_before_the_start_and_after_it(name):
                     missing.append((words, told))
     assert missing == []
     assert all(ranges[path][0] <= load(name).values()[path] <= ranges[path][1] for path in BAD)
+
+
+def with_spring(table):
+    """The hatchback with a spring table in front."""
+    car = load("hatchback")
+    data = changed_content(car._data, {}, "x")
+    spring = {k: v for k, v in data["front"]["spring"].items() if k != "stiffness"}
+    data["front"]["spring"] = {**spring, "table": table}
+    return car_from(data, car.folder, "x", at_rest=False)
+
+
+def test_a_spring_by_a_table_has_the_ranges_of_its_law():
+    plain, k = working_ranges(load("hatchback")), load("hatchback").front.spring.stiffness
+    same = working_ranges(with_spring([[0.0, 0.0], [0.05, 0.05 * k], [0.4, 0.4 * k]]))
+    for path in plain.keys() - {"front.spring.stiffness"}:
+        assert same[path] == pytest.approx(plain[path], rel=1e-12), path
+    # twice as stiff from 0.05 m on: with carried load c it is pressed in to 0.05 + (c - 0.05 k) / 2k, and 0.3 m more
+    # are 0.6 k of load; the softest factor lets c press it as far
+    harder = working_ranges(with_spring([[0.0, 0.0], [0.05, 0.05 * k], [0.4, 0.75 * k]]))
+    softest, hardest = plain["front.spring.factor"]
+    carried = SUNK * k / (1.0 / softest - 1.0)
+    assert harder["front.spring.factor"] == pytest.approx((carried / (carried + 2.0 * SUNK * k), hardest / 2.0))
+
+
+def test_air_at_the_end_of_its_range_brakes_with_the_weight_and_lifts_an_axle():
+    """Against the System's own forces, at the speed that the ranges are for."""
+    ranges, made = working_ranges(load("hatchback")), system("hatchback")
+    at_rest = Simulation(made, pose=Pose(speed=0.0)).sensors
+    loads = {side: at_rest[f"wheel_{side}L.Fz"] + at_rest[f"wheel_{side}R.Fz"] for side in "FR"}
+    drag = {"aerodynamics.drag_area": ranges["aerodynamics.drag_area"][1]}
+    run = simulate(made, 0.05, 0.001, {"throttle": 0.05}, None, drag, pose=Pose(speed=FAST), estimate_error=False)
+    assert np.polyfit(run.t, run["chassis.vx"], 1)[0] == pytest.approx(-9.81, rel=0.1)
+    for axle, side in (("front", "F"), ("rear", "R")):
+        lift = {f"aerodynamics.lift_area_{axle}": ranges[f"aerodynamics.lift_area_{axle}"][1]}
+        run = simulate(made, 1.0, 0.001, {"throttle": 0.3}, None, lift, pose=Pose(speed=FAST), estimate_error=False)
+        assert (run[f"wheel_{side}L.Fz"] + run[f"wheel_{side}R.Fz"]).min() < 0.05 * loads[side]
 
 
 @pytest.mark.slow

@@ -104,9 +104,14 @@ void slave_watch_ports(slave *s) {
     if (silent++ == 0) first = &t->variable[i];
   }
   if (silent == 0) return;
-  char more[SLAVE_TEXT / 8] = "";
-  if (silent > 1) snprintf(more, sizeof more, " and %zu more", silent - 1);
-  slave_say(s, SLAVE_WARNING,
-            "The port '%s'%s was not set before the first step and holds %g%s until it is. This is said once.",
-            first->name, more, s->value[first - t->variable], first->unit);
+  const double held = s->value[first - t->variable];
+  if (silent == 1)
+    slave_say(s, SLAVE_WARNING,
+              "The port '%s' was not set before the first step and holds %g%s until it is. This is said once.",
+              first->name, held, first->unit);
+  else
+    slave_say(s, SLAVE_WARNING,
+              "%zu ports were not set before the first step. Each holds its start value until it is set, as '%s' holds "
+              "%g%s. This is said once.",
+              silent, first->name, held, first->unit);
 }

@@ -85,7 +85,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
             body.append(element("h2", "Rank correlations"))
             body.append(paragraph("Spearman's: 1 or -1 where the measure only grows or only falls with it.", "faint"))
             body.append(pictures.add(plot_correlations(data, shown), "correlations", "Rank correlations"))
-        for k, response in enumerate(tqdm(shown, desc="report", unit="measure", delay=2.0)):
+        for k, response in enumerate(tqdm(shown, desc="report", unit="measure", delay=2.0, disable=None)):
             body += measure_section(data, response, k, pictures, commands, numbers)
     main = main_response(data)
     write_study_slide(data, None if main is None else indices_of(data, main), folder)

@@ -58,12 +58,12 @@ def extremes(data: StudyData, response: Response, count: int) -> tuple[list[Row]
 
 
 def reasons(data: StudyData, status: str) -> list[tuple[str, list[int]]]:
-    """Reasons of the runs of a status and their indices, the most frequent first; they may differ in their numbers."""
+    """Reasons of the runs of a status and their indices, the most frequent first; of numbers that differ the range."""
     return _grouped(data.frame.loc[data.frame["status"].astype(str) == status, "reason"])
 
 
 def said(data: StudyData) -> list[tuple[str, list[int]]]:
-    """What the FMU said in its runs and their indices, the most frequent first; it may differ in its numbers."""
+    """What the FMU said in its runs and their indices, the most frequent first; of numbers that differ the range."""
     if "messages" not in data.frame:
         return []
     messages = data.frame["messages"].fillna("").astype(str)
@@ -75,8 +75,17 @@ def _grouped(texts: pd.Series[str]) -> list[tuple[str, list[int]]]:
     found: dict[str, list[tuple[int, str]]] = {}
     for index, text in texts.astype(str).items():
         found.setdefault(_NUMBER.sub("…", text), []).append((int(str(index)), text))
-    groups = [
-        (runs[0][1] if len({text for _, text in runs}) == 1 else pattern, [index for index, _ in runs])
-        for pattern, runs in found.items()
-    ]
+    groups = [(_with_ranges([text for _, text in runs]), [index for index, _ in runs]) for runs in found.values()]
     return sorted(groups, key=lambda group: -len(group[1]))
+
+
+def _with_ranges(texts: list[str]) -> str:
+    """A text for those that differ in their numbers alone: where they do, the least and the largest."""
+    columns = zip(*(_NUMBER.findall(text) for text in texts), strict=True)
+    spans = iter([(min(column, key=float), max(column, key=float)) for column in columns])
+
+    def span(_: re.Match[str]) -> str:
+        least, most = next(spans)
+        return least if float(least) == float(most) else f"{least} to {most}"
+
+    return _NUMBER.sub(span, texts[0])

@@ -3,29 +3,35 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
+import numpy as np
+
+from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.places import parts_of
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import Section
-from mbs.vehicle.springs import Damper
+from mbs.vehicle.springs import Damper, Spring
 
 PRESSED = 1.0 / 150.0, 0.25  # of the free radius of a tyre, by the load as drawn
 SUNK = 0.3  # m: how much farther than drawn a car would sink on its springs
 STIFFEST = 40.0  # rad/s: natural frequency of the body on a wheel's spring, 6 Hz
 DAMPED = 0.02, 5.0  # of the critical damping of the body on a wheel's spring
 BRAKED = 0.1, 5.0  # g, by the brakes alone at full pedal
+DRIVEN = 0.02, 5.0  # g, by the drive at full throttle from rest, were there grip for it
+FAST = 50.0  # m/s: there the air does not brake with more than 1 g, lift an axle or press it onto its stops
 DAMPER_SPEED = 0.3  # m/s: where the force of a table is compared with that of a coefficient
 
 Ranges = dict[str, tuple[float, float]]
 
 
 def working_ranges(car: CarContent) -> Ranges:
-    """Least and largest value by key path: of tyres, springs and dampers, of the brakes and of what the car carries.
+    """Least and largest value by key path: of tyres, springs and dampers, brakes, drive, air and of what a car carries.
 
     The load of a tyre is that which presses it in as drawn. A spring is taken to carry the load of its wheel less the
-    unsprung weight, as with a motion ratio of 1. Where springs are tables nothing is said of them and of their dampers.
+    unsprung weight, as with a motion ratio of 1; one of a table is stiff as it is under that load.
 
     Parameters
     ----------
@@ -33,10 +39,10 @@ def working_ranges(car: CarContent) -> Ranges:
         Without faults.
     """
     found: Ranges = {}
-    weight, more = 0.0, 0.0
+    loads: dict[str, tuple[float, float]] = {}
     radii: list[float] = []
-    for axle in (car.front, car.rear):
-        tyre, spring = axle.tyre, axle.spring
+    for name, axle in (("front", car.front), ("rear", car.rear)):
+        tyre = axle.tyre
         load = tyre.stiffness * (tyre.radius - axle.wheel.centre[2])
         if load <= 0.0:
             continue
@@ -44,26 +50,40 @@ def working_ranges(car: CarContent) -> Ranges:
         _put(found, tyre, "stiffness", low, high)
         room = PRESSED[1] * tyre.radius * tyre.stiffness - load
         carried = load - GRAVITY * (axle.wheel.mass + sum(part.mass for part in parts_of(axle)))
-        if spring.stiffness is not None and carried > 0.0:
-            _of_suspension(found, axle, spring.stiffness, carried)
-            room = min(room, spring.stiffness * spring.factor * SUNK)
-        weight, more, radii = weight + 2.0 * load, more + 2.0 * max(room, 0.0), [*radii, tyre.radius]
+        if carried > 0.0:
+            room = min(room, _of_suspension(found, axle, carried))
+        loads[name], radii = (2.0 * load, 2.0 * max(room, 0.0)), [*radii, tyre.radius]
     if len(radii) == 2:
-        whole = weight * sum(radii) / 4.0  # torque of the wheels of one side that brakes with 1 g
-        _put(found, car.brakes, "torque", *(part * whole for part in BRAKED))
+        weight, more = (sum(part) for part in zip(*loads.values(), strict=True))
+        torque = weight * sum(radii) / 2.0  # of all wheels together that brakes or drives with 1 g
+        _put(found, car.brakes, "torque", *(0.5 * part * torque for part in BRAKED))  # that of one side
+        _put(found, car.drive, "max_torque", *(part * torque / car.drive.torque_ratio for part in DRIVEN))
+        _of_air(found, car.aerodynamics, loads)
         for payload in car.payload.values():
             _put(found, payload, "mass", 0.0, payload.mass + more / GRAVITY)
     return found
 
 
-def _of_suspension(found: Ranges, axle: Axle, stiffness: float, carried: float) -> None:
-    """Of a spring that carries a weight, and of the damper beside it."""
+def _of_suspension(found: Ranges, axle: Axle, carried: float) -> float:
+    """Of a spring that carries a weight, and of the damper beside it; how much more load lets it sink as far as it may.
+
+    A law is taken as lines from row to row, which go on beyond its ends.
+    """
     spring, damper = axle.spring, axle.damper
-    k = stiffness * spring.factor
-    if k > 0.0:
-        softest, stiffest = 1.0 / (1.0 / k + SUNK / carried), max(k, STIFFEST**2 * carried / GRAVITY)
-        _put(found, spring, "factor", softest / stiffness, stiffest / stiffness)
-        _put(found, spring, "stiffness", softest / spring.factor, stiffest / spring.factor)
+    x, force = _rows(spring)
+    if not spring.factor > 0.0:
+        return math.inf
+    place = int(np.clip(np.searchsorted(force, carried / spring.factor), 1, len(x) - 1))
+    slope = float((force[place] - force[place - 1]) / (x[place] - x[place - 1]))
+    pressed = float(x[place] + (carried / spring.factor - force[place]) / slope)
+    deep = pressed + SUNK
+    last = float((force[-1] - force[-2]) / (x[-1] - x[-2]))
+    most = float(np.interp(deep, x, force)) + last * max(deep - float(x[-1]), 0.0)
+    k, stiffest = slope * spring.factor, STIFFEST**2 * carried / GRAVITY
+    softest, hardest = carried / most, max(stiffest / slope, spring.factor)
+    _put(found, spring, "factor", softest, hardest)
+    if spring.stiffness is not None:
+        _put(found, spring, "stiffness", *(spring.stiffness * part / spring.factor for part in (softest, hardest)))
     _put(found, spring, "free_length", spring.free_length - SUNK, spring.free_length + SUNK)
     critical = 2.0 * math.sqrt(k * carried / GRAVITY)
     of_one = _coefficient(damper)
@@ -71,6 +91,36 @@ def _of_suspension(found: Ranges, axle: Axle, stiffness: float, carried: float) 
         _put(found, damper, "factor", *(part * critical / of_one for part in DAMPED))
     if damper.damping is not None and damper.factor > 0.0:
         _put(found, damper, "damping", *(part * critical / damper.factor for part in DAMPED))
+    return spring.factor * most - carried
+
+
+def _rows(spring: Spring) -> tuple[np.ndarray, np.ndarray]:
+    """Compressions, m, and forces with a factor of 1, N."""
+    rows = spring.table or ((0.0, 0.0), (1.0, spring.stiffness))
+    x, force = np.array(rows, dtype=float).T
+    return x, force
+
+
+def _of_air(found: Ranges, air: Aerodynamics, loads: Mapping[str, tuple[float, float]]) -> None:
+    """Of the areas and of the density of the air.
+
+    Parameters
+    ----------
+    loads : mapping of str to (float, float)
+        Load of each axle and how much more it can carry, N, by "front" and "rear".
+    """
+    pressure = 0.5 * air.air_density * FAST**2
+    spans = {"drag_area": (0.0, sum(load for load, _ in loads.values()) / pressure)}
+    spans |= {f"lift_area_{name}": (-more / pressure, load / pressure) for name, (load, more) in loads.items()}
+    thinner = math.inf
+    for name, (low, high) in spans.items():
+        area = getattr(air, name)
+        if area is None:
+            continue
+        _put(found, air, name, low, high)
+        thinner = min(thinner, (high if area > 0.0 else low) / area if area else math.inf)
+    if math.isfinite(thinner):
+        _put(found, air, "air_density", 0.0, air.air_density * thinner)
 
 
 def _coefficient(damper: Damper) -> float:

@@ -100,6 +100,11 @@ class Automatic(Section):
                     f"drive shifts down again at once, below down_{throttle} of {down:g} rad/s."
                 )
 
+    @property
+    def torque_ratio(self) -> float:
+        """Torque of both driven wheels together over that of the engine, at rest in first gear."""
+        return self.ratios[0] * self.ratio_factor * self.stall_factor * self.efficiency
+
     def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
         """Add the drive; its reaction is on the chassis.
 

@@ -72,6 +72,11 @@ class Electric(Section):
     engage_time: Time = 0.3
     """Time in which the torque fades out and in when the selector moves."""
 
+    @property
+    def torque_ratio(self) -> float:
+        """Torque of both driven wheels together over that of the motor."""
+        return self.ratio * self.gear_efficiency
+
     def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
         """Add the drive; its reaction is on the chassis.
 

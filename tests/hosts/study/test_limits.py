@@ -41,6 +41,31 @@ def test_counts_by_hand() -> None:
     assert (all_limits.measure, all_limits.within, all_limits.outside) == (ALL, 3, 7)
 
 
+def test_a_measure_that_does_not_exist_is_told_from_one_that_is_missing() -> None:
+    """Two runs lack another measure: in the first there is no speed either, in the second it should be there."""
+    frame = made_frame()
+    frame["missing"] = ""
+    frame.loc[8, ["status", "missing"]] = ["incomplete", "gradient"]
+    frame.loc[9, ["gradient", "speed", "missing"]] = [1.0, np.nan, "peak, speed"]
+    gradient, speed, all_limits = shares(frame)
+    assert (gradient.within, gradient.outside, gradient.without_result, gradient.absent) == (4, 6, 1, 0)
+    assert (speed.within, speed.outside, speed.without_result, speed.absent) == (6, 1, 1, 3)
+    assert (all_limits.within, all_limits.outside, all_limits.without_result) == (3, 7, 2)
+    frame["missing"] = None  # rows of a table of before
+    assert shares(frame) == shares(frame.drop(columns="missing"))
+
+
+def test_a_test_whose_name_begins_with_that_of_another() -> None:
+    frame = frame_of(
+        {"k": np.arange(2.0)}, {"turn.left.speed": [30.0, np.nan, 20.0, np.nan]}, {}, manoeuvres=("turn.left", "turn")
+    )
+    frame.attrs |= {"tests": ["turn", "turn.left"], "units": {"turn.left.speed": "m/s"}}
+    frame.attrs["limits"] = {"turn.left.speed": {"min": 25.0, "max": None, "unit": "m/s"}}
+    frame.loc[frame["manoeuvre"] == "turn", "status"] = "failed"
+    speed, _ = shares(frame)
+    assert (speed.manoeuvre, speed.within, speed.outside) == ("turn.left", 1, 1)
+
+
 def test_the_interval_is_wilsons() -> None:
     share = shares(made_frame())[0]
     # E. B. Wilson, JASA 22, 1927, 209-212: the roots of (p - k/n)^2 = z^2 p (1 - p) / n

@@ -1,0 +1,84 @@
+"""Rows of a table at an interval: the same bits as with a row after each step, and stresses are read there alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hosts.driving.co_simulation import DEAR
+from hosts.driving.co_simulation import run as driven
+from hosts.driving.driver import driver_of
+from hosts.driving.manoeuvre_file import read_manoeuvre
+from hosts.fmu.fmu import Fmu
+from hosts.run.command import main
+from tests.in_process import run
+
+H = 0.01
+
+
+def test_rows_at_an_interval_are_those_of_every_step(kerb_fmus: Path, tmp_path: Path) -> None:
+    tables, said = {}, {}
+    for name, more in (("all", ()), ("few", ("--interval", "0.05"))):
+        asked = (
+            "--fidelity",
+            "0",
+            "-m",
+            "step_steer",
+            "--stop-time",
+            "1.5",
+            "--step",
+            str(H),
+            "--out",
+            tmp_path / name,
+        )
+        done = run(main, kerb_fmus / "native.fmu", *asked, *more)
+        assert done.returncode == 0, done.stderr
+        (file,) = (tmp_path / name).glob("*.csv")
+        tables[name], said[name] = file.read_text(encoding="utf-8").splitlines(), done.stdout
+    assert tables["few"] == [tables["all"][0], *tables["all"][1::5]]
+    assert len(tables["few"]) == 32
+    assert "read at 151 rows, every 10 ms; a longer --interval reads fewer" in said["all"]
+    assert "read at 31 rows, every 50 ms\n" in said["few"]
+    assert "failed steps               0 of 150" in said["few"]
+
+
+def test_an_interval_that_is_no_multiple_of_the_step_is_refused(kerb_fmus: Path, tmp_path: Path) -> None:
+    for interval in ("0.025", "0.001", "nan"):
+        done = run(main, kerb_fmus / "native.fmu", "--step", str(H), "--interval", interval, "--out", tmp_path)
+        assert done.returncode == 2
+        assert "no whole multiple of the step of 0.01 s" in done.stderr or "--interval" in done.stderr
+
+
+@pytest.mark.parametrize("looks", [False, True])
+def test_stresses_are_read_at_rows_and_where_somebody_looks(kerb_fmus: Path, looks: bool) -> None:
+    """Who looks between rows sees the stress of that time."""
+    seen: list[float] = []
+    with Fmu(kerb_fmus / "native.fmu") as fmu:
+        reader, reads = fmu.reader, {True: 0, False: 0}
+
+        def counted(names):  # type: ignore[no-untyped-def]
+            read, dear = reader(names), any(n.startswith(DEAR) for n in names)
+
+            def read_values(into):  # type: ignore[no-untyped-def]
+                reads[dear] += 1
+                read(into)
+
+            return read_values
+
+        fmu.reader = counted  # type: ignore[method-assign]
+        manoeuvre = read_manoeuvre("step_steer")
+        manoeuvre = replace(manoeuvre, start={**manoeuvre.start, "fidelity": 0})
+
+        def until(time, senses):  # type: ignore[no-untyped-def]
+            if looks:
+                seen.append(senses["stress.SG1"])
+            return time > 0.295
+
+        result = driven(fmu, manoeuvre, H, driver_of(fmu, manoeuvre), until=until, every=10)
+    assert reads == {False: 31, True: 31 if looks else 4}
+    if looks:
+        assert seen[9::10] == result["stress.SG1"][1:].tolist()
+        assert len(np.unique(seen)) > 25

@@ -1,0 +1,127 @@
+"""Arrays of FMI 3.0 that are inputs or parameters are set by their elements, in runs and in studies."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pandas as pd
+import pytest
+from numpy.typing import NDArray
+from scipy.linalg import expm
+
+from fmu_src.native.sources import HERE as FMI_HEADERS
+from hosts.common.errors import HostError
+from hosts.fmu.fmu import Fmu
+from hosts.run.command import main as run_command
+from hosts.study.command import main as study
+from hosts.study.store import read_study
+from mbs.kernel import build
+from tests.in_process import run
+
+HERE = Path(__file__).parent
+A, B = np.array([[0.0, 1.0], [-4.0, -0.4]]), np.array([[0.0, 0.0, 0.0], [1.0, 0.5, 0.25]])
+H, EXACT = 0.01, 1e-9
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("state_space")
+    library = folder / f"StateSpace{fmpy.sharedLibraryExtension}"
+    subprocess.run(
+        [
+            *(
+                sys.executable,
+                "-m",
+                "ziglang",
+                "cc",
+                "-target",
+                build.host_target(),
+                "-std=c11",
+                "-O2",
+                "-shared",
+                "-fPIC",
+            ),
+            *("-ffp-contract=off", f"-I{FMI_HEADERS}", "-o", str(library)),
+            str(HERE / "state_space" / "state_space.c"),
+        ],
+        check=True,
+    )
+    made = folder / "StateSpace.fmu"
+    with zipfile.ZipFile(made, "w") as archive:
+        archive.write(HERE / "state_space" / "modelDescription.xml", "modelDescription.xml")
+        archive.write(library, f"binaries/{fmpy.platform_tuple}/{library.name}")
+    return made
+
+
+def motion(u: NDArray[np.float64], a: NDArray[np.float64] = A, b: NDArray[np.float64] = B) -> NDArray[np.float64]:
+    """States at the ends of steps of H with inputs of shape (steps, 3) that are held, by the matrix exponential."""
+    whole = np.zeros((5, 5))
+    whole[:2, :2], whole[:2, 2:] = a, b
+    step = expm(whole * H)
+    x = [np.zeros(2)]
+    for held in u:
+        x.append(step[:2, :2] @ x[-1] + step[:2, 2:] @ held)
+    return np.array(x)
+
+
+def test_a_run_with_inputs_and_parameters_that_are_elements(fmu: Path, tmp_path: Path) -> None:
+    """Two of three inputs move, the third keeps its start value, and so do elements of parameters beside those set."""
+    table = tmp_path / "table.csv"
+    table.write_text('# held: u[1], u[3]\n"time","u[1]","u[3]"\n0,0.5,-1\n0.4,2,-1\n0.4,2,1\n1,0,0\n')
+    values = ["--set", "A[2,1]=-9", "--set", "gain[2]=3", "--set", "on[2]=false"]
+    done = run(run_command, fmu, "-m", table, "--step", H, "--out", tmp_path / "out", *values)
+    assert done.returncode == 0, done.stderr
+    (file,) = (tmp_path / "out").glob("*.csv")
+    found = pd.read_csv(file, comment="#")
+    u = np.where(np.arange(100)[:, None] < 40, [0.5, 0.0, -1.0], [2.0, 0.0, 1.0])
+    expected = motion(u, np.array([[0.0, 1.0], [-9.0, -0.4]])) * [1.0, 3.0]
+    got = np.column_stack([found[next(n for n in found if n.startswith(f"y[{k}]"))] for k in (1, 2)])
+    assert np.abs(got - expected).max() < 1e-6 * np.abs(expected).max()
+    assert np.abs(expected).max() > 0.5
+
+
+def test_a_study_over_elements(fmu: Path, tmp_path: Path) -> None:
+    file = tmp_path / "study.toml"
+    file.write_text(
+        f'fmu = "{fmu}"\nstep = {H}\n[start]\n"u[2]" = 0.0\n[[manoeuvres]]\nname = "step"\nstop_time = 1.0\n'
+        '[sampling]\nmethod = "grid"\n[parameters]\n"A[2,1]" = { values = [-1.0, -16.0] }\n'
+        '"B[2,3]" = { values = [0.0, 0.5] }\n[measures]\nhighest = "max(y[1])"\n'
+    )
+    assert study([str(file), "--out", str(tmp_path / "out"), "--jobs", "1", "--no-report"]) == 0
+    frame = read_study(tmp_path / "out")
+    assert list(frame["status"]) == ["done"] * 4
+    for _, row in frame.iterrows():
+        a, b = A.copy(), B.copy()
+        a[1, 0], b[1, 2] = row["A[2,1]"], row["B[2,3]"]
+        expected = motion(np.tile([1.0, 0.0, 3.0], (100, 1)), a, b)[:, 0].max()
+        assert row["highest"] == pytest.approx(expected, rel=1e-6)
+    assert frame["highest"].std() > 0.05
+
+
+def test_elements_that_are_not_set_keep_their_values(fmu: Path) -> None:
+    """After a restored state those of the state, after a reset those of the start."""
+    with Fmu(fmu) as one:
+        one.initialise({"u[2]": 5.0})
+        read, push = one.getter(["u[1]", "u[2]", "u[3]"]), one.setter(["u[1]"])
+        assert read() == [1.0, 5.0, 3.0]
+        state = one.state()
+        one.setter(["u[3]", "A[1,1]"])([7.0, -1.0])
+        push([4.0])
+        assert read() == [4.0, 5.0, 7.0]
+        one.restore(state)
+        one.free(state)
+        push([6.0])
+        assert read() == [6.0, 5.0, 3.0]
+        one.reset()
+        one.initialise({"u[3]": 8.0})
+        assert read() == [1.0, 2.0, 8.0]
+
+
+def test_an_array_as_a_whole_is_refused_with_its_elements(fmu: Path) -> None:
+    with Fmu(fmu) as one, pytest.raises(HostError, match=r"'B' is an array .* its elements, 'B\[1,1\]' to 'B\[2,3\]'"):
+        one.table.settable("B", "--set")

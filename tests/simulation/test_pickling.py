@@ -1,0 +1,53 @@
+"""Systems and runs go to other processes and back, and give the same bits there."""
+
+import copy
+import multiprocessing
+import pickle
+from concurrent.futures import ProcessPoolExecutor
+
+import numpy as np
+import pytest
+
+from mbs import Pose, System, Trajectory, compile, simulate
+from mbs.vehicle import load
+
+RUN = (0.2, 0.005, {"steering": 0.3, "throttle": 0.5})
+
+
+@pytest.fixture(scope="module")
+def car() -> System:
+    return compile(load("prototype").model())
+
+
+def driven(system: System) -> Trajectory:
+    return simulate(system, *RUN, pose=Pose(yaw=0.3, speed=10.0), estimate_error=False, progress=False)
+
+
+def test_a_pickled_system_is_its_file_and_can_be_placed(car: System) -> None:
+    again = pickle.loads(pickle.dumps(car))
+    assert again.to_bytes() == car.to_bytes()
+    assert again.meta == car.meta
+    assert again.scene == car.scene
+    assert again.ported is None
+    assert copy.deepcopy(car) is car
+    assert copy.copy(car).arrays is car.arrays
+
+
+def test_a_process_gives_the_run_back(car: System) -> None:
+    here = driven(car)
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+        there = pool.submit(driven, car).result()
+    assert list(there) == [name for name in here if not name.startswith(("stress.", "bending_moment."))]
+    for name in there:
+        np.testing.assert_array_equal(there[name], here[name], name)
+
+
+def test_what_a_run_leaves_out_is_pickled_where_it_was_read(car: System) -> None:
+    run = driven(car)
+    with pytest.raises(KeyError, match=r"'stress\.SG1' is not computed .* Read the sensor before the run is pickled"):
+        pickle.loads(pickle.dumps(run))["stress.SG1"]
+    stress = run["stress.SG1"]
+    again = pickle.loads(pickle.dumps(run))
+    np.testing.assert_array_equal(again["stress.SG1"], stress)
+    np.testing.assert_array_equal(again.thinned(4)["stress.SG1"], stress[::4])
+    assert np.ptp(stress) > 1e4
