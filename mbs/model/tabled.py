@@ -80,7 +80,7 @@ def smooth_table(axes: Sequence[object], values: object, functions: int, what: s
     points = tuple(_axis(axis, what) for axis in axes)
     found = array(values, (*(len(p) for p in points), functions), f"the table of {what}")
     for k in range(len(points)):
-        found = np.moveaxis(np.linalg.solve(_collocation(len(points[k])), _with_ends(np.moveaxis(found, k, 0))), 0, k)
+        found = np.moveaxis(_control_points(np.moveaxis(found, k, 0)), 0, k)
     return SmoothTable(points, found if len(points) == 2 else found[:, None, :])
 
 
@@ -104,11 +104,11 @@ def _collocation(n: int) -> Array:
     return A
 
 
-def _with_ends(values: Array) -> Array:
-    """The right-hand side, functions along all axes but the first."""
-    shape = (1, *values.shape[1:])
-    flat = np.concatenate([np.zeros(shape), values, np.zeros(shape)])
-    return flat.reshape(len(flat), -1) if values.ndim == 2 else flat.reshape(len(flat), *values.shape[1:])
+def _control_points(values: Array) -> Array:
+    """Control points along the first axis through values there, two more than these."""
+    none = np.zeros((1, values[0].size))
+    found = np.linalg.solve(_collocation(len(values)), np.vstack([none, values.reshape(len(values), -1), none]))
+    return np.asarray(found.reshape(len(values) + 2, *values.shape[1:]))
 
 
 def _weights(axis: Array, x: float) -> Array:
