@@ -104,8 +104,9 @@ def locator_of(locate: Locate, of: Sequence[Sequence[int]], nz: int) -> Locate:
 
 
 def tabled_arrays(model: Model, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
-    """The `tabled_` arrays."""
-    none = np.zeros(0)
+    """The `tabled_` arrays; none where there are no tables."""
+    if not model.tabled:
+        return {}
     arrays: dict[str, list[Any]] = {n: [] for n in ("size", "frame", "param", "axis", "coef", "mass", "gravity")}
     for t in model.tabled:
         c = t.table.coefficients
@@ -119,7 +120,7 @@ def tabled_arrays(model: Model, seen: Sequence[Affine], new: NDArray[np.int64]) 
         arrays["coef"].append(c.ravel())
         arrays["mass"] += _moments(t)
         arrays["gravity"] += list(model.gravity)
-    return {f"tabled_{n}": np.concatenate(v) if n == "coef" and v else (v or none) for n, v in arrays.items()}
+    return {f"tabled_{n}": np.concatenate(v) if n == "coef" else v for n, v in arrays.items()}
 
 
 def _moments(t: TabledBody | TabledNumber) -> list[float]:

@@ -202,3 +202,19 @@ double ali3_tabled_gravity(const ali3_instance *in, const double *q) {
   }
   return energy;
 }
+
+void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kinetic, double *gravity) {
+  for (int32_t i = 0; i < in->system->n_tabled; i++) {
+    const ali3_tabled *c = in->system->tabled + i;
+    double f[ALI3_TABLED_BODY], X[ALI3_TABLED_BODY], P[ALI3_TABLED_BODY], bent[ALI3_TABLED_BODY];
+    if (!heavy(c)) continue;
+    along(c, work_of(in, i), qd, X);
+    bend(c, work_of(in, i), qd, bent);
+    inertia(c->mass, X, P);
+    weight(c, f);
+    for (int k = 0; k < ALI3_TABLED_BODY; k++) {
+      *kinetic += P[k] * bent[k];
+      *gravity -= f[k] * X[k];
+    }
+  }
+}

@@ -42,6 +42,8 @@ void ali3_tabled_way(const ali3_instance *in, const double *D);
 void ali3_tabled_mass_times(const ali3_instance *in, const double *x, double *out);
 void ali3_tabled_forces(ali3_instance *in, const double *qd, double *Q);
 double ali3_tabled_gravity(const ali3_instance *in, const double *q);
+/* Adds what rates change in both energies beside M qdd and the constant weight. */
+void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kinetic, double *gravity);
 void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, double *F);
 void ali3_tabled_elements_tangent(ali3_instance *in, double *F);
 #endif
