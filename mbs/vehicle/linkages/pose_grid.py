@@ -13,8 +13,8 @@ import numpy as np
 
 from mbs.vehicle.linkages.linkage import CLOSE, LEFT_OVER, MOST_ITERATIONS, RANK_TOLERANCE, Array, Linkage, NotReachedError
 
-SPACING = 0.012, 0.012
-"""Largest distance of points along compression and along the rack's travel, m: poses are right to micrometres."""
+SPACING = 0.012, 0.006
+"""Largest distance of points along compression and along the rack's travel, m: poses are right to 1e-7 m and 1e-5 rad."""
 MARGIN = 0.003
 """Of a table beyond stops and rack, m."""
 FREE = 0.10
