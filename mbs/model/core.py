@@ -62,7 +62,16 @@ class ModelCore(Register):
 
     def _size(self) -> tuple[int, ...]:
         """Counts of what moves and what acts."""
-        parts = (self.tabled, self.inertias, self.joints, self.elements, self.spins, self.inputs, self.guides, self.payloads)
+        parts = (
+            self.tabled,
+            self.inertias,
+            self.joints,
+            self.elements,
+            self.spins,
+            self.inputs,
+            self.guides,
+            self.payloads,
+        )
         return tuple(len(part) for part in parts)
 
     def add(self, element: ElementRecord) -> ElementRecord:

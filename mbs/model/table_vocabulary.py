@@ -34,9 +34,9 @@ class TableVocabulary(BodyVocabulary):
         Parameters
         ----------
         unit : {"m", "rad"}
-            Its unit.
+            A length or an angle.
         rate : float
-            At the start, per second.
+            At the start, m/s or rad/s.
         """
         if unit not in ("m", "rad"):
             raise ModelError(f"The unit of travel {shown(name)} is {shown(unit)}; it must be m or rad.")
@@ -71,7 +71,8 @@ class TableVocabulary(BodyVocabulary):
         parameters : Coordinate or sequence of Coordinate
             One or two, of `travel` or others that are 0 as drawn.
         axes : sequence of array_like
-            For each of them the points of the table, rising and equally spaced, four or more; 0 is among their range.
+            For each of them the points of the table, shape (n,), in its unit, rising and equally spaced, four or more;
+            0 lies between them.
         places : array_like, shape (n0, 3) or (n0, n1, 3)
             Where its centre of mass is, the base as drawn, m.
         rotations : array_like, shape (n0, 3, 3) or (n0, n1, 3, 3)
@@ -128,12 +129,14 @@ class TableVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        parameters, axes
+        parameters : Coordinate or sequence of Coordinate
             As of `tabled_body`.
+        axes : sequence of array_like
+            As of `tabled_body`, shape (n,) each.
         values : array_like, shape (n0,) or (n0, n1)
             At the points.
         unit : str
-            Of the number.
+            As rad of an angle.
         """
         what = f"tabled number {shown(name)}"
         coordinates = tuple(self.owned_coordinate(c, f"The {what}") for c in checked_parameters(parameters, what))

@@ -1,9 +1,9 @@
 """Bodies and numbers whose motion is a table of one or two coordinates, such as a wheel carrier over its travel.
 
-They bring no coordinates of their own to the equations and no rows: place and axes, X = r + Y p(a, b) and Y R(a, b) with
-r and Y of the base, are dependent coordinates that forces and sensors see like those of any body. Functions are uniform
-cubic B-splines through the points of the table, twice continuously differentiable; their error falls with the fourth
-power of the spacing. Beyond the table they go on along their tangent.
+They bring no coordinates of their own to the equations and no rows: place and axes, X = r + Y p(a, b) and Y R(a, b)
+with r and Y of the base, are dependent coordinates that forces and sensors see like those of any body. Functions are
+uniform cubic B-splines through the points of the table, twice continuously differentiable; their error falls with the
+fourth power of the spacing. Beyond the table they go on along their tangent; a step from there is refused.
 """
 
 from __future__ import annotations
@@ -89,8 +89,8 @@ def _axis(given: object, what: str) -> Array:
     steps = np.diff(points)
     if len(points) < FEWEST or not np.all(steps > 0.0) or np.ptp(steps) > UNIFORM * steps.max():
         raise ModelError(
-            f"An axis of the table of {what} has {len(points)} points; they must be {FEWEST} or more, rising and equally "
-            "spaced."
+            f"An axis of the table of {what} has {len(points)} points; they must be {FEWEST} or more, rising and "
+            "equally spaced."
         )
     return points
 
@@ -136,7 +136,7 @@ class TabledBody(Body):
     parameters : tuple of Coordinate
         Variables of its table.
     table : SmoothTable
-        Components of the place of `com` from the base's and of the axes, along the axes of the base: p, then R's columns.
+        Along the axes of the base: p, the place of `com` from the base's, then R's columns, the axes.
     """
 
     is_tabled = True
@@ -159,7 +159,7 @@ class TabledNumber(Coordinate):
 
 
 def pose_functions(base: Body, places: Array, rotations: Array) -> Array:
-    """Functions of a tabled body, shape (..., 12), from places of its centre of mass and rotations as drawn on the base.
+    """Functions of a tabled body, shape (..., 12), from places of its centre of mass and rotations on the base.
 
     Parameters
     ----------

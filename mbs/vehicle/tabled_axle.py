@@ -1,7 +1,7 @@
 """An axle whose parts move by tables that are made of its own links.
 
-The templates of suspensions build it as they build an axle with links; a `TabledParts` in the place of their model makes
-a tabled body of each part and a tabled number of each angle, and needs no joints: the links are in the tables.
+The templates of suspensions build it as they build an axle with links; a `TabledParts` in the place of their model
+makes a tabled body of each part and a tabled number of each angle, and needs no joints: the links are in the tables.
 """
 
 from __future__ import annotations
@@ -139,7 +139,9 @@ def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | No
             f"{data.suspension.key('kind')} '{data.suspension.kind}' makes no table up to its stops: {error}."
         ) from error
     if grid.coupled and len(grid.rack) > 1:
-        raise ModelError(f"{data.suspension.key('kind')} '{data.suspension.kind}' steers and joins its sides; it has no table.")
+        raise ModelError(
+            f"{data.suspension.key('kind')} '{data.suspension.kind}' steers and joins its sides; it has no table."
+        )
     compressions = {s.wheel: b.m.travel(f"spring compression {s.wheel}") for s in sides(axle)}
     parts: Any = TabledParts(b.m, b.chassis.frame, grid, compressions, rack)
 

@@ -87,7 +87,10 @@ def test_tables_are_the_links_at_any_travel_and_rack(name: str, axle: str) -> No
 def test_it_drives_as_the_car_with_links(name: str) -> None:
     """A swerve with the brakes on, in 1.5 s from 15 m/s."""
     t = np.array([0.0, 0.2, 0.5, 0.8, 1.1, 1.5])
-    inputs = {"steering": (t, np.array([0.0, 0.0, 0.4, -0.4, 0.0, 0.0])), "brake": (t, np.array([0, 0, 0, 0, 0.3, 0.3]))}
+    inputs = {
+        "steering": (t, np.array([0.0, 0.0, 0.4, -0.4, 0.0, 0.0])),
+        "brake": (t, np.array([0, 0, 0, 0, 0.3, 0.3])),
+    }
     tabled, linked = (simulate(s, 1.5, 0.005, inputs=inputs, pose=Pose(speed=15.0)) for s in systems(name))
     gap = np.hypot(*(tabled[f"chassis.{c}"] - linked[f"chassis.{c}"] for c in "xy"))
     assert gap.max() < 1e-4

@@ -29,6 +29,7 @@ class Status(IntEnum):
     ROAD_LOST = 20
     TOO_DEAR = 21
     WHEEL_IN_ROAD = 22
+    BEYOND_TABLE = 23
 
 
 class Update(IntEnum):

@@ -6,15 +6,22 @@ what is steered needs a table of two variables.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from mbs.vehicle.linkages.linkage import CLOSE, LEFT_OVER, MOST_ITERATIONS, RANK_TOLERANCE, Array, Linkage, NotReachedError
+from mbs.vehicle.linkages.linkage import (
+    CLOSE,
+    LEFT_OVER,
+    MOST_ITERATIONS,
+    RANK_TOLERANCE,
+    Array,
+    Linkage,
+    NotReachedError,
+)
 
 SPACING = 0.012, 0.006
-"""Largest distance of points along compression and along the rack's travel, m: poses are right to 1e-7 m and 1e-5 rad."""
+"""Largest distance of points along compression and rack, m: poses are right to 2e-7 m and 3e-6 rad."""
 MARGIN = 0.003
 """Of a table beyond stops and rack, m."""
 FREE = 0.10
@@ -69,9 +76,13 @@ def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
         The links end before the stops.
     """
     stops = linkage.data.stops
-    low, high = (FREE, FREE) if stops is None else (
-        stops.rebound_gap + stops.rebound_travel + MARGIN,
-        stops.bump_gap + stops.bump_travel + MARGIN,
+    low, high = (
+        (FREE, FREE)
+        if stops is None
+        else (
+            stops.rebound_gap + stops.rebound_travel + MARGIN,
+            stops.bump_gap + stops.bump_travel + MARGIN,
+        )
     )
     compression = _points(-low, high, SPACING[0])
     coupled = _coupled(linkage)
@@ -82,7 +93,9 @@ def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
     q = np.zeros((*shape, len(linkage.drawn.q)))
     along = _march(linkage, linkage.drawn.q, [((a, a), 0.0) for a in compression])
     for i, start in enumerate(along):
-        second = [((compression[i], b), 0.0) for b in compression] if coupled else [((compression[i],) * 2, u) for u in rack]
+        second = (
+            [((compression[i], b), 0.0) for b in compression] if coupled else [((compression[i],) * 2, u) for u in rack]
+        )
         q[i] = _march(linkage, start, second, begin=i if coupled else int(np.argmin(np.abs(rack))))
     return PoseGrid(linkage, compression, rack, coupled, q)
 
@@ -94,7 +107,9 @@ def _points(low: float, high: float, spacing: float) -> Array:
     return step * np.arange(-below, int(np.ceil(high / step - 1e-9)) + 1)
 
 
-def _march(linkage: Linkage, start: Array, places: list[tuple[tuple[float, float], float]], begin: int | None = None) -> Array:
+def _march(
+    linkage: Linkage, start: Array, places: list[tuple[tuple[float, float], float]], begin: int | None = None
+) -> Array:
     """Coordinates at places along a line, from the one nearest to the drawing (or `begin`) to both ends."""
     first = int(np.argmin([abs(c[0]) + abs(u) for c, u in places])) if begin is None else begin
     found = np.zeros((len(places), len(start)))
@@ -144,7 +159,7 @@ def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float],
 
 def _coupled(linkage: Linkage) -> bool:
     """Whether the compression of the right spring moves the left wheel."""
-    C, c = linkage.centre(0)
+    C, _ = linkage.centre(0)
     alone = at_springs(linkage, linkage.drawn.q, (0.0, 0.01), 0.0)
     return bool(np.max(np.abs(C @ (alone - linkage.drawn.q))) > SAME)
 

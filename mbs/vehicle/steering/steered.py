@@ -11,7 +11,6 @@ from mbs.model.joints.joint import Joint
 from mbs.model.records import Guide
 from mbs.vehicle.corner import TieRodEnd
 
-
 RACK = "rack travel"
 """Name of the coordinate of the rack, and of its drive."""
 
@@ -51,5 +50,6 @@ def tie_rods(m: Model, guide: Guide) -> list[Joint]:
     return [
         joint
         for joint in m.joints
-        if (joint.type == "distance" or joint.name == RACK) and any(t.guide == guide.index for e in joint.equations for t in e.guides)
+        if (joint.type == "distance" or joint.name == RACK)
+        and any(t.guide == guide.index for e in joint.equations for t in e.guides)
     ]

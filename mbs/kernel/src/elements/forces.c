@@ -1,9 +1,9 @@
 /* Signals to elements, element forces and tangents back to coordinates. */
 #include <string.h>
 
-#include "../tabled/tabled.h"
 #include "../flexible/flexible_body.h"
 #include "../instance.h"
+#include "../tabled/tabled.h"
 #include "element.h"
 #include "forces.h"
 #include "signals.h"

@@ -5,8 +5,8 @@
  * Sums over modes run along columns, so that their order does not depend on the width of vectors. */
 #include <string.h>
 
-#include "../tabled/tabled.h"
 #include "../instance.h"
+#include "../tabled/tabled.h"
 #include "body_arrays.h"
 #include "flexible_body.h"
 

@@ -1,7 +1,7 @@
 /* M x: the constant mass matrix and what flexible bodies add to it. */
 #include "mass.h"
-#include "../tabled/tabled.h"
 #include "../instance.h"
+#include "../tabled/tabled.h"
 #include "flexible_body.h"
 
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {

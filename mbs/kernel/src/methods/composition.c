@@ -45,7 +45,8 @@ const ali3_method ali3_method_energy_momentum_4 = {.step = step,
                                                    .before = before,
                                                    .motion = motion,
                                                    .takes = takes,
-                                                   .excludes = ALI3_STATES_IN_WORDS ", no tabled bodies, and no damping",
+                                                   .excludes =
+                                                       ALI3_STATES_IN_WORDS ", no tabled bodies, and no damping",
                                                    .after_unobserved = ali3_energy_momentum_report,
                                                    .owner = ALI3_METHOD_ENERGY_MOMENTUM,
                                                    .round_off = ALI3_ROUND_OFF_INDEX_3};

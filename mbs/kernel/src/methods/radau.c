@@ -356,6 +356,7 @@ static ali3_status takes(const ali3_instance *in) {
 const ali3_method ali3_method_radau_5 = {.step = step,
                                          .motion = ali3_balance_step,
                                          .takes = takes,
-                                         .excludes = ALI3_STATES_IN_WORDS ", no tabled bodies, and no rolling without slip",
+                                         .excludes =
+                                             ALI3_STATES_IN_WORDS ", no tabled bodies, and no rolling without slip",
                                          .owner = ALI3_METHOD_RADAU_5,
                                          .round_off = ALI3_ROUND_OFF_COLLOCATION};

@@ -3,13 +3,13 @@
 #include <string.h>
 
 #include "../algebra/elementary.h"
-#include "../tabled/tabled.h"
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/guides.h"
 #include "../state/work.h"
 #include "../system/sensor_types.h"
+#include "../tabled/tabled.h"
 #include "sensors.h"
 
 /* Signal i (order 0) or its first or second rate. */

@@ -1,10 +1,10 @@
 /* Starts that an element refuses, and how much higher the scene must begin. */
 #include <stdio.h>
 
-#include "../tabled/tabled.h"
 #include "../elements/road.h"
 #include "../elements/tyre_contact.h"
 #include "../instance.h"
+#include "../tabled/tabled.h"
 #include "initialise.h"
 
 enum { MOST_RISES = 100 }; /* an element may ask for its rise bit by bit */

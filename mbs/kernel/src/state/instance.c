@@ -40,6 +40,7 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_TOO_DEAR] = "the step and its parts took more than 1000 iterations, as many as a step may cost",
       [ALI3_ROAD_LOST] = "a part of the road cannot be read from its file",
       [ALI3_WHEEL_IN_ROAD] = "the centre of a wheel is below the road, where its contact is lost",
+      [ALI3_BEYOND_TABLE] = "a coordinate has left the table of what it moves",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }

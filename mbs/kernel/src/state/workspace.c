@@ -1,11 +1,11 @@
 /* What an instance needs of memory: one function places it, walked once to count and once to place. */
 #include "workspace.h"
 
-#include "../tabled/tabled.h"
 #include "../elements/road.h"
 #include "../flexible/body_arrays.h"
 #include "../rows/assembly_mode.h"
 #include "../system/without_states.h"
+#include "../tabled/tabled.h"
 #include "../tree/tree.h"
 #include "masses.h"
 #include "vectors.h"

@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../tabled/derive_tabled.h"
 #include "../elements/element.h"
 #include "../system.h"
 #include "../tree/tree.h"
 #include "check.h"
+#include "derive_tabled.h"
 #include "loading.h"
 #include "message.h"
 #include "pool.h"

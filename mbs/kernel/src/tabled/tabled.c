@@ -218,3 +218,14 @@ void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kineti
     }
   }
 }
+
+bool ali3_tabled_left(const ali3_instance *in) {
+  for (int32_t i = 0; i < in->system->n_tabled; i++) {
+    const ali3_tabled *c = in->system->tabled + i;
+    for (int which = 0; which < 2 && c->count[which] > 1; which++) {
+      const double place = (in->now.q[c->param[which]] - c->axis[2 * which]) / c->axis[2 * which + 1];
+      if (!(place >= -1.0 && place <= c->count[which] - 2.0)) return true;
+    }
+  }
+  return false;
+}

@@ -8,7 +8,7 @@
 #include "../instance.h"
 
 enum { ALI3_TABLED_BODY = 12, ALI3_TABLED_COLUMNS = 14, ALI3_TABLED_MOMENTS = 10 };
-enum { ALI3_TABLED_ITEMS = 4, ALI3_TABLED_MOST = 72 }; /* of one element: items, coordinates */
+enum { ALI3_TABLED_SIGNALS = 24, ALI3_TABLED_ITEMS = 4, ALI3_TABLED_MOST = 72 }; /* of one element; coordinates */
 
 struct ali3_tabled {
   int32_t n;                         /* functions: 12 of a body, 1 of a number */
@@ -33,6 +33,8 @@ struct ali3_tabled_work { /* what ali3_tabled_prepare leaves of an item */
   double force[ALI3_TABLED_BODY];    /* on X, of the last ali3_tabled_forces */
 };
 
+/* Whether a coordinate of in->now is beyond its table by more than a spacing: along a tangent a body is none there. */
+bool ali3_tabled_left(const ali3_instance *in);
 void ali3_tabled_table(const ali3_tabled *c, double a, double b, double value[6][ALI3_TABLED_BODY]);
 void ali3_tabled_prepare(const ali3_instance *in, const double *q);
 /* in->extended[0 .. 2]: q, qd, qdd (NULL: left) with the dependents behind them; prepared at q. */

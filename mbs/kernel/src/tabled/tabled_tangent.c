@@ -1,7 +1,6 @@
 /* Tangents of tabled bodies and of elements on them, into fronts. */
 #include <string.h>
 
-#include "../elements/element.h"
 #include "tabled.h"
 
 enum { FIRST_PARAMETER = 12, BY_A = 1, BY_AA = 3 };
@@ -103,7 +102,7 @@ static void element_tangent(ali3_instance *in, int32_t e, const ali3_tabled_elem
   const int32_t size = S->front_ptr[front + 1] - S->front_ptr[front];
   const double *tangent = in->S + S->el_S_off[e];
   double *block = F + S->front_off[front];
-  double B[ALI3_MAX_SIGNALS * ALI3_TABLED_MOST], SB[ALI3_MAX_SIGNALS * ALI3_TABLED_MOST];
+  double B[ALI3_TABLED_SIGNALS * ALI3_TABLED_MOST], SB[ALI3_TABLED_SIGNALS * ALI3_TABLED_MOST];
   memset(B, 0, (size_t)(n * m) * sizeof *B);
   memset(SB, 0, (size_t)(n * m) * sizeof *SB);
   for (int32_t k = S->el_entry_ptr[e]; k < S->el_entry_ptr[e + 1]; k++) {
@@ -112,8 +111,7 @@ static void element_tangent(ali3_instance *in, int32_t e, const ali3_tabled_elem
     if (d < 0)
       row[local] += S->el_entry_value[k];
     else
-      spread(S->tabled + of->item[local], in->tabled + of->item[local], of->slot[local], d, S->el_entry_value[k],
-             row);
+      spread(S->tabled + of->item[local], in->tabled + of->item[local], of->slot[local], d, S->el_entry_value[k], row);
   }
   for (int32_t i = 0; i < n; i++)
     for (int32_t k = 0; k < n; k++) {

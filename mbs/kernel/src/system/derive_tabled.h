@@ -2,8 +2,8 @@
 #ifndef ALI3_DERIVE_TABLED_H
 #define ALI3_DERIVE_TABLED_H
 #include "../system.h"
-#include "../system/message.h"
-#include "../system/pool.h"
+#include "message.h"
+#include "pool.h"
 
 bool ali3_on_tabled(const ali3_system *s, int32_t e); /* an element with signals of dependents */
 void ali3_tabled_place(ali3_system *s, ali3_pool *p, size_t n_entry);

@@ -2,9 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../elements/element.h"
-#include "../system/check.h"
-#include "tabled.h"
+#include "../tabled/tabled.h"
+#include "check.h"
 #include "derive_tabled.h"
 
 bool ali3_on_tabled(const ali3_system *s, int32_t e) {
@@ -45,14 +44,14 @@ static ali3_status derive_item(const ali3_system *s, int32_t i, int32_t *depende
   const int32_t *size = s->tabled_size + 3 * (int64_t)i;
   int32_t least = s->size.nq;
   *c = (ali3_tabled){.n = size[0],
-                      .count = {size[1], size[2]},
-                      .first = *dependents,
-                      .frame = s->tabled_frame + 12 * (int64_t)i,
-                      .param = s->tabled_param + 2 * (int64_t)i,
-                      .axis = s->tabled_axis + 4 * (int64_t)i,
-                      .coef = s->tabled_coef + *coefficients,
-                      .mass = s->tabled_mass + ALI3_TABLED_MOMENTS * (int64_t)i,
-                      .gravity = s->tabled_gravity + 3 * (int64_t)i};
+                     .count = {size[1], size[2]},
+                     .first = *dependents,
+                     .frame = s->tabled_frame + 12 * (int64_t)i,
+                     .param = s->tabled_param + 2 * (int64_t)i,
+                     .axis = s->tabled_axis + 4 * (int64_t)i,
+                     .coef = s->tabled_coef + *coefficients,
+                     .mass = s->tabled_mass + ALI3_TABLED_MOMENTS * (int64_t)i,
+                     .gravity = s->tabled_gravity + 3 * (int64_t)i};
   *dependents += c->n;
   *coefficients += (int64_t)size[0] * size[1] * size[2];
   for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++)
@@ -76,6 +75,8 @@ static int32_t owner(const ali3_system *s, int32_t dependent) {
 static ali3_status derive_element(ali3_system *s, int32_t e, ali3_tabled_element *of, ali3_message m) {
   const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
   int32_t at = s->el_entry_ptr[e], found[ALI3_TABLED_ITEMS][ALI3_TABLED_COLUMNS], n = 0, plain = at;
+  if (s->el_sig_ptr[e + 1] - s->el_sig_ptr[e] > ALI3_TABLED_SIGNALS)
+    return ali3_bad(m, "element %d on a tabled body has too many signals", (int)e);
   for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++)
     for (int32_t k = s->sig_ptr[s->el_sig[i]]; k < s->sig_ptr[s->el_sig[i] + 1]; k++, at++, loc++) {
       const int32_t d = s->sig_col[k] - s->size.nq;
