@@ -16,6 +16,7 @@ from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
 
 COLOURS = {
+    Fidelity.TABLE: "#999999",
     Fidelity.RIGID: "#222222",
     Fidelity.QUASI_STATIC: "#56B4E9",
     Fidelity.LOAD_PATHS: "#E69F00",
@@ -63,7 +64,7 @@ def modes_of(fidelity: Fidelity) -> int:
     """Number of modes."""
     return (
         0
-        if fidelity in (Fidelity.RIGID, Fidelity.QUASI_STATIC)
+        if fidelity.rigid or fidelity is Fidelity.QUASI_STATIC
         else prototype_car.car().flexible_frame.reduced(fidelity).n_modes
     )
 
@@ -80,9 +81,8 @@ def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, 
     report = found.report
     assert report is not None
     reference = fidelity_runs.read_reference(name)
-    error: dict[str, float | None] = dict(fidelity_runs.errors(fidelity_runs.sampled(found, h), reference))
-    if fidelity is Fidelity.RIGID:
-        error |= dict.fromkeys(STRESSES)
+    error: dict[str, float | None] = dict.fromkeys(STRESSES)
+    error |= fidelity_runs.errors(fidelity_runs.sampled(found, h, stresses=not fidelity.rigid), reference)
     duration = float(found.t[-1])
     spent = fidelity_runs.cpu_time(name, fidelity, h, repeats)
     return {
@@ -101,6 +101,7 @@ def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, 
 def left_out(fidelity: Fidelity) -> str:
     """What a fidelity does without, in words."""
     texts = {
+        Fidelity.TABLE: "deformation and stresses, and forces in the links",
         Fidelity.RIGID: "deformation and stresses",
         Fidelity.QUASI_STATIC: "vibration of the frame and the effect of its bending on the motion",
         Fidelity.LOAD_PATHS: "deformations that no recorded load excites, and vibration that is not in their shapes",

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import mbs
 from fmu_src.build.scene_registry import SceneError
-from fmu_src.geometry.posed import posed_systems
-from mbs.vehicle import Car, car_names, load
+from fmu_src.geometry.posed import Maker, posed_systems
+from mbs.vehicle import Car, Fidelity, car_names, load
 from mbs.vehicle.ports import chosen_ports
 from mbs.vehicle.summary import grip_row
 
@@ -44,7 +45,7 @@ class BuiltCar:
     grip: Mapping[str, str]
 
 
-def build_car(car: str, poses: str | None = None, ports: str | None = None) -> BuiltCar:
+def build_car(car: str, poses: str | None = None, ports: str | None = None, fidelity: float | None = None) -> BuiltCar:
     """Read a car and compile it.
 
     Parameters
@@ -56,6 +57,9 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None) -> B
     ports : str, optional
         As `mbs.vehicle.ports.chosen_ports` takes them, besides those of the file; the name of what is built says
         then that it has ports.
+    fidelity : float, optional
+        Number of a member of `mbs.vehicle.Fidelity` that is alone in what is built, which its name says; by default
+        all that an FMU offers.
 
     Returns
     -------
@@ -71,9 +75,12 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None) -> B
         name = f"{made.name}_ports"
         chosen = chosen_ports(ports)
         made = made.changed({f"ports.{key}": kind for key, kind in chosen.items()})
+    if fidelity is not None:
+        only = Fidelity.of(int(fidelity) if fidelity == int(fidelity) else fidelity)  # type: ignore[arg-type]
+        name = f"{name or made.name}_{only.name.lower()}"
     where = f"{made.folder / _FILE}: the car '{made.name}' cannot be built"
     try:
-        makers = made.fidelities()
+        makers: Mapping[int, Maker] = made.fidelities() if fidelity is None else {0: partial(made.model, None, only)}
         systems = posed_systems(makers, min(makers), poses)
     except (ValueError, RuntimeError) as error:
         raise SceneError(f"{where}: {error}") from error

@@ -75,6 +75,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         "(=half_shafts or =hub_motors), brakes (=torque or =pressure), steering (=rack_position or =rack_force), road, "
         "forces (=earth or =vehicle), wind, tyre",
     )
+    add_option(parser, "--fidelity", "of a --car, alone in the FMU; default: all that an FMU offers")
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
     parser.add_argument("--license", default="", help="of the model; default: the solver's")
@@ -82,6 +83,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     options = parser.parse_args(arguments)
     if options.ports is not None and options.car is None:
         parser.error("--ports are of a car: name it by --car")
+    if options.fidelity is not None and options.car is None:
+        parser.error("--fidelity is of a car: name it by --car")
     if options.kernel:
         return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
     options.out = options.out or Path("dist")
@@ -196,7 +199,7 @@ def _compiled(
 
         print(f"car {car_words(options.car)} ...", flush=True)
         with line.told("compiling the car"):
-            car = build_car(options.car, options.poses, options.ports)
+            car = build_car(options.car, options.poses, options.ports, options.fidelity)
         _tell_grip(car.grip)
         return car.name, car.systems, min(car.systems), car.description, car.files
     from fmu_src.build.car_registry import grip_of

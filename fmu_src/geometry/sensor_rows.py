@@ -44,7 +44,10 @@ class SensorRows:
     """
 
     def __init__(self, system: mbs.System) -> None:
-        self._arrays, self._nq = system.arrays, system.nq
+        self._arrays = system.arrays
+        tables = system.arrays.get("tabled_size", np.zeros(0, int))
+        self._dependents = int(np.sum(tables[::3]))  # behind the coordinates, of tabled bodies
+        self._nq = system.nq + self._dependents
         assert system.drawing is not None, "asked for before"
         self._places = system.drawing.places
         self.names = [str(entry["name"]) for entry in system.meta["sensors"]]
@@ -129,7 +132,8 @@ class SensorRows:
 
     def _full(self, first: int, count: int) -> Array:
         part = slice(first, first + count)
-        return np.column_stack([self._places.matrix[part].toarray(), self._places.constant[part]])
+        rows = self._places.matrix[part].toarray()
+        return np.column_stack([rows, np.zeros((count, self._dependents)), self._places.constant[part]])
 
     def _signal(self, i: int) -> Array:
         a, row = self._arrays, np.zeros(self._nq + 1)

@@ -44,8 +44,8 @@ def coordinate_lengths(kinds: list[str], units: list[bool], length: float) -> li
 
 
 def unit_vectors(model: Model, numbers: list[int]) -> list[bool]:
-    """Whether full coordinates are components of unit vectors: the axes of flexible bodies; others are in m."""
-    axes = {b.start + k for b in model.bodies if isinstance(b, FlexibleBody) for k in range(3, 12)}
+    """Whether full coordinates are components of unit vectors, as of flexible bodies and bases; others are in m."""
+    axes = {b.start + k for b in model.bodies if isinstance(b, FlexibleBody) or b.is_base for k in range(3, 12)}
     return [k in axes for k in numbers]
 
 

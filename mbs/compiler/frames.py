@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from mbs.common.frames import FlexibleShapes, Frames
+from mbs.compiler.tabled import tabled_coordinates
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 
@@ -28,4 +29,8 @@ def frames_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64])
         for b in model.bodies
         if isinstance(b, FlexibleBody)
     )
+    tabled = tabled_coordinates(model)
+    if tabled:  # no affine function of q: what asks for one sees that it is none
+        constant = constant.copy()
+        constant[tabled] = np.nan
     return Frames(T, constant, model.dimension, tuple(points), tuple(vectors), rigid, tuple(scalars), flexible)

@@ -43,6 +43,18 @@ from mbs.compiler.row_scale import row_scale
 from mbs.compiler.rows import rigid_rows
 from mbs.compiler.start import guide_start, reference_position, velocity
 from mbs.compiler.structure import rank_at, structure_report
+from mbs.compiler.tabled import (
+    Dependents,
+    base_coordinates,
+    columns_of,
+    locator_of,
+    refuse_joint,
+    spread,
+    tabled_arrays,
+    tabled_cliques,
+    tabled_coordinates,
+    tell_apart,
+)
 from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
 from mbs.compiler.tree import tree_arrays
 from mbs.model.equation import Equation
@@ -89,10 +101,18 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     """The System of a model whose loops are closed; `closed` is for its report."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
-    remaining, full, of_z, redundant, left = reduce_coordinates(
-        natural, linear, model.grounded, flexible_coordinates(model)
-    )
-    candidates = [row_terms(e, j, k, full) for j, k, e in others]
+    held = {*tabled_coordinates(model)}
+    for equation in linear:
+        if not held.isdisjoint(equation.linear_form().terms):
+            raise refuse_joint(equation.name)
+    reduced = reduce_coordinates(natural, linear, model.grounded, flexible_coordinates(model) | base_coordinates(model))
+    known = tell_apart(model, *reduced[:3])
+    remaining, full, of_z, (redundant, left) = known.remaining, known.full, known.of_z, reduced[3:]
+    nz = len(remaining)
+    candidates = [row_terms(e, j, k, known.seen) for j, k, e in others]
+    for row in candidates:
+        if row.columns() and row.columns()[-1] >= nz:
+            raise refuse_joint(row.name)
     for row in candidates:
         switch = model.joints[row.joint].switch
         row.switch = -1 if switch is None else switch.index
@@ -102,10 +122,10 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     if not remaining:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
 
-    T, z0 = transformation(full, len(remaining))
+    T, z0 = transformation(full, nz)
     M_full = full_mass(model)
     mass = symmetric(T.T @ M_full @ T)
-    fronts, tangent_nonzeros = _symbolic(model, rows, full, mass)
+    fronts, tangent_nonzeros = _symbolic(model, rows, full, mass, known)
     order = fronts.order
     new = np.argsort(order)
     mass = mass[order][:, order].tocsr()
@@ -130,7 +150,8 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     arrays.scale(scale)
 
     gravity = full_gravity(model)
-    signals = Signals(full, new)
+    behind = [[int(new[j]) for j in places] for places in columns_of(model, known.seen)]
+    signals = Signals(known.seen, np.concatenate([new, np.arange(nz, nz + len(behind))]))
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
     tree, no_tree = tree_arrays(model, signals, remaining, new)
@@ -151,12 +172,13 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         "switch_start": [int(s.on) for s in model.switches],
         **row_fronts(arrays, locate),
         **front_arrays(fronts),
-        **element_arrays(model, signals, locate),
+        **element_arrays(model, signals, locator_of(locate, behind, nz)),
         **sensor_arrays(model, signals, row_of),
         **channel_arrays(model),
         **payload_arrays(model, signals),
         **armature_arrays(model, full, new),
         **flexible_arrays(model, full, new, locate),
+        **tabled_arrays(model, known.seen, new),
         **pose_arrays(model, natural, remaining, of_z, q[new], order),
         **tree,
         **triads,
@@ -211,11 +233,15 @@ def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equat
     return linear, others
 
 
-def _symbolic(model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix) -> tuple[Fronts, int]:
+def _symbolic(
+    model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, known: Dependents
+) -> tuple[Fronts, int]:
     """Elimination order and fronts of the tangent, and the non-zeros of its lower triangle."""
     entries = mass.tocoo()
     cliques: list[list[int]] = [[int(i), int(j)] for i, j in zip(entries.row, entries.col, strict=True) if i > j]
     cliques += [row.columns() for row in rows]
-    cliques += element_cliques(model, full) + flexible_cliques(model, full) + payload_cliques(model, full)
+    behind, nz = columns_of(model, known.seen), mass.shape[0]
+    cliques += [spread(clique, behind, nz) for clique in element_cliques(model, known.seen)]
+    cliques += flexible_cliques(model, full) + payload_cliques(model, full) + tabled_cliques(model, known.seen)
     pattern = clique_pattern(mass.shape[0], cliques)
     return build_fronts(pattern, fill_reducing_order(pattern)), (pattern.nnz + mass.shape[0]) // 2

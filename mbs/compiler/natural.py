@@ -56,7 +56,7 @@ def natural_coordinates(model: Model) -> NaturalCoordinates:
     info = [NaturalCoordinate(c.name, c.kind, c.component, c.reference) for c in model.coordinates]
     expressions = [Affine({i: 1.0}) for i in range(len(info))]
     for body in model.bodies:
-        if not (body.is_point or body.is_flexible):
+        if not (body.is_point or body.is_flexible or body.is_base):
             _describe(body, info, expressions)
     return NaturalCoordinates(info, expressions)
 

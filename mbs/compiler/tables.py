@@ -14,6 +14,7 @@ from mbs.compiler.armatures import written_armatures
 from mbs.compiler.front_arrays import Locate
 from mbs.compiler.polynomial import substitute
 from mbs.kernel.header.enumerations import SensorType
+from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.reactions import MOST_FACTORS
@@ -126,7 +127,11 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
     for sensor in model.sensors:
         # the bodies are all known only now
         of_bodies = sensor.type == SensorType.MASS
-        reals.append([float(sum(body.mass for body in model.bodies))] if of_bodies else sensor.reals)
+        reals.append(
+            [float(sum(b.mass for b in (*model.bodies, *model.tabled) if isinstance(b, Body)))]
+            if of_bodies
+            else sensor.reals
+        )
         if sensor.terms:
             ints.append([len(sensor.terms)])
             reals[-1] = [t.weight for t in sensor.terms]

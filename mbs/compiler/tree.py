@@ -57,6 +57,8 @@ def tree_arrays(
         Place of each z in elimination order.
     """
     try:
+        if model.tabled:
+            raise NoTreeError(f"'{model.tabled[0].name}' moves by a table")
         groups, cuts = spanning_tree(model)
         moving = groups[1:]
         rows = sum(sum(rows_of(model, cut)) for cut in cuts)

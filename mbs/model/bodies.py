@@ -210,7 +210,7 @@ class BodyVocabulary(ModelCore):
         """
         what = f"initial velocity of body {shown(getattr(body, 'name', body))}"
         self.owned(body, f"The {what}")
-        if body.is_ground or isinstance(body, Interface):
+        if body.is_ground or body.is_tabled or isinstance(body, Interface):
             raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
         d, size = self.dimension, 1 if self.dimension == 2 else 3
         if linear is None and angular is None:

@@ -31,6 +31,8 @@ class Body:
     is_ground = False
     is_point = False
     is_flexible = False
+    is_tabled = False
+    is_base = False  # of tabled bodies
 
     def __init__(self, model: Register, name: str, com: Vector, start: int) -> None:
         self.model = model

@@ -16,6 +16,7 @@ from mbs.model.joints.joint import Joint
 from mbs.model.records import Ahead, Armature, Constant, Guide, Input, Parameter, RoadFileParameter, Switch
 from mbs.model.register import Register
 from mbs.model.sensor import Sensor
+from mbs.model.tabled import TabledBody, TabledNumber
 
 
 class ModelCore(Register):
@@ -35,6 +36,7 @@ class ModelCore(Register):
         self.elements: list[ElementRecord] = []
         # Name and description of a sensor of the work of all elements that come from now on; it comes with the first.
         self.book_of_added: tuple[str, str] | None = None
+        self.tabled: list[TabledBody | TabledNumber] = []
         self.inertias: dict[int, float] = {}  # with those of `armatures`, as drawn
         self.armatures: list[Armature] = []
         self.spins: list[Spin] = []
@@ -61,7 +63,16 @@ class ModelCore(Register):
 
     def _size(self) -> tuple[int, ...]:
         """Counts of what moves and what acts."""
-        parts = (self.inertias, self.joints, self.elements, self.spins, self.inputs, self.guides, self.payloads)
+        parts = (
+            self.tabled,
+            self.inertias,
+            self.joints,
+            self.elements,
+            self.spins,
+            self.inputs,
+            self.guides,
+            self.payloads,
+        )
         return tuple(len(part) for part in parts)
 
     def add(self, element: ElementRecord) -> ElementRecord:

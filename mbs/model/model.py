@@ -29,11 +29,13 @@ from mbs.model.parameters import Target, new_parameter
 from mbs.model.records import Armature, Constant, Guide, Input, Parameter
 from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.model.spin import spin
+from mbs.model.table_vocabulary import TableVocabulary
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
 
 
 class Model(
     TransmissionVocabulary,
+    TableVocabulary,
     ForceVocabulary,
     MotionSensorVocabulary,
     OrientationSensorVocabulary,

@@ -27,6 +27,10 @@ def new_payload(
     place = vector(position, model.dimension, f"the position of {what}")
     if body.is_ground:
         raise ModelError(f"The {what} sits on the ground, which does not move; give it to a body.")
+    if body.is_tabled:
+        raise ModelError(
+            f"The {what} sits on tabled body '{body.name}', whose mass is part of its table; give it to its base."
+        )
     if point is not None:
         drawn = model.expressions(point, f"The {what}").value(model.drawn())
         if np.linalg.norm(drawn - place) > SAME_PLACE:

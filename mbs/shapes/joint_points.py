@@ -112,7 +112,7 @@ def touched(model: Model, names: FrameNames) -> Touched:
             found.lines.append(Line(record.name, ends_, record))
             for frame, local in ends_:
                 found.points.setdefault(frame, []).append(origins[frame] + np.array(local))
-    for spin in model.spins:
+    for spin in (s for s in model.spins if not s.carrier.is_tabled):
         found.points.setdefault(names.of_body(spin.carrier), []).append(origin_of(spin))
     return found
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from mbs.common.checks import Vector
 from mbs.flexible.scene_part import flexible_parts
+from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import Shape, in_space
@@ -24,6 +25,7 @@ from mbs.system.drawing import Drawing, Places, matrices
 from viewer import scene_parts
 from viewer.base64_numbers import encoded
 
+TABLED = "a table moves it, and pictures follow coordinates"
 SLIDES = "one of its ends slides by a guide, which no sensor reads (sense_guide)"
 Scene = dict[str, Any]
 
@@ -69,7 +71,8 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "flexible": list(model.flexible_scene),
         "arrows": arrows_of(model, names, found.lines),
         "roads": roads_of(model),
-        "missing": [{"name": name, "why": SLIDES} for name in found.sliding if name not in named],
+        "missing": [{"name": name, "why": SLIDES} for name in found.sliding if name not in named]
+        + [{"name": t.name, "why": TABLED} for t in model.tabled if isinstance(t, Body)],
     }
     return Drawing(scene, places, shared_points(model, names), _flexible(model, names, places, q))
 

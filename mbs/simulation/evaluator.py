@@ -31,7 +31,7 @@ class Evaluator:
         self.arrays = simulation.system.arrays
         self.time = simulation.time
         self.state = simulation.state
-        self._bends = len(self.arrays["flex_mode"]) > 0
+        self._bends = len(self.arrays["flex_mode"]) > 0 or "tabled_size" in self.arrays
         self._mass = self._mass_at(self.state.q)
         self.slots = [k for k in range(len(self.state.y)) if self._remembers(k)]
 

@@ -50,6 +50,7 @@ def refusal(
         Status.TOO_FAR,
         Status.ROAD_LOST,
         Status.WHEEL_IN_ROAD,
+        Status.BEYOND_TABLE,
     ):
         message += _worst_equations(simulation, report)
     return SimulationError(message, simulation.time, error.status, trajectory)
@@ -73,6 +74,8 @@ def _remedy(simulation: SteppedSystem, status: int) -> str:
     if status == Status.WHEEL_IN_ROAD:
         element, words = simulation.instance.wheel_in_road()
         return f" '{prepared(simulation.system)[1]['elements'][element]['name']}': {words}."
+    if status == Status.BEYOND_TABLE:
+        return _beyond_table(simulation)
     if status == Status.NO_EQUILIBRIUM:
         return _farthest_changed(simulation)
     rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
@@ -83,6 +86,20 @@ def _remedy(simulation: SteppedSystem, status: int) -> str:
             f"below about {STIFF_STEP:g}. Implicit methods ('ali3p', 'radau_5') need not follow it."
         )
     return ""
+
+
+def _beyond_table(simulation: SteppedSystem) -> str:
+    """The coordinate that is farthest beyond its table."""
+    a, q = simulation.system.arrays, simulation.state.q
+    names, found = prepared(simulation.system)[1]["coordinates"], []
+    for k, column in enumerate(a["tabled_param"]):
+        if column >= 0:
+            first, step = (float(v) for v in a["tabled_axis"][2 * k : 2 * k + 2])
+            last = first + step * float(a["tabled_size"][k // 2 * 3 + 1 + k % 2] - 3)
+            x = float(q[column])
+            found.append((max(first - x, x - last) / step, f"{names[column]!r} is {x:.4g}", first, last))
+    _, said, first, last = max(found)
+    return f" {said}; its table goes from {first:.4g} to {last:.4g}: give it one that covers what the run can reach."
 
 
 def _farthest_changed(simulation: SteppedSystem) -> str:

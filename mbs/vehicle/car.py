@@ -52,10 +52,11 @@ from mbs.vehicle.outputs import (
 from mbs.vehicle.port_parts import driver_inputs, force_ports, port_outputs, road_ports, torque_ports, wind_port
 from mbs.vehicle.road import level_within, tell_steep_face
 from mbs.vehicle.schema_version import of_this_version
-from mbs.vehicle.shapes.car_shapes import car_shapes
+from mbs.vehicle.shapes.car_shapes import car_shapes, tabled_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.tabled_axle import tabled_axle
 from mbs.vehicle.tyre_by_file import MagicFormula
 
 MOST_FAULTS = 8
@@ -141,14 +142,14 @@ class Car(CarContent):
             The road is a grid with a wall, a face that is higher than the radius of a wheel.
         """
         fidelity = Fidelity.of(fidelity)
-        if fidelity is not Fidelity.RIGID and not self.steering.on_flexible_chassis:
+        if not fidelity.rigid and not self.steering.on_flexible_chassis:
             raise ModelError(
                 f"{self.steering.key('kind')} is '{self.steering.kind}', which needs a rigid chassis, fidelity "
                 f"{Fidelity.RIGID.value}; for fidelity {fidelity.value} take 'rack_by_angle'."
             )
-        if fidelity is not Fidelity.RIGID and self.misfit:
+        if not fidelity.rigid and self.misfit:
             raise ModelError(f"The car '{self.name}' has fidelity 0 only: its frame does not fit it. {self.misfit}")
-        flexible = self.flexible_frame if fidelity is not Fidelity.RIGID else None
+        flexible = None if fidelity.rigid else self.flexible_frame
         b = self._builder(road)
         tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
         with b.m.together():
@@ -172,7 +173,7 @@ class Car(CarContent):
         b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
         for name, payload in self.payload.items():
             payload.build(b, name, fidelity)
-        (steered, front), (_, rear) = self.mechanism(b)
+        (steered, front), (_, rear) = self.tabled(b) if fidelity is Fidelity.TABLE else self.mechanism(b)
         spins = front | rear
         if self.ports.torque is None:
             self.drive.build(b, spins, neutral=guide is not None)
@@ -189,7 +190,7 @@ class Car(CarContent):
         self._outputs(b, steered, spins, fidelity)
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
-        m.put_off(partial(car_shapes, b, self, spins))
+        m.put_off(partial(tabled_shapes if fidelity is Fidelity.TABLE else car_shapes, b, self, spins))
 
     def _frame_poses(self, b: CarBuilder) -> list[dict[str, Any]]:
         """Amplitudes of the frame as outputs, and its parts of the scene."""
@@ -230,6 +231,17 @@ class Car(CarContent):
         steered = self.steering.build(b, self.rack_way)
         yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
+
+    def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
+        """The same by tables."""
+        steered = self.steering.build(b, self.rack_way)
+        if steered.travel is None:
+            raise ModelError(
+                f"{self.steering.key('kind')} is '{self.steering.kind}', whose rack is a body: the suspensions have no "
+                f"tables, fidelity {Fidelity.TABLE.value}, with it. Take 'rack_by_angle' or fidelity 0."
+            )
+        yield steered, tabled_axle(b, self, "front", steered.travel(), self.brakes.build)
+        yield steered, tabled_axle(b, self, "rear", None, self.brakes.build)
 
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
         """The models an FMU offers by its parameter `fidelity`.

@@ -33,7 +33,13 @@ class Fidelity(IntEnum):
     LOAD_PATHS = 2, "flexible, static modes of the load paths"
     DYNAMIC = 3, "flexible, static, inertia and 5 dynamic modes"
     MANY_MODES = 4, "flexible, static, inertia and 40 dynamic modes"
+    TABLE = 10, "rigid, suspensions by tables that are made of their links"
     PAPER = 100, "flexible, 60 static and 5 dynamic modes as in the paper, without inertia modes"
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the chassis is one rigid body without ports."""
+        return self in (Fidelity.RIGID, Fidelity.TABLE)
 
     @classmethod
     def of(cls, value: int | str) -> Fidelity:

@@ -30,7 +30,7 @@ class Payload(Section):
             Of the chassis: a frame that may bend takes the force of the payload at several joints.
         """
         body, share = b.chassis.frame, None
-        if fidelity is not Fidelity.RIGID:
+        if not fidelity.rigid:
             origin, axes, place = b.chassis.contact_frame
             body = b.chassis.body
             share = origin

@@ -31,6 +31,7 @@ ROOMS = (
     "elements",
     "roads",
     "flexible",
+    "tabled",
     "algebra",
     "files",
 )

@@ -18,7 +18,7 @@ REALS = {
     "tree_base", "tree_mass", "tree_centre", "tree_inertia", "tree_gravity", "tree_out_local", "tree_cut_place",
     "tree_angle_sign", "tree_angle_inertia",
     "static_value", "static_q", "payload_mass", "payload_gravity", "tree_payload_place", "ported_val",
-    "ported_const", "armature_inertia", "armature_ratio",
+    "ported_const", "armature_inertia", "armature_ratio", "tabled_axis", "tabled_coef", "tabled_mass", "tabled_gravity",
 }  # fmt: skip
 INTS = {
     "mass_ptr", "mass_col", "mass_pos", "row_ptr", "row_col", "row_front", "row_loc", "quad_ptr", "quad_a", "quad_b",
@@ -33,7 +33,7 @@ INTS = {
     "tree_angle_col", "tree_angle_ptr", "tree_angle_joint",
     "mode_triad_ptr", "mode_triad", "mode_cell_ptr", "mode_cell", "mode_name_ptr", "mode_name",
     "static_start", "static_par", "pose_partner", "par_fixed", "payload_signal", "tree_payload_body",
-    "ported_ptr", "ported_row", "armature_col",
+    "ported_ptr", "ported_row", "armature_col", "tabled_size", "tabled_frame", "tabled_param",
 }  # fmt: skip
 
 

@@ -19,7 +19,7 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
         "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s The file of the "
         "road must be whole again, whatever the step_size.",
         time, step, r->count > 1 ? " again" : "", time, ali3_status_text(status), worst);
-  if (status == ALI3_WHEEL_IN_ROAD) /* nor one that stands in it */
+  if (status == ALI3_WHEEL_IN_ROAD || status == ALI3_BEYOND_TABLE) /* nor a state that no step leaves */
     return slave_say(
         s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
         "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s Go on from another state.",

@@ -30,6 +30,7 @@ class Status(IntEnum):
     TOO_DEAR = 21
     WHEEL_IN_ROAD = 22
     BAD_NORMAL = 23
+    BEYOND_TABLE = 24
 
 
 class Update(IntEnum):

@@ -44,6 +44,7 @@ typedef enum {
   ALI3_TOO_DEAR,          /* a step whose parts took more iterations than a step may cost */
   ALI3_WHEEL_IN_ROAD,     /* the centre of a wheel is deep in a grid road; see ali3_wheel_in_road */
   ALI3_BAD_NORMAL,        /* the inputs of a road at a port give no normal; see ali3_is_road_normal */
+  ALI3_BEYOND_TABLE,      /* a coordinate is beyond a table of it by more than the spacing of its points */
   ALI3_STATUS_COUNT
 } ali3_status;
 

@@ -20,6 +20,8 @@
   X(int32_t, 1, tree_payload_body) X(double, 2, tree_payload_place) \
   X(int32_t, 1, armature_col) X(double, 2, armature_inertia) X(double, 2, armature_ratio) \
   X(int32_t, 1, guide_second) \
+  X(int32_t, 1, tabled_size) X(int32_t, 1, tabled_frame) X(int32_t, 1, tabled_param) X(double, 2, tabled_axis) \
+  X(double, 2, tabled_coef) X(double, 2, tabled_mass) X(double, 2, tabled_gravity) \
   X(int32_t, 1, ported_ptr) X(int32_t, 1, ported_row) X(double, 2, ported_val) X(double, 2, ported_const)
 
 #define ALI3_SYSTEM_ARRAYS(X) \
@@ -90,6 +92,8 @@ typedef struct {
 } ali3_guide_term;
 
 typedef struct ali3_element_type ali3_element_type; /* elements/element.h */
+typedef struct ali3_tabled ali3_tabled;     /* tabled/tabled.h */
+typedef struct ali3_tabled_element ali3_tabled_element;
 typedef struct ali3_tree ali3_tree;           /* tree/tree.h: the part of a System for relative coordinates */
 
 struct ali3_system {
@@ -107,6 +111,7 @@ struct ali3_system {
   int32_t max_front; /* largest front */
   double flex_rate; /* largest K_jj/M_jj of a mode, 1/s^2 */
   int32_t n_flexible, max_modes; /* flexible bodies, most modes of one */
+  int32_t n_tabled, n_dependent; /* tabled bodies and numbers, their coordinates */
   bool senses_rows; /* a sensor reads multipliers or violations */
   /* derived at load, in one block */
   void *derived;
@@ -134,6 +139,10 @@ struct ali3_system {
   int32_t *el_coordinate_loc;  /* local index in the front, ascending */
   int32_t *active_signal;      /* signals that elements use */
   int32_t *flex_square;        /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
+  ali3_tabled *tabled;
+  ali3_tabled_element *tabled_element;
+  int32_t *el_tabled;         /* ne: which tabled element, -1: none */
+  int32_t *el_entry_dependent; /* per entry: the dependent within its item, -1: a coordinate */
   ali3_tree *tree;             /* NULL: the System has none */
   int32_t n_input_work; /* n_work where inputs may change what elements store, else 0 */
   int32_t n_work, n_work_force; /* elements whose work is sensed, signals of all of them */

@@ -26,7 +26,7 @@ def build_chassis(m: Model, data: Chassis, flexible: FlexibleFrame | None, fidel
         How much of it is modelled.
     """
     origin = data.reference
-    if fidelity is Fidelity.RIGID or flexible is None:
+    if fidelity.rigid or flexible is None:
         rigid = _rigid(m, data)
         axes = rigid.vector((0.0, 0.0, 1.0)), rigid.vector((1.0, 0.0, 0.0))
         frame = rigid.point(rigid.com), [rigid.vector(v) for v in np.eye(3)], rigid.com
@@ -90,7 +90,7 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
     note = "; zero where stress.computed is 0"
     for k, reading in enumerate(flexible.structure.readings):
         name, unit, text = reading.name, reading.unit, reading.description
-        if fidelity is Fidelity.RIGID:
+        if fidelity.rigid:
             m.sense_constant(name, 0.0, unit=unit, description=text + note, computed=False)
         elif isinstance(mount.body, PortedBody):
             m.sense_quasi_static(
@@ -102,5 +102,5 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
             row = body.reduced.recovery(flexible.gauge_rows[k : k + 1])[0]
             m.sense_coordinate(name, body.combination(row), unit=unit, description=text + note)
     text = "1 where moments and stresses are computed; 0: they read zero"
-    computed = fidelity is not Fidelity.RIGID
+    computed = not fidelity.rigid
     m.sense_constant("stress.computed", float(computed), unit="1", description=text, whole=True, computed=computed)

@@ -28,7 +28,7 @@ from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
 from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.car import Car
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.mount import Mount
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.springs import AxleSprings
@@ -79,6 +79,8 @@ class Linkage:
 
     Attributes
     ----------
+    model : Model
+        Its model, on the earth as the chassis.
     drawn : Position
         As the file draws it.
     has_rod : bool
@@ -89,9 +91,9 @@ class Linkage:
         Numbers of the full coordinates of the levers of the anti-roll bar; empty: there is none.
     """
 
-    def __init__(self, car: Car, axle: str) -> None:
+    def __init__(self, car: CarContent, axle: str) -> None:
         self.car, self.name, self.data = car, axle, getattr(car, axle)
-        m = Model(f"{car.name} {axle} suspension", gravity=(0.0, 0.0, 0.0))
+        m = self.model = Model(f"{car.name} {axle} suspension", gravity=(0.0, 0.0, 0.0))
         b = CarBuilder(m, m.road(PlaneRoad()), {})
         b.chassis = _held(m, car)
         ramp = PPoly(np.array([[1.0], [-FARTHEST]]), np.array([-FARTHEST, FARTHEST]))  # the rack's travel is the time
@@ -126,6 +128,16 @@ class Linkage:
         start = np.array(system.arrays["q0"])
         self._drawn_heights = self._heights @ start + [centre[1][2] for centre in self._centres]
         self.drawn = self.solve(start, np.zeros(2), 0.0)
+
+    def constraints(self, q: Array, qd: Array, rack: float) -> tuple[Array, Array, Array]:
+        """Conditions of the joints at a travel of the rack, their Jacobian, and their rate by the rack's travel.
+
+        Parameters
+        ----------
+        q, qd : ndarray, shape (nq,)
+            Coordinates and rates.
+        """
+        return self._evaluator.constraints(q, qd, rack)
 
     def linear(self, v: AffineVector) -> tuple[Array, Array]:
         """Matrix (3, nq) and constant (3,) of a point or vector over the coordinates.
@@ -239,7 +251,7 @@ class Linkage:
         return self._evaluator.forces(q)
 
 
-def _held(m: Model, car: Car) -> Mount:
+def _held(m: Model, car: CarContent) -> Mount:
     """The earth as the chassis."""
     ground = m.ground
     axes = [ground.vector(e) for e in np.eye(3)]

@@ -49,6 +49,23 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> Non
         wheel_shapes(looks, name, axle)
     steering_shapes(looks)
     powertrain_shapes(looks)
+    _cabin_shapes(looks, b, car)
+
+
+def tabled_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
+    """Draw the chassis of a car whose suspensions are tables: drawings have no place for what those move.
+
+    Parameters
+    ----------
+    b, car, spins
+        As of `car_shapes`.
+    """
+    b.m.default_shapes = False
+    _cabin_shapes(Looks(b, car, spins, b.chassis.frame), b, car)
+
+
+def _cabin_shapes(looks: Looks, b: CarBuilder, car: CarContent) -> None:
+    """Occupants, and the frame or a shell."""
     occupant_shapes(looks)
     tubes = isinstance(car.chassis.frame, TubesFrame)
     if tubes:

@@ -6,6 +6,7 @@ import math
 from typing import Literal
 
 from mbs.elements.coordinate_friction import CoordinateFriction
+from mbs.model.coordinate import Coordinate
 from mbs.model.ends import End
 from mbs.model.records import Input
 from mbs.vehicle.axes import LEFT
@@ -14,7 +15,7 @@ from mbs.vehicle.quantities import PrescribedFriction
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
 from mbs.vehicle.steering.rack_section import COLUMN_STICK, RackSection
-from mbs.vehicle.steering.steered import Steered, tie_rods
+from mbs.vehicle.steering.steered import RACK, Steered, tie_rods
 
 
 class RackByAngle(RackSection):
@@ -63,6 +64,11 @@ class RackByAngle(RackSection):
         def end(side: Side, point: Point) -> End:
             return m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=LEFT, guide=rack)
 
+        def travel() -> Coordinate:
+            way_of_rack = m.travel(RACK)
+            m.drive(RACK, way_of_rack.affine, rack)
+            return way_of_rack
+
         def outputs() -> None:
             m.sense_guide("steering_rack", rack, description=self.travel_text(way))
             m.sense_guide(
@@ -86,4 +92,4 @@ class RackByAngle(RackSection):
             if demand is not None:
                 demand_outputs(m, demand, rack, 1.0 / per_radian)
 
-        return Steered(end, outputs, torque_outputs)
+        return Steered(end, outputs, torque_outputs, travel)

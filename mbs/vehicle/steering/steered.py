@@ -6,9 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from mbs.model import Model
+from mbs.model.coordinate import Coordinate
 from mbs.model.joints.joint import Joint
 from mbs.model.records import Guide
 from mbs.vehicle.corner import TieRodEnd
+
+RACK = "rack travel"
+"""Name of the coordinate of the rack, and of its drive."""
 
 
 @dataclass(frozen=True)
@@ -23,15 +27,18 @@ class Steered:
         Adds the outputs that every steering has had from the first.
     torque_outputs : callable
         Adds those of speed, force and torque, after all others.
+    travel : callable or None
+        Adds the travel of the rack, m, as a coordinate in the place of its ends; None: the steering has none.
     """
 
     tie_rod: TieRodEnd
     outputs: Callable[[], None]
     torque_outputs: Callable[[], None]
+    travel: Callable[[], Coordinate] | None = None
 
 
 def tie_rods(m: Model, guide: Guide) -> list[Joint]:
-    """Rods with an end that a guide slides.
+    """Rods with an end that a guide slides, or the drive of the rack where it is a coordinate.
 
     Parameters
     ----------
@@ -43,5 +50,6 @@ def tie_rods(m: Model, guide: Guide) -> list[Joint]:
     return [
         joint
         for joint in m.joints
-        if joint.type == "distance" and any(t.guide == guide.index for e in joint.equations for t in e.guides)
+        if (joint.type == "distance" or joint.name == RACK)
+        and any(t.guide == guide.index for e in joint.equations for t in e.guides)
     ]

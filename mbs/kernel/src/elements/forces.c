@@ -3,6 +3,7 @@
 
 #include "../flexible/flexible_body.h"
 #include "../instance.h"
+#include "../tabled/tabled.h"
 #include "element.h"
 #include "forces.h"
 #include "signals.h"
@@ -72,6 +73,19 @@ bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t
   return a.idle != 0;
 }
 
+/* Forces f of element e to coordinates and dependents. */
+static void spread(ali3_instance *in, int32_t e, const double *f, double *Q) {
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  for (int32_t i = 0; i < S->el_sig_ptr[e + 1] - S->el_sig_ptr[e]; i++) {
+    const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
+    for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) {
+      const int32_t to = S->sig_col[k];
+      *(to < nq ? Q + to : in->extended_force + (to - nq)) += S->sig_val[k] * f[i];
+    }
+  }
+}
+
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
@@ -83,23 +97,37 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     in->wC = call->wC;
     in->wK = call->wK;
   }
+  if (S->n_tabled > 0) {
+    memset(in->extended_force, 0, (size_t)S->n_dependent * sizeof(double));
+    in->wC = call->wC;
+    in->wK = call->wK;
+  }
   for (int32_t e = 0; e < S->size.ne; e++) {
     double *tangent = call->tangent && S->el_front[e] >= 0 ? in->S + S->el_S_off[e] : NULL;
     local(in, e, u, ud);
     in->idle[e] = ali3_element_forces(in, call, e, u, ud, f, tangent) ? 1 : 0;
     if (in->idle[e]) continue;
+    if (S->n_tabled > 0) {
+      spread(in, e, f, call->Q);
+      continue;
+    }
     for (int32_t i = 0; i < S->el_sig_ptr[e + 1] - S->el_sig_ptr[e]; i++) {
       const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
       for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++)
         call->Q[S->sig_col[k]] += S->sig_val[k] * f[i];
     }
   }
+  if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
 }
 
 /* The same with the flexible bodies, their changing mass too. */
 void ali3_forces_tangent(ali3_instance *in, double *F) {
   if (in->system->n_flexible > 0) ali3_flexible_tangent(in, 1.0, in->wC, in->wK, F);
   ali3_elements_tangent(in, F);
+  if (in->system->n_tabled > 0) {
+    ali3_flexible_tangent(in, 1.0, in->wC, in->wK, F);
+    ali3_tabled_elements_tangent(in, F);
+  }
 }
 
 void ali3_law_pieces(ali3_instance *in, uint32_t *piece) {

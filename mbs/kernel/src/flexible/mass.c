@@ -1,11 +1,13 @@
 /* M x: the constant mass matrix and what flexible bodies add to it. */
 #include "mass.h"
 #include "../instance.h"
+#include "../tabled/tabled.h"
 #include "flexible_body.h"
 
 void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
   ali3_constant_mass_times(in, x, out);
   if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
+  if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out);
 }
 
 /* a' M b, M of the last q prepared; M b stays in `work` (nq). */

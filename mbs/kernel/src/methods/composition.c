@@ -38,14 +38,15 @@ static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in
 static ali3_status takes(const ali3_instance *in) {
   const ali3_status status = ali3_needs_no_states(in);
   if (status != ALI3_OK) return status;
-  return ali3_conservative(in) ? ALI3_OK : ALI3_WRONG_METHOD;
+  return ali3_conservative(in) && in->system->n_tabled == 0 ? ALI3_OK : ALI3_WRONG_METHOD;
 }
 
 const ali3_method ali3_method_energy_momentum_4 = {.step = step,
                                                    .before = before,
                                                    .motion = motion,
                                                    .takes = takes,
-                                                   .excludes = ALI3_STATES_IN_WORDS ", and no damping",
+                                                   .excludes =
+                                                       ALI3_STATES_IN_WORDS ", no tabled bodies, and no damping",
                                                    .after_unobserved = ali3_energy_momentum_report,
                                                    .owner = ALI3_METHOD_ENERGY_MOMENTUM,
                                                    .round_off = ALI3_ROUND_OFF_INDEX_3};

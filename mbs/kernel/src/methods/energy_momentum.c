@@ -338,7 +338,12 @@ void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, do
 
 static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->next, h); }
 
+/* A discrete derivative of their functions is missing. */
+static ali3_status takes(const ali3_instance *in) { return in->system->n_tabled > 0 ? ALI3_WRONG_METHOD : ALI3_OK; }
+
 const ali3_method ali3_method_energy_momentum = {.step = step,
+                                                 .takes = takes,
+                                                 .excludes = "no tabled bodies",
                                                  .before = ali3_energy_momentum_restart,
                                                  .motion = motion,
                                                  .after_unobserved = ali3_energy_momentum_report,

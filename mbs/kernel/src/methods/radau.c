@@ -350,12 +350,13 @@ static ali3_status step(ali3_instance *in, double t, double h) {
 
 /* The tangent of the stages has no rate of the rows. */
 static ali3_status takes(const ali3_instance *in) {
-  return in->system->n_velocity_row > 0 ? ALI3_WRONG_METHOD : ali3_needs_no_states(in);
+  return in->system->n_velocity_row + in->system->n_tabled > 0 ? ALI3_WRONG_METHOD : ali3_needs_no_states(in);
 }
 
 const ali3_method ali3_method_radau_5 = {.step = step,
                                          .motion = ali3_balance_step,
                                          .takes = takes,
-                                         .excludes = ALI3_STATES_IN_WORDS ", and no rolling without slip",
+                                         .excludes =
+                                             ALI3_STATES_IN_WORDS ", no tabled bodies, and no rolling without slip",
                                          .owner = ALI3_METHOD_RADAU_5,
                                          .round_off = ALI3_ROUND_OFF_COLLOCATION};

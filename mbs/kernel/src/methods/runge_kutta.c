@@ -106,7 +106,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
   ali3_status status = after_jump(in);
   memcpy(in->stage, to->qdd, (size_t)nq * sizeof(double));
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
-  const bool watched = S->n_flexible == 0; /* else M changes, and in->Q has inertia forces */
+  const bool watched = S->n_flexible + S->n_tabled == 0; /* else M changes, and in->Q has inertia forces */
   const double kinetic = watched ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->r) : 0.0;
   double work = watched ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, in->stage, in->r) : 0.0;
   ali3_work_stage(in, h * ali3_order_8.weight[0], to->watched, to->work);
@@ -141,7 +141,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
   return ali3_accept(in);
 }
 
-static bool has_balance(const ali3_instance *in) { return in->system->n_flexible == 0; }
+static bool has_balance(const ali3_instance *in) { return in->system->n_flexible + in->system->n_tabled == 0; }
 
 const ali3_method ali3_method_runge_kutta_8 = {.step = step,
                                                .motion = ali3_balance_step,

@@ -8,6 +8,7 @@
 #include "../state/inputs.h"
 #include "../state/road_files.h"
 #include "../state/vectors.h"
+#include "../tabled/tabled.h"
 #include "branch_watch.h"
 #include "energy_balance.h"
 #include "newton.h"
@@ -20,6 +21,11 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
     in->report.last_status = ALI3_WHEEL_IN_ROAD;
     in->report.failures++;
     return ALI3_WHEEL_IN_ROAD;
+  }
+  if (in->system->n_tabled > 0 && ali3_tabled_left(in)) {
+    in->report.last_status = ALI3_BEYOND_TABLE;
+    in->report.failures++;
+    return ALI3_BEYOND_TABLE;
   }
   const ali3_status aimed = ali3_inputs_aim(in, h, end);
   if (aimed != ALI3_OK) return aimed;

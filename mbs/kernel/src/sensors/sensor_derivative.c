@@ -7,6 +7,7 @@
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../system/sensor_types.h"
+#include "../tabled/tabled.h"
 #include "sensors.h"
 
 typedef struct {
@@ -14,8 +15,10 @@ typedef struct {
 } moving;
 
 /* Signal i (order 0) or its first or second rate, of a state, without the constant. */
-static double signal(const ali3_system *S, const ali3_vectors *x, int32_t i, int32_t order) {
+static double signal(const ali3_instance *in, const ali3_vectors *x, int32_t i, int32_t order) {
+  const ali3_system *S = in->system;
   const double *column = order == 0 ? x->q : (order == 1 ? x->qd : x->qdd);
+  if (S->n_tabled > 0) column = in->extended[order + (x == &in->direction)]; /* a direction is a rate */
   double sum = 0.0;
   for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * column[S->sig_col[k]];
   return sum;
@@ -24,8 +27,8 @@ static double signal(const ali3_system *S, const ali3_vectors *x, int32_t i, int
 static moving vector(const ali3_instance *in, const int32_t *v, int32_t order, int32_t n) {
   moving m = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   for (int32_t i = 0; i < n; i++) {
-    m.v[i] = signal(in->system, &in->now, v[i], order) + (order == 0 ? in->system->sig_const[v[i]] : 0.0);
-    m.d[i] = signal(in->system, &in->direction, v[i], order);
+    m.v[i] = signal(in, &in->now, v[i], order) + (order == 0 ? in->system->sig_const[v[i]] : 0.0);
+    m.d[i] = signal(in, &in->direction, v[i], order);
   }
   return m;
 }
@@ -46,11 +49,11 @@ static double angle_change(double y, double x, double dy, double dx) {
 }
 
 static double change_signal(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in->system, &in->direction, v[0], 0);
+  return real[0] * signal(in, &in->direction, v[0], 0);
 }
 
 static double change_signal_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in->system, &in->direction, v[0], 1);
+  return real[0] * signal(in, &in->direction, v[0], 1);
 }
 
 static double change_component(const ali3_instance *in, const int32_t *v, const double *real) {
@@ -122,6 +125,7 @@ static double change_energy(const ali3_instance *in, const int32_t *v, const dou
     kinetic += in->x[i] * in->direction.qd[i];
     gravity -= in->gravity_force[i] * in->direction.q[i];
   }
+  if (S->n_tabled > 0) ali3_tabled_power(in, in->now.qd, &kinetic, &gravity);
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->direction.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
   return kinds[v[0]];
@@ -204,6 +208,10 @@ ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *k
   if (ng > 0) {
     memcpy(d->s, now->sd, ng);
     memcpy(d->sd, now->sdd, ng);
+  }
+  if (S->n_tabled > 0) {
+    ali3_tabled_prepare(in, now->q);
+    ali3_tabled_extend(in, now->q, now->qd, now->qdd);
   }
   for (int32_t i = 0; i < S->size.ns; i++) {
     const int32_t type = S->sen_type[i], *v = S->sen_int + S->sen_int_ptr[i];

@@ -9,12 +9,14 @@
 #include "../rows/guides.h"
 #include "../state/work.h"
 #include "../system/sensor_types.h"
+#include "../tabled/tabled.h"
 #include "sensors.h"
 
 /* Signal i (order 0) or its first or second rate. */
 static double signal(const ali3_instance *in, int32_t i, int32_t order) {
   const ali3_system *S = in->system;
-  const double *x = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
+  const double *own = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
+  const double *x = S->n_tabled > 0 ? in->extended[order] : own;
   double sum = order == 0 ? S->sig_const[i] : 0.0;
   for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * x[S->sig_col[k]];
   return sum;
@@ -239,6 +241,10 @@ static sensor_function *const value_of[ALI3_SENSOR_TYPE_COUNT] = {
 
 void ali3_sensors_evaluate(const ali3_instance *in, double *out) {
   const ali3_system *S = in->system;
+  if (S->n_tabled > 0) {
+    ali3_tabled_prepare(in, in->now.q);
+    ali3_tabled_extend(in, in->now.q, in->now.qd, in->now.qdd);
+  }
   for (int32_t i = 0; i < S->size.ns; i++)
     out[i] = value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], S->sen_real + S->sen_real_ptr[i]);
 }

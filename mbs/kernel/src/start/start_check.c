@@ -4,6 +4,7 @@
 #include "../elements/road.h"
 #include "../elements/tyre_contact.h"
 #include "../instance.h"
+#include "../tabled/tabled.h"
 #include "initialise.h"
 
 enum { MOST_RISES = 100 }; /* an element may ask for its rise bit by bit */
@@ -21,6 +22,11 @@ ali3_element_args ali3_start_arguments(const ali3_instance *in, const ali3_road 
       .integer = S->el_int + S->el_int_ptr[e],
       .roads = roads,
   };
+  if (S->n_tabled > 0) {
+    ali3_tabled_prepare(in, q);
+    ali3_tabled_extend(in, q, q, NULL);
+    q = in->extended[0];
+  }
   for (int32_t i = 0; i < a.nsig; i++) {
     const int32_t signal = S->el_sig[first + i];
     u[i] = S->sig_const[signal];

@@ -41,6 +41,7 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_ROAD_LOST] = "a part of the road cannot be read from its file",
       [ALI3_BAD_NORMAL] = "the normal of a road at a port must be a unit vector that points up",
       [ALI3_WHEEL_IN_ROAD] = "the centre of a wheel is below the road, where its contact is lost",
+      [ALI3_BEYOND_TABLE] = "a coordinate has left the table of what it moves",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }

@@ -5,6 +5,7 @@
 #include "../flexible/body_arrays.h"
 #include "../rows/assembly_mode.h"
 #include "../system/without_states.h"
+#include "../tabled/tabled.h"
 #include "../tree/tree.h"
 #include "masses.h"
 #include "vectors.h"
@@ -119,6 +120,10 @@ static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->flex =
       ali3_pool_array(p, ALI3_FLEX_COUPLING * (size_t)s->n_flexible + ALI3_FLEX_OF_MODE * (size_t)s->n_flex_mode);
   in->flex_work = ali3_pool_array(p, 3 * (size_t)s->max_modes);
+  const size_t extended = s->n_tabled > 0 ? (size_t)(z->nq + s->n_dependent) : 0;
+  in->tabled = ali3_pool_items(p, (size_t)s->n_tabled, sizeof *in->tabled);
+  for (int k = 0; k < 3; k++) in->extended[k] = ali3_pool_array(p, extended);
+  in->extended_force = ali3_pool_array(p, (size_t)s->n_dependent);
   in->y_work = ali3_pool_array(p, (size_t)z->ny);
   in->out_work = ali3_pool_array(p, (size_t)z->nout);
   in->potential_work = ali3_pool_array(p, (size_t)z->ne);

@@ -28,7 +28,7 @@ static ali3_status check_element_places(const ali3_system *s, int32_t e, int64_t
   for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
     const int32_t signal = s->el_sig[i];
     for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, loc++)
-      if (*loc < 0 || *loc >= n || idx[*loc] != s->sig_col[k])
+      if (s->sig_col[k] < s->size.nq && (*loc < 0 || *loc >= n || idx[*loc] != s->sig_col[k]))
         return ali3_bad(m, "coordinate %d of element %d is not in front %d", (int)s->sig_col[k], (int)e, (int)f);
   }
   return ALI3_OK;

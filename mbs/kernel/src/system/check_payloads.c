@@ -20,6 +20,7 @@ ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_length(m, "payload_signal", s->n_payload_signal, 3 * n));
   CHECK(ali3_check_length(m, "payload_gravity", s->n_payload_gravity, n > 0 ? 3 : 0));
   CHECK(ali3_check_indices(m, "payload_signal", s->payload_signal, 3 * n, 0, s->size.nsig));
+  for (int64_t i = 0; i < 3 * n; i++) CHECK(ali3_check_independent(s, s->payload_signal[i], "a payload", m));
   for (int64_t i = 0; i < 3 * n; i++)
     if (!has_room(s, s->payload_signal[i]))
       return ali3_bad(m, "payload %d is at coordinates between which the mass matrix has no entry", (int)(i / 3));

@@ -1,4 +1,6 @@
 /* What the start of a System says: values for the search of the equilibrium, partners of its pose. */
+#include <stdlib.h>
+
 #include "../system.h"
 #include "check.h"
 #include "loading.h"
@@ -16,6 +18,9 @@ ali3_status ali3_check_start(const ali3_system *s, ali3_message m) {
                       (int)s->static_par[i], s->static_value[i]);
   if (s->n_static_start > 0 || s->n_pose_partner > 0)
     CHECK(ali3_check_length(m, "pose_partner", s->n_pose_partner, s->n_pose_0));
-  return ali3_check_indices(m, "pose_partner", s->pose_partner, s->n_pose_partner, -(int64_t)s->size.nsig,
-                            (int64_t)s->size.nsig + 1);
+  CHECK(ali3_check_indices(m, "pose_partner", s->pose_partner, s->n_pose_partner, -(int64_t)s->size.nsig,
+                           (int64_t)s->size.nsig + 1));
+  for (int64_t i = 0; i < s->n_pose_partner; i++)
+    if (s->pose_partner[i] != 0) CHECK(ali3_check_independent(s, abs(s->pose_partner[i]) - 1, "a pose", m));
+  return ALI3_OK;
 }

@@ -9,6 +9,8 @@ ali3_status ali3_check_fronts(ali3_system *s, ali3_message m);
 ali3_status ali3_check_rows(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_elements(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_sensors(const ali3_system *s, ali3_message m);
+ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m);
+ali3_status ali3_check_independent(const ali3_system *s, int32_t signal, const char *what, ali3_message m);
 ali3_status ali3_check_flexible(ali3_system *s, ali3_message m);
 ali3_status ali3_check_tree(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_modes(const ali3_system *s, ali3_message m);

@@ -69,7 +69,7 @@ static ali3_status check_mass(const ali3_system *s, ali3_message m) {
 static ali3_status check_signals(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_length(m, "sig_val", s->n_sig_val, s->n_sig_col));
   CHECK(ali3_check_pointers(m, "sig_ptr", s->sig_ptr, s->n_sig_ptr, s->n_sig_const, s->n_sig_col));
-  CHECK(ali3_check_indices(m, "sig_col", s->sig_col, s->n_sig_col, 0, s->size.nq));
+  CHECK(ali3_check_indices(m, "sig_col", s->sig_col, s->n_sig_col, 0, s->size.nq + s->n_dependent));
   for (int64_t i = 0; i < s->size.nu; i++)
     if (!(s->input_min[i] <= s->input_start[i] && s->input_start[i] <= s->input_max[i]))
       return ali3_bad(m, "input %lld starts at %g, outside its range", (long long)i, s->input_start[i]);
@@ -202,6 +202,7 @@ const char *ali3_check_target(const ali3_system *s, int64_t k, const double *con
 ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(check_sizes(s, m));
   CHECK(check_mass(s, m));
+  CHECK(ali3_check_tabled_sizes(s, m));
   CHECK(check_signals(s, m));
   CHECK(ali3_check_payloads(s, m));
   CHECK(ali3_check_armatures(s, m));

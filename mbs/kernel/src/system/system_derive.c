@@ -10,6 +10,7 @@
 #include "../system.h"
 #include "../tree/tree.h"
 #include "check.h"
+#include "derive_tabled.h"
 #include "loading.h"
 #include "message.h"
 #include "pool.h"
@@ -49,6 +50,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_coordinate_loc = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->active_signal = ali3_pool_items(p, (size_t)s->size.nsig, sizeof(int32_t));
   s->flex_square = ali3_pool_items(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
+  ali3_tabled_place(s, p, n_entry);
   s->tree = s->n_tree_parent > 0 ? ali3_pool_items(p, 1, sizeof *s->tree) : NULL;
 }
 
@@ -189,7 +191,7 @@ static void derive_element(ali3_system *s, int32_t e) {
       s->el_entry_local[first + n] = 0;
     }
   }
-  if (s->el_front[e] >= 0) {
+  if (s->el_front[e] >= 0 && !ali3_on_tabled(s, e)) {
     memcpy(coordinate, loc, (size_t)n * sizeof *loc);
     qsort(coordinate, (size_t)n, sizeof *coordinate, compare_int32);
     for (int32_t i = 0; i < n; i++)
@@ -259,6 +261,8 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_mass(s);
   derive_elements(s);
   derive_flexible(s);
+  const ali3_status tabled = ali3_tabled_derive(s, m);
+  if (tabled != ALI3_OK) return tabled;
   derive_work(s);
   if (s->tree != NULL) ali3_tree_derive(s, s->tree);
   for (int32_t i = 0; i < s->size.ns; i++) {

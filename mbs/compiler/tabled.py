@@ -1,0 +1,141 @@
+"""Bodies and numbers by table as the `tabled_` arrays of the System: dependents behind its coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.common.affine import Affine
+from mbs.common.errors import ModelError
+from mbs.compiler.front_arrays import Locate
+from mbs.model.model import Model
+from mbs.model.tabled import TabledBody, TabledNumber
+
+NONE = [-1] * 12
+
+
+@dataclass(frozen=True)
+class Dependents:
+    """Which expressions of z are which, once those of tabled bodies and numbers are told apart.
+
+    Attributes
+    ----------
+    remaining : list of int
+        Natural coordinates that are z.
+    full, of_z : list of Affine
+        As of `reduce_coordinates`; tabled ones are constants, as drawn.
+    seen : list of Affine
+        As `full`, the tabled ones numbered behind z: for signals.
+    """
+
+    remaining: list[int]
+    full: list[Affine]
+    of_z: list[Affine]
+    seen: list[Affine]
+
+
+def tabled_coordinates(model: Model) -> list[int]:
+    """Full coordinates that tables give, in the order of dependents."""
+    return [i for t in model.tabled for i in _own(t)]
+
+
+def base_coordinates(model: Model) -> set[int]:
+    """Full coordinates of bodies that tables stand on, and parameters: never eliminated."""
+    bases = [b for b in model.bodies if b.is_base]
+    return {i for b in bases for i in range(b.start, b.start + b.size)} | {
+        c.index for t in model.tabled for c in t.parameters
+    }
+
+
+def tell_apart(model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine]) -> Dependents:
+    """Number the dependents behind z."""
+    tabled = {i: d for d, i in enumerate(tabled_coordinates(model))}
+    if not tabled:
+        return Dependents(remaining, full, of_z, full)
+    kept = [i for i in remaining if i not in tabled]
+    number = {i: k for k, i in enumerate(kept)}
+    new = [number[i] if i in number else len(kept) + tabled[i] for i in remaining]
+
+    def renumbered(e: Affine) -> Affine:
+        return Affine({new[j]: c for j, c in e.terms.items()}, e.constant)
+
+    seen = [renumbered(e) for e in full]
+    drawn = [Affine({}, c.reference) if i in tabled else seen[i] for i, c in enumerate(model.coordinates)]
+    plain = [Affine() if i in tabled else renumbered(e) for i, e in enumerate(of_z)]
+    return Dependents(kept, drawn, plain, seen)
+
+
+def refuse_joint(name: str) -> ModelError:
+    """Why a joint cannot be."""
+    return ModelError(f"The joint '{name}' is on a tabled body, which takes forces and sensors, and no joints.")
+
+
+def columns_of(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
+    """For each dependent the coordinates of z that it depends on."""
+    return [_places(t, seen) for t in model.tabled for _ in _own(t)]
+
+
+def tabled_cliques(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
+    """Coordinates of z (before ordering) that each table couples in the tangent."""
+    return [sorted(_places(t, seen)) for t in model.tabled]
+
+
+def spread(columns: Sequence[int], of: Sequence[Sequence[int]], nz: int) -> list[int]:
+    """Coordinates behind columns, some of which are dependents."""
+    return sorted({j for c in columns for j in (of[c - nz] if c >= nz else [c])})
+
+
+def locator_of(locate: Locate, of: Sequence[Sequence[int]], nz: int) -> Locate:
+    """The locator where columns may be dependents, whose local index is 0."""
+
+    def found(columns: Sequence[int]) -> tuple[int, list[int]]:
+        if all(c < nz for c in columns):
+            return locate(columns)
+        behind = spread(columns, of, nz)
+        front, local = locate(behind)
+        place = dict(zip(behind, local, strict=True))
+        return front, [place.get(c, 0) if c < nz else 0 for c in columns]
+
+    return found
+
+
+def tabled_arrays(model: Model, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
+    """The `tabled_` arrays; none where there are no tables."""
+    if not model.tabled:
+        return {}
+    arrays: dict[str, list[Any]] = {n: [] for n in ("size", "frame", "param", "axis", "coef", "mass", "gravity")}
+    for t in model.tabled:
+        c = t.table.coefficients
+        arrays["size"] += [c.shape[2], c.shape[0], c.shape[1]]
+        body = isinstance(t, TabledBody) and not t.base.is_ground
+        places = [int(new[j]) for j in _places(t, seen)]
+        arrays["frame"] += places[:12] if body else NONE
+        arrays["param"] += [*places[12 * body :], -1][:2]
+        for axis in (*t.table.axes, np.array([0.0, 1.0]))[:2]:
+            arrays["axis"] += [float(axis[0]), float(axis[1] - axis[0])]
+        arrays["coef"].append(c.ravel())
+        arrays["mass"] += _moments(t)
+        arrays["gravity"] += list(model.gravity)
+    return {f"tabled_{n}": np.concatenate(v) if n == "coef" else v for n, v in arrays.items()}
+
+
+def _moments(t: TabledBody | TabledNumber) -> list[float]:
+    if isinstance(t, TabledNumber):
+        return [0.0] * 10
+    J = t.second_moment
+    return [t.mass, *t.first_moment, J[0, 0], J[1, 1], J[2, 2], J[1, 2], J[2, 0], J[0, 1]]
+
+
+def _own(t: TabledBody | TabledNumber) -> range:
+    return range(t.start, t.start + 12) if isinstance(t, TabledBody) else range(t.index, t.index + 1)
+
+
+def _places(t: TabledBody | TabledNumber, seen: Sequence[Affine]) -> list[int]:
+    """Coordinates of z of the base, then of the parameters: none of them is eliminated."""
+    base = t.base if isinstance(t, TabledBody) else None
+    frame = [] if base is None or base.is_ground else list(range(base.start, base.start + 12))
+    return [next(iter(seen[i].terms)) for i in (*frame, *(c.index for c in t.parameters))]

@@ -1,0 +1,54 @@
+/* Tabled bodies and numbers of a System: their sizes before all else, as signals name them; the rest with the fronts. */
+#include "../tabled/tabled.h"
+#include "check.h"
+#include "loading.h"
+#include "message.h"
+
+enum { MAX_TABLED = 4096, FEWEST = 4, MOST = 4096 }; /* control points along a parameter */
+
+ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
+  const int64_t n = s->n_tabled_size / 3;
+  int64_t coefficients = 0;
+  CHECK(ali3_check_length(m, "tabled_size", s->n_tabled_size, 3 * n));
+  if (n > MAX_TABLED) return ali3_bad(m, "%lld tabled bodies and numbers", (long long)n);
+  for (int64_t i = 0; i < n; i++) {
+    const int32_t *size = s->tabled_size + 3 * i;
+    const bool one = size[2] == 1;
+    if ((size[0] != 1 && size[0] != ALI3_TABLED_BODY) || size[1] < FEWEST || size[1] > MOST ||
+        (!one && (size[2] < FEWEST || size[2] > MOST)))
+      return ali3_bad(m, "table %lld has %d functions at %d by %d points", (long long)i, (int)size[0], (int)size[1],
+                      (int)size[2]);
+    s->n_dependent += size[0];
+    coefficients += (int64_t)size[0] * size[1] * size[2];
+  }
+  CHECK(ali3_check_length(m, "tabled_frame", s->n_tabled_frame, 12 * n));
+  CHECK(ali3_check_length(m, "tabled_param", s->n_tabled_param, 2 * n));
+  CHECK(ali3_check_length(m, "tabled_axis", s->n_tabled_axis, 4 * n));
+  CHECK(ali3_check_length(m, "tabled_mass", s->n_tabled_mass, ALI3_TABLED_MOMENTS * n));
+  CHECK(ali3_check_length(m, "tabled_gravity", s->n_tabled_gravity, 3 * n));
+  CHECK(ali3_check_length(m, "tabled_coef", s->n_tabled_coef, coefficients));
+  CHECK(ali3_check_indices(m, "tabled_frame", s->tabled_frame, s->n_tabled_frame, -1, s->size.nq));
+  CHECK(ali3_check_indices(m, "tabled_param", s->tabled_param, s->n_tabled_param, -1, s->size.nq));
+  for (int64_t i = 0; i < n; i++) {
+    const int32_t *frame = s->tabled_frame + 12 * i, *param = s->tabled_param + 2 * i;
+    for (int k = 1; k < 12; k++)
+      if ((frame[k] < 0) != (frame[0] < 0)) return ali3_bad(m, "table %lld has a part of a base", (long long)i);
+    if (param[0] < 0 || (param[1] < 0) != (s->tabled_size[3 * i + 2] == 1))
+      return ali3_bad(m, "table %lld has not the parameters it needs", (long long)i);
+    if (!(s->tabled_axis[4 * i + 1] > 0.0 && s->tabled_axis[4 * i + 3] > 0.0))
+      return ali3_bad(m, "the points of table %lld do not ascend", (long long)i);
+    if (!(s->tabled_mass[ALI3_TABLED_MOMENTS * i] >= 0.0))
+      return ali3_bad(m, "the mass of table %lld is negative", (long long)i);
+  }
+  s->n_tabled = (int32_t)n;
+  if (n > 0 && (s->n_tree_parent > 0 || s->n_mode_triad > 0 || s->n_flex_front > 0))
+    return ali3_bad(m, "tabled bodies stand beside a tree, assembly modes or flexible bodies");
+  return ALI3_OK;
+}
+
+/* What reads coordinates themselves has no dependents. */
+ali3_status ali3_check_independent(const ali3_system *s, int32_t signal, const char *what, ali3_message m) {
+  for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++)
+    if (s->sig_col[k] >= s->size.nq) return ali3_bad(m, "%s is on a tabled body", what);
+  return ALI3_OK;
+}

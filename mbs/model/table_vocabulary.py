@@ -1,0 +1,155 @@
+"""Bodies and numbers by table: the vocabulary."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.common.checks import array, named, positive, shown, vector
+from mbs.common.errors import ModelError
+from mbs.model.bodies import ROTATION, BodyVocabulary
+from mbs.model.body import Body
+from mbs.model.coordinate import Coordinate
+from mbs.model.inertia import inertia_matrix
+from mbs.model.tabled import (
+    TabledBody,
+    TabledNumber,
+    check_drawn,
+    checked_parameters,
+    pose_functions,
+    smooth_table,
+)
+
+
+class TableVocabulary(BodyVocabulary):
+    """What a table moves."""
+
+    def travel(self, name: str, *, unit: str = "m", rate: float = 0.0) -> Coordinate:
+        """A coordinate that tables are functions of, 0 as drawn.
+
+        What it moves gives it its inertia; something must move with it, or a drive must hold it.
+
+        Parameters
+        ----------
+        unit : {"m", "rad"}
+            A length or an angle.
+        rate : float
+            At the start, m/s or rad/s.
+        """
+        if unit not in ("m", "rad"):
+            raise ModelError(f"The unit of travel {shown(name)} is {shown(unit)}; it must be m or rad.")
+        index = self.new_coordinate(self.unique("travel", name), "angle", 0.0)
+        self.inertias[index] = 0.0
+        if rate:
+            self.coordinate_rates[index] = float(rate)
+        return Coordinate(name, index, unit)
+
+    def tabled_body(
+        self,
+        name: str,
+        *,
+        base: Body,
+        parameters: Coordinate | Sequence[Coordinate],
+        axes: Sequence[ArrayLike],
+        places: ArrayLike,
+        rotations: ArrayLike,
+        mass: float,
+        com: ArrayLike,
+        inertia: ArrayLike,
+    ) -> TabledBody:
+        """A rigid body whose pose on another body is a table of one or two coordinates.
+
+        It has no equations: its inertia, its weight and the forces on it act on the base and on these coordinates. It
+        takes forces, spins and sensors, and no joints. ALi3-P, generalised-alpha and runge_kutta_8 step it.
+
+        Parameters
+        ----------
+        base : Body
+            A rigid body of this spatial model, or the ground.
+        parameters : Coordinate or sequence of Coordinate
+            One or two, of `travel` or others that are 0 as drawn.
+        axes : sequence of array_like
+            For each of them the points of the table, shape (n,), in its unit, rising and equally spaced, four or more;
+            0 lies between them.
+        places : array_like, shape (n0, 3) or (n0, n1, 3)
+            Where its centre of mass is, the base as drawn, m.
+        rotations : array_like, shape (n0, 3, 3) or (n0, n1, 3, 3)
+            Its rotation from the drawing, the base as drawn.
+        mass : float
+            kg.
+        com : array_like, shape (3,)
+            Centre of mass as drawn, m.
+        inertia : array_like, shape (3,) or (3, 3)
+            As of `body`.
+
+        Raises
+        ------
+        ModelError
+            Axes or values are not so, or the table does not give the drawing where its coordinates are 0.
+        """
+        what = f"tabled body {shown(name)}"
+        self.owned(base, f"The {what}")
+        if self.dimension != 3 or base.is_point or base.is_flexible or base.is_tabled:
+            raise ModelError(f"The {what} needs a rigid body or the ground in space as its base, not '{base.name}'.")
+        coordinates = tuple(self.owned_coordinate(c, f"The {what}") for c in checked_parameters(parameters, what))
+        m, centre = positive(mass, f"The mass of {what}"), vector(com, 3, f"the centre of mass of {what}")
+        I = inertia_matrix(inertia, 3, f"The inertia of {what}")
+        given = array(rotations, (*[None] * len(coordinates), 3, 3), f"the rotations of {what}")
+        if np.max(np.abs(given @ np.swapaxes(given, -1, -2) - np.eye(3))) > 1e3 * ROTATION or np.any(
+            np.linalg.det(given) < 0.0
+        ):
+            raise ModelError(f"The rotations of {what} must be rotation matrices.")
+        where = array(places, (*given.shape[:-2], 3), f"the places of {what}")
+        table = smooth_table(axes, pose_functions(base, where, given), 12, what)
+        self._same_axes(len(table.axes), len(coordinates), what)
+        drawn = pose_functions(base, centre, np.eye(3))
+        check_drawn(table.value(*[0.0] * len(coordinates)), drawn, what)
+        new = TabledBody(self, self.unique("body", name), centre, len(self.coordinates))
+        new.add_mass(m, centre, 0.5 * np.trace(I) * np.eye(3) - I)
+        new.base, new.parameters, new.table = base, coordinates, table
+        if not base.is_ground:
+            self.remember(base)
+            base.is_base = True
+        self.coordinates += new.coordinates()
+        self.tabled.append(new)
+        return new
+
+    def tabled_number(
+        self,
+        name: str,
+        *,
+        parameters: Coordinate | Sequence[Coordinate],
+        axes: Sequence[ArrayLike],
+        values: ArrayLike,
+        unit: str = "rad",
+    ) -> TabledNumber:
+        """A number that is a function of one or two coordinates, such as the angle of a lever over travel.
+
+        Parameters
+        ----------
+        parameters : Coordinate or sequence of Coordinate
+            As of `tabled_body`.
+        axes : sequence of array_like
+            As of `tabled_body`, shape (n,) each.
+        values : array_like, shape (n0,) or (n0, n1)
+            At the points.
+        unit : str
+            As rad of an angle.
+        """
+        what = f"tabled number {shown(name)}"
+        coordinates = tuple(self.owned_coordinate(c, f"The {what}") for c in checked_parameters(parameters, what))
+        given = array(values, [None] * len(coordinates), f"the values of {what}")
+        table = smooth_table(axes, given[..., None], 1, what)
+        self._same_axes(len(table.axes), len(coordinates), what)
+        drawn = float(table.value(*[0.0] * len(coordinates))[0])
+        index = self.new_coordinate(self.unique("tabled number", name), "tabled", drawn)
+        new = TabledNumber(name, index, named(unit, "a unit"), coordinates, table)
+        self.tabled.append(new)
+        return new
+
+    @staticmethod
+    def _same_axes(axes: int, parameters: int, what: str) -> None:
+        if axes != parameters:
+            raise ModelError(f"The {what} has {axes} axes for {parameters} coordinates; there must be one for each.")

@@ -1,0 +1,187 @@
+"""Bodies and numbers whose motion is a table of one or two coordinates, such as a wheel carrier over its travel.
+
+They bring no coordinates of their own to the equations and no rows: place and axes, X = r + Y p(a, b) and Y R(a, b)
+with r and Y of the base, are dependent coordinates that forces and sensors see like those of any body. Functions are
+uniform cubic B-splines through the points of the table, twice continuously differentiable; their error falls with the
+fourth power of the spacing. Beyond the table they go on along their tangent; a step from there is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.common.checks import array, capital, is_number, shown
+from mbs.common.errors import ModelError
+from mbs.model.body import Body
+from mbs.model.coordinate import Coordinate, CoordinateInfo
+
+Array = NDArray[np.float64]
+
+FEWEST = 4
+"""Points of a table along a coordinate."""
+UNIFORM = 1e-9
+"""How far points may be from equal spacing, parts of it."""
+DRAWN = 1e-6
+"""How far a table may be from the drawing where its coordinates are zero, m and without unit."""
+
+
+@dataclass(frozen=True)
+class SmoothTable:
+    """Functions of one or two variables at equally spaced points, smooth between them.
+
+    Attributes
+    ----------
+    axes : tuple of ndarray
+        Points along each variable.
+    coefficients : ndarray, shape (n0 + 2, n1 + 2, k), or (n0 + 2, 1, k) of one variable
+        Control points of the cubic B-splines.
+    """
+
+    axes: tuple[Array, ...]
+    coefficients: Array
+
+    def value(self, *at: float) -> Array:
+        """The functions at a place, shape (k,).
+
+        Parameters
+        ----------
+        at : float
+            The variables.
+        """
+        found = self.coefficients
+        for axis, x in zip(self.axes, at, strict=True):
+            found = np.tensordot(_weights(axis, x), found, axes=1)
+        return np.asarray(found if len(self.axes) == 2 else found[0])
+
+
+def smooth_table(axes: Sequence[object], values: object, functions: int, what: str) -> SmoothTable:
+    """The table of values at points.
+
+    Parameters
+    ----------
+    axes : sequence of array_like
+        One or two, equally spaced and rising, four points or more each.
+    values : array_like, shape (n0, k) or (n0, n1, k)
+        Functions at the points.
+    functions : int
+        How many there must be, k.
+
+    Raises
+    ------
+    ModelError
+        Points or values are not so.
+    """
+    if len(axes) not in (1, 2):
+        raise ModelError(f"{capital(what)} has {len(axes)} axes; it must have one or two.")
+    points = tuple(_axis(axis, what) for axis in axes)
+    found = array(values, (*(len(p) for p in points), functions), f"the table of {what}")
+    for k in range(len(points)):
+        found = np.moveaxis(_control_points(np.moveaxis(found, k, 0)), 0, k)
+    return SmoothTable(points, found if len(points) == 2 else found[:, None, :])
+
+
+def _axis(given: object, what: str) -> Array:
+    points = array(given, (None,), f"an axis of the table of {what}")
+    steps = np.diff(points)
+    if len(points) < FEWEST or not np.all(steps > 0.0) or np.ptp(steps) > UNIFORM * steps.max():
+        raise ModelError(
+            f"An axis of the table of {what} has {len(points)} points; they must be {FEWEST} or more, rising and "
+            "equally spaced."
+        )
+    return points
+
+
+def _collocation(n: int) -> Array:
+    """From n + 2 control points to n values, with a continuous third derivative next to both ends."""
+    A = np.zeros((n + 2, n + 2))
+    for i in range(n):
+        A[i + 1, i : i + 3] = np.array([1.0, 4.0, 1.0]) / 6.0
+    A[0, :5] = A[-1, -5:] = [1.0, -4.0, 6.0, -4.0, 1.0]
+    return A
+
+
+def _control_points(values: Array) -> Array:
+    """Control points along the first axis through values there, two more than these."""
+    none = np.zeros((1, values[0].size))
+    found = np.linalg.solve(_collocation(len(values)), np.vstack([none, values.reshape(len(values), -1), none]))
+    return np.asarray(found.reshape(len(values) + 2, *values.shape[1:]))
+
+
+def _weights(axis: Array, x: float) -> Array:
+    """Of the control points, beyond the ends along the tangent."""
+    step = float(axis[1] - axis[0])
+    place = (x - axis[0]) / step
+    held = min(max(place, 0.0), len(axis) - 1.0)
+    cell = min(int(held), len(axis) - 2)
+    s, beyond = held - cell, place - held
+    r = 1.0 - s
+    value = np.array([r**3, 4.0 - 6.0 * s**2 + 3.0 * s**3, 4.0 - 6.0 * r**2 + 3.0 * r**3, s**3]) / 6.0
+    slope = np.array([-0.5 * r * r, s * (1.5 * s - 2.0), r * (2.0 - 1.5 * r), 0.5 * s * s])
+    weights = np.zeros(len(axis) + 2)
+    weights[cell : cell + 4] = value + beyond * slope
+    return weights
+
+
+class TabledBody(Body):
+    """A rigid body that a table places on another; made by `Model.tabled_body`. It takes forces and sensors, no joints.
+
+    Attributes
+    ----------
+    base : Body
+        What it is placed on.
+    parameters : tuple of Coordinate
+        Variables of its table.
+    table : SmoothTable
+        Along the axes of the base: p, the place of `com` from the base's, then R's columns, the axes.
+    """
+
+    is_tabled = True
+
+    def coordinates(self) -> list[CoordinateInfo]:
+        """Its dependent coordinates: of the position, then of each axis."""
+        return [CoordinateInfo(c.name, "tabled", c.component, c.reference) for c in super().coordinates()]
+
+    base: Body
+    parameters: tuple[Coordinate, ...]
+    table: SmoothTable
+
+
+@dataclass(frozen=True)
+class TabledNumber(Coordinate):
+    """A number that is a function of one or two coordinates; made by `Model.tabled_number`."""
+
+    parameters: tuple[Coordinate, ...]
+    table: SmoothTable
+
+
+def pose_functions(base: Body, places: Array, rotations: Array) -> Array:
+    """Functions of a tabled body, shape (..., 12), from places of its centre of mass and rotations on the base.
+
+    Parameters
+    ----------
+    places : ndarray, shape (..., 3)
+        m.
+    rotations : ndarray, shape (..., 3, 3)
+        From the axes as drawn.
+    """
+    axes = np.swapaxes(rotations, -1, -2).reshape(*rotations.shape[:-2], 9)
+    return np.concatenate([places - base.com, axes], axis=-1)
+
+
+def check_drawn(found: Array, drawn: Array, what: str) -> None:
+    """Where its coordinates are zero a table must give the drawing."""
+    off = float(np.max(np.abs(found - drawn)))
+    if off > DRAWN:
+        raise ModelError(f"The table of {what} is off the drawing by {off:.3g} where its coordinates are zero.")
+
+
+def checked_parameters(given: object, what: str) -> tuple[object, ...]:
+    """One or two different coordinates."""
+    found = tuple(given) if isinstance(given, (list, tuple)) else (given,)
+    if is_number(given) or len(found) not in (1, 2) or (len(found) == 2 and found[0] is found[1]):
+        raise ModelError(f"The parameters of {what} are {shown(given)}; they must be one or two coordinates.")
+    return found

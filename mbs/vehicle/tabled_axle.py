@@ -1,0 +1,152 @@
+"""An axle whose parts move by tables that are made of its own links.
+
+The templates of suspensions build it as they build an axle with links; a `TabledParts` in the place of their model
+makes a tabled body of each part and a tabled number of each angle, and needs no joints: the links are in the tables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.common.errors import ModelError
+from mbs.model import Model
+from mbs.model.body import Body
+from mbs.model.carried import Spin
+from mbs.model.coordinate import Coordinate
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.corner import Corner
+from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
+from mbs.vehicle.linkages.pose_grid import PoseGrid, depends_on_second, pose_grid
+from mbs.vehicle.side import Point, Side, sides
+
+Array = NDArray[np.float64]
+Brakes = Callable[[CarBuilder, Corner, Spin, float], None]
+
+JOINTS = frozenset({"spherical", "distance", "point_on_line", "cylindrical", "revolute", "slide"})
+"""What templates of suspensions join their parts by."""
+
+
+class TabledParts:
+    """A model for templates of suspensions, which makes tables of their parts.
+
+    Parameters
+    ----------
+    m : Model
+        Gets the tabled bodies; all that is no part or joint goes to it.
+    base : Body
+        The chassis.
+    grid : PoseGrid
+        Of the axle.
+    compressions : mapping of str to Coordinate
+        Of the springs, by wheel.
+    rack : Coordinate or None
+        Travel of the rack, m, where it steers.
+    """
+
+    def __init__(
+        self, m: Model, base: Body, grid: PoseGrid, compressions: Mapping[str, Coordinate], rack: Coordinate | None
+    ) -> None:
+        self._m, self._base, self._grid = m, base, grid
+        self._compressions, self._rack = compressions, rack
+
+    def __getattr__(self, name: str) -> Any:
+        if name in JOINTS:
+            return lambda *args, **kwargs: None
+        return getattr(self._m, name)
+
+    def body(self, name: str, *, mass: float, com: ArrayLike, inertia: ArrayLike) -> Body:
+        """A part of the axle by its table.
+
+        Parameters
+        ----------
+        name : str
+            Of the part, which ends with the wheel's.
+        mass, com, inertia
+            As of `Model.body`.
+        """
+        (part,) = (b for b in self._grid.linkage.model.bodies if b.name == name)
+        poses = self._grid.full(part.start, 12)
+        parameters, axes, poses = self._over(name, poses)
+        turned = np.swapaxes(poses[..., 3:].reshape(*poses.shape[:-1], 3, 3), -1, -2)
+        return self._m.tabled_body(
+            name,
+            base=self._base,
+            parameters=parameters,
+            axes=axes,
+            places=poses[..., :3],
+            rotations=turned,
+            mass=mass,
+            com=com,
+            inertia=inertia,
+        )
+
+    def drop_link(self, name: str, *args: object, **kwargs: object) -> Coordinate:
+        """The angle of the lever of an anti-roll bar, rad."""
+        return self._angle(name)
+
+    def relative_angle(self, name: str, *args: object, **kwargs: object) -> Coordinate:
+        """An angle between two parts, rad."""
+        return self._angle(name)
+
+    def _angle(self, name: str) -> Coordinate:
+        (k,) = (k for k, c in enumerate(self._grid.linkage.model.coordinates) if c.name == name)
+        parameters, axes, values = self._over(name, self._grid.full(k, 1))
+        return self._m.tabled_number(name, parameters=parameters, axes=axes, values=values[..., 0])
+
+    def _over(self, name: str, values: Array) -> tuple[list[Coordinate], list[Array], Array]:
+        """Coordinates, points along them, and values over them, of what moves with a wheel."""
+        grid = self._grid
+        if grid.coupled:
+            return list(self._compressions.values()), [grid.compression] * 2, values
+        own = self._compressions[name[-2:]]
+        if self._rack is not None and depends_on_second(values):
+            return [own, self._rack], [grid.compression, grid.rack], values
+        middle = int(np.argmin(np.abs(grid.rack)))
+        return [own], [grid.compression], values[:, middle]
+
+
+def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | None, brakes: Brakes) -> dict[str, Spin]:
+    """Add an axle by tables and return the spins of its wheels by the wheels' names.
+
+    Parameters
+    ----------
+    car : CarContent
+        Without faults.
+    axle : str
+        "front" or "rear".
+    rack : Coordinate or None
+        Travel of the rack, m, of the steered axle.
+    brakes : callable
+        Adds the brake of a wheel.
+
+    Raises
+    ------
+    ModelError
+        The links end before the stops, or each side depends on both springs and on the rack.
+    """
+    linkage = Linkage(car, axle)
+    data = getattr(car, axle)
+    try:
+        grid = pose_grid(linkage, 0.0 if rack is None else car.steering.rack_travel)
+    except NotReachedError as error:
+        raise ModelError(
+            f"{data.suspension.key('kind')} '{data.suspension.kind}' makes no table up to its stops: {error}."
+        ) from error
+    if grid.coupled and len(grid.rack) > 1:
+        raise ModelError(
+            f"{data.suspension.key('kind')} '{data.suspension.kind}' steers and joins its sides; it has no table."
+        )
+    compressions = {s.wheel: b.m.travel(f"spring compression {s.wheel}") for s in sides(axle)}
+    parts: Any = TabledParts(b.m, b.chassis.frame, grid, compressions, rack)
+
+    def rod(side: Side, point: Point) -> Any:
+        return None
+
+    spins: dict[str, Spin] = data.build(replace(b, m=parts), axle, rod, brakes)
+    return spins

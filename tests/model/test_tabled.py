@@ -1,0 +1,343 @@
+"""Bodies and numbers by table, against the joints they stand for, closed forms and conservation laws."""
+
+from __future__ import annotations
+
+import ctypes
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+from mbs import Model, Simulation, SimulationError, System, Trajectory, compile, simulate
+from mbs.common.errors import ModelError
+from mbs.kernel import binding
+from mbs.kernel.binding import KernelError
+from mbs.kernel.header.enumerations import Status
+from mbs.model.body import Body
+from mbs.model.coordinate import Coordinate
+
+Array = NDArray[np.float64]
+BASE, ARM, TIP = (0.3, 0.4, 0.5), (0.1, 0.2, 0.15), (0.05, 0.04, 0.06)
+MASSES = 5.0, 2.0, 1.0
+ELBOW, HAND = (0.0, 0.0, -1.0), (0.2, 0.1, -1.4)
+SPIN, SWING, BEND = np.array([1.0, -0.5, 2.0]), 0.7, -0.9
+AXES = (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)
+WATCHED = tuple(f"{what}.{c}" for what in ("at", "rate", "second") for c in "xyz")
+
+
+def rotations(axis: tuple[float, ...], angles: Array) -> Array:
+    return Rotation.from_rotvec(np.multiply.outer(angles, axis)).as_matrix()
+
+
+def watch(m: Model, base: Body, tip: Body) -> Model:
+    for what, order in (("at", 0), ("rate", 1), ("second", 2)):
+        for c in "xyz":
+            m.sense_position(f"{what}.{c}", tip, HAND, c, order=order)
+    for body, name in ((base, "base"), (tip, "tip")):
+        for c in "xyz":
+            m.sense_position(f"{name}.v{c}", body, body.com, c, order=1)
+            m.sense_position(f"{name}.{c}", body, body.com, c)
+            m.sense_rotation(f"{name}.w{c}", body, c, order=1)
+        for c in "wxyz":
+            m.sense_rotation(f"{name}.q{c}", body, c)
+    for kind in ("kinetic", "total"):
+        m.sense_energy(kind, kind)
+    m.spring_damper("spring", (base, (0.5, 0.2, 0.0)), (tip, HAND), stiffness=8.0, free_length=1.3)
+    m.sense_element("spring", "spring", "length")
+    return m
+
+
+def base_of(m: Model) -> Body:
+    base = m.body("base", mass=MASSES[0], com=(0, 0, 0), inertia=BASE)
+    m.initial_velocity(base, (0.1, 0.2, 0.3), SPIN)
+    return base
+
+
+def arm_by_table(m: Model, base: Body, swing: Coordinate, points: Array) -> Body:
+    turned = rotations(AXES[0], points)
+    return m.tabled_body(
+        "arm",
+        base=base,
+        parameters=swing,
+        axes=[points],
+        places=turned @ ELBOW,
+        rotations=turned,
+        mass=MASSES[1],
+        com=ELBOW,
+        inertia=ARM,
+    )
+
+
+def one_by_table(n: int = 193, gravity: float = 9.81) -> System:
+    """A pendulum on a free base."""
+    m = Model("table", gravity=(0, 0, -gravity))
+    base = base_of(m)
+    return compile(watch(m, base, arm_by_table(m, base, m.travel("swing", rate=SWING), np.linspace(-2.4, 2.4, n))))
+
+
+def one_by_joint(gravity: float = 9.81) -> System:
+    m = Model("joint", gravity=(0, 0, -gravity))
+    base = base_of(m)
+    arm = m.body("arm", mass=MASSES[1], com=ELBOW, inertia=ARM)
+    m.revolute("shoulder", base, arm, point=(0, 0, 0), axis=AXES[0])
+    turn = SPIN + np.multiply(SWING, AXES[0])
+    m.initial_velocity(arm, np.array((0.1, 0.2, 0.3)) + np.cross(turn, ELBOW), turn)
+    return compile(watch(m, base, arm))
+
+
+def two_by_table() -> System:
+    """A chain of two, the second one over both angles."""
+    m = Model("tables")
+    base = base_of(m)
+    swing, bend = m.travel("swing", unit="rad", rate=SWING), m.travel("bend", unit="rad", rate=BEND)
+    first, second = np.linspace(-2.0, 2.0, 161), np.linspace(-3.0, 3.0, 241)
+    arm_by_table(m, base, swing, first)
+    outer, inner = rotations(AXES[0], first)[:, None], rotations(AXES[1], second)[None]
+    tip = m.tabled_body(
+        "tip",
+        base=base,
+        parameters=(swing, bend),
+        axes=(first, second),
+        places=outer @ ELBOW + (outer @ inner) @ np.subtract(HAND, ELBOW),
+        rotations=outer @ inner,
+        mass=MASSES[2],
+        com=HAND,
+        inertia=TIP,
+    )
+    return compile(watch(m, base, tip))
+
+
+def two_by_joints() -> System:
+    m = Model("joints")
+    base = base_of(m)
+    arm = m.body("arm", mass=MASSES[1], com=ELBOW, inertia=ARM)
+    tip = m.body("tip", mass=MASSES[2], com=HAND, inertia=TIP)
+    m.revolute("shoulder", base, arm, point=(0, 0, 0), axis=AXES[0])
+    m.revolute("elbow", arm, tip, point=ELBOW, axis=AXES[1])
+    turn = SPIN + np.multiply(SWING, AXES[0])
+    further = turn + np.multiply(BEND, AXES[1])
+    elbow = np.array((0.1, 0.2, 0.3)) + np.cross(turn, ELBOW)
+    m.initial_velocity(arm, elbow, turn)
+    m.initial_velocity(tip, elbow + np.cross(further, np.subtract(HAND, ELBOW)), further)
+    return compile(watch(m, base, tip))
+
+
+def gap(one: Trajectory, other: Trajectory, names: tuple[str, ...] = WATCHED) -> float:
+    return max(float(np.abs(one[n] - other[n]).max()) for n in names)
+
+
+@pytest.mark.parametrize(("table", "joint"), [(one_by_table, one_by_joint), (two_by_table, two_by_joints)])
+def test_tables_move_as_the_joints_they_are_made_of(table: Any, joint: Any) -> None:
+    """Places, velocities, accelerations, spring and energy by a rule of order eight: what is left is the table's."""
+    system, linked = table(), joint()
+    one, other = (simulate(s, 0.6, 0.002, method="runge_kutta_8") for s in (system, linked))
+    report = system.meta["report"]
+    assert report["rows"] == 6  # of the base, which are all
+    assert gap(one, other, WATCHED[:3]) < 2e-6
+    assert gap(one, other, WATCHED[3:6]) < 2e-5
+    assert gap(one, other, WATCHED[6:]) < 2e-3  # second derivatives of the table
+    assert gap(one, other, ("kinetic", "total", "spring")) < 2e-5
+
+
+def test_the_error_falls_with_the_fourth_power_of_the_spacing() -> None:
+    exact = simulate(one_by_joint(), 0.5, 0.002, method="runge_kutta_8")
+    errors = [
+        gap(simulate(one_by_table(n), 0.5, 0.002, method="runge_kutta_8"), exact, WATCHED[:3])
+        for n in (19, 37, 73, 145)
+    ]
+    orders = [np.log2(coarse / fine) for coarse, fine in pairwise(errors)]
+    assert np.mean(orders) == pytest.approx(4.0, abs=0.5)
+
+
+def test_steps_converge_with_the_order_of_their_method() -> None:
+    system = two_by_table()
+    exact = simulate(system, 0.5, 0.001, method="runge_kutta_8")
+    last = [exact[n][-1] for n in WATCHED[:6]]
+    errors = []
+    for h in (0.01, 0.005, 0.0025):
+        found = simulate(system, 0.5, h, method="ali3p")
+        errors.append(float(np.abs(np.array([found[n][-1] for n in WATCHED[:6]]) - last).max()))
+        assert found.report is not None
+        assert found.report.mean_iterations < 3.5
+    assert [np.log2(a / b) for a, b in pairwise(errors)] == pytest.approx([2.0, 2.0], abs=0.2)
+
+
+def momenta(run: Trajectory) -> tuple[Array, Array]:
+    """Linear and angular momentum about the origin of base and arm."""
+    linear, angular = np.zeros((len(run.t), 3)), np.zeros((len(run.t), 3))
+    for name, mass, inertia in (("base", MASSES[0], BASE), ("tip", MASSES[1], ARM)):
+        r, v, w = (np.array([run[f"{name}.{k}{c}"] for c in "xyz"]).T for k in ("", "v", "w"))
+        turn = Rotation.from_quat(np.array([run[f"{name}.q{c}"] for c in "xyzw"]).T)
+        linear += mass * v
+        angular += mass * np.cross(r, v) + turn.apply(np.multiply(inertia, w))
+    return linear, angular
+
+
+def test_momentum_and_energy_are_kept_in_free_flight() -> None:
+    """Also with a coarse table; what is left are its knots, where the rule of order eight meets a third derivative."""
+    run = simulate(one_by_table(37, gravity=0.0), 0.6, 0.002, method="runge_kutta_8")
+    linear, angular = momenta(run)
+    assert np.ptp(linear, axis=0).max() < 1e-7
+    assert np.ptp(angular, axis=0).max() < 1e-6
+    assert np.ptp(run["total"]) < 1e-6
+
+
+def test_angular_momentum_is_kept_as_far_as_the_table_is_a_rotation() -> None:
+    changes = [
+        np.ptp(momenta(simulate(one_by_table(n, gravity=0.0), 0.6, 0.002, method="runge_kutta_8"))[1], axis=0).max()
+        for n in (37, 145)
+    ]
+    assert changes[1] < changes[0] / 16.0
+    assert changes[1] < 2e-8
+
+
+def test_the_tangent_is_that_of_differences() -> None:
+    """At rest, T(h) = M + h^2/4 K + what h does not change; springs, weight and the bends of tables are in K."""
+    simulation = Simulation(two_by_table())
+    q = np.array(simulation.state.q)
+    instance, n = simulation.instance, len(q)
+    evaluate, still, shift = instance.evaluate, [0.0] * n, 1e-6
+
+    def force(at: Array) -> Array:
+        return np.array(evaluate(at.tolist(), still, [], 0.0)["force"])
+
+    K = np.array([(force(q - d) - force(q + d)) / (2.0 * shift) for d in shift * np.eye(n)])
+    instance.set_q(q.tolist(), still)
+    instance.initialise()
+    long, short = (np.reshape(instance.tangent(h, [0.0] * 6), (n, n)) for h in (0.2, 0.1))
+    found = (long - short) / (0.25 * (0.2**2 - 0.1**2))
+    assert np.abs(K - K.T).max() < 1e-6 * np.abs(K).max()
+    assert np.abs(found - K).max() < 1e-6 * np.abs(K).max()
+
+
+def number_model(points: Array, **more: Any) -> Model:
+    """A body on a rail of the ground, x = s, and a torsional spring on the number s^2."""
+    m = Model("number", gravity=(0, 0, 0))
+    m.point_mass("elsewhere", mass=1.0, position=(0, 5, 0))
+    s = m.travel("s", rate=1.0)
+    zero = np.zeros_like(points)
+    m.tabled_body(
+        "cart",
+        base=m.ground,
+        parameters=s,
+        axes=[points],
+        places=np.column_stack([points, zero, zero]),
+        rotations=np.broadcast_to(np.eye(3), (len(points), 3, 3)),
+        mass=2.0,
+        com=(0, 0, 0),
+        inertia=(1, 1, 1),
+    )
+    square = m.tabled_number("square", parameters=s, axes=[points], values=points**2, **more)
+    m.torsional_spring_damper("spring", square, stiffness=3.0)
+    m.sense_coordinate("s", s)
+    m.sense_coordinate("square", square)
+    m.sense_coordinate("square.rate", square, order=1)
+    m.sense_energy("total", "total")
+    return m
+
+
+def test_a_spring_on_a_number_pulls_along_its_slope() -> None:
+    """2 s'' = -3 s^2 2 s: cubic splines have squares without an error."""
+    run = simulate(compile(number_model(np.linspace(-2.0, 2.0, 9))), 2.0, 0.005, method="runge_kutta_8")
+    exact = solve_ivp(lambda t, y: [y[1], -3.0 * y[0] ** 3], (0, 2), [0.0, 1.0], rtol=1e-11, atol=1e-12, t_eval=run.t)
+    assert np.abs(run["s"] - exact.y[0]).max() < 1e-8
+    assert np.abs(run["square"] - exact.y[0] ** 2).max() < 1e-8
+    assert np.abs(run["square.rate"] - 2.0 * exact.y[0] * exact.y[1]).max() < 1e-7
+    assert np.ptp(run["total"]) < 1e-8
+
+
+def test_beyond_its_table_a_number_goes_on_along_its_tangent() -> None:
+    m = number_model(np.linspace(-0.2, 0.2, 5))
+    run = simulate(compile(m), 0.295, 0.001)
+    s = run["s"]
+    assert s.max() > 0.28
+    inside, outside = s <= 0.2, s > 0.2
+    assert np.abs(run["square"] - s**2)[inside].max() < 1e-12
+    assert np.abs(run["square"] - (0.04 + 0.4 * (s - 0.2)))[outside].max() < 1e-12
+    number = m.tabled[-1]
+    assert number.table.value(0.45)[0] == pytest.approx(0.04 + 0.4 * 0.25, abs=1e-12)
+
+
+def test_rates_of_sensors_are_those_of_the_run() -> None:
+    instance = binding.Instance(binding.LoadedSystem(two_by_table().to_bytes()))
+    instance.set_settings(tolerance_r=1e-13, tolerance_phi=1e-12)
+    instance.initialise()
+    instance.run(0.002, 50)
+    ns = instance.system.sizes.ns
+    rates, known = (ctypes.c_double * ns)(), ctypes.create_string_buffer(ns)
+    assert instance._library.ali3_sensor_rates(instance._handle, rates, known) == 0
+    first = np.array(instance.sensors()[:])
+    instance.step(1e-5)
+    slopes = (np.array(instance.sensors()[:]) - first) / 1e-5
+    chosen = np.frombuffer(known.raw[:ns], dtype=np.uint8) == 1
+    assert chosen.sum() > 20
+    assert np.allclose(np.array(rates[:])[chosen], slopes[chosen], rtol=2e-3, atol=2e-3)
+
+
+def wrong(**changed: Any) -> None:
+    m = Model("wrong")
+    base = m.body("base", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
+    points = np.linspace(-1.0, 1.0, 9)
+    given: dict[str, Any] = {
+        "base": base,
+        "parameters": m.travel("s"),
+        "axes": [points],
+        "places": np.column_stack([points, 0 * points, 0 * points]),
+        "rotations": np.broadcast_to(np.eye(3), (9, 3, 3)),
+        "mass": 1.0,
+        "com": (0, 0, 0),
+        "inertia": (1, 1, 1),
+    }
+    before = len(m.coordinates)
+    try:
+        m.tabled_body("part", **given | changed)
+    finally:
+        assert not m.tabled
+        assert len(m.coordinates) == before
+
+
+@pytest.mark.parametrize(
+    ("changed", "sentence"),
+    [
+        ({"com": (0.0, 0.1, 0.0)}, "The table of tabled body 'part' is off the drawing by 0.1 where its coordinates"),
+        ({"axes": [np.geomspace(1.0, 2.0, 9)]}, "9 points; they must be 4 or more, rising and equally spaced"),
+        ({"axes": [np.linspace(-1, 1, 8)]}, "has shape (9, 12); it must be numbers of shape (8, 12)"),
+        ({"rotations": np.full((9, 3, 3), 0.5)}, "must be rotation matrices"),
+        ({"parameters": 3.0}, "they must be one or two coordinates"),
+        ({"mass": 0.0}, "it must be greater than zero"),
+    ],
+)
+def test_a_table_that_cannot_be_is_a_sentence_and_changes_nothing(changed: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(ModelError) as error:
+        wrong(**changed)
+    assert sentence in str(error.value)
+
+
+def test_joints_and_methods_that_have_no_tables_are_refused() -> None:
+    m = Model("refused")
+    base = base_of(m)
+    arm = arm_by_table(m, base, m.travel("swing"), np.linspace(-1.0, 1.0, 21))
+    m.distance("rod", (arm, ELBOW), (m.ground, (0.0, 0.0, -3.0)))
+    with pytest.raises(ModelError, match="'rod' is on a tabled body, which takes forces and sensors, and no joints"):
+        compile(m)
+    system = one_by_table(25)
+    for method in ("energy_momentum", "energy_momentum_4", "radau_5", "semi_recursive"):
+        with pytest.raises((KernelError, ModelError, ValueError, RuntimeError)):
+            simulate(system, 0.1, 0.01, method=method)
+
+
+def test_a_step_from_far_beyond_a_table_is_refused() -> None:
+    simulation = Simulation(compile(number_model(np.linspace(-0.2, 0.2, 9))))
+    for _ in range(251):
+        simulation.step(0.001)
+    with pytest.raises(SimulationError) as error:
+        simulation.step(0.001)
+    assert error.value.status == Status.BEYOND_TABLE
+    assert 0.25 < simulation.state.q[3] < 0.252
+    said = "a coordinate has left the table of what it moves. 's' is 0.25"
+    assert said in str(error.value)
+    assert "its table goes from -0.2 to 0.2" in str(error.value)

@@ -1,0 +1,116 @@
+"""Cars whose suspensions are tables made of their links, against the cars with the links."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from mbs import Pose, Simulation, System, compile, simulate
+from mbs.common.errors import ModelError
+from mbs.model.tabled import TabledBody
+from mbs.vehicle import Car, Fidelity, load
+from mbs.vehicle.linkages.linkage import Linkage
+from mbs.vehicle.linkages.pose_grid import at_springs
+from tests.vehicle.column_car import column_car
+
+CARS = ("prototype", "hatchback")
+WHEELS = ("FL", "FR", "RL", "RR")
+STRESSES = ("bending_moment", "stress")
+PLACE, TURN = 5e-7, 1e-5
+"""How far a table may be from its links between its points, m and rad."""
+
+
+@cache
+def car(name: str) -> Car:
+    return load(name)
+
+
+@cache
+def systems(name: str) -> tuple[System, System]:
+    return compile(car(name).model(fidelity="table")), compile(car(name).model())
+
+
+@pytest.mark.parametrize("name", CARS)
+def test_fourteen_freedoms_and_all_outputs(name: str) -> None:
+    tabled, linked = systems(name)
+    report = tabled.meta["report"]
+    assert report["degrees_of_freedom"] == 14
+    assert report["rows"] == 7  # six of the chassis, and the rack's drive
+    for kind in ("inputs", "parameters", "sensors"):
+        assert [x["name"] for x in tabled.meta[kind]] == [x["name"] for x in linked.meta[kind]]
+
+
+@pytest.mark.parametrize("name", CARS)
+def test_it_rests_as_the_car_with_links(name: str) -> None:
+    tabled, linked = (Simulation(s).sensors for s in systems(name))
+    for wheel in WHEELS:
+        for output, most in (("Fz", 0.01), ("z", 1e-7), ("camber", 1e-7), ("steer", 1e-7)):
+            key = f"wheel_{wheel}.{output}"
+            assert tabled[key] == pytest.approx(linked[key], abs=most), key
+        assert tabled[f"spring_{wheel}.force"] == pytest.approx(linked[f"spring_{wheel}.force"], abs=0.01)
+    assert tabled["chassis.z"] == pytest.approx(linked["chassis.z"], abs=1e-7)
+    assert tabled["mass"] == pytest.approx(linked["mass"], rel=1e-12) if "mass" in linked else True
+
+
+def _off(name: str, axle: str) -> tuple[float, float]:
+    """Largest distance and turn of the parts of an axle between the points of their tables."""
+    m = car(name).model(fidelity="table")
+    linkage = Linkage(car(name), axle)
+    rng = np.random.default_rng(5)
+    place = turn = 0.0
+    for _ in range(25):
+        left, right = rng.uniform(-0.06, 0.06, 2)
+        rack = rng.uniform(-0.05, 0.05) if axle == "front" else 0.0
+        q = at_springs(linkage, linkage.drawn.q, (left, right), rack)
+        values = {f"spring compression {axle[0].upper()}L": left, f"spring compression {axle[0].upper()}R": right}
+        for part in linkage.model.bodies:
+            (tabled,) = (t for t in m.tabled if isinstance(t, TabledBody) and t.name == part.name)
+            found = tabled.table.value(*(values.get(c.name, rack) for c in tabled.parameters))
+            rows = [linkage.full(part.start + k) for k in range(12)]
+            exact = np.array([row @ q + constant for row, constant in rows])
+            exact[:3] -= tabled.base.com
+            place = max(place, float(np.abs(found - exact)[:3].max()))
+            turn = max(turn, float(np.abs(found - exact)[3:].max()))
+    return place, turn
+
+
+@pytest.mark.parametrize(("name", "axle"), [(name, axle) for name in CARS for axle in ("front", "rear")])
+def test_tables_are_the_links_at_any_travel_and_rack(name: str, axle: str) -> None:
+    place, turn = _off(name, axle)
+    assert place < PLACE
+    assert turn < TURN
+
+
+@pytest.mark.parametrize("name", CARS)
+def test_it_drives_as_the_car_with_links(name: str) -> None:
+    """A swerve with the brakes on, in 1.5 s from 15 m/s."""
+    t = np.array([0.0, 0.2, 0.5, 0.8, 1.1, 1.5])
+    inputs = {
+        "steering": (t, np.array([0.0, 0.0, 0.4, -0.4, 0.0, 0.0])),
+        "brake": (t, np.array([0, 0, 0, 0, 0.3, 0.3])),
+    }
+    tabled, linked = (simulate(s, 1.5, 0.005, inputs=inputs, pose=Pose(speed=15.0)) for s in systems(name))
+    gap = np.hypot(*(tabled[f"chassis.{c}"] - linked[f"chassis.{c}"] for c in "xy"))
+    assert gap.max() < 1e-4
+    assert np.abs(linked["chassis.y"]).max() > 0.3
+    for wheel in WHEELS:
+        change = np.abs(linked[f"wheel_{wheel}.Fz"] - linked[f"wheel_{wheel}.Fz"][0]).max()
+        assert np.abs(tabled[f"wheel_{wheel}.Fz"] - linked[f"wheel_{wheel}.Fz"]).max() < 1e-3 * change
+    force = np.abs(linked["steering_rack_force"]).max()
+    assert np.abs(tabled["steering_rack_force"] - linked["steering_rack_force"]).max() < 1e-3 * force
+    works = tabled["energy.dampers"][-1], linked["energy.dampers"][-1]
+    assert works[0] == pytest.approx(works[1], rel=1e-3)
+    assert tabled.report is not None
+    assert linked.report is not None
+    assert tabled.report.iterations <= linked.report.iterations
+
+
+def test_stresses_are_refused_and_a_rack_with_mass_is_a_sentence() -> None:
+    assert Fidelity.of("table") is Fidelity.TABLE
+    assert Fidelity.TABLE.rigid
+    with pytest.raises(KeyError, match="not computed by this System"):
+        Simulation(systems("prototype")[0]).sensors["bending_moment.SG1"]
+    with pytest.raises(ModelError, match=r"steering\.kind is 'column', whose rack is a body"):
+        column_car().model(fidelity=Fidelity.TABLE)
