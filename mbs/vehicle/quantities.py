@@ -150,6 +150,7 @@ AssistanceFactor = Annotated[float, Quantity("1", 0.1, 60.0, zero=True, change="
 AssistanceTorque = Annotated[float, Quantity("N.m", 0.5, 400.0, zero=True, change="tunable")]
 OneOrZero = Annotated[float, Quantity("1", 1.0, 1.0, zero=True, change="fixed")]
 RackPerTurn = Annotated[float, Quantity("m", 0.01, 0.3)]
+AlignmentAngle = Annotated[float, Quantity("rad", -0.2, 0.2)]
 RoadWheelAngle = Annotated[float, Quantity("rad", 0.1, 1.2)]
 PoissonsRatio = Annotated[float, Quantity("1", 0.01, 0.49, zero=True)]
 RoadFriction = Annotated[float, Quantity("1", 0.01, 2.0, zero=True, change="tunable")]
