@@ -21,6 +21,7 @@ from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.spring_damper_table import SpringDamperTable
 from mbs.elements.torsion_bar import TorsionBar
 from mbs.elements.tyre import Tyre, TyreCurve
+from mbs.elements.tyre_bore import TyreBore
 from mbs.kernel.header.enumerations import ElementType
 
 __all__ = [
@@ -51,5 +52,6 @@ __all__ = [
     "SpringDamperTable",
     "TorsionBar",
     "Tyre",
+    "TyreBore",
     "TyreCurve",
 ]
