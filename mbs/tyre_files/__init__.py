@@ -2,6 +2,5 @@
 
 from mbs.tyre_files.magic_file import TyreFile, read_tyre
 from mbs.tyre_files.property_text import TyreFileError
-from mbs.tyre_files.writing import write_tyre
 
-__all__ = ["TyreFile", "TyreFileError", "read_tyre", "write_tyre"]
+__all__ = ["TyreFile", "TyreFileError", "read_tyre"]

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from mbs.elements import MagicTyre, Tyre
-from mbs.tyre_files import read_tyre, write_tyre
+from mbs.tyre_files import read_tyre
 from mbs.tyre_files.fits import magic_of_tmeasy, tmeasy_of_magic
+from mbs.tyre_files.writing import write_tyre
 from tests.elements.harness import Element
 from tests.elements.test_magic_tyre import element_of, pose
 from tests.elements.tyre_data import TYRE, tyre_element
