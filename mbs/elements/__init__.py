@@ -22,6 +22,7 @@ from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.spring_damper_table import SpringDamperTable
 from mbs.elements.torsion_bar import TorsionBar
 from mbs.elements.tyre import Tyre, TyreCurve
+from mbs.elements.tyre_bore import TyreBore
 from mbs.elements.wind import Wind
 from mbs.kernel.header.enumerations import ElementType
 
@@ -55,6 +56,7 @@ __all__ = [
     "SpringDamperTable",
     "TorsionBar",
     "Tyre",
+    "TyreBore",
     "TyreCurve",
     "Wind",
 ]

@@ -13,6 +13,7 @@ from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals,
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
 from mbs.elements.tyre import TYRE_OUTPUTS
+from mbs.elements.tyre_bore import TyreBore, bore_reals
 from mbs.kernel.header.enumerations import ElementType
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 
@@ -87,6 +88,8 @@ class MagicTyre:
     """Likewise, camber, rad."""
     largest_load: Positive = field(default=1e5)
     """Likewise, N; the vertical force itself goes on."""
+    bore: TyreBore | None = None
+    """Torque against turning on the spot; it fades out up to 1 m/s, from where the formula has the moments."""
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
         """The force element.
@@ -110,7 +113,7 @@ class MagicTyre:
         size(axis, (3,), f"The axis of {what}")
         version = VERSIONS[one_of(self.version, tuple(VERSIONS), f"The version of {what}")]
         combination = COMBINATIONS.index(one_of(self.combination, COMBINATIONS, f"The combination of {what}"))
-        reals = self._reals(what)
+        reals, bore = self._reals(what), bore_reals(self.bore, what)
         if not self.bottoming_radius < self.radius:
             raise ValueError(
                 f"The bottoming radius {self.bottoming_radius:g} m of {what} must be less than {self.radius:g} m."
@@ -119,9 +122,9 @@ class MagicTyre:
             name,
             ElementType.MAGIC_TYRE,
             (*centre.components, *axis.components, spin),
-            *columns(reals),
-            (index(road, f"The road of {what}"), version, combination),
-            (0.0, 0.0, 0.0, 0.0),
+            *columns(reals | bore),
+            (index(road, f"The road of {what}"), version, combination, *([1] if bore else [])),
+            (0.0,) * (6 if bore else 4),
             (
                 *TYRE_OUTPUTS,
                 Output("overturning_moment", "N m", "moment about the wheel's heading in the plane of the road"),

@@ -7,9 +7,10 @@ from typing import Annotated
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import instance_of, number, positive
-from mbs.elements.reals import NotNegative, Pair, Positive, Real, Reals, reals_of
+from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
+from mbs.elements.tyre_bore import TyreBore, bore_reals
 from mbs.kernel.header.enumerations import ElementType
 
 LOADS, AXES = ("1", "2"), ("x", "y")
@@ -102,6 +103,10 @@ class Tyre:
     """Coefficient of rolling resistance."""
     friction_factor: NotNegative = 1.0
     """Multiplies the friction of the road."""
+    camber_slip: Number = 0.0
+    """Lateral slip that acts like a camber whose sine is 1: camber thrust over cornering stiffness, a ratio."""
+    bore: TyreBore | None = None
+    """Torque against turning about the normal of the road."""
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
         """The force element.
@@ -129,13 +134,14 @@ class Tyre:
                 f"The bottoming radius {self.bottoming_radius:g} m of {what} must be less than {self.radius:g} m."
             )
         self._check_curves(what)
+        more = self._more_reals(what)
         return ElementRecord(
             name,
             ElementType.TYRE,
             (*centre.components, *axis.components, spin),
-            *columns(reals),
-            (index(road, f"The road of {what}"),),
-            (0.0, 0.0, 0.0, 0.0),
+            *columns(reals | more),
+            (index(road, f"The road of {what}"), *([int(self.bore is not None)] if more else [])),
+            (0.0,) * (6 if more else 4),
             TYRE_OUTPUTS,
         )
 
@@ -151,7 +157,15 @@ class Tyre:
             for name, real in reals_of(getattr(self, direction), f"the {direction} curve of {what}").items()
         }
         reals |= curves
-        return reals | {name: real for name, real in reals_of(self, what).items() if name not in reals}
+        rest = reals_of(self, what).items()
+        return reals | {name: real for name, real in rest if name not in reals and name != "camber_slip"}
+
+    def _more_reals(self, what: str) -> Reals:
+        """Those of camber and bore torque, where there is one of them."""
+        leaning, bore = reals_of(self, what, ("camber_slip",)), bore_reals(self.bore, what)
+        if not self.camber_slip and not bore:
+            return {}
+        return leaning | (bore or dict.fromkeys(("bore_width", "bore_stiffness", "bore_damping"), (0.0, number)))
 
     def _check_curves(self, what: str) -> None:
         """Every force and slip stays positive and in order over the whole range of loads."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from pydantic import Field
 
 from mbs.model.carried import Spin
-from mbs.vehicle.axes import LEFT
+from mbs.vehicle.alignment import Alignment
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.hub_port import hub_port
@@ -48,6 +48,8 @@ class Axle(Section):
     """Anti-roll bar with its links."""
     wheel: Wheel
     """Wheels."""
+    alignment: Alignment = Field(default_factory=Alignment)
+    """Toe and camber."""
     tyre: TMeasy | MagicFormula = Field(discriminator="kind")
     """Tyres, by their formula."""
 
@@ -55,11 +57,6 @@ class Axle(Section):
     def track(self) -> float:
         """Distance between the centres of the wheels as drawn, m."""
         return 2.0 * self.wheel.centre[1]
-
-    @property
-    def rolling_radius(self) -> float:
-        """Way of a free wheel per radian, m; at rest the loaded radius is the height of the wheel's centre."""
-        return self.tyre.rolling_radius(self.wheel.centre[2])
 
     def faults(self) -> Iterator[str]:
         """The anti-roll bar hangs on a part that is there."""
@@ -96,12 +93,13 @@ class Axle(Section):
     def _wheel(self, b: CarBuilder, corner: Corner) -> Spin:
         """Spin on the carrier and tyre on the road."""
         w = corner.side.wheel
+        _, axis, up = self.alignment.axes(corner.side)
         spin = b.m.spin(
             f"wheel {w}",
             carrier=corner.carrier,
             centre=corner.side.point(self.wheel.centre),
-            axis=LEFT,
-            rolling_radius=self.rolling_radius,
+            axis=axis,
+            rolling_radius=self.tyre.rolling_radius(self.wheel.centre[2] / up[2]),
             mass=self.wheel.mass,
             spin_inertia=self.wheel.spin_inertia,
             diametral_inertia=self.wheel.diametral_inertia,

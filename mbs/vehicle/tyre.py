@@ -7,6 +7,7 @@ from typing import ClassVar, Literal
 
 from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.vehicle.quantities import (
+    CamberSlip,
     CarcassStiffness,
     Coefficient,
     Factor,
@@ -22,6 +23,7 @@ from mbs.vehicle.quantities import (
     TyreStiffness,
 )
 from mbs.vehicle.section import Section
+from mbs.vehicle.tyre_bore import Bore
 
 
 class Curve(Section):
@@ -105,6 +107,10 @@ class TMeasy(Section):
     """Coefficient of rolling resistance."""
     grip: Factor = 1.0
     """Factor on the friction of the road under the tyres of this axle."""
+    camber_slip: CamberSlip = 0.0
+    """Camber thrust over cornering stiffness: the lateral slip that has the force of a camber whose sine is 1."""
+    bore: Bore | None = None
+    """Torque against turning about the normal of the road."""
 
     def faults(self) -> Iterator[str]:
         """The trail vanishes before it ends."""
@@ -146,7 +152,9 @@ class TMeasy(Section):
         side : str
             Not used.
         """
-        values = {name: getattr(self, name) for name in type(self).model_fields if name not in ("kind", "grip")}
+        apart = ("kind", "grip", "bore")
+        values = {name: getattr(self, name) for name in type(self).model_fields if name not in apart}
         for name in ("longitudinal", "lateral"):
             values[name] = TyreCurve(**dict(getattr(self, name)))
-        return Tyre(**values, friction_factor=self.grip)
+        bore = None if self.bore is None else self.bore.element
+        return Tyre(**values, friction_factor=self.grip, bore=bore)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import atan, sqrt
 from pathlib import Path
 from typing import ClassVar, Literal
@@ -14,6 +15,7 @@ from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import beside
 from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
 from mbs.vehicle.section import Section
+from mbs.vehicle.tyre_bore import Bore
 
 _IN_FILE = {"radius": "UNLOADED_RADIUS", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
 
@@ -45,6 +47,8 @@ class MagicFormula(Section):
     """Factor on LKX of the file, the longitudinal slip stiffness."""
     lky: ScalingFactor = 1.0
     """Factor on LKY of the file, the cornering stiffness."""
+    bore: Bore | None = None
+    """Torque against turning on the spot; it fades out up to 1 m/s, from where the file has the moments."""
 
     _read: TyreFile | None = PrivateAttr(None)
     _tyre: MagicTyre | None = PrivateAttr(None)
@@ -87,7 +91,7 @@ class MagicFormula(Section):
         """
         assert self._read is not None, "the file is opened with the car"
         more = {name: getattr(self, name) for name in FACTORS}
-        return self._read.tyre(
+        made = self._read.tyre(
             side,
             self.signs,
             self.pressure,
@@ -95,6 +99,7 @@ class MagicFormula(Section):
             friction_factor=self.grip,
             **more,
         )
+        return made if self.bore is None else replace(made, bore=self.bore.element)
 
     @property
     def notes(self) -> tuple[str, ...]:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import ctypes
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from mbs.elements import Brake, Drag, EndStops, GyroscopicSpin, KerbRoad, PlaneRoad, SpinAngle, SpringDamper
+from mbs.elements import Brake, Drag, EndStops, GyroscopicSpin, KerbRoad, PlaneRoad, SpinAngle, SpringDamper, TyreBore
 from mbs.kernel.header.enumerations import ElementType
 from tests.elements.harness import Element, library, vectors
 from tests.elements.test_fuzz import awkward
-from tests.elements.tyre_data import tyre_element
+from tests.elements.tyre_data import TYRE, tyre_element
 
 WIDTH = 2
 SUDDEN = EndStops(0.4, 1e5, 0.6, 1e5)
@@ -26,6 +27,10 @@ ELEMENTS = {
     "brake": Element(Brake(650.0, 2e5, 600.0).record("b", F, G, CHI[0], 0)),
     "hand brake": Element(Brake(650.0, 2e5, 600.0, 0.4, 300.0).record("b", F, G, CHI[0], 0, 1)),
     "tyre on a plane": tyre_element(road=PlaneRoad(0.1, 0.1, -0.2, 0.8)),
+    "tyre with camber": tyre_element(replace(TYRE, camber_slip=0.1), PlaneRoad(0.1, 0.1, -0.2, 0.8)),
+    "tyre with bore torque": tyre_element(
+        replace(TYRE, camber_slip=0.1, bore=TyreBore(0.12, 4000.0, 25.0)), PlaneRoad(0.1, 0.1, -0.2, 0.8)
+    ),
     "tyre before a kerb": tyre_element(road=KerbRoad(0.3, 0.1, 0.0, "before", 0.8)),
     "tyre behind a kerb": tyre_element(road=KerbRoad(0.3, 0.1, 0.0, "after", 0.8)),
 }

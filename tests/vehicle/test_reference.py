@@ -47,7 +47,7 @@ def test_ranges_span_less_than_a_factor_of_1000():
         if q.low == 0.0:
             wrong.append(f"{name}: what may be 0 has zero=True")
         # coordinates, inertia, lift, rows, angles
-        if q.low < 0.0 and q.unit not in ("m", "m/s", "m2", "N", "kg.m2", "deg"):
+        if q.low < 0.0 and q.unit not in ("m", "m/s", "m2", "N", "kg.m2", "deg", "rad"):
             wrong.append(f"{name} in {q.unit} may be negative")
     assert not wrong, "\n".join(wrong)
 

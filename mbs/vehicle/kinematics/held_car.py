@@ -17,17 +17,15 @@ from mbs.model.body import Body
 from mbs.model.ends import End
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
 from mbs.simulation.standing_system import StandingSystem
-from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car import Car
 from mbs.vehicle.chassis.build import build_chassis
 from mbs.vehicle.fidelity import Fidelity
-from mbs.vehicle.side import Point, Side
+from mbs.vehicle.side import Point, Side, sides
 from mbs.vehicle.springs import AxleSprings
 
 Array = NDArray[np.float64]
 
-AXES = FORWARD, LEFT, UP
 SETTLED, MOST_ITERATIONS = 1e-9, 30  # m, of the search for equilibrium
 
 
@@ -101,10 +99,15 @@ class HeldCar:
         assert system.frames is not None
         self._T, self._constant = system.frames.T.toarray(), system.frames.constant
         self._evaluator = Evaluator(StandingSystem(system))
+        as_set = {
+            side.wheel: tuple(data.alignment.axes(side))
+            for axle, data in (("front", car.front), ("rear", car.rear))
+            for side in sides(axle)
+        }
         self._carriers = {
             name: (
-                centre,
-                [self._linear(v) for v in (carrier.point(centre), *map(carrier.vector, (FORWARD, LEFT, UP)))],
+                _down(centre, as_set[name][2]),
+                [self._linear(v) for v in (carrier.point(centre), *map(carrier.vector, as_set[name]))],
             )
             for name, (carrier, centre) in carriers.items()
         }
@@ -192,12 +195,11 @@ class HeldCar:
                 return
         raise ModelError("The frame of the held car finds no equilibrium with its springs.")
 
-    def _wheel(self, centre: Point, parts: list[tuple[Array, Array]]) -> HeldWheel:
+    def _wheel(self, down: Array, parts: list[tuple[Array, Array]]) -> HeldWheel:
         place, *axes = parts
         turn = 0.5 * np.sum([np.cross(A @ self.q + a, A, axisb=0).T for A, a in axes], axis=0)
-        down = np.array([0.0, 0.0, -centre[2]])
         contact = place[0] + np.cross(turn, down, axisa=0).T
-        return HeldWheel(centre[2], place[0], axes[1][0], turn, contact)
+        return HeldWheel(float(np.linalg.norm(down)), place[0], axes[1][0], turn, contact)
 
     def _linear(self, v: AffineVector) -> tuple[Array, Array]:
         full = np.zeros((3, len(self._T)))
@@ -205,3 +207,8 @@ class HeldCar:
             for k, c in component.terms.items():
                 row[k] = c
         return full @ self._T, full @ self._constant + [component.constant for component in v.components]
+
+
+def _down(centre: Point, up: Point) -> Array:
+    """From a wheel's centre to the ground in its plane, both as drawn, m."""
+    return np.multiply(-centre[2] / up[2], up)

@@ -160,7 +160,7 @@ def wheel_motion(linkage: Linkage, at: Position, side: int) -> WheelMotion:
     axes = linkage.triad(side)
     turn = 0.5 * np.sum([np.cross(A @ at.q + a, (A @ at.tangent).T).T for A, a in axes], axis=0)
     A, a = axes[1]
-    radius = linkage.data.wheel.centre[2]
+    radius = linkage.loaded_radius(side)
     return WheelMotion(
         (1.0, -1.0)[side], radius, C @ at.q + c, A @ at.q + a, C @ at.tangent, A @ at.tangent, np.asarray(turn)
     )

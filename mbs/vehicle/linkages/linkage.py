@@ -26,7 +26,7 @@ from mbs.model import Model
 from mbs.model.ends import End
 from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
 from mbs.simulation.standing_system import StandingSystem
-from mbs.vehicle.axes import FORWARD, LEFT, UP
+from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.mount import Mount
@@ -123,7 +123,7 @@ class Linkage:
         self._T, self._constant = system.frames.T.toarray(), system.frames.constant
         self._evaluator = Evaluator(StandingSystem(system))
         self._centres = [self.linear(c.carrier.point(c.side.point(self.data.wheel.centre))) for c in corners]
-        self._triads = [[self.linear(c.carrier.vector(e)) for e in (FORWARD, LEFT, UP)] for c in corners]
+        self._triads = [[self.linear(c.carrier.vector(e)) for e in self.data.alignment.axes(c.side)] for c in corners]
         self._heights = np.array([centre[0][2] for centre in self._centres])
         start = np.array(system.arrays["q0"])
         self._drawn_heights = self._heights @ start + [centre[1][2] for centre in self._centres]
@@ -162,8 +162,13 @@ class Linkage:
         return self._centres[side]
 
     def triad(self, side: int) -> list[tuple[Array, Array]]:
-        """Matrices and constants of the axes of a wheel's carrier that are x, y and z in the drawing."""
+        """Matrices and constants of unit vectors of a wheel's carrier: forward, the wheel's axis, up in its plane."""
         return self._triads[side]
+
+    def loaded_radius(self, side: int) -> float:
+        """From the wheel's centre down in its plane to the ground as drawn, m."""
+        *_, up = self.data.alignment.axes(self._corners[side].side)
+        return float(self.data.wheel.centre[2] / up[2])
 
     def solve(self, start: Array, travel: Array, rack: float) -> Position:
         """The position near a start.

@@ -313,6 +313,7 @@ void ali3_magic_forces(const ali3_magic_state *s, double kappa, double tangent, 
     out->secant_slope[i][0] = value > 0.0 ? way * per_slip[i].k : 0.0;
     out->secant_slope[i][1] = value > 0.0 ? way * per_slip[i].t : 0.0;
   }
+  out->cornering = fabs(y.K);
   out->peak[0] = fabs(x.D) + fabs(x.V), out->peak[1] = fabs(y.D) + fabs(y.V);
   carcass(s, &q, &x, &y, out->carcass);
   double trailing = out->F[1] - more.v; /* 4.E74 */

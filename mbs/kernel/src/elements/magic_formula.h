@@ -58,6 +58,7 @@ typedef struct {
   double J[2][2]; /* of F by longitudinal slip and tangent of the slip angle */
   double secant[2], secant_slope[2][2]; /* |F| per slip without shifts, and its derivatives */
   double peak[2]; /* N: bound of |F| alone */
+  double cornering; /* stiffness, N, > 0 */
   double carcass[2]; /* N/m: slip stiffness over relaxation length */
   double trail, arm; /* m: of the lateral force and of the longitudinal one */
   double Mx, My, Mz; /* N m, axes of the file; My > 0 resists rolling */

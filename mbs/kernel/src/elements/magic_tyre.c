@@ -2,7 +2,8 @@
  * deflections that are the same at standstill, rolling, sliding and in the air.
  *
  * Signals, outputs and states are those of tyre.c, with the overturning and rolling moments as two more outputs.
- * Integers: road, version of the formula, combination of the slips.
+ * Integers: road, version of the formula, combination of the slips; 1 where the numbers of tyre_bore.h follow. The
+ * moment of bore torque fades out up to ALI3_TYRE_ROLLS, from where the formula has the moments about the normal.
  *
  * Slips refer to the speed of travel; below ALI3_TYRE_ROLLS to that of the slip too, so that the force of a wheel that
  * slides sideways from rest has the direction of its slip. The carcass, per direction, follows F = F_steady(v) - g x' = c x + d x' with the
@@ -17,6 +18,7 @@
 #include "element.h"
 #include "element_math.h"
 #include "magic_formula.h"
+#include "tyre_bore.h"
 #include "tyre_contact.h"
 
 enum {
@@ -41,9 +43,12 @@ enum {
   CAMBER_LEAST = ANGLE_LEAST + 2, /* 2: rad */
   LARGEST_LOAD = CAMBER_LEAST + 2,
   COEFFICIENTS,
-  REALS = COEFFICIENTS + ALI3_MF_COUNT
+  REALS = COEFFICIENTS + ALI3_MF_COUNT,
+  BORE = REALS,
+  MORE_REALS = BORE + ALI3_BORE_NUMBERS
 };
-enum { ROAD, VERSION, COMBINED, INTEGERS };
+enum { ROAD, VERSION, COMBINED, INTEGERS, BORES = INTEGERS, MORE_INTEGERS };
+enum { STATES = 4, MORE_STATES = 6 };
 enum { OVERTURNING = ALI3_TYRE_OUTPUTS, RESISTANCE, OUTPUTS };
 
 typedef struct {
@@ -114,7 +119,8 @@ static ali3_magic_force steady(ali3_element_args *a, const ali3_tyre_patch *cont
 }
 
 /* One step of the carcass: forces, new slots, damping matrix (symmetric part, not below the safe share of the secant). */
-static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m, double lean) {
+static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const ali3_tyre_motion *m, double lean,
+                        ali3_tyre_bore *bore) {
   const double *p = a->real, fast = m->travel[0] / ALI3_TYRE_ROLLS;
   const double stands = (1.0 - ali3_tyre_moving(fabs(m->travel[0]))) * ali3_hypot(m->v[0], m->v[1]);
   const double w = ali3_hypot(ali3_hypot(m->travel[0], ALI3_TYRE_SLOW), stands);
@@ -136,8 +142,23 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
     const double by_g = D[i] / (g[i] + D[i]) * ((offset[i] - f.F[i]) / (g[i] + D[i]));
     for (int j = 0; j < 2; j++) J[i][j] = D[i] / (g[i] + D[i]) * f.J[i][j] + by_g * g_by[i][j];
   }
+  if (holds) { a->piece |= limit(f.peak, f.F, r.F, J, safe); }
+  if (bore) {
+    const ali3_tyre_held by = {.slope = f.cornering * (1.0 - ali3_tyre_moving(fabs(m->travel[0]))),
+                               .most = holds ? f.peak[1] : 0.0,
+                               .transport = ali3_hypot(m->travel[0], ALI3_TYRE_SLOW),
+                               .slip = ali3_hypot(m->v[0], m->v[1]),
+                               .force = ali3_hypot(r.F[0], r.F[1]),
+                               .steady = ali3_hypot(f.F[0], f.F[1]),
+                               .use = fmin(ali3_hypot(r.F[0] / f.peak[0], r.F[1] / f.peak[1]), 1.0)};
+    const double left = ali3_tyre_bore_step(a, bore, &by);
+    for (int i = 0; i < 2; i++) {
+      r.F[i] *= left;
+      safe[i] *= left;
+      for (int j = 0; j < 2; j++) J[i][j] *= left;
+    }
+  }
   if (holds) {
-    a->piece |= limit(f.peak, f.F, r.F, J, safe);
     const double acting[2] = {r.F[0], p[SIGN_FORCE] * r.F[1]};
     f.F[1] *= p[SIGN_FORCE];
     ali3_magic_moments(&s, acting, &f);
@@ -177,7 +198,14 @@ static void evaluate(ali3_element_args *a) {
       m.loaded > 1e-6 ? 1.0 + ali3_tyre_moving(effective * fabs(omega)) * (effective / m.loaded - 1.0) : 1.0;
   ali3_tyre_velocities(a, &contact, e, ratio, &m);
   const double lean = ali3_atan2(ali3_dot(e, n), m.upright);
-  const reaction r = carcass(a, &contact, &m, lean);
+  const bool bores = a->nint == MORE_INTEGERS;
+  ali3_tyre_bore bore;
+  if (bores) bore = ali3_tyre_bore_at(a, p + BORE, n, e, 2.0 * sqrt(radius * deflection));
+  reaction r = carcass(a, &contact, &m, lean, bores ? &bore : 0);
+  if (bores) {
+    r.Mz += bore.moment;
+    a->potential += 0.5 * p[BORE + ALI3_BORE_STIFFNESS] * a->y_new[ALI3_BORE_STATES] * a->y_new[ALI3_BORE_STATES];
+  }
   for (int i = 0; i < 2; i++) a->potential += 0.5 * r.stiffness[i] * a->y_new[i] * a->y_new[i];
   for (int k = 0; k < 7; k++) a->f[k] += r.F[0] * m.row[0][k] + r.F[1] * m.row[1][k];
 
@@ -192,6 +220,7 @@ static void evaluate(ali3_element_args *a) {
     ali3_add_outer(a->S, 7, a->wC * r.C[0], m.row[0]);
     ali3_add_symmetric(a->S, 7, 2.0 * a->wC * r.C[1], m.row[0], m.row[1]);
     ali3_add_outer(a->S, 7, a->wC * r.C[2], m.row[1]);
+    if (bores) ali3_add_outer(a->S, 7, a->wC * bore.C, bore.row);
     a->S[48] += a->wC * r.My * (1.0 - roll * roll);
   }
   ali3_tyre_outputs(a, &contact, e, &m, radius, ratio, r.F, r.Mz, -r.My * roll);
@@ -201,7 +230,11 @@ static void evaluate(ali3_element_args *a) {
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nreal, (void)nint, (void)n_inputs;
+  (void)nsig, (void)n_inputs;
+  const bool more = nint == MORE_INTEGERS;
+  if ((nint != INTEGERS && !more) || nreal != (more ? MORE_REALS : REALS))
+    return "a tyre has the wrong number of numbers";
+  if (more && integer[BORES] != 1) return "a tyre neither has bore torque nor has it not";
   const double *c = real + COEFFICIENTS;
   if (integer[ROAD] < 0 || integer[ROAD] >= n_roads) return "a tyre names a road that does not exist";
   const int32_t version = integer[VERSION], combined = integer[COMBINED];
@@ -231,8 +264,10 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
     return "a tyre lacks shape, friction or slip stiffness";
   if (!(c[ALI3_MF_LMUX] > 0.0 && c[ALI3_MF_LMUY] > 0.0 && c[ALI3_MF_LKX] > 0.0 && c[ALI3_MF_LKY] > 0.0))
     return "LMUX, LMUY, LKX and LKY of a tyre must be positive";
-  return 0;
+  return more ? ali3_tyre_bore_check(real + BORE) : 0;
 }
+
+static int32_t states(int32_t nint) { return nint == MORE_INTEGERS ? MORE_STATES : STATES; }
 
 const ali3_element_type ali3_magic_tyre = {
     .evaluate = evaluate,
@@ -240,9 +275,10 @@ const ali3_element_type ali3_magic_tyre = {
     .start_words = ALI3_TYRE_START_WORDS,
     .depth = ali3_tyre_depth,
     .nsig = 7,
-    .nreal = REALS,
-    .nint = INTEGERS,
-    .nstate = 4,
+    .nreal = -1,
+    .nint = -1,
+    .nstate = -1,
+    .states = states,
     .nout = OUTPUTS,
     .check = check,
 };

@@ -3,9 +3,10 @@
  *
  * Signals: wheel centre r (3), unit spin axis e pointing left (3), chi with chi' = Omega the absolute rate about e
  * (> 0 rolling forward).
- * Integers: road. States: carcass deflections x, y and their rates. Outputs: Fx, Fy, Fz, Mz, slip, slip angle,
- * deflection, loaded radius, contact point (3), inclination, normal of the road there (3), rolling moment My about the
- * contact point. Of two contacts these are the means by load; in the air they are the point of the road that is nearest
+ * Integers: road; where numbers of camber and bore torque follow, also whether there is bore torque, 1 or 0.
+ * States: carcass deflections x, y and their rates, then those of tyre_bore.h.
+ * Outputs: Fx, Fy, Fz, Mz, slip, slip angle, deflection, loaded radius, contact point (3), inclination, normal of the
+ * road there (3), rolling moment My about the contact point. Of two contacts these are the means by load; in the air they are the point of the road that is nearest
  * within the wheel plane, and its normal.
  *
  * Two radii are kept apart: the contact patch lies at the loaded radius |rho|; the rolling wheel advances by the
@@ -21,11 +22,15 @@
  * closed, finite from g = 0 (air) to g = infinity (standstill). F is then limited to the largest force of its
  * direction.
  *
+ * Camber acts as a lateral slip: v_s = v_y + camber_slip sin(gamma) r |Omega|, nothing at rest. That part of the force
+ * has no trail. F acts on Omega by the same share, so that camber thrust takes its work from the spin.
+ *
  * The tangent leaves out the coupling of load and horizontal force and the turning of the frames. */
 #include "../algebra/elementary.h"
 #include "element.h"
 #include "element_math.h"
 #include "tmeasy.h"
+#include "tyre_bore.h"
 #include "tyre_contact.h"
 
 enum {
@@ -44,8 +49,13 @@ enum {
   CARCASS_DAMPING = CARCASS_STIFFNESS + 2,
   ROLLING_RESISTANCE = CARCASS_DAMPING + 2,
   FRICTION_FACTOR,
-  TYRE_REALS
+  TYRE_REALS,
+  CAMBER_SLIP = TYRE_REALS, /* lateral slip that acts like a camber with the sine 1 */
+  BORE,
+  MORE_REALS = BORE + ALI3_BORE_NUMBERS
 };
+enum { TYRE_INTEGERS = 1, TYRE_BORES = TYRE_INTEGERS, MORE_INTEGERS };
+enum { TYRE_STATES = 4, MORE_STATES = 6 };
 enum { OUTPUTS = ALI3_TYRE_OUTPUTS };
 
 /* Radial return of F to the largest force of its direction, which in TMeasy is hypot(Fxm cos, Fym sin); J follows. */
@@ -76,8 +86,8 @@ static real friction_ratio(const real *p, const ali3_tyre_patch *contact) {
 
 /* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
  * (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
-static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2],
-                    real C[3]) {
+static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2], real C[3],
+                    real g[2], ali3_tyre_bore *bore) {
   const real *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING, q = load_factor(p, contact);
   const real grip = friction_ratio(p, contact);
   const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + CURVE_X, p + CURVE_Y, q, grip);
@@ -87,19 +97,36 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
   const real none = {0}, secant = ali3_where(grips, ali3_tmeasy_secant(&t, n, gradient), none);
   for (int i = 0; i < 2; i++) gradient[i] = ali3_where(grips, gradient[i], none);
   for (int i = 0; i < 2; i++) {
-    const real per_slip = q / (t.scale[i] * w), g = per_slip * secant;
-    const real theta = ali3_theta(a->h, c[i] / (d[i] + g)), b = a->h * theta;
+    const real per_slip = q / (t.scale[i] * w);
+    g[i] = per_slip * secant;
+    const real theta = ali3_theta(a->h, c[i] / (d[i] + g[i])), b = a->h * theta;
     offset[i] = c[i] * (a->y_old[i] + a->h * (1.0 - theta) * a->y_old[2 + i]);
     D[i] = d[i] + b * c[i];
     full[i] = q * t.max_force[i];
-    safe[i] = ALI3_SECANT_SHARE * D[i] * (g / (g + D[i]));
-    F[i] = g / (g + D[i]) * (offset[i] - D[i] * v[i]);
-    const real by_g = D[i] / (g + D[i]) * ((offset[i] - D[i] * v[i]) / (g + D[i]));
+    safe[i] = ALI3_SECANT_SHARE * D[i] * (g[i] / (g[i] + D[i]));
+    F[i] = g[i] / (g[i] + D[i]) * (offset[i] - D[i] * v[i]);
+    const real by_g = D[i] / (g[i] + D[i]) * ((offset[i] - D[i] * v[i]) / (g[i] + D[i]));
     for (int j = 0; j < 2; j++)
-      J[i][j] = by_g * per_slip * (gradient[j] / (t.scale[j] * w)) - (i == j ? g / (g + D[i]) * D[i] : none);
+      J[i][j] = by_g * per_slip * (gradient[j] / (t.scale[j] * w)) - (i == j ? g[i] / (g[i] + D[i]) * D[i] : none);
   }
   const truth loaded = contact->load > ALI3_TYRE_NO_LOAD;
   limit(a, loaded, full, F, J, safe);
+  if (bore) {
+    const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(full[0] * F[0], full[1] * F[1]);
+    const ali3_tyre_held by = {.slope = q * ali3_tmeasy_at(p + CURVE_Y, q, grip).slope,
+                               .most = ali3_where(loaded & grips, full[1], none),
+                               .transport = w,
+                               .slip = ali3_hypot(v[0], v[1]),
+                               .force = ali3_sqrt(size2),
+                               .steady = ali3_hypot(g[0] * v[0], g[1] * v[1]),
+                               .use = ali3_where(loaded & (bound > 0.0), size2 / bound, none)};
+    const real left = ali3_tyre_bore_step(a, bore, &by);
+    for (int i = 0; i < 2; i++) {
+      F[i] *= left;
+      safe[i] *= left;
+      for (int j = 0; j < 2; j++) J[i][j] *= left;
+    }
+  }
   ALI3_PIECE(&a->piece, loaded & (contact->load > p[MAX_LOAD_FACTOR] * p[NOMINAL_LOAD]), ALI3_TYRE_OVERLOADED);
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
@@ -129,7 +156,7 @@ static void evaluate(ali3_element_args *a) {
   const real none = {0};
   const ali3_tyre_spring spring = {p[RADIUS], p[BOTTOMING_RADIUS], p[RADIAL_STIFFNESS],
                                    none,      p[RADIAL_DAMPING],   p[BOTTOMING_STIFFNESS]};
-  real e[3], F[2], C[3];
+  real e[3], F[2], C[3], g[2];
   a->potential = none;
   ali3_tyre_axis(a->u + 3, e);
   const ali3_tyre_patch contact = ali3_tyre_radial(a, e, &spring);
@@ -143,15 +170,31 @@ static void evaluate(ali3_element_args *a) {
   const real ratio = ali3_where(loaded > 1e-6, 1.0 + moving * (rolling / loaded - 1.0),
                                 ali3_same(1.0)); /* slip radius over loaded radius */
   ali3_tyre_velocities(a, &contact, e, ratio, &m);
-  carcass(a, &contact, m.v, w, F, C);
-  a->potential +=
-      0.5 * (p[CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] + p[CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
-  for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];
-
   const real deflection = ali3_where(deflected, p[RADIUS] - loaded, none),
              length = 2.0 * ali3_sqrt(p[RADIUS] * deflection);
-  const real moment = -moving * length * trail_share(p, &contact, ali3_abs(m.v[1]) / w, omega) * F[1],
-             resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = ali3_tanh(omega);
+  const bool more = a->nint == MORE_INTEGERS, bores = more && a->integer[TYRE_BORES] == 1;
+  ali3_tyre_bore bore;
+  real v[2] = {m.v[0], m.v[1]}, leaning = none, by_spin = none;
+  if (more) {
+    const real per_spin = p[CAMBER_SLIP] * ali3_dot(e, n) * rolling;
+    by_spin = ali3_where(omega < 0.0, -per_spin, per_spin);
+    leaning = by_spin * omega;
+    v[1] += leaning;
+    m.row[1][6] += by_spin;
+    for (int i = TYRE_STATES; i < MORE_STATES; i++) a->y_new[i] = none;
+  }
+  if (bores) bore = ali3_tyre_bore_at(a, p + BORE, n, e, length);
+  carcass(a, &contact, v, w, F, C, g, bores ? &bore : 0);
+  a->potential +=
+      0.5 * (p[CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] + p[CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
+  if (bores)
+    a->potential += 0.5 * p[BORE + ALI3_BORE_STIFFNESS] * a->y_new[ALI3_BORE_STATES] * a->y_new[ALI3_BORE_STATES];
+  for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];
+
+  const real trailing = more ? F[1] + g[1] * leaning : F[1];
+  real moment = -moving * length * trail_share(p, &contact, ali3_abs(m.v[1]) / w, omega) * trailing;
+  if (bores) moment += bore.moment;
+  const real resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = ali3_tanh(omega);
   real twist[3];
   ali3_cross(n, e, twist);
   for (int i = 0; i < 3; i++) a->f[3 + i] += moment * twist[i];
@@ -161,15 +204,22 @@ static void evaluate(ali3_element_args *a) {
     ali3_add_outer(a->S, 7, a->wC * C[0], m.row[0]);
     ali3_add_symmetric(a->S, 7, 2.0 * a->wC * C[1], m.row[0], m.row[1]);
     ali3_add_outer(a->S, 7, a->wC * C[2], m.row[1]);
+    if (bores) ali3_add_outer(a->S, 7, a->wC * bore.C, bore.row);
     a->S[48] += a->wC * resist * (1.0 - roll * roll);
   }
-  ali3_tyre_outputs(a, &contact, e, &m, p[RADIUS], ratio, F, moment, -resist * roll);
+  ali3_tyre_outputs(a, &contact, e, &m, p[RADIUS], ratio, F, moment,
+                    more ? F[1] * by_spin - resist * roll : -resist * roll);
 }
 
 #ifndef ALI3_WIDTH
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nreal, (void)nint, (void)n_inputs;
+  (void)nsig, (void)n_inputs;
+  const bool more = nint == MORE_INTEGERS;
+  if ((nint != TYRE_INTEGERS && !more) || nreal != (more ? MORE_REALS : TYRE_REALS))
+    return "a tyre has the wrong number of numbers";
+  if (more && integer[TYRE_BORES] != 0 && integer[TYRE_BORES] != 1)
+    return "a tyre neither has bore torque nor has it not";
   if (integer[0] < 0 || integer[0] >= n_roads) return "a tyre names a road that does not exist";
   if (!(real[RADIUS] > real[BOTTOMING_RADIUS] && real[BOTTOMING_RADIUS] > 0.0))
     return "the bottoming radius of a tyre must lie between 0 and its radius";
@@ -195,8 +245,10 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
   }
   if (real[ROLLING_RESISTANCE] < 0.0 || real[FRICTION_FACTOR] < 0.0)
     return "rolling resistance and friction factor of a tyre must not be negative";
-  return 0;
+  return more && integer[TYRE_BORES] == 1 ? ali3_tyre_bore_check(real + BORE) : 0;
 }
+
+static int32_t states(int32_t nint) { return nint == MORE_INTEGERS ? MORE_STATES : TYRE_STATES; }
 
 const ali3_element_type ali3_tyre = {
     .evaluate = evaluate,
@@ -204,9 +256,10 @@ const ali3_element_type ali3_tyre = {
     .start_words = ALI3_TYRE_START_WORDS,
     .depth = ali3_tyre_depth,
     .nsig = 7,
-    .nreal = TYRE_REALS,
-    .nint = 1,
-    .nstate = 4,
+    .nreal = -1,
+    .nint = -1,
+    .nstate = -1,
+    .states = states,
     .nout = OUTPUTS,
     .check = check,
 };

@@ -34,6 +34,8 @@ static inline real ALI3_LANED(tanh)(real x) {
 #define ali3_tyre_moving ALI3_LANED(tyre_moving)
 #define ali3_tyre_velocities ALI3_LANED(tyre_velocities)
 #define ali3_tyre_outputs ALI3_LANED(tyre_outputs)
+#define ali3_tyre_bore_at ALI3_LANED(tyre_bore_at)
+#define ali3_tyre_bore_step ALI3_LANED(tyre_bore_step)
 #define ali3_tyre_semidefinite ALI3_LANED(tyre_semidefinite)
 #define ali3_end_stops_at ALI3_LANED(end_stops_at)
 #define ali3_contact_force ALI3_LANED(contact_force)
@@ -45,6 +47,7 @@ static inline real ALI3_LANED(tanh)(real x) {
 #include "../elements/half_space.c"
 #include "../elements/plane_and_kerb.c"
 #include "../elements/tmeasy.c"
+#include "../elements/tyre_bore.c"
 #include "../elements/tyre_contact.c"
 
 #define evaluate spring_damper_law

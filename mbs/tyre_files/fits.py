@@ -1,0 +1,290 @@
+"""TMeasy from the Magic Formula and the Magic Formula from TMeasy: fits of their steady curves, with their errors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import atan, sin, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from mbs.elements.magic_tyre import MagicTyre
+from mbs.elements.tyre import Tyre, TyreCurve
+from mbs.tyre_files.pure_curves import (
+    at_load,
+    cornering_stiffness,
+    magic_lateral,
+    magic_longitudinal,
+    magic_trail,
+    tmeasy_force,
+    tmeasy_trail,
+)
+
+Array = NDArray[np.float64]
+LOADS = (0.5, 1.0, 1.5, 2.0)
+"""Over the nominal load: where fits are made and their errors told."""
+KAPPA = np.concatenate([-np.geomspace(0.5, 1e-3, 60), np.geomspace(1e-3, 1.0, 60)])
+TANGENT = np.geomspace(1e-3, 0.6, 80)
+_LESS, _MORE = 0.7, 1.9  # of a slip at two nominal loads over that at one: on a line through both it stays positive
+
+
+def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
+    """MF-Tyre 5.2 whose curves at pure slip are nearest to those of a TMeasy tyre.
+
+    Slips together follow the friction ellipse, of which TMeasy has a form of its own; camber thrust and bore torque are
+    left out.
+
+    Parameters
+    ----------
+    tyre : Tyre
+        On the road of its reference friction.
+
+    Returns
+    -------
+    made : MagicTyre
+        Symmetric, in ISO axes.
+    errors : dict of str to float
+        Largest difference over loads of 0.5 to 2 nominal loads: "longitudinal" and "lateral" over the largest force
+        at each load, longitudinal slips from -0.5 to 1 and tan(alpha) up to 0.6; "moment" of trail times force over
+        the largest moment at each load.
+    """
+    nominal, alpha = tyre.nominal_load, np.arctan(TANGENT)
+    along = {q: _tmeasy(tyre.longitudinal, q, KAPPA / (1.0 + KAPPA)) for q in LOADS}
+    across = {q: _tmeasy(tyre.lateral, q, TANGENT) for q in LOADS}
+    most = {name: [at_load(getattr(tyre, name).max_force, q) for q in LOADS] for name in ("longitudinal", "lateral")}
+    slopes = {name: getattr(tyre, name).slope[0] / nominal for name in most}
+    peaks = {name: getattr(tyre, name).max_force[0] / nominal for name in most}
+
+    def fitted(
+        names: Sequence[str], start: Sequence[float], left: Callable[[dict[str, float]], Array]
+    ) -> dict[str, float]:
+        found = least_squares(lambda x: left(dict(zip(names, map(float, x), strict=True))), start, x_scale="jac")
+        return dict(zip(names, map(float, found.x), strict=True))
+
+    def errors(name: str, c: dict[str, float]) -> Array:
+        law, slip, wanted = (
+            (magic_longitudinal, KAPPA, along) if name == "longitudinal" else (magic_lateral, alpha, across)
+        )
+        return np.concatenate(
+            [(law(c, nominal, q * nominal, slip) - wanted[q]) / m for q, m in zip(LOADS, most[name], strict=True)]
+        )
+
+    c = fitted(
+        ("PCX1", "PDX1", "PDX2", "PEX1", "PEX2", "PKX1", "PKX2"),
+        (1.5, peaks["longitudinal"], -0.05, 0.0, 0.0, slopes["longitudinal"], 0.0),
+        lambda c: errors("longitudinal", c),
+    )
+    c |= fitted(
+        ("PCY1", "PDY1", "PDY2", "PEY1", "PEY2", "PKY1", "PKY2"),
+        (1.3, peaks["lateral"], -0.05, 0.0, 0.0, -1.2 * slopes["lateral"], 2.0),
+        lambda c: errors("lateral", c),
+    )
+    moments = {q: _length(tyre, q) * _trail(tyre, q) * across[q] for q in LOADS}
+
+    def moment_errors(more: dict[str, float]) -> Array:
+        return np.concatenate(
+            [
+                (magic_trail(more, nominal, tyre.radius, q * nominal, alpha) * across[q] - m) / np.abs(m).max()
+                for q, m in moments.items()
+            ]
+        )
+
+    names = ("QBZ1", "QBZ2", "QCZ1", "QDZ1", "QDZ2", "QEZ1")
+    c |= fitted(names, (8.0, 0.0, 1.2, 0.1, 0.0, -1.0), moment_errors)
+    told = {name: float(np.abs(errors(name, c)).max()) for name in most}
+    told["moment"] = float(np.abs(moment_errors(c)).max())
+    stiffness = tyre.carcass_stiffness
+    c["PTX1"] = c["PKX1"] * nominal / stiffness[0] / tyre.radius
+    c["PTY2"] = 2.0
+    c["PTY1"] = cornering_stiffness(c, nominal, nominal) / stiffness[1] / (tyre.radius * sin(2.0 * atan(0.5)))
+    c["QSY1"] = tyre.rolling_resistance
+    made = MagicTyre(
+        "MF52",
+        c,
+        tyre.radius,
+        tyre.bottoming_radius,
+        tyre.stiffness,
+        nominal,
+        damping=tyre.damping,
+        bottoming_stiffness=tyre.bottoming_stiffness,
+        reference_friction=tyre.reference_friction,
+        friction_factor=tyre.friction_factor,
+        combination="ellipse",
+        largest_load=2.5 * nominal,
+    )
+    return made, told
+
+
+def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
+    """TMeasy whose curves at pure slip are nearest to those of a Magic Formula tyre, fitted at one and two loads.
+
+    Its nominal load is that of the tyre, or half of the largest load of the coefficients where that is less. Shifts,
+    camber, moments beside the trail's and the speed's influence are left out.
+
+    Parameters
+    ----------
+    tyre : MagicTyre
+        At its nominal pressure.
+
+    Returns
+    -------
+    made : Tyre
+        On the road of the reference friction.
+    errors : dict of str to float
+        As of `magic_of_tmeasy`.
+
+    Raises
+    ------
+    ValueError
+        Its pressure is not the nominal one.
+    """
+    if tyre.pressure != 0.0:
+        raise ValueError(f"The pressure of the tyre is {1.0 + tyre.pressure:g} times the nominal one; it must be that.")
+    c, of_file = dict(tyre.coefficients), tyre.nominal_load
+    nominal = min(of_file, 0.5 * tyre.largest_load)
+    c["LMUX"], c["LMUY"] = c.get("LMUX", 1.0) * tyre.lmux, c.get("LMUY", 1.0) * tyre.lmuy
+    c["LKX"], c["LKY"] = c.get("LKX", 1.0) * tyre.lkx, c.get("LKY", 1.0) * tyre.lky
+    alpha = TANGENT if tyre.version in ("MF61", "MF62") else np.arctan(TANGENT)
+    along = {q: magic_longitudinal(c, of_file, q * nominal, KAPPA) for q in LOADS}
+    across = {q: magic_lateral(c, of_file, q * nominal, alpha) for q in LOADS}
+    curves = {
+        "longitudinal": _curve(KAPPA / (1.0 + KAPPA), along),
+        "lateral": _curve(TANGENT, across),
+    }
+    stiffness = 0.5 * (tyre.stiffness + sqrt(tyre.stiffness**2 + 4.0 * tyre.progression * nominal))  # to that load
+    trails = {q: magic_trail(c, of_file, tyre.radius, q * nominal, alpha) for q in LOADS}
+    shares = {q: trails[q] / (2.0 * sqrt(tyre.radius * q * nominal / stiffness)) for q in LOADS}
+    weights = {q: across[q] / across[q].max() for q in LOADS}
+    first = _three(shares[1.0], weights[1.0])
+    three = first, _three(shares[2.0], weights[2.0], first)
+    carcass = _carcass(tyre, c)
+    made = Tyre(
+        radius=tyre.radius,
+        bottoming_radius=tyre.bottoming_radius,
+        stiffness=stiffness,
+        damping=tyre.damping,
+        longitudinal=curves["longitudinal"],
+        lateral=curves["lateral"],
+        trail=(three[0][0], three[1][0]),
+        trail_zero=(three[0][1], three[1][1]),
+        trail_end=(three[0][2], three[1][2]),
+        carcass_stiffness=carcass,
+        carcass_damping=(tyre.settling * carcass[0], tyre.settling * carcass[1]),
+        nominal_load=nominal,
+        reference_friction=tyre.reference_friction,
+        bottoming_stiffness=tyre.bottoming_stiffness,
+        max_load_factor=min(3.5, tyre.largest_load / nominal, 0.95 * _most_load(list(curves.values()))),
+        rolling_resistance=max(c.get("QSY1", 0.0), 0.0),
+        friction_factor=tyre.friction_factor,
+        bore=tyre.bore,
+    )
+    told = {
+        "longitudinal": max(
+            float(np.abs(_tmeasy(made.longitudinal, q, KAPPA / (1.0 + KAPPA)) - along[q]).max() / along[q].max())
+            for q in LOADS
+        ),
+        "lateral": max(
+            float(np.abs(_tmeasy(made.lateral, q, TANGENT) - across[q]).max() / across[q].max()) for q in LOADS
+        ),
+        "moment": max(
+            float(np.abs((_length(made, q) * _trail(made, q) - trails[q]) * across[q]).max())
+            / float(np.abs(trails[q] * across[q]).max())
+            for q in LOADS
+        ),
+    }
+    return made, told
+
+
+def _tmeasy(curve: TyreCurve, q: float, slip: Array) -> Array:
+    slips = (pair[0] + (pair[1] - pair[0]) * (q - 1.0) for pair in (curve.max_slip, curve.slide_slip))
+    slope, most, slides = (at_load(pair, q) for pair in (curve.slope, curve.max_force, curve.slide_force))
+    most_at, slides_at = slips
+    return tmeasy_force(slope, most, most_at, slides, slides_at, slip)
+
+
+def _length(tyre: Tyre, q: float) -> float:
+    return 2.0 * sqrt(tyre.radius * q * tyre.nominal_load / tyre.stiffness)
+
+
+def _trail(tyre: Tyre, q: float) -> Array:
+    pairs = (tyre.trail, tyre.trail_zero, tyre.trail_end)
+    first, zero, end = (pair[0] + (pair[1] - pair[0]) * (q - 1.0) for pair in pairs)
+    return tmeasy_trail(first, zero, end, TANGENT)
+
+
+Five = tuple[float, float, float, float, float]
+Three = tuple[float, float, float]
+
+
+def _five(slip: Array, force: Array, first: Five | None = None) -> Five:
+    """Slope, largest force, its slip, sliding force, its slip at a load.
+
+    They are fitted as logarithms of what must be positive. `first`: those at the nominal load, so that slips keep their
+    order where they are extrapolated from both loads.
+    """
+    peak = int(np.argmax(force))
+    scale = float(force[peak])
+
+    def parts(x: Array) -> Five:
+        share, most_at, held, gap, steep = (float(v) for v in np.exp(x))
+        most = share * scale
+        return most * (1.02 + steep) / most_at, most, most_at, most * held, most_at + gap
+
+    low, high = [0.5, 0.01, 0.2, 0.005, 1e-3], [2.0, 2.0, 0.9999, 20.0, 20.0]
+    if first is not None:
+        gap, held = first[4] - first[2], first[3] / first[1]
+        low[2], high[2] = 0.7 * held, min(1.4 * held, 0.9999)
+        low[1], high[1], low[3], high[3] = _LESS * first[2], _MORE * first[2], _LESS * gap, _MORE * gap
+    start = np.clip([1.0, float(slip[peak]), 0.85, 0.5, 1.0], np.multiply(low, 1.01), np.multiply(high, 0.99))
+    found = least_squares(
+        lambda x: (tmeasy_force(*parts(x), slip) - force) / scale, np.log(start), bounds=(np.log(low), np.log(high))
+    )
+    return parts(found.x)
+
+
+def _three(share: Array, weight: Array, first: Three | None = None) -> Three:
+    """Trail over the length of the patch at no slip, slip of its zero, slip where it ends; `first` as of `_five`."""
+
+    def parts(x: Array) -> Three:
+        zero = float(np.exp(x[1]))
+        return float(x[0]), zero, zero + float(np.exp(x[2]))
+
+    low, high = [0.02, 0.01], [3.0, 20.0]
+    if first is not None:
+        ends = first[1], first[2] - first[1]
+        low, high = [_LESS * end for end in ends], [_MORE * end for end in ends]
+    start = np.clip([0.2, 0.8], np.multiply(low, 1.01), np.multiply(high, 0.99))
+    bounds = [-1.0, *np.log(low)], [1.0, *np.log(high)]
+    begin = [float(np.clip(share[0], -0.99, 0.99)), *np.log(start)]
+    return parts(least_squares(lambda x: (tmeasy_trail(*parts(x), TANGENT) - share) * weight, begin, bounds=bounds).x)
+
+
+def _curve(slip: Array, force: dict[float, Array]) -> TyreCurve:
+    first = _five(slip, force[1.0])
+    return TyreCurve(*zip(first, _five(slip, force[2.0], first), strict=True))
+
+
+def _most_load(curves: Sequence[TyreCurve]) -> float:
+    """Multiple of the nominal load at which a force or a slip that TMeasy extrapolates vanishes."""
+    most = [100.0]
+    for curve in curves:
+        for first, second in (curve.slope, curve.max_force, curve.slide_force):
+            falls = first - 0.5 * second
+            most += [(2.0 * first - 0.5 * second) / falls] if falls > 0.0 else []
+        gaps = tuple(end - at for end, at in zip(curve.slide_slip, curve.max_slip, strict=True))
+        for first, second in (curve.max_slip, gaps):
+            most += [1.0 + first / (first - second)] if second < first else []
+    return min(most)
+
+
+def _carcass(tyre: MagicTyre, c: dict[str, float]) -> tuple[float, float]:
+    """Stiffness at the nominal load: of the file, or slip stiffness over relaxation length, or of assumed lengths."""
+    slip = c["PKX1"] * c["LKX"] * tyre.nominal_load, cornering_stiffness(c, tyre.nominal_load, tyre.nominal_load)
+    lengths = (
+        c.get("PTX1", 0.0) or 0.5,
+        c.get("PTY1", 0.0) * sin(2.0 * atan(1.0 / (c.get("PTY2", 0.0) or 1.0))) or 1.0,
+    )
+    given = c.get("LONGITUDINAL_STIFFNESS", 0.0), c.get("LATERAL_STIFFNESS", 0.0)
+    along, across = (g or k / (n * tyre.radius) for g, k, n in zip(given, slip, lengths, strict=True))
+    return along, across

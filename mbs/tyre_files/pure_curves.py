@@ -1,0 +1,123 @@
+"""Steady forces of both tyre formulas over one slip alone, and the trail, without camber and shifts, for fits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
+
+Array = NDArray[np.float64]
+
+
+def at_load(pair: Sequence[float], q: float) -> float:
+    """A force of TMeasy at q nominal loads from those at one and two: a parabola through 0.
+
+    Parameters
+    ----------
+    q : float
+        Load over the nominal load.
+    """
+    first, second = pair
+    return q * (2.0 * first - 0.5 * second - (first - 0.5 * second) * q)
+
+
+def tmeasy_force(slope: float, most: float, most_at: float, slides: float, slides_at: float, slip: ArrayLike) -> Array:
+    """Force of TMeasy over a slip, odd in it (Hirschberg, Rill and Weinfurter, 2007).
+
+    Parameters
+    ----------
+    slope, most, slides : float
+        Initial slope, largest and sliding force, N.
+    most_at, slides_at : float
+        Slips where the force is largest and from which on it slides.
+    slip : array_like
+        Refers to the speed of the rolling wheel.
+
+    Returns
+    -------
+    ndarray
+        N, with the sign of the slip.
+    """
+    s = np.abs(np.asarray(slip, float))
+    x = s / most_at
+    up = slope * s / ((1.0 - x) ** 2 + slope * s / most)
+    fallen = np.clip((s - most_at) / (slides_at - most_at), 0.0, 1.0)
+    down = most - (most - slides) * fallen**2 * (3.0 - 2.0 * fallen)
+    return np.sign(slip) * np.where(s < most_at, up, down)
+
+
+def tmeasy_trail(first: float, zero: float, end: float, slip: ArrayLike) -> Array:
+    """Trail of TMeasy over the length of the patch, at a lateral slip.
+
+    Parameters
+    ----------
+    first, zero, end : float
+        At no slip; slips where it first vanishes and where it ends.
+    """
+    s = np.abs(np.asarray(slip, float))
+    w, x = zero / end, s / zero
+    rises = first * ((1.0 - w) * (1.0 - x) + w * (1.0 - (3.0 - 2.0 * x) * x * x))
+    falls = -first * (1.0 - w) * (x - 1.0) * ((end - s) / (end - zero)) ** 2
+    return np.where(s >= end, 0.0, np.where(s >= zero, falls, rises))
+
+
+def _sine(B: float, C: float, D: float, E: float, x: Array) -> Array:
+    turned = B * x
+    return np.asarray(D * np.sin(C * np.arctan(turned - min(E, 1.0) * (turned - np.arctan(turned)))))
+
+
+def magic_longitudinal(given: Mapping[str, float], nominal: float, load: float, kappa: ArrayLike) -> Array:
+    """Longitudinal force of the Magic Formula at pure slip (4.E9 to 4.E18), N.
+
+    Parameters
+    ----------
+    given : mapping
+        Coefficients; others are the usual ones.
+    nominal, load : float
+        N.
+    """
+    c = {**MAGIC_COEFFICIENTS, **given}
+    nominal *= c["LFZO"]
+    dfz = load / nominal - 1.0
+    C, D = c["PCX1"] * c["LCX"], (c["PDX1"] + c["PDX2"] * dfz) * c["LMUX"] * load
+    K = load * (c["PKX1"] + c["PKX2"] * dfz) * np.exp(c["PKX3"] * dfz) * c["LKX"]
+    E = (c["PEX1"] + c["PEX2"] * dfz + c["PEX3"] * dfz**2) * c["LEX"]
+    return _sine(K / (C * D), C, D, E, np.asarray(kappa, float))
+
+
+def cornering_stiffness(given: Mapping[str, float], nominal: float, load: float) -> float:
+    """K of 4.E25 without camber, N/rad, positive."""
+    c = {**MAGIC_COEFFICIENTS, **given}
+    nominal *= c["LFZO"]
+    turn = c["PKY4"] * np.arctan(load / (c["PKY2"] * nominal))
+    return float(abs(c["PKY1"]) * nominal * np.sin(turn) * c["LKY"])
+
+
+def magic_lateral(given: Mapping[str, float], nominal: float, load: float, alpha: ArrayLike) -> Array:
+    """Lateral force against the slip at pure slip (4.E19 to 4.E30), N.
+
+    Parameters
+    ----------
+    alpha : array_like
+        The slip angle, rad, up to 5.2; its tangent from 6.1 on.
+    """
+    c = {**MAGIC_COEFFICIENTS, **given}
+    dfz = load / (nominal * c["LFZO"]) - 1.0
+    C, D = c["PCY1"] * c["LCY"], (c["PDY1"] + c["PDY2"] * dfz) * c["LMUY"] * load
+    E = (c["PEY1"] + c["PEY2"] * dfz) * c["LEY"]
+    return _sine(cornering_stiffness(given, nominal, load) / (C * D), C, D, E, np.asarray(alpha, float))
+
+
+def magic_trail(given: Mapping[str, float], nominal: float, radius: float, load: float, alpha: ArrayLike) -> Array:
+    """Pneumatic trail (4.E71 to 4.E75) without camber and shifts, m."""
+    c = {**MAGIC_COEFFICIENTS, **given}
+    a = np.asarray(alpha, float)
+    dfz = load / (nominal * c["LFZO"]) - 1.0
+    B = (c["QBZ1"] + c["QBZ2"] * dfz + c["QBZ3"] * dfz**2) * c["LKY"] / c["LMUY"]
+    D = load * radius / (nominal * c["LFZO"]) * (c["QDZ1"] + c["QDZ2"] * dfz) * c["LTR"]
+    E = min(c["QEZ1"] + c["QEZ2"] * dfz + c["QEZ3"] * dfz**2, 1.0)
+    turned = B * a
+    return np.asarray(D * np.cos(c["QCZ1"] * np.arctan(turned - E * (turned - np.arctan(turned)))) * np.cos(a))

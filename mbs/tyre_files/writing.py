@@ -1,0 +1,97 @@
+"""A Magic Formula tyre as a tyre property file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+from ali3.files import write_text
+from mbs.elements.magic_tyre import MagicTyre
+from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
+
+_FORMS = {"PAC2002": ("PAC2002", None), "MF52": ("MF-TYRE", 6), "MF61": ("MF-TYRE", 61), "MF62": ("MF-TYRE", 62)}
+_RUBBER = 0.010  # m between the rim and where it bears, as it is read
+_SECTION_OF = {"PCX": "LONGITUDINAL", "PCY": "LATERAL", "QSX": "OVERTURNING", "QSY": "ROLLING", "QBZ": "ALIGNING"}
+
+
+def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMMETRIC", comment: str = "") -> None:
+    """Write a tyre property file that `read_tyre` reads as the same tyre.
+
+    Parameters
+    ----------
+    file : path
+        Usually with the extension .tir.
+    tyre : MagicTyre
+        In ISO axes, not mirrored, at its nominal pressure.
+    side : {"LEFT", "RIGHT", "SYMMETRIC"}
+        Where it was measured.
+    comment : str
+        Its first line.
+
+    Raises
+    ------
+    ValueError
+        The tyre is mirrored, of other axes or of another pressure.
+    ReportError
+        The file cannot be written.
+    """
+    if tyre.signs != "iso" or tyre.mirrored or tyre.pressure != 0.0:
+        raise ValueError("A tyre is written in ISO axes, not mirrored, and at its nominal pressure.")
+    write_text(file, "\n".join(f"$ {line}" for line in comment.splitlines()) + "\n".join(_lines(tyre, side)) + "\n")
+
+
+def _lines(t: MagicTyre, side: str) -> Iterator[str]:
+    form, fit = _FORMS[t.version]
+    units = {"LENGTH": "meter", "FORCE": "newton", "ANGLE": "radians", "MASS": "kg", "TIME": "second"}
+    yield ""
+    yield "[UNITS]"
+    yield from (f"{name} = '{unit}'" for name, unit in units.items())
+    yield "[MODEL]"
+    yield f"PROPERTY_FILE_FORMAT = '{form}'"
+    yield from [] if fit is None else [f"FITTYP = {fit}"]
+    by_ellipse = "YES" if t.combination == "ellipse" else "NO"
+    yield from ("USE_MODE = 4", f"TYRESIDE = '{side}'", f"FE_METHOD = '{by_ellipse}'")
+    c = {**MAGIC_COEFFICIENTS, **t.coefficients}
+    for name, factor in (("LMUX", t.lmux), ("LMUY", t.lmuy), ("LKX", t.lkx), ("LKY", t.lky)):
+        c[name] *= factor
+    yield from _numbers({"LONGVL": c.pop("LONGVL")})
+    yield "[DIMENSION]"
+    yield from _numbers({"UNLOADED_RADIUS": t.radius, "RIM_RADIUS": t.bottoming_radius - _RUBBER})
+    yield "[VERTICAL]"
+    spring = {"FNOMIN": t.nominal_load, "VERTICAL_STIFFNESS": t.stiffness, "VERTICAL_DAMPING": t.damping}
+    if t.progression:
+        spring["Q_FZ1"] = t.stiffness * t.radius / t.nominal_load
+        spring["Q_FZ2"] = t.progression * t.radius**2 / t.nominal_load
+    yield from _numbers(spring | {"BOTTOM_STIFF": t.bottoming_stiffness})
+    for section, names, ends in (
+        ("LONG_SLIP_RANGE", ("KPUMIN", "KPUMAX"), t.slip_range),
+        ("SLIP_ANGLE_RANGE", ("ALPMIN", "ALPMAX"), t.angle_range),
+        ("INCLINATION_ANGLE_RANGE", ("CAMMIN", "CAMMAX"), t.camber_range),
+        ("VERTICAL_FORCE_RANGE", ("FZMIN", "FZMAX"), (0.0, t.largest_load)),
+    ):
+        yield f"[{section}]"
+        yield from _numbers(dict(zip(names, ends, strict=True)))
+    factors = {name: c.pop(name) for name in list(c) if name.startswith("L") and "STIFFNESS" not in name}
+    yield "[SCALING_COEFFICIENTS]"
+    yield from _numbers(factors)
+    groups: dict[str, dict[str, float]] = {f"{name}_COEFFICIENTS": {} for name in _SECTION_OF.values()}
+    for name, value in c.items():
+        groups[f"{_group(name)}_COEFFICIENTS"][name] = value
+    for section, values in groups.items():
+        yield f"[{section}]"
+        yield from _numbers(values)
+
+
+def _group(name: str) -> str:
+    for start, group in _SECTION_OF.items():
+        if name.startswith(start):
+            return group
+    if name.startswith(("QD", "QE", "QH", "QC", "SS", "PPZ")):
+        return "ALIGNING"
+    if name.startswith("PPM"):
+        return "OVERTURNING"
+    return "LATERAL" if "Y" in name or name.startswith("LAT") else "LONGITUDINAL"
+
+
+def _numbers(values: dict[str, float]) -> Iterator[str]:
+    return (f"{name} = {float(value)!r}" for name, value in values.items())

@@ -1,0 +1,27 @@
+"""Bore torque of the tyres of a car file."""
+
+from __future__ import annotations
+
+from mbs.elements.tyre_bore import TyreBore
+from mbs.vehicle.quantities import Length, YawDamping, YawStiffness
+from mbs.vehicle.section import Section
+
+
+class Bore(Section):
+    """Torque of a patch that turns on the road, after G. Rill, Road Vehicle Dynamics, CRC Press, 2011, section 3.7.
+
+    Friction acts at two thirds of the mean of half the length and half the width of the patch; the carcass twists
+    before the patch slides. Without this table a standing wheel turns about the vertical as if its patch were a point.
+    """
+
+    width: Length
+    """Width of the patch."""
+    stiffness: YawStiffness
+    """Torsional stiffness of the carcass about the normal of the road."""
+    damping: YawDamping
+    """Torsional damping of the carcass."""
+
+    @property
+    def element(self) -> TyreBore:
+        """What the engine's tyres take."""
+        return TyreBore(self.width, self.stiffness, self.damping)

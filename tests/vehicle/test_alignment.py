@@ -1,0 +1,106 @@
+"""Toe and camber as set: in the drawing, at rest, in the kinematics and on the road."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from mbs import Pose, compile, simulate
+from mbs.vehicle import load
+from mbs.vehicle.car import Car
+from mbs.vehicle.errors import CarFileError
+from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.kinematics import kinematics
+from mbs.vehicle.kinematics.held_car import HeldCar
+
+ANGLES = {
+    "front.alignment.toe_left": 0.004,
+    "front.alignment.toe_right": -0.002,
+    "front.alignment.camber_left": -0.015,
+    "front.alignment.camber_right": -0.025,
+    "rear.alignment.toe_left": 0.003,
+    "rear.alignment.toe_right": 0.005,
+    "rear.alignment.camber_left": -0.02,
+    "rear.alignment.camber_right": 0.01,
+}
+
+
+def _run(car: Car, duration: float, speed: float = 0.0):
+    return simulate(compile(car.model()), duration, 0.005, pose=Pose(speed=speed), progress=False, estimate_error=False)
+
+
+@pytest.fixture(scope="module")
+def car():
+    return load("hatchback").changed(ANGLES)
+
+
+def test_kinematics_at_the_drawing_are_what_the_file_sets(car):
+    curves = kinematics(car, points=5).curves
+    for axle in ("front", "rear"):
+        drawn = curves[axle, "parallel"].drawn()
+        for angle in ("toe", "camber"):
+            for side in ("left", "right"):
+                assert drawn[f"{angle}_angle_{side}"] == pytest.approx(
+                    ANGLES[f"{axle}.alignment.{angle}_{side}"], abs=1e-12
+                )
+
+
+def test_bump_steer_is_that_of_the_linkage_with_straight_wheels(car):
+    """The hub turns with its carrier: what is set adds to what the linkage does, to first order."""
+    straight, aligned = (kinematics(c, (-0.02, 0.02), 3).drawn("front") for c in (load("hatchback"), car))
+    for name in ("toe_gradient", "camber_gradient"):
+        assert straight[name] != 0.0
+        assert aligned[name] == pytest.approx(straight[name], rel=0.02)
+
+
+def test_wheels_of_the_standing_car_lean_and_point_as_set(car):
+    rest = _run(car, 0.1)
+    for wheel, way in (("FL", 1.0), ("FR", -1.0), ("RL", 1.0), ("RR", -1.0)):
+        axle, side = {"F": "front", "R": "rear"}[wheel[0]], {"L": "left", "R": "right"}[wheel[1]]
+        toe, camber = (ANGLES[f"{axle}.alignment.{angle}_{side}"] for angle in ("toe", "camber"))
+        assert rest[f"wheel_{wheel}.steer"][-1] == pytest.approx(-way * toe, abs=2e-4)
+        assert rest[f"wheel_{wheel}.inclination"][-1] == pytest.approx(-way * camber, abs=2e-4)
+        assert abs(rest[f"wheel_{wheel}.Fy"][-1]) < 25.0
+
+
+def test_rear_toe_in_pushes_both_wheels_inwards_by_the_slope_of_the_tyre():
+    """Straight ahead: F = slope tan(toe), the closed form of the initial slope of TMeasy at the wheel's load."""
+    toe = 0.002
+    car = load("hatchback").changed({"rear.alignment.toe_left": toe, "rear.alignment.toe_right": toe})
+    run = _run(car, 3.0, 15.0)
+    first, second = car.rear.tyre.lateral.slope
+    for wheel, inwards in (("RL", -1.0), ("RR", 1.0)):
+        q = run[f"wheel_{wheel}.Fz"][-1] / car.rear.tyre.nominal_load
+        slope = q * (2.0 * first - 0.5 * second - (first - 0.5 * second) * q)
+        wanted = inwards * slope * math.tan(abs(run[f"wheel_{wheel}.slip_angle"][-1]))
+        assert run[f"wheel_{wheel}.slip_angle"][-1] == pytest.approx(-inwards * toe, abs=2e-4)
+        assert run[f"wheel_{wheel}.Fy"][-1] == pytest.approx(wanted, rel=0.03)
+    assert abs(run["chassis.yaw"][-1]) < 1e-3
+
+
+def test_mirrored_angles_make_the_mirrored_car(car):
+    """With driver and battery on one side moved to the middle the mirror image drives the mirrored way."""
+
+    def track(angles):
+        balanced = {"chassis.com.1": 0.0, "chassis.products": [0.0, 0.0, 0.0], "payload.driver.point.1": 0.0}
+        return _run(load("hatchback").changed(balanced | angles), 2.0, 20.0)
+
+    swap = {"left": "right", "right": "left"}
+    other = {f"{key.rsplit('_', 1)[0]}_{swap[key.rsplit('_', 1)[1]]}": value for key, value in ANGLES.items()}
+    run, mirror = track(ANGLES), track(other)
+    assert abs(run["chassis.y"][-1]) > 0.05
+    assert run["chassis.y"][-1] == pytest.approx(-mirror["chassis.y"][-1], rel=1e-6)
+    assert run["wheel_FL.Fz"][-1] == pytest.approx(mirror["wheel_FR.Fz"][-1], rel=1e-8)
+
+
+def test_the_held_car_has_its_contacts_on_the_ground(car):
+    for name, wheel in HeldCar(car, Fidelity.RIGID).wheels.items():
+        axle, side = {"F": "front", "R": "rear"}[name[0]], {"L": "left", "R": "right"}[name[1]]
+        height = getattr(car, axle).wheel.centre[2]
+        assert wheel.radius == pytest.approx(height / math.cos(ANGLES[f"{axle}.alignment.camber_{side}"]), rel=1e-12)
+
+
+def test_an_angle_in_degrees_is_refused():
+    with pytest.raises(CarFileError, match=r"front\.alignment\.toe_left.*between -0\.2 and 0\.2 rad"):
+        load("hatchback").changed({"front.alignment.toe_left": 1.5})
