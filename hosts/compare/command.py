@@ -62,7 +62,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.co
     )
     parser.add_argument("--starts", type=count, default=1, metavar="N", help="fit from so many points; default 1")
     parser.add_argument("--fit-step", type=number, metavar="T", help="inner step of the FMU while it is fitted, s")
-    add_option(parser, "--jobs", "as there are cores that it may use")
+    add_option(parser, "--jobs", "as there are cores that it may use, for windows of a minute and more")
     parser.add_argument("--anyway", action="store_true", help="fit even where a signal looks like one in a wrong unit")
     add_option(parser, "--out", "out/compare", default=Path("out", "compare"))
     add_option(parser, "--json")

@@ -29,6 +29,8 @@ from hosts.compare.windows import held_words, window_words, windows
 from hosts.compare.words import common_words, table, with_unit
 from hosts.driving.co_simulation import Result
 
+_WORTH_PROCESSES = 60.0  # s of all windows: less is driven sooner than other processes start
+
 
 @dataclass(frozen=True)
 class _Fitting:
@@ -46,7 +48,8 @@ def perform(options: argparse.Namespace) -> int:
     for note in task.notes:
         print(f"note: {note}", flush=True)
     fit_step(options.fit_step, task.parameters)
-    jobs = available_cores() if options.jobs is None else options.jobs
+    long = sum(s.end for s in task.stretches) > _WORTH_PROCESSES
+    jobs = (available_cores() if long else 1) if options.jobs is None else options.jobs
     with Replay(options.fmu, task.aliases, task.stretches, task.step, jobs) as replay:
         before, problems = _first(options, task, replay)
         print(table(before))
