@@ -25,6 +25,7 @@ from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, wit
 from benchmarks.validation.drive import Array, Drive, read_drive
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import LATERAL, YAW, Judged, judge
+from benchmarks.validation.published import full_throttle, published_rows
 from mbs import Settings
 
 HERE = Path(__file__).parent
@@ -53,6 +54,7 @@ PARTS = (
     ("inner steps of 10 ms", {"step_size": 0.01}),
 )
 LACKING = {k: f for k, f in COLUMNS.items() if k in ("model", "windows", "lateral", "departed")}
+PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
 STEP = 0.005  # s, inner one of the car
 CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
 
@@ -69,6 +71,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--car-aliases", type=Path, default=HERE / "ferrari_250_lm.toml", metavar="FILE", help="with fitted offsets"
     )
     parser.add_argument("--page", action="store_true", help="write the tables of docs/validation.md")
+    parser.add_argument("--no-published", dest="published", action="store_false", help="without figures of others")
     parser.add_argument("--no-parts", action="store_true", help="without the cars that lack a part")
     options = parser.parse_args(arguments)
     drive = read_drive(options.file, options.log_aliases)
@@ -83,15 +86,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     lacking = [_of_car(name, part, 0, drive) for name, part in parts.items()]
     best = min((f for f in simple if np.isfinite(f.lateral)), key=lambda f: f.windows)
     over = _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive)
+    others = published_rows(*full_throttle(options.car, {"step_size": STEP})) if options.published else []
     print_table(rows, COLUMNS)
-    print_table(lacking, LACKING)
+    for told, columns in ((lacking, LACKING), (others, PUBLISHED)):
+        if told:
+            print_table(told, columns)
     for note in car.notes:
         print(f"note: {note}")
-    record = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking, "curves": over}
+    record = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking}
+    record |= {"curves": over, "published": others}
     save_rows(options.json, describe("validation", Settings(), **record), rows)
     if options.page:
-        text = replace(PAGE.read_text(encoding="utf-8"), blocks(rows, lacking, simple, car, over))
-        write_text(PAGE, text)
+        tables = blocks(rows, lacking, simple, car, over)
+        if others:
+            tables["published"] = table(others, PUBLISHED)
+        write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), tables))
     if options.chart:
         chosen = simple[CHART_MODEL]
         draw(drive, car.time, car.path, chosen.path, chosen.model.name, options.chart)
