@@ -22,7 +22,7 @@ from benchmarks.shared.tables import print_table
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
 from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within
-from benchmarks.validation.drive import Array, Drive, read_drive
+from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, read_drive
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import LATERAL, YAW, Judged, judge
 from benchmarks.validation.published import full_throttle, published_rows
@@ -33,7 +33,7 @@ PAGE = DOCS / "validation.md"
 BODY = Body(
     982.0, 1605.0, 1.33, 1.07, 0.55
 )  # of the publication that the car file names; inertia of a box of its outline
-FITTED_NUMBERS = 7  # marked [F] in the file of the car and, of the sensor, in that of the log
+FITTED_NUMBERS = 10  # marked [F] in the files of the car and its tyres and, of the sensor, in that of the log
 COLUMNS = {
     "model": "",
     "numbers": "d",
@@ -55,6 +55,7 @@ PARTS = (
 )
 LACKING = {k: f for k, f in COLUMNS.items() if k in ("model", "windows", "lateral", "departed")}
 PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
+FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
 STEP = 0.005  # s, inner one of the car
 CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
 
@@ -86,6 +87,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     lacking = [_of_car(name, part, 0, drive) for name, part in parts.items()]
     best = min((f for f in simple if np.isfinite(f.lateral)), key=lambda f: f.windows)
     over = _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive)
+    swapped = fit(best.model, BODY, drive, JUDGED, FITTED)
+    folds = _folds(best, swapped)
     others = published_rows(*full_throttle(options.car, {"step_size": STEP})) if options.published else []
     print_table(rows, COLUMNS)
     for told, columns in ((lacking, LACKING), (others, PUBLISHED)):
@@ -94,10 +97,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for note in car.notes:
         print(f"note: {note}")
     record = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking}
-    record |= {"curves": over, "published": others}
+    record |= {"curves": over, "published": others, "folds": folds}
     save_rows(options.json, describe("validation", Settings(), **record), rows)
     if options.page:
         tables = blocks(rows, lacking, simple, car, over)
+        tables["folds"] = table(folds, FOLDS)
         if others:
             tables["published"] = table(others, PUBLISHED)
         write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), tables))
@@ -133,6 +137,20 @@ def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[s
         row = {"quantity": c.quantity, "ay, g": c.acceleration, "seconds": c.seconds, "measured": c.measured}
         rows.append(row | {"spread": c.spread} | {name: own[k].difference for name, own in found.items()})
     return [row for row in rows if row["seconds"] >= ENOUGH]
+
+
+def _folds(one: Fitted, other: Fitted) -> list[dict[str, Any]]:
+    """The numbers of a model that was fitted to either part of the drive, and its yaw rate over the other part."""
+    rows = [
+        {"number": f"{u.name}, {u.unit}", "fitted seconds": a, "others": b}
+        for (u, a), (_, b) in zip(_named(one), _named(other), strict=True)
+    ]
+    told = {
+        "number": "yaw rate in windows of the other part, rad/s",
+        "fitted seconds": one.windows,
+        "others": other.windows,
+    }
+    return [*rows, told]
 
 
 def _of_car(name: str, j: Judged, numbers: int, drive: Drive) -> dict[str, Any]:

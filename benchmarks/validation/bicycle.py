@@ -12,6 +12,7 @@ from benchmarks.validation.drive import Drive
 
 Array = NDArray[np.float64]
 G, AIR = 9.81, 1.2  # m/s2, kg/m3
+HEIGHT = 0.42  # m, of the centre of mass: as assumed in the file of the car
 
 
 @dataclass(frozen=True)
@@ -98,6 +99,18 @@ def _saturating(curve: Callable[[Array], Array]) -> Callable[..., tuple[Array, A
     return forces
 
 
+def _degressive(body: Body, af: Array, ar: Array, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
+    """Forces along `_root` where stiffness and grip go with less than the load, at the height of the car file."""
+    found = []
+    still, moved = _loads(body, np.float64(0.0), {}), _loads(body, ax, {"height": np.float64(HEIGHT)})
+    for axle, slip, at_rest, load in zip(("front", "rear"), (af, ar), still, moved, strict=True):
+        share = load / at_rest
+        most = p[f"{axle} grip"] * (1.0 - p["grip lost by load"] * (share - 1.0)) * load
+        stiffness = p[f"{axle} stiffness"] * share ** p["exponent of stiffness"]
+        found.append(-most * _root(stiffness * slip / most))
+    return found[0], found[1]
+
+
 def _root(x: Array) -> Array:
     return x / np.sqrt(1.0 + x * x)
 
@@ -111,6 +124,7 @@ _OFFSET = Unknown("steering offset", "rad", -0.02, 0.02)
 _HEIGHT = Unknown("height", "m", 0.0, 1.2)
 _INERTIA = Unknown("yaw inertia factor", "1", 0.3, 2.0)
 _PLACE = Unknown("centre of mass to the left", "m", -0.2, 0.2)
+_BY_LOAD = Unknown("exponent of stiffness", "1", 0.0, 1.0), Unknown("grip lost by load", "1", 0.0, 0.8)
 _FACTOR = Unknown("steering factor", "1", 0.6, 1.3)
 _BY_BRAKING = Unknown("steering by ax", "rad s2/m", -0.002, 0.002)
 
@@ -137,6 +151,11 @@ MODELS = (
         "the same and yaw inertia",
         (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT, _PLACE, _INERTIA),
         _saturating(_root),
+    ),
+    Model(
+        "the same with the height of the car file, tyres degressive",
+        (*_STIFFNESS, *_GRIPS, _OFFSET, _PLACE, _INERTIA, *_BY_LOAD),
+        _degressive,
     ),
 )
 

@@ -38,9 +38,8 @@ class Published:
     def row(self, computed: float) -> dict[str, Any]:
         """Of the table: the verdict is whether the car lies between the sources, widened by their last digit."""
         low, high = min(self.told.values()) - self.digit, max(self.told.values()) + self.digit
-        verdict = (
-            "within" if low <= computed <= high else f"{100.0 * (computed / np.clip(computed, low, high) - 1.0):+.0f} %"
-        )
+        off = computed / float(np.clip(computed, low, high)) - 1.0
+        verdict = "within" if off == 0.0 else f"{100.0 * off:+.0f} %"
         return {
             "test": f"{self.test}, {self.unit}",
             "published": "; ".join(f"{value:g} ({source})" for source, value in self.told.items()),

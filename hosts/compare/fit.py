@@ -28,6 +28,7 @@ _SETTLED = 0.02  # change of the weights
 _LEAST_NOISE = 0.01  # of a signal's standard deviation, for the first weights only
 _NO_EFFECT = 1e-3  # of the noise, over the whole range
 _CHANGE = 1e-5  # of the sum of squares, at which a round ends: less than 0.1 of an interval
+_STEP = 1e-6  # of the unknowns, at which a round ends
 _SEED = 1  # of other starts
 
 
@@ -64,7 +65,7 @@ def fit(
     Notes
     -----
     Weights are the inverse of what the fit leaves of each signal (the estimate of greatest likelihood where the noise
-    of a signal is not known): they begin with the noise of the measured signal and are renewed until they stay. The
+    of a signal is not known): they begin with what is left at the given values and are renewed until they stay. The
     search takes one-sided differences, its last steps and the intervals central ones.
     """
     runs = 0
@@ -75,11 +76,17 @@ def fit(
         return simulate(values)
 
     noise = {n: measured_noise(s.values) for n, s in outputs.items()}
-    weights = {n: max(noise[n], _LEAST_NOISE * float(np.std(s.values)), 1e-12) for n, s in outputs.items()}
-    residuals = Residuals(outputs, unknowns, weights, counted)
+    least = {n: max(noise[n], _LEAST_NOISE * float(np.std(s.values)), 1e-12) for n, s in outputs.items()}
+    residuals = Residuals(outputs, unknowns, dict(least), counted)
     bounds = (np.array([u.low for u in unknowns]), np.array([u.high for u in unknowns]))
     width = np.array([u.scale for u in unknowns])
     p = np.clip([u.start for u in unknowns], bounds[0] + 1e-6 * width, bounds[1] - 1e-6 * width)
+    # A model that misses more than noise is weighted by what it misses, so that no signal outweighs the others.
+    first = residuals(p)
+    residuals.noise = {
+        n: least[n] * max(1.0, float(np.sqrt(np.mean(first[b] ** 2))))
+        for n, b in zip(outputs, residuals.blocks, strict=True)
+    }
     own = computed_noise(residuals, p)
     residuals.steps, sensitivities = difference_steps(residuals, p, own)
     _check_effects(unknowns, sensitivities, own)
@@ -87,7 +94,7 @@ def fit(
 
     def search(begin: NDArray[np.float64], jacobian: Jacobian, most: int) -> OptimizeResult:
         return least_squares(
-            residuals, begin, jacobian, bounds, x_scale=width, max_nfev=most, xtol=None, ftol=_CHANGE, gtol=1e-12
+            residuals, begin, jacobian, bounds, x_scale=width, max_nfev=most, xtol=_STEP, ftol=_CHANGE, gtol=1e-12
         )
 
     tried = [search(begin, residuals.one_sided, evaluations) for begin in _begins(p, unknowns, starts)]

@@ -20,6 +20,7 @@ from hosts.driving.co_simulation import Result
 
 Array = NDArray[np.float64]
 NUISANCES = ("delay", "delays", "drift", "bias", "gain")
+_SECANT = 1e-3  # of a range: over finer steps shifts of gears and the kinks of stops hide where the residuals go down
 _REFUSED = 1e3  # residual where the FMU refuses a step: far worse than any fit
 
 
@@ -161,7 +162,8 @@ class Residuals:
 
     def _one_sided(self, p: Array, k: int) -> Array:
         u, q = self.unknowns[k], p.copy()
-        q[k] += self.steps[k] if u.high - p[k] >= p[k] - u.low else -self.steps[k]
+        step = max(float(self.steps[k]), _SECANT * (u.high - u.low))
+        q[k] += step if u.high - p[k] >= p[k] - u.low else -step
         if self._curves(q) is None:
             return self._difference(p, k)
         return np.asarray((self(q) - self(p)) / (q[k] - p[k]))
