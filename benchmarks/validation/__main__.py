@@ -21,15 +21,19 @@ from benchmarks.shared.pages import DOCS, replace, table
 from benchmarks.shared.tables import print_table
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
-from benchmarks.validation.drive import read_drive
+from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within
+from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, read_drive
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import LATERAL, YAW, Judged, judge
+from benchmarks.validation.published import full_throttle, published_rows
 from mbs import Settings
 
 HERE = Path(__file__).parent
 PAGE = DOCS / "validation.md"
-BODY = Body(982.0, 1605.0, 1.33, 1.07)  # of the publication that the car file names; inertia of a box of its outline
-FITTED_NUMBERS = 7  # marked [F] in the file of the car and, of the sensor, in that of the log
+BODY = Body(
+    982.0, 1605.0, 1.33, 1.07, 0.55
+)  # of the publication that the car file names; inertia of a box of its outline
+FITTED_NUMBERS = 10  # marked [F] in the files of the car and its tyres and, of the sensor, in that of the log
 COLUMNS = {
     "model": "",
     "numbers": "d",
@@ -37,8 +41,12 @@ COLUMNS = {
     "windows": ".4f",
     "whole": ".4f",
     "lateral": ".2f",
+    "acceleration": ".2f",
+    "understeer": "",
+    "sideslip": "",
     "departed": "",
 }
+AIMS = {"understeer angle": 0.3, "sideslip": 0.5}  # deg, of the mean difference in a bin
 PARTS = (
     ("steering three times as stiff", {"steering.stiffness": 400.0}),
     ("without anti-roll bars", {"front.anti_roll_bar.factor": 0.02, "rear.anti_roll_bar.factor": 0.02}),
@@ -46,6 +54,8 @@ PARTS = (
     ("inner steps of 10 ms", {"step_size": 0.01}),
 )
 LACKING = {k: f for k, f in COLUMNS.items() if k in ("model", "windows", "lateral", "departed")}
+PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
+FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
 STEP = 0.005  # s, inner one of the car
 CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
 
@@ -62,6 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--car-aliases", type=Path, default=HERE / "ferrari_250_lm.toml", metavar="FILE", help="with fitted offsets"
     )
     parser.add_argument("--page", action="store_true", help="write the tables of docs/validation.md")
+    parser.add_argument("--no-published", dest="published", action="store_false", help="without figures of others")
     parser.add_argument("--no-parts", action="store_true", help="without the cars that lack a part")
     options = parser.parse_args(arguments)
     drive = read_drive(options.file, options.log_aliases)
@@ -72,32 +83,77 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     car = judged({}, brief=False)
     parts = {} if options.no_parts else {name: judged(values, brief=True) for name, values in PARTS}
-    rows = [_of_bicycle(f) for f in simple] + [_of_car("multibody car", car, FITTED_NUMBERS)]
-    lacking = [_of_car(name, part, 0) for name, part in parts.items()]
+    rows = [_of_bicycle(f, drive) for f in simple] + [_of_car("multibody car", car, FITTED_NUMBERS, drive)]
+    lacking = [_of_car(name, part, 0, drive) for name, part in parts.items()]
+    best = min((f for f in simple if np.isfinite(f.lateral)), key=lambda f: f.windows)
+    over = _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive)
+    swapped = fit(best.model, BODY, drive, JUDGED, FITTED)
+    folds = _folds(best, swapped)
+    others = published_rows(*full_throttle(options.car, {"step_size": STEP})) if options.published else []
     print_table(rows, COLUMNS)
-    print_table(lacking, LACKING)
+    for told, columns in ((lacking, LACKING), (others, PUBLISHED)):
+        if told:
+            print_table(told, columns)
     for note in car.notes:
         print(f"note: {note}")
     record = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking}
+    record |= {"curves": over, "published": others, "folds": folds}
     save_rows(options.json, describe("validation", Settings(), **record), rows)
     if options.page:
-        text = replace(PAGE.read_text(encoding="utf-8"), blocks(rows, lacking, simple, car))
-        write_text(PAGE, text)
+        tables = blocks(rows, lacking, simple, car, over)
+        tables["folds"] = table(folds, FOLDS)
+        if others:
+            tables["published"] = table(others, PUBLISHED)
+        write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), tables))
     if options.chart:
         chosen = simple[CHART_MODEL]
         draw(drive, car.time, car.path, chosen.path, chosen.model.name, options.chart)
     return 0
 
 
-def _of_bicycle(f: Fitted) -> dict[str, Any]:
+def _of_bicycle(f: Fitted, drive: Drive) -> dict[str, Any]:
     lateral = None if np.isnan(f.lateral) else f.lateral
     return {
         "model": f.model.name, "numbers": len(f.numbers), "fitted": f.fitted, "windows": f.windows, "whole": f.whole,
-        "lateral": lateral, "departed": str(f.departed),
+        "lateral": lateral, **_by_acceleration(drive, f.predicted), "departed": str(f.departed),
     }  # fmt: skip
 
 
-def _of_car(name: str, j: Judged, numbers: int) -> dict[str, Any]:
+def _by_acceleration(drive: Drive, predicted: tuple[Array, Array]) -> dict[str, Any]:
+    """Deviation of the lateral acceleration, and in how many bins the means are within `AIMS`."""
+    if np.isnan(predicted[0]).any():
+        return {"acceleration": None, "understeer": "–", "sideslip": "–"}
+    found = curves(drive, BODY.wheelbase, *predicted)
+    counts = {quantity: within(found, quantity, aim) for quantity, aim in AIMS.items()}
+    told = {quantity.split()[0]: f"{good} of {of}" for quantity, (good, of) in counts.items()}
+    return {"acceleration": acceleration_error(drive, *predicted), **told}
+
+
+def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[str, Any]]:
+    """Understeer angle and sideslip by lateral acceleration: what was measured, and how far each model is off."""
+    found = {name: curves(drive, BODY.wheelbase, *predicted) for name, predicted in models.items()}
+    rows = []
+    for k, c in enumerate(next(iter(found.values()))):
+        row = {"quantity": c.quantity, "ay, g": c.acceleration, "seconds": c.seconds, "measured": c.measured}
+        rows.append(row | {"spread": c.spread} | {name: own[k].difference for name, own in found.items()})
+    return [row for row in rows if row["seconds"] >= ENOUGH]
+
+
+def _folds(one: Fitted, other: Fitted) -> list[dict[str, Any]]:
+    """The numbers of a model that was fitted to either part of the drive, and its yaw rate over the other part."""
+    rows = [
+        {"number": f"{u.name}, {u.unit}", "fitted seconds": a, "others": b}
+        for (u, a), (_, b) in zip(_named(one), _named(other), strict=True)
+    ]
+    told = {
+        "number": "yaw rate in windows of the other part, rad/s",
+        "fitted seconds": one.windows,
+        "others": other.windows,
+    }
+    return [*rows, told]
+
+
+def _of_car(name: str, j: Judged, numbers: int, drive: Drive) -> dict[str, Any]:
     return {
         "model": name,
         "numbers": numbers,
@@ -105,6 +161,7 @@ def _of_car(name: str, j: Judged, numbers: int) -> dict[str, Any]:
         "windows": j.windows,
         "whole": None if np.isnan(j.whole) else j.whole,
         "lateral": j.lateral,
+        **_by_acceleration(drive, j.predicted),
         "departed": ", ".join(j.departed) or "0",
     }
 
@@ -127,7 +184,11 @@ def _named(f: Fitted) -> list[tuple[Any, float]]:
 
 
 def blocks(
-    rows: Sequence[dict[str, Any]], lacking: Sequence[dict[str, Any]], simple: Sequence[Fitted], car: Judged
+    rows: Sequence[dict[str, Any]],
+    lacking: Sequence[dict[str, Any]],
+    simple: Sequence[Fitted],
+    car: Judged,
+    over: Sequence[dict[str, Any]],
 ) -> dict[str, str]:
     """The tables of the page by their marks."""
     by = {}
@@ -152,7 +213,10 @@ def blocks(
                 lines,
                 {keys[0]: "", keys[1]: "d", **dict.fromkeys(keys[2:4], "+.4f"), **dict.fromkeys(keys[4:], "+.2f")},
             )
+    keys = list(over[0])
+    form = {keys[0]: "", keys[1]: "+.1f", keys[2]: ".1f", **dict.fromkeys(keys[3:], ".2f")}
     return {
+        "curves": table(over, form),
         "models": table(rows, COLUMNS),
         "parts": table(lacking, LACKING),
         "numbers": table(_numbers(simple), {"model": "", "found": "", "starts": ""}),

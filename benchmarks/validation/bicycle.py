@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from benchmarks.validation.drive import Drive
 
 Array = NDArray[np.float64]
-G = 9.81
+G, AIR = 9.81, 1.2  # m/s2, kg/m3
+HEIGHT = 0.42  # m, of the centre of mass: as assumed in the file of the car
 
 
 @dataclass(frozen=True)
@@ -24,12 +25,15 @@ class Body:
         kg, kg m2.
     front, rear : float
         Distance of the axles from the centre of mass, m.
+    drag_area : float
+        Drag coefficient times frontal area, m2.
     """
 
     mass: float
     yaw_inertia: float
     front: float
     rear: float
+    drag_area: float = 0.0
 
     @property
     def wheelbase(self) -> float:
@@ -95,6 +99,18 @@ def _saturating(curve: Callable[[Array], Array]) -> Callable[..., tuple[Array, A
     return forces
 
 
+def _degressive(body: Body, af: Array, ar: Array, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
+    """Forces along `_root` where stiffness and grip go with less than the load, at the height of the car file."""
+    found = []
+    still, moved = _loads(body, np.float64(0.0), {}), _loads(body, ax, {"height": np.float64(HEIGHT)})
+    for axle, slip, at_rest, load in zip(("front", "rear"), (af, ar), still, moved, strict=True):
+        share = load / at_rest
+        most = p[f"{axle} grip"] * (1.0 - p["grip lost by load"] * (share - 1.0)) * load
+        stiffness = p[f"{axle} stiffness"] * share ** p["exponent of stiffness"]
+        found.append(-most * _root(stiffness * slip / most))
+    return found[0], found[1]
+
+
 def _root(x: Array) -> Array:
     return x / np.sqrt(1.0 + x * x)
 
@@ -107,6 +123,8 @@ _GRIPS = Unknown("front grip", "1", 0.8, 2.5), Unknown("rear grip", "1", 0.8, 2.
 _OFFSET = Unknown("steering offset", "rad", -0.02, 0.02)
 _HEIGHT = Unknown("height", "m", 0.0, 1.2)
 _INERTIA = Unknown("yaw inertia factor", "1", 0.3, 2.0)
+_PLACE = Unknown("centre of mass to the left", "m", -0.2, 0.2)
+_BY_LOAD = Unknown("exponent of stiffness", "1", 0.0, 1.0), Unknown("grip lost by load", "1", 0.0, 0.8)
 _FACTOR = Unknown("steering factor", "1", 0.6, 1.3)
 _BY_BRAKING = Unknown("steering by ax", "rad s2/m", -0.002, 0.002)
 
@@ -123,6 +141,21 @@ MODELS = (
         "the same and steering factor, steering by ax",
         (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT, _FACTOR, _BY_BRAKING),
         _saturating(np.tanh),
+    ),
+    Model(
+        "load transfer, centre of mass beside the middle",
+        (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT, _PLACE),
+        _saturating(_root),
+    ),
+    Model(
+        "the same and yaw inertia",
+        (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT, _PLACE, _INERTIA),
+        _saturating(_root),
+    ),
+    Model(
+        "the same with the height of the car file, tyres degressive",
+        (*_STIFFNESS, *_GRIPS, _OFFSET, _PLACE, _INERTIA, *_BY_LOAD),
+        _degressive,
     ),
 )
 
@@ -168,7 +201,9 @@ def simulate(
         ar = np.arctan2(vy - body.rear * r, vx[:, k])
         front, rear = forces(body, af, ar, ax[:, k], p)
         across = front * np.cos(angle)
-        return (across + rear) / body.mass - vx[:, k] * r, (body.front * across - body.rear * rear) / inertia
+        along = body.mass * ax[:, k] + 0.5 * AIR * body.drag_area * vx[:, k] ** 2  # of all wheels, in the middle
+        turning = body.front * across - body.rear * rear + along * p.get("centre of mass to the left", np.float64(0.0))
+        return (across + rear) / body.mass - vx[:, k] * r, turning / inertia
 
     shape = (len(numbers), len(begins), steps + 1)
     vy, r = np.empty(shape), np.empty(shape)

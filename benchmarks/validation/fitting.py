@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from benchmarks.validation.bicycle import Body, Model, simulate
-from benchmarks.validation.drive import EVERY, FITTED, JUDGED, LENGTH, Drive
+from benchmarks.validation.drive import EVERY, FITTED, JUDGED, LENGTH, Drive, Spans
 
 Array = NDArray[np.float64]
 STARTS, SEED = 2, 1
+SCALES = 0.02, 0.3  # rad/s and m/s: deviations of yaw rate and lateral velocity that count the same
 STEP = 1e-4  # of the differences, of the range of a number
 
 
@@ -24,7 +25,7 @@ class Fitted:
     ----------
     numbers : ndarray of shape (p,)
     found : list of float
-        Root mean square over the fitted seconds that each start led to, rad/s.
+        Root mean square over the fitted seconds that each start led to, in `SCALES`.
     fitted, windows, whole : float
         Root mean square of the yaw rate's deviation, rad/s: fitted windows, windows that were not fitted, and one run
         without restart over those seconds.
@@ -34,6 +35,8 @@ class Fitted:
         Windows that were not fitted whose yaw rate is off by more than the range of the measured one.
     path : ndarray of shape (n,)
         Yaw rate of the run without restart, rad/s.
+    predicted : tuple of ndarray of shape (w, m)
+        Lateral velocity and yaw rate in the windows that were not fitted, m/s and rad/s.
     """
 
     model: Model
@@ -45,16 +48,17 @@ class Fitted:
     lateral: float
     departed: int
     path: Array
+    predicted: tuple[Array, Array]
 
 
-def begins(drive: Drive, seconds: tuple[tuple[float, float], ...]) -> NDArray[np.intp]:
+def begins(drive: Drive, seconds: Spans) -> NDArray[np.intp]:
     """First samples of the windows that lie in stretches of seconds."""
     times = [t for a, b in seconds for t in np.arange(a, b - LENGTH + 1e-9, EVERY)]
     return np.array([round((t - drive.time[0]) / drive.interval) for t in times], dtype=np.intp)
 
 
-def fit(model: Model, body: Body, drive: Drive) -> Fitted:
-    """Fit a model on the yaw rate in the windows of `FITTED`, and judge it in those of `JUDGED`."""
+def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others: Spans = JUDGED) -> Fitted:
+    """Fit a model on yaw rate and lateral velocity in the windows of some seconds, and judge it in those of others."""
     steps = round(LENGTH / drive.interval)
     low, high = (np.array([getattr(u, end) for u in model.unknowns]) for end in ("low", "high"))
 
@@ -63,36 +67,45 @@ def fit(model: Model, body: Body, drive: Drive) -> Fitted:
         vy, rate = simulate(model, body, drive, rows, steps, numbers)
         return vy - drive.vy[samples], rate - drive.yaw_rate[samples]
 
-    def errors(numbers: Array, rows: NDArray[np.intp]) -> Array:
-        return both(numbers, rows)[1]
+    rows = begins(drive, seconds)
 
-    rows = begins(drive, FITTED)
+    def errors(numbers: Array) -> Array:
+        """Of shape (k, n); a model without lateral velocity has that of its yaw rate alone."""
+        across, turning = (e.reshape(len(e), -1) for e in both(numbers, rows))
+        turning = turning / SCALES[0]
+        return turning if model.forces is None else np.hstack([turning, across / SCALES[1]])
 
     def residuals(p: Array) -> Array:
-        return np.nan_to_num(errors(p[None], rows)[0].ravel(), nan=10.0)
+        return np.nan_to_num(errors(p[None])[0], nan=1e3)
 
     def jacobian(p: Array) -> Array:
         side = np.where(p + STEP * (high - low) > high, -1.0, 1.0) * STEP * (high - low)
-        e = errors(np.vstack([p, p + np.diag(side)]), rows).reshape(len(p) + 1, -1)
+        e = errors(np.vstack([p, p + np.diag(side)]))
         return np.asarray(((e[1:] - e[0]) / side[:, None]).T)
 
     random, results = np.random.default_rng(SEED), []
     for _ in range(STARTS if len(low) else 0):
         start = low + (high - low) * random.uniform(0.2, 0.8, len(low))
-        results.append(least_squares(residuals, start, jacobian, bounds=(low, high), x_scale=high - low, max_nfev=60))
+        results.append(
+            least_squares(residuals, start, jacobian, bounds=(low, high), x_scale=high - low, ftol=1e-6, max_nfev=60)
+        )
     numbers = min(results, key=lambda r: float(r.cost)).x if results else np.zeros(0)
-    lateral, others = (e[0] for e in both(numbers[None], begins(drive, JUDGED)))
+    judged = begins(drive, others)
+    samples = judged[:, None] + np.arange(steps + 1)
+    vy, rate = (found[0] for found in simulate(model, body, drive, judged, steps, numbers[None]))
     path = simulate(model, body, drive, np.array([0]), len(drive.time) - 1, numbers[None])[1][0, 0]
+    turning = rate - drive.yaw_rate[samples]
     return Fitted(
         model,
         numbers,
         [_rms(r.fun) for r in results],
-        _rms(residuals(numbers)),
-        _rms(others),
-        _rms((path - drive.yaw_rate)[drive.inside(JUDGED)]),
-        _rms(lateral),
-        int((np.abs(others).max(axis=1) > np.ptp(drive.yaw_rate)).sum()),
+        _rms(both(numbers[None], rows)[1]),
+        _rms(turning),
+        _rms((path - drive.yaw_rate)[drive.inside(others)]),
+        _rms(vy - drive.vy[samples]),
+        int((np.abs(turning).max(axis=1) > np.ptp(drive.yaw_rate)).sum()),
         path,
+        (vy, rate),
     )
 
 

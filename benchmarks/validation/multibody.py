@@ -14,8 +14,11 @@ import numpy as np
 
 from benchmarks.validation.drive import EVERY, FITTED, JUDGED, LENGTH, Array, Spans, text_of
 from hosts.compare.command import main as compare
+from hosts.compare.stretches import GAP
 
 YAW, LATERAL = "chassis.wz", "chassis.vy"
+INTERVAL = 0.01  # s, of the samples in `Judged.predicted`
+_COLUMNS = f"{LATERAL}.simulated [m/s]", f"{YAW}.simulated [rad/s]"
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,8 @@ class Judged:
         What the command said.
     time, path : ndarray of shape (n,)
         Yaw rate of the run without restart, s and rad/s.
+    predicted : tuple of ndarray of shape (w, m)
+        Lateral velocity and yaw rate in the windows that were not fitted, m/s and rad/s.
     """
 
     fitted: float
@@ -45,6 +50,7 @@ class Judged:
     notes: list[str]
     time: Array
     path: Array
+    predicted: tuple[Array, Array]
 
 
 def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief: bool = False) -> Judged:
@@ -71,17 +77,24 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief:
             assert status in (0, 1), "the command has said why"
             return json.loads(record.read_text(encoding="utf-8")), out / f"{log.stem}.csv"
 
-        others = run("others", *windows, "--seconds", text_of(JUDGED))[0]
+        others, file = run("others", *windows, "--seconds", text_of(JUDGED))
+        predicted = tuple(_in_windows(*_signal(file, name), len(others["windows"])) for name in _COLUMNS)
         departed = [f"{w['begin']:g} s ({w['departed']})" for w in others["windows"] if w["departed"]]
         told = _rms(others, YAW), _rms(others, LATERAL), departed, others["bins"]
         if brief:
-            return Judged(math.nan, math.nan, *told, [], np.zeros(0), np.zeros(0))
+            return Judged(math.nan, math.nan, *told, [], np.zeros(0), np.zeros(0), predicted)
         first = _rms(run("fitted", *windows, "--seconds", text_of(FITTED))[0], YAW)
         whole, signals = run("whole")
         time, path = _signal(signals, f"{YAW}.simulated [rad/s]")
         measured = _signal(signals, f"{YAW}.measured [rad/s]")[1]
     error = _rms_inside(time, path - measured, JUDGED)
-    return Judged(first, error, *told, whole["notes"] + whole["problems"], time, path)
+    return Judged(first, error, *told, whole["notes"] + whole["problems"], time, path, predicted)
+
+
+def _in_windows(time: Array, values: Array, count: int) -> Array:
+    """A signal of windows that stand one after the other, of shape (windows, samples)."""
+    at = INTERVAL * np.arange(round(LENGTH / INTERVAL) + 1)
+    return np.array([np.interp(k * (LENGTH + GAP) + at, time, values) for k in range(count)])
 
 
 def _rms(record: dict[str, Any], signal: str) -> float:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ali3.decimal_number import number
 from ali3.old_options import add_old_names
-from ali3.options import Parser, add_option
+from ali3.options import Parser, add_option, count
 from ali3.running import run_command
 from hosts.common.options import add_fmu, add_setting_options
 from hosts.fmu.fmu_file import fmu_file
@@ -60,6 +60,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.co
         help="found together with the parameters: delay (of all signals), delays (of each), drift, bias, gain (of "
         "each)",
     )
+    parser.add_argument("--starts", type=count, default=1, metavar="N", help="fit from so many points; default 1")
+    parser.add_argument("--fit-step", type=number, metavar="T", help="inner step of the FMU while it is fitted, s")
+    add_option(parser, "--jobs", "as there are cores that it may use, for windows of a minute and more")
     parser.add_argument("--anyway", action="store_true", help="fit even where a signal looks like one in a wrong unit")
     add_option(parser, "--out", "out/compare", default=Path("out", "compare"))
     add_option(parser, "--json")

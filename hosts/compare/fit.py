@@ -4,88 +4,32 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
-from scipy.optimize import least_squares
+from scipy.optimize import OptimizeResult, least_squares
+from scipy.stats import qmc
 
 from hosts.common.errors import HostError
 from hosts.compare.correlated import covariance, effective_samples
+from hosts.compare.fit_result import Fit, Found, Start
+from hosts.compare.left_out import FEWEST, Parts, clustered_covariance, left_out, without_each
 from hosts.compare.log import Signal
 from hosts.compare.noise import computed_noise, difference_steps, measured_noise
 from hosts.compare.residuals import Residuals, Unknown
 from hosts.driving.co_simulation import Result
 
+Jacobian = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 _ROUNDS = 3  # of weights
 _SETTLED = 0.02  # change of the weights
 _LEAST_NOISE = 0.01  # of a signal's standard deviation, for the first weights only
 _NO_EFFECT = 1e-3  # of the noise, over the whole range
-
-
-@dataclass(frozen=True)
-class Found:
-    """An unknown that was sought.
-
-    Parameters
-    ----------
-    half_width : float
-        Of its 95 % confidence interval; infinite where the log does not determine it.
-    bound : str
-        ``lower`` or ``upper`` where it lies at this bound, else empty.
-    """
-
-    unknown: Unknown
-    value: float
-    half_width: float
-    bound: str = ""
-
-
-@dataclass(frozen=True)
-class Fit:
-    """What was found.
-
-    Parameters
-    ----------
-    correlation : ndarray of shape (p, p)
-        Of the errors of the unknowns.
-    before, after : float
-        Root mean square of the residuals over their noise.
-    chance : float
-        Probability that noise alone makes a fit so much better (F-test with the effective number of samples).
-    noise, misfit : dict of str to float
-        By signal, in its unit: noise of the measured signal, and root mean square of what the fit leaves.
-    computed_noise : float
-        Of the FMU, over the noise of the signals.
-    samples, effective : float
-        Number of samples, and as how many uncorrelated ones they count.
-    runs : int
-        Of the FMU.
-    """
-
-    found: list[Found]
-    correlation: NDArray[np.float64]
-    before: float
-    after: float
-    chance: float
-    noise: dict[str, float]
-    misfit: dict[str, float]
-    computed_noise: float
-    samples: int
-    effective: float
-    runs: int
-    converged: bool
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """Values of those of the FMU."""
-        return {f.unknown.name: f.value for f in self.found if f.unknown.kind == "parameter"}
-
-    def sensor(self, signal: str) -> tuple[float, float, float, float]:
-        """Delay, drift, bias and gain of a signal, as far as they were sought."""
-        own = {f.unknown.kind: f.value for f in self.found if f.unknown.signal in ("", signal)}
-        return own.get("delay", 0.0), own.get("drift", 0.0), own.get("bias", 0.0), own.get("gain", 1.0)
+_CHANGE = 1e-5  # of the sum of squares, at which a round ends: less than 0.1 of an interval
+_STEP = 1e-6  # of the unknowns, at which a round ends
+_SEED = 1  # of other starts
 
 
 def fit(
@@ -93,6 +37,8 @@ def fit(
     unknowns: Sequence[Unknown],
     simulate: Callable[[Mapping[str, float]], Result | None],
     evaluations: int = 50,
+    starts: int = 1,
+    parts: Parts | None = None,
 ) -> Fit:
     """Fit by bounded, scaled least squares.
 
@@ -106,6 +52,10 @@ def fit(
         Of parameters of the FMU by name; None where it refuses a step.
     evaluations : int
         At most, of each round.
+    starts : int
+        How many searches: one from the given values, the others from points spread over the ranges.
+    parts : Parts, optional
+        Of the log, that are left out in turn.
 
     Raises
     ------
@@ -115,7 +65,8 @@ def fit(
     Notes
     -----
     Weights are the inverse of what the fit leaves of each signal (the estimate of greatest likelihood where the noise
-    of a signal is not known): they begin with the noise of the measured signal and are renewed until they stay.
+    of a signal is not known): they begin with what is left at the given values and are renewed until they stay. The
+    search takes one-sided differences, its last steps and the intervals central ones.
     """
     runs = 0
 
@@ -125,36 +76,72 @@ def fit(
         return simulate(values)
 
     noise = {n: measured_noise(s.values) for n, s in outputs.items()}
-    weights = {n: max(noise[n], _LEAST_NOISE * float(np.std(s.values)), 1e-12) for n, s in outputs.items()}
-    residuals = Residuals(outputs, unknowns, weights, counted)
+    least = {n: max(noise[n], _LEAST_NOISE * float(np.std(s.values)), 1e-12) for n, s in outputs.items()}
+    residuals = Residuals(outputs, unknowns, dict(least), counted)
     bounds = (np.array([u.low for u in unknowns]), np.array([u.high for u in unknowns]))
     width = np.array([u.scale for u in unknowns])
     p = np.clip([u.start for u in unknowns], bounds[0] + 1e-6 * width, bounds[1] - 1e-6 * width)
+    # A model that misses more than noise is weighted by what it misses, so that no signal outweighs the others.
+    first = residuals(p)
+    residuals.noise = {
+        n: least[n] * max(1.0, float(np.sqrt(np.mean(first[b] ** 2))))
+        for n, b in zip(outputs, residuals.blocks, strict=True)
+    }
     own = computed_noise(residuals, p)
     residuals.steps, sensitivities = difference_steps(residuals, p, own)
     _check_effects(unknowns, sensitivities, own)
     start, blocks = p.copy(), residuals.blocks
-    for _ in range(_ROUNDS):
-        solution = least_squares(
-            residuals,
-            p,
-            residuals.jacobian,
-            bounds,
-            x_scale=width,
-            max_nfev=evaluations,
-            xtol=1e-9,
-            ftol=1e-9,
-            gtol=1e-12,
+
+    def search(begin: NDArray[np.float64], jacobian: Jacobian, most: int) -> OptimizeResult:
+        return least_squares(
+            residuals, begin, jacobian, bounds, x_scale=width, max_nfev=most, xtol=_STEP, ftol=_CHANGE, gtol=1e-12
         )
-        p, r = solution.x, solution.fun
+
+    tried = [search(begin, residuals.one_sided, evaluations) for begin in _begins(p, unknowns, starts)]
+    told = [
+        Start(begin.tolist(), t.x.tolist(), float(np.sqrt(np.mean(t.fun**2))))
+        for begin, t in zip(_begins(p, unknowns, starts), tried, strict=True)
+    ]
+    solution = min(tried, key=lambda t: float(t.cost))
+    for _ in range(_ROUNDS - 1):
+        r = solution.fun
         left = {n: max(float(np.sqrt(np.mean(r[b] ** 2))), 1e-9) for n, b in zip(outputs, blocks, strict=True)}
-        if all(abs(x - 1.0) < _SETTLED for x in left.values()):
-            break
+        settled = all(abs(x - 1.0) < _SETTLED for x in left.values())
         residuals.noise = {n: residuals.noise[n] * left[n] for n in outputs}
-    # Weights of the last round may be another; residuals and Jacobian as the weights are now.
+        if settled:
+            break
+        solution = search(solution.x, residuals.one_sided, evaluations)
+    converged = bool(solution.status > 0)
+    p = _polished(residuals, solution.x, bounds)
+    r = residuals(p)
+    left = {n: max(float(np.sqrt(np.mean(r[b] ** 2))), 1e-9) for n, b in zip(outputs, blocks, strict=True)}
+    # Residuals and Jacobian as the weights are now.
+    residuals.noise = {n: residuals.noise[n] * left[n] for n in outputs}
     r, jacobian = residuals(p), residuals.jacobian(p)
     begun = residuals(start)
-    return _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, bool(solution.status > 0))
+    return _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, told, parts)
+
+
+def _polished(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> NDArray[np.float64]:
+    """A step of Gauss and Newton with central differences, which those of one side may have missed."""
+    jacobian, r = residuals.jacobian(p), residuals(p)
+    size = np.where((found := np.linalg.norm(jacobian, axis=0)) > 0.0, found, 1.0)
+    q = np.clip(p - np.linalg.lstsq(jacobian / size, r, 1e-7)[0] / size, *bounds)
+    better = residuals(q)
+    smaller = float(better @ better) < float(r @ r) * (1.0 - _CHANGE)
+    return np.asarray(q if smaller else p)
+
+
+def _begins(p: NDArray[np.float64], unknowns: Sequence[Unknown], count: int) -> list[NDArray[np.float64]]:
+    """The given values, and points of Sobol's sequence in the ranges of the FMU's parameters."""
+    own = [k for k, u in enumerate(unknowns) if u.kind == "parameter"]
+    points = qmc.Sobol(len(own), rng=_SEED).random_base2(max(count - 1, 1).bit_length())[: count - 1] if own else []
+    found = [p]
+    for point in points:
+        q = p.copy()
+        q[own] = [u.low + (0.1 + 0.8 * x) * (u.high - u.low) for u, x in zip(unknowns, point, strict=False)]
+        found.append(q)
+    return found
 
 
 def _check_effects(unknowns: Sequence[Unknown], sensitivities: NDArray[np.float64], own: float) -> None:
@@ -177,6 +164,8 @@ def _judged(
     own: float,
     runs: int,
     converged: bool,
+    told: list[Start],
+    parts: Parts | None,
 ) -> Fit:
     blocks = residuals.blocks
     spread, lost = covariance(jacobian, r, blocks)
@@ -184,12 +173,27 @@ def _judged(
     freedom = max(effective - len(p), 1.0)
     errors = np.sqrt(np.diag(spread))
     half = float(stats.t.ppf(0.975, freedom)) * errors
+    inside = [k for k, u in enumerate(unknowns) if not (lost[k] or _bound(u, float(p[k])))]
+    outside, without = dict.fromkeys(residuals.outputs, math.nan), [math.nan] * len(p)
+    if parts is not None and parts.independent >= FEWEST and inside:
+        free = jacobian[:, inside]
+        clustered = np.sqrt(np.diag(clustered_covariance(free, r, parts)))
+        half[inside] = np.maximum(half[inside], float(stats.t.ppf(0.975, parts.independent - 1.0)) * clustered)
+        errors_outside = left_out(free, r, parts)
+        outside = {
+            n: float(np.sqrt(np.mean(errors_outside[b] ** 2))) * residuals.noise[n]
+            for n, b in zip(residuals.outputs, blocks, strict=True)
+        }
+        size = float(np.sqrt(np.mean(errors_outside**2)))
+        worse = without_each(free, r, parts, [unknowns[k].start - float(p[k]) for k in inside])
+        for k, error in zip(inside, worse, strict=True):
+            without[k] = error / size
     finite = np.where(np.isfinite(errors) & (errors > 0.0), errors, 1.0)
     correlation = np.where(np.isfinite(spread), spread, 0.0) / np.outer(finite, finite)
     np.fill_diagonal(correlation, 1.0)
     found = [
-        Found(u, float(v), math.inf if gone else float(h), _bound(u, float(v)))
-        for u, v, h, gone in zip(unknowns, p, half, lost, strict=True)
+        Found(u, float(v), math.inf if gone else float(h), _bound(u, float(v)), w)
+        for u, v, h, gone, w in zip(unknowns, p, half, lost, without, strict=True)
     ]
     c0, c1 = float(begun @ begun), float(r @ r)
     f = max(c0 - c1, 0.0) / len(p) / (c1 / freedom) if c1 > 0.0 else math.inf
@@ -198,9 +202,14 @@ def _judged(
         for n, b in zip(residuals.outputs, blocks, strict=True)
     }
     count = len(r)
+    # The likelihood of weights that are renewed: of each signal the logarithm of what is left.
+    pairs = [(left, effective_samples(r[b])) for left, b in zip(misfit.values(), blocks, strict=True) if left > 0.0]
+    criterion = sum(2.0 * number * math.log(left) for left, number in pairs)
+    criterion += len(p) * math.log(max(effective, 1.0))
     return Fit(
         found, correlation, math.sqrt(c0 / count), math.sqrt(c1 / count), float(stats.f.sf(f, len(p), freedom)), noise,
-        misfit, own, count, effective, runs, converged,
+        misfit, own, count, effective, runs, converged, told, outside, criterion,
+        {n: s.unit for n, s in residuals.outputs.items()},
     )  # fmt: skip
 
 

@@ -5,19 +5,32 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from hosts.compare.fit import Fit, Found
+from hosts.compare.fit_result import Fit, Found
 from hosts.compare.words import unit_shown, with_unit
 
 _WIDE = 0.5  # of the range, of half an interval that says little
 _TOGETHER = 0.95
+_ALIKE = 1.01  # residuals of two searches
 _BETTER = 0.98  # of the residuals before
 _CHANCE = 0.05
 _MISFIT = 3.0  # times the noise
 
 
-def fit_rows(fit: Fit) -> list[tuple[str, str, str, str, str]]:
-    """Name, start, value, half of the 95 % interval and unit of all that was sought."""
-    return [(f.unknown.name, f"{f.unknown.start:.6g}", *_value(f), unit_shown(f.unknown.unit)) for f in fit.found]
+FIT_COLUMNS = ("fitted", "start", "value", "95 %", "unit", "without it")
+
+
+def fit_rows(fit: Fit) -> list[tuple[str, ...]]:
+    """Of all that was sought: name, start, value, half of the 95 % interval, unit, and what is left without it."""
+    return [
+        (
+            f.unknown.name,
+            f"{f.unknown.start:.6g}",
+            *_value(f),
+            unit_shown(f.unknown.unit),
+            f"{100.0 * (f.without - 1.0):+.1f} %" if math.isfinite(f.without) else "-",
+        )
+        for f in fit.found
+    ]
 
 
 def _value(found: Found) -> tuple[str, str]:
@@ -30,14 +43,37 @@ def _value(found: Found) -> tuple[str, str]:
 
 def fit_table(fit: Fit) -> str:
     """The fit for the terminal."""
-    rows = [("fitted", "start", "value", "95 %", "unit"), *fit_rows(fit)]
-    widths = [max(len(row[k]) for row in rows) for k in range(5)]
+    rows = [FIT_COLUMNS, *fit_rows(fit)]
+    widths = [max(len(row[k]) for row in rows) for k in range(len(FIT_COLUMNS))]
     lines = ["  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)).rstrip() for row in rows]
     lines.append(
         f"residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; "
-        f"{fit.samples} samples count as {fit.effective:.0f} uncorrelated ones"
+        f"{fit.samples} samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}"
     )
+    lines += left_out_words(fit) + start_words(fit)
     return "\n".join(lines)
+
+
+def left_out_words(fit: Fit) -> list[str]:
+    """What is left of seconds that were left out of the fit, in a sentence; none where the log is too short for it."""
+    told = [
+        f"{name} {with_unit(left, fit.units[name])} ({with_unit(fit.misfit[name], fit.units[name])} in the fit)"
+        for name, left in fit.left_out.items()
+        if math.isfinite(left)
+    ]
+    return [f"left of parts of the log that are left out in turn, to first order: {', '.join(told)}"] if told else []
+
+
+def start_words(fit: Fit) -> list[str]:
+    """Where each of several searches began and led, a line each."""
+    if len(fit.starts) < 2:
+        return []
+    names = [f.unknown.name for f in fit.found]
+    return [
+        f"start {k}: residuals {start.residual:.4g}, "
+        + ", ".join(f"{n} {a:.4g} to {b:.4g}" for n, a, b in zip(names, start.begin, start.end, strict=True))
+        for k, start in enumerate(fit.starts, 1)
+    ]
 
 
 def fit_problems(fit: Fit) -> list[str]:
@@ -82,6 +118,18 @@ def fit_notes(fit: Fit) -> list[str]:
     for i, j in _pairs(fit):
         a, b = fit.found[i].unknown.name, fit.found[j].unknown.name
         notes.append(f"{a} and {b} are known together only: their errors correlate by {fit.correlation[i, j]:.2f}.")
+    idle = [f.unknown.name for f in fit.found if f.without <= 1.0]
+    if idle:
+        notes.append(
+            f"Of {', '.join(idle)} the fit does not pay for itself: parts of the log that are left out are met as well "
+            "with its start value."
+        )
+    residuals = [start.residual for start in fit.starts]
+    if max(residuals) > _ALIKE * min(residuals):
+        notes.append(
+            f"The searches led to residuals from {min(residuals):.4g} to {max(residuals):.4g}: the best was taken; "
+            "there may be a better one (--starts)."
+        )
     for name, left in fit.misfit.items():
         if fit.noise[name] > 0.0 and left > _MISFIT * fit.noise[name]:
             notes.append(

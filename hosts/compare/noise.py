@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from hosts.compare.residuals import Residuals
 
-_POINTS, _ORDER = 7, 4
+_POINTS, _ORDER = 5, 4
 _NARROW = 1e-7  # of a range: the residuals are straight over it but for noise
 _PROBE = 0.01
 _FINEST, _WIDEST = 1e-5, 0.02

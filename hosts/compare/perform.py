@@ -8,21 +8,28 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
+from ali3.cores import available_cores
 from hosts.common.errors import HostError
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve, SensedCurve
-from hosts.compare.fit import Fit, fit, overlapping
+from hosts.compare.fit import fit, overlapping
+from hosts.compare.fit_result import Fit
 from hosts.compare.fit_words import fit_notes, fit_problems, fit_table
+from hosts.compare.left_out import parts_of
 from hosts.compare.log import FEWEST_SAMPLES
 from hosts.compare.plausibility import odd_scale, odd_speed
 from hosts.compare.replay import Replay
 from hosts.compare.residuals import NUISANCES, Unknown, nuisances
 from hosts.compare.results import Outcome, paths_of, write_outcome
 from hosts.compare.task import Task, prepare
-from hosts.compare.wanted import wanted_parameters
+from hosts.compare.wanted import fit_step, wanted_parameters
 from hosts.compare.windows import held_words, window_words, windows
-from hosts.compare.words import common_words, table
+from hosts.compare.words import common_words, table, with_unit
 from hosts.driving.co_simulation import Result
+
+_WORTH_PROCESSES = 60.0  # s of all windows: less is driven sooner than other processes start
 
 
 @dataclass(frozen=True)
@@ -40,7 +47,10 @@ def perform(options: argparse.Namespace) -> int:
     wanted = _wanted(options, task)
     for note in task.notes:
         print(f"note: {note}", flush=True)
-    with Replay(options.fmu, task.aliases, task.stretches, task.step) as replay:
+    fit_step(options.fit_step, task.parameters)
+    long = sum(s.end for s in task.stretches) > _WORTH_PROCESSES
+    jobs = (available_cores() if long else 1) if options.jobs is None else options.jobs
+    with Replay(options.fmu, task.aliases, task.stretches, task.step, jobs) as replay:
         before, problems = _first(options, task, replay)
         print(table(before))
         if task.windowed:
@@ -133,17 +143,28 @@ def _fit(
     outputs = {n: task.outputs[n] for n in before.signals}
     guesses = _delays(before, wanted.nuisances)
     outputs = overlapping(outputs, task.end, options.skip, guesses)
+    coarse = fit_step(options.fit_step, task.parameters)
     unknowns = [*wanted.parameters, *nuisances(wanted.nuisances, outputs, guesses, options.longest_delay)]
     with tqdm(desc="fit", unit="run", delay=2.0, disable=None) as bar:
 
         def simulate(values: Mapping[str, float]) -> Result | None:
             bar.update()
-            result = replay.run(dict(values))
+            result = replay.run(coarse | dict(values))
             complete = not result.failed_steps and all(math.isfinite(float(result[n].sum())) for n in outputs)
             return result if complete else None
 
-        found = fit(outputs, unknowns, simulate)
+        found = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.stretches))
         best = replay.run(dict(found.parameters))
+    if coarse:
+        apart = replay.run(coarse | found.parameters)
+        told = [
+            f"{n} by {with_unit(float(np.sqrt(np.mean((apart[n] - best[n]) ** 2))), s.unit)}"
+            for n, s in outputs.items()
+        ]
+        task.notes.append(
+            f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
+            f"the fitted FMU differ on the root mean square: {', '.join(told)}."
+        )
     curves = {n: SensedCurve(Curve(best, n), *found.sensor(n)) for n in outputs}
     return found, compare(outputs, curves, options.longest_delay, options.skip)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 
@@ -11,16 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
+from hosts.compare.crew import Crew
 from hosts.compare.follower import demanded
+from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch, joined
-from hosts.driving.co_simulation import Result, run
-from hosts.driving.derived_columns import derive_columns
+from hosts.driving.co_simulation import Result
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.fmu import Fmu
 
 
 def inputs_of(
@@ -68,13 +65,6 @@ def _kept(signal: Signal, time: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.round(signal.values[np.maximum(rows, 0)]))
 
 
-_GAINS = 0.8, 0.5, 0.1  # pedal per m/s, per m and per m/s2: the speed is to be as measured, not comfortable
-
-
-def _holder(speed: Signal, pedal: float) -> SpeedHolder:
-    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)), *_GAINS, pedal=pedal)
-
-
 class Replay:
     """An FMU that is driven again and again through the same inputs.
 
@@ -88,6 +78,8 @@ class Replay:
         Communication step, s.
     stretches : sequence of Stretch
         That are driven one after the other, each from its start.
+    jobs : int
+        Processes that share the stretches; what they give does not depend on their number.
 
     Attributes
     ----------
@@ -103,13 +95,12 @@ class Replay:
         aliases: Aliases,
         stretches: Sequence[Stretch],
         step: float,
+        jobs: int = 1,
     ) -> None:
-        self._path, self._aliases = path, aliases
         self.stretches, self.step = list(stretches), step
+        self._own = LoadedFmu(path, aliases, step)
+        self._crew = Crew(path, aliases, stretches, step, jobs) if min(jobs, len(self.stretches)) > 1 else None
         self.said: dict[str, int] = {}
-        self._fmu: Fmu | None = None
-        self._can_reset: bool | None = None
-        self._driven = False
         self.runs = 0
 
     def __enter__(self) -> Replay:
@@ -118,12 +109,9 @@ class Replay:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._close()
-
-    def _close(self) -> None:
-        if self._fmu is not None:
-            self._fmu.__exit__(None, None, None)
-            self._fmu = None
+        self._own.close()
+        if self._crew is not None:
+            self._crew.close()
 
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
         """Drive all stretches with other start values than those of their manoeuvres.
@@ -138,54 +126,25 @@ class Replay:
         Result
             Under our names; several stretches as `joined` puts them.
         """
-        results = [self.drive(stretch, values) for stretch in self.stretches]
+        if self._crew is None:
+            results = [self._own.drive(stretch, values) for stretch in self.stretches]
+        else:
+            results = self._crew.drive(values, self._own.can_reset)
         self.runs += 1
         for message in dict.fromkeys(m for result in results for m in result.messages):
             self.said[message] = self.said.get(message, 0) + 1
         return results[0] if len(results) == 1 else joined(results, self.stretches)
 
-    def drive(self, stretch: Stretch, values: Mapping[str, Value] | None = None) -> Result:
-        """Drive one stretch.
-
-        Parameters
-        ----------
-        values : mapping of str to float, int, bool or str, optional
-            Start values by our names.
-        """
-        if self._fmu is not None and self._can_reset is False:
-            self._close()
-        if self._fmu is None:
-            self._fmu = Fmu(self._path)
-        elif self._driven:
-            self._fmu.reset()
-        self._driven = True
-        manoeuvre = stretch.manoeuvre
-        if values:
-            manoeuvre = replace(manoeuvre, start={**manoeuvre.start, **values})
-        fmu = AliasedFmu(self._fmu, self._aliases)
-        # A pilot has a memory: each run has its own.
-        driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal)
-        self._fmu.messages.clear()
-        result = run(fmu, manoeuvre, self.step, driver)
-        derive_columns(result, self._aliases)
-        return result
-
     def check_reset(self) -> bool:
-        """Drive twice; an FMU whose second drive after a reset is another is loaded again for each drive from now on.
+        """Drive the first stretch twice; an FMU that does not repeat itself is loaded again for each drive from now on.
 
         Returns
         -------
         bool
             Whether it repeats itself to the last bit, after a reset or loaded again.
         """
-        first = self.run().values
-        if self._same(first, self.run().values):
-            self._can_reset = True
-            return True
-        self._can_reset = False
-        first = self.run().values
-        return self._same(first, self.run().values)
-
-    @staticmethod
-    def _same(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
-        return a.shape == b.shape and bool(np.array_equal(a, b, equal_nan=True))
+        for self._own.can_reset in (True, False):
+            first, again = (self._own.drive(self.stretches[0]).values for _ in range(2))
+            if first.shape == again.shape and bool(np.array_equal(first, again, equal_nan=True)):
+                return True
+        return False

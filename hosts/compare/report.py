@@ -11,8 +11,8 @@ from ali3 import html
 from ali3.files import write_text
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
-from hosts.compare.fit import Fit
-from hosts.compare.fit_words import fit_rows
+from hosts.compare.fit_result import Fit
+from hosts.compare.fit_words import FIT_COLUMNS, fit_rows, left_out_words, start_words
 from hosts.compare.windows import Bin
 from hosts.compare.words import unit_shown
 
@@ -23,7 +23,8 @@ _FOOT = (
     "Deviations are simulated minus measured, at the samples of the log, with no delay taken out. Normalised: rms over "
     "the standard deviation of the measured signal. The rating is like ISO/TS 18571, by public descriptions of it, at "
     "no more than 1000 points; above 0.94 excellent, 0.80 good, 0.58 fair. Intervals are of 95 %; they take into "
-    "account that neighbouring residuals are alike, and hold as far as the model can be right at all."
+    "account that neighbouring residuals are alike, and hold as far as the model can be right at all. Without it: how "
+    "much more is left of parts of the log that are left out in turn where the parameter keeps its start value."
 )
 
 
@@ -55,11 +56,13 @@ def write_report(
             "<h2>Deviations with the fitted parameters and sensors</h2>",
             html.table(_COLUMNS, _rows(after), "numbers"),
         ]
-        parts += ["<h2>Fit</h2>", html.table(("sought", "start", "value", "95 %", "unit"), fit_rows(fit), "numbers")]
+        parts += ["<h2>Fit</h2>", html.table(FIT_COLUMNS, fit_rows(fit), "numbers")]
         parts.append(
             f"<p>Residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; {fit.samples} "
-            f"samples count as {fit.effective:.0f} uncorrelated ones.</p><h3>Correlation of the errors</h3>"
+            f"samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}.</p>"
         )
+        parts += [f"<p>{escape(line)}.</p>" for line in left_out_words(fit) + start_words(fit)]
+        parts.append("<h3>Correlation of the errors</h3>")
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
         parts.append(html.table(("", *names), rows, "numbers"))

@@ -12,7 +12,7 @@ from typing import Any
 from ali3.files import check_writable
 from ali3.write_parameter_set import write_parameter_set
 from hosts.compare.comparison import Comparison, measures
-from hosts.compare.fit import Fit
+from hosts.compare.fit_result import Fit
 from hosts.compare.page import comparison_figure, write_picture, write_summary
 from hosts.compare.report import write_report
 from hosts.compare.result_files import measure_records, write_json, write_signals
@@ -103,6 +103,7 @@ def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
                     "value": x.value,
                     "half_width_95": x.half_width if math.isfinite(x.half_width) else None,
                     "bound": x.bound,
+                    "without": x.without if math.isfinite(x.without) else None,
                 }
                 for x in f.found
             ],
@@ -117,5 +118,8 @@ def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
             "effective_samples": f.effective,
             "runs": f.runs,
             "converged": f.converged,
+            "starts": [asdict(start) for start in f.starts],
+            "left_out": {n: x if math.isfinite(x) else None for n, x in f.left_out.items()},
+            "criterion": f.criterion,
         }
     return record

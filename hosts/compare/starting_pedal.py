@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
+from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.log import Signal
-from hosts.compare.replay import Replay
 from hosts.compare.stretches import Stretch
 from hosts.fmu.aliases.alias import Aliases
 
@@ -33,16 +33,19 @@ def starting_pedals(path: Path, aliases: Aliases, stretches: Sequence[Stretch], 
     list of Stretch
         The pedal is that of the throttle, negative: of the brake; 1 or -1 where that is not enough.
     """
-    with Replay(path, aliases, [], step) as replay:
-        return [s if s.speed is None else replace(s, pedal=_pedal(replay, s, s.speed)) for s in stretches]
+    fmu = LoadedFmu(path, aliases, step)
+    try:
+        return [s if s.speed is None else replace(s, pedal=_pedal(fmu, step, s, s.speed)) for s in stretches]
+    finally:
+        fmu.close()
 
 
-def _pedal(replay: Replay, stretch: Stretch, speed: Signal) -> float:
-    manoeuvre = replace(stretch.manoeuvre, stop_time=max(replay.step, min(_AHEAD, stretch.end)))
+def _pedal(fmu: LoadedFmu, step: float, stretch: Stretch, speed: Signal) -> float:
+    manoeuvre = replace(stretch.manoeuvre, stop_time=max(step, min(_AHEAD, stretch.end)))
     short = Stretch(manoeuvre)
 
     def excess(pedal: float) -> float:
-        result = replay.drive(short, {"throttle": max(pedal, 0.0), "brake": max(-pedal, 0.0)})
+        result = fmu.drive(short, {"throttle": max(pedal, 0.0), "brake": max(-pedal, 0.0)})
         return float(result["speed"][-1] - np.interp(result.time[-1], speed.time, speed.values))
 
     rolling = excess(0.0)

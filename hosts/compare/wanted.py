@@ -13,6 +13,8 @@ from hosts.common.numbers import Value
 from hosts.compare.residuals import Unknown
 from hosts.fmu.variables import Variable
 
+_STEP = "step_size"
+
 
 def wanted_parameters(
     texts: Sequence[str], variables: Mapping[str, Variable], given: Mapping[str, Value]
@@ -53,6 +55,24 @@ def wanted_parameters(
             )
         found.append(Unknown(name, variable.unit, start, low, high, 0.25 * (high - low)))
     return found
+
+
+def fit_step(step: float | None, variables: Mapping[str, Variable]) -> dict[str, Value]:
+    """The parameter that sets the inner step of the FMU while it is fitted; empty where none was asked for.
+
+    Parameters
+    ----------
+    step : float, optional
+        s.
+    """
+    if step is None:
+        return {}
+    variable = variables.get(_STEP)
+    if variable is None:
+        raise HostError(f"--fit-step: the FMU has no parameter '{_STEP}'; fit with its own step.")
+    if not variable.low <= step <= variable.high:
+        raise HostError(f"--fit-step is {step:g} s; the range of '{_STEP}' is {variable.range}.")
+    return {_STEP: step}
 
 
 def _range(variable: Variable, start: float, text: str) -> tuple[float, float]:

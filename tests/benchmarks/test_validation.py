@@ -69,6 +69,21 @@ def test_the_steps_of_a_bicycle_are_fine_enough(drive: Drive) -> None:
     assert np.max(np.abs(vy[0, 0] - drive.vy)) < 0.02
 
 
+def test_a_centre_of_mass_beside_the_middle_turns_the_braked_car(drive: Drive) -> None:
+    """On the right the braked car turns to the left: mass times deceleration times lever over the inertia."""
+    model = MODELS[PLACES["load transfer, centre of mass beside the middle"]]
+    right, deceleration = -0.03, 4.0
+    speeds = 40.0 - deceleration * drive.time
+    zero = np.zeros_like(drive.time)
+    braked = Drive(drive.time, zero, speeds, zero, zero)
+    soft = {"front stiffness": 1e-6, "rear stiffness": 1e-6, "front grip": 1.0, "rear grip": 1.0}
+    own = soft | {"centre of mass to the left": right}
+    numbers = np.array([[own.get(u.name, 0.0) for u in model.unknowns]])
+    _, rate = simulate(model, BODY, braked, np.array([100]), 100, numbers)
+    wanted = BODY.mass * deceleration * -right / BODY.yaw_inertia
+    assert rate[0, 0, -1] == pytest.approx(wanted, rel=1e-3)
+
+
 def test_a_packed_log_is_read_by_its_alias_file(tmp_path: Path) -> None:
     """Signs, units and offsets of the alias file; the angles of both wheels are averaged."""
     (tmp_path / "a.toml").write_text(

@@ -184,8 +184,31 @@ def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytes
     told = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
     assert sum(b["samples"] for b in told) == 4 * 101
     assert {(b["low"], b["high"]) for b in told} >= {(0.0, 2.0), (2.0, 4.0)}
+    # Processes share the windows; not one digit depends on their number.
+    _, shared = compared(car, log, *parts, "--jobs", "2", signals="chassis.wz")
+    assert values(shared) == values(record)
     _, other = compared(car, log, *parts, "--set", "front.tyre.grip=0.2", signals="chassis.wz")
     assert max(w["rms"]["chassis.wz"] for w in other["windows"]) > 3.0 * max(rms)
+
+
+@pytest.mark.slow
+def test_windows_are_fitted_and_left_out_in_turn(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The grip that is 0.8 of the car's pays for its fit, that at its start does not; both starts agree."""
+    log = logged(car, tmp_path, {"initial.speed": 15.0, "front.tyre.grip": 0.8}, noise=1.0)
+    windows = ("--windows", "1", "--window-every", "0.5", "--fit-step", "0.004", "--starts", "2")
+    _, record = compared(
+        car, log, *windows, "--fit", "front.tyre.grip", "--fit", "rear.tyre.grip=0.5:1.5", signals="chassis.wz"
+    )
+    said, fit = capsys.readouterr().out, record["fit"]
+    front, rear = fit["found"]
+    assert abs(front["value"] - 0.8) < 1.5 * front["half_width_95"]
+    assert front["half_width_95"] < 0.2
+    assert front["without"] > 1.2 > rear["without"]
+    assert len(fit["starts"]) == 2
+    ends = np.array([start["end"] for start in fit["starts"]])
+    np.testing.assert_allclose(ends[0], ends[1], atol=0.05)
+    assert fit["remains"]["chassis.wz"] <= fit["left_out"]["chassis.wz"] < 1.2 * fit["remains"]["chassis.wz"]
+    assert "Fitted with inner steps of 4 ms" in said
 
 
 def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path) -> None:

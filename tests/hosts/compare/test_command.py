@@ -52,7 +52,9 @@ class TestCommand:
         capsys: pytest.CaptureFixture[str],
         monkeypatch: pytest.MonkeyPatch,
     ) -> None:
-        def stopped(outputs: object, unknowns: object, simulate: Callable[[Mapping[str, float]], object]) -> None:
+        def stopped(
+            outputs: object, unknowns: object, simulate: Callable[[Mapping[str, float]], object], **more: object
+        ) -> None:
             simulate({"spring.stiffness": 120.0})
             raise KeyboardInterrupt
 

@@ -1,0 +1,128 @@
+"""Lateral acceleration, understeer angle and sideslip, of models and of the measurement over the same seconds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import butter, sosfiltfilt
+
+from benchmarks.validation.drive import JUDGED, LENGTH, Array, Drive, Spans
+from benchmarks.validation.fitting import begins
+
+G = 9.81
+WIDTH = 0.1  # g, of a bin: 0.05 g to either side of its middle
+SLOW, FAST = 1.0, 2.0  # Hz: of the acceleration by which is binned, and of that which is compared
+ENOUGH = 2.0  # s in a bin whose means are judged
+STEADY = 0.5  # s at the begin of a window, in which the start is forgotten
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A quantity in a bin of the measured lateral acceleration.
+
+    Parameters
+    ----------
+    acceleration : float
+        Middle of the bin, g, positive to the left.
+    seconds : float
+        Of the drive in it; a second that two windows share counts once.
+    measured, spread : float
+        Mean and standard deviation of what was measured, deg.
+    difference : float
+        Mean of simulated minus measured, deg.
+    """
+
+    quantity: str
+    acceleration: float
+    seconds: float
+    measured: float
+    spread: float
+    difference: float
+
+
+def low_passed(values: Array, cut_off: float, interval: float) -> Array:
+    """Values of shape (..., n) without delay below a frequency in Hz: Butterworth's filter, both ways."""
+    return np.asarray(sosfiltfilt(butter(2, cut_off, fs=1.0 / interval, output="sos"), values, axis=-1))
+
+
+def lateral_acceleration(vx: Array, vy: Array, rate: Array, interval: float) -> Array:
+    """Of the centre of mass along the road: vy' + rate vx, m/s2, of shape (..., n)."""
+    return np.asarray(np.gradient(vy, interval, axis=-1) + rate * vx)
+
+
+def window_rows(drive: Drive, seconds: Spans = JUDGED) -> Array:
+    """Samples of the windows in some seconds, of shape (w, m)."""
+    return begins(drive, seconds)[:, None] + np.arange(round(LENGTH / drive.interval) + 1)
+
+
+def acceleration_error(drive: Drive, vy: Array, rate: Array) -> float:
+    """Root mean square deviation of the lateral acceleration in the windows that were not fitted, m/s2.
+
+    Parameters
+    ----------
+    vy, rate : ndarray of shape (w, m)
+        Of a model in these windows.
+
+    Notes
+    -----
+    Both are taken from velocities, so that slope, bank and roll of the body are in neither; below 2 Hz.
+    """
+    rows = window_rows(drive)
+    exact = lateral_acceleration(drive.vx[rows], drive.vy[rows], drive.yaw_rate[rows], drive.interval)
+    error = low_passed(lateral_acceleration(drive.vx[rows], vy, rate, drive.interval) - exact, FAST, drive.interval)
+    return float(np.sqrt(np.mean(error[:, round(STEADY / drive.interval) :] ** 2)))
+
+
+def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve]:
+    """Understeer angle and sideslip over the measured lateral acceleration at 1 Hz.
+
+    Parameters
+    ----------
+    wheelbase : float
+        m.
+    vy, rate : ndarray of shape (w, m)
+        Of a model in the windows that were not fitted.
+
+    Notes
+    -----
+    The understeer angle is the mean angle of the front wheels less wheelbase times yaw rate over speed, times the sign
+    of the lateral acceleration: positive where the car understeers.
+    """
+    rows = window_rows(drive)[:, round(STEADY / drive.interval) :]
+    vy, rate = (values[:, round(STEADY / drive.interval) :] for values in (vy, rate))
+    whole = low_passed(lateral_acceleration(drive.vx, drive.vy, drive.yaw_rate, drive.interval), SLOW, drive.interval)
+    number = np.round(whole[rows] / G / WIDTH)
+    side = np.where(number < 0.0, -1.0, 1.0)
+
+    def understeer(turning: Array) -> Array:
+        return np.degrees(side * (drive.steer[rows] - wheelbase * turning / drive.vx[rows]))
+
+    def sideslip(across: Array) -> Array:
+        return np.degrees(np.arctan2(across, drive.vx[rows]))
+
+    pairs = {
+        "understeer angle": (understeer(drive.yaw_rate[rows]), understeer(rate)),
+        "sideslip": (sideslip(drive.vy[rows]), sideslip(vy)),
+    }
+    found = []
+    for quantity, (measured, simulated) in pairs.items():
+        for k in np.unique(number):
+            own = number == k
+            found.append(
+                Curve(
+                    quantity,
+                    float(k * WIDTH),
+                    len(np.unique(rows[own])) * drive.interval,
+                    float(measured[own].mean()),
+                    float(measured[own].std()),
+                    float((simulated - measured)[own].mean()),
+                )
+            )
+    return found
+
+
+def within(found: list[Curve], quantity: str, aim: float) -> tuple[int, int]:
+    """How many bins with enough seconds have a mean difference within an aim in degrees, and how many there are."""
+    judged = [c for c in found if c.quantity == quantity and c.seconds >= ENOUGH]
+    return sum(abs(c.difference) <= aim for c in judged), len(judged)

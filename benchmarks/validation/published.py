@@ -1,0 +1,72 @@
+"""Figures that others have published of the same car on a straight road."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.validation.drive import Array
+from hosts.driving.co_simulation import run
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.fmu_file import fmu_file
+
+LENGTH, STEP, KMH = 90.0, 0.01, 3.6  # s, s, km/h per m/s
+_HUNDRED = 100.0 / KMH
+
+
+@dataclass(frozen=True)
+class Published:
+    """A figure of which several sources tell.
+
+    Parameters
+    ----------
+    told : dict of str to float
+        By source.
+    digit : float
+        Half of the last digit that they print: the error with which it can be read.
+    """
+
+    test: str
+    unit: str
+    told: dict[str, float]
+    digit: float
+
+    def row(self, computed: float) -> dict[str, Any]:
+        """Of the table: the verdict is whether the car lies between the sources, widened by their last digit."""
+        low, high = min(self.told.values()) - self.digit, max(self.told.values()) + self.digit
+        off = computed / float(np.clip(computed, low, high)) - 1.0
+        verdict = "within" if off == 0.0 else f"{100.0 * off:+.0f} %"
+        return {
+            "test": f"{self.test}, {self.unit}",
+            "published": "; ".join(f"{value:g} ({source})" for source, value in self.told.items()),
+            "read within": self.digit,
+            "car": computed,
+            "verdict": verdict,
+        }
+
+
+FROM_REST = Published("0 to 100 km/h", "s", {"v12-gt.com": 6.00, "ramp.space, ramp 28": 4.5}, 0.05)
+TOP_SPEED = Published(
+    "top speed", "km/h", {"v12-gt.com": 287.0, "ramp.space, ramp 28": 290.0, "favx.free.fr": 280.0}, 0.5
+)
+
+
+def full_throttle(car: str, settings: dict[str, float]) -> tuple[Array, Array]:
+    """Time in s and speed in m/s of a car that starts from rest with full throttle, steering held."""
+    time = np.array([0.0, LENGTH])
+    held = {"steering": np.zeros(2), "throttle": np.ones(2), "brake": np.zeros(2)}
+    with Fmu(fmu_file(Path(car))) as fmu:
+        result = run(fmu, Manoeuvre("full throttle", time, held, LENGTH, dict(settings)), STEP)
+    assert not result.failed_steps, result.messages
+    return result.time, result["speed"]
+
+
+def published_rows(time: Array, speed: Array) -> list[dict[str, Any]]:
+    """The table, from a drive with full throttle."""
+    fast = int(np.argmax(speed >= _HUNDRED))
+    reached = float(np.interp(_HUNDRED, speed[fast - 1 : fast + 1], time[fast - 1 : fast + 1]))
+    return [FROM_REST.row(reached), TOP_SPEED.row(KMH * float(speed.max()))]

@@ -1,0 +1,108 @@
+"""What a fit has found, and how good it is."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.compare.residuals import Unknown
+
+
+@dataclass(frozen=True)
+class Found:
+    """An unknown that was sought.
+
+    Parameters
+    ----------
+    half_width : float
+        Of its 95 % confidence interval; infinite where the log does not determine it.
+    bound : str
+        ``lower`` or ``upper`` where it lies at this bound, else empty.
+    without : float
+        What is left of parts that are left out where it keeps its start value, over what is left with it; to first
+        order.
+    """
+
+    unknown: Unknown
+    value: float
+    half_width: float
+    bound: str = ""
+    without: float = math.nan
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where a search began, and where it led.
+
+    Parameters
+    ----------
+    begin, end : list of float
+        The unknowns.
+    residual : float
+        Root mean square, over the noise of the measured signals.
+    """
+
+    begin: list[float]
+    end: list[float]
+    residual: float
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What was found.
+
+    Parameters
+    ----------
+    correlation : ndarray of shape (p, p)
+        Of the errors of the unknowns.
+    before, after : float
+        Root mean square of the residuals over their noise.
+    chance : float
+        Probability that noise alone makes a fit so much better (F-test with the effective number of samples).
+    noise, misfit : dict of str to float
+        By signal, in its unit: noise of the measured signal, and root mean square of what the fit leaves.
+    computed_noise : float
+        Of the FMU, over the noise of the signals.
+    samples, effective : float
+        Number of samples, and as how many uncorrelated ones they count.
+    runs : int
+        Of the FMU.
+    starts : list of Start
+        One where only one was asked for.
+    left_out : dict of str to float
+        By signal, in its unit: root mean square over parts of the log left out of the fit in turn, to first order.
+    criterion : float
+        Of Bayes (Schwarz), with the effective number of samples: the lower of two fits to the same log is the better.
+    units : dict of str to str
+        Of the signals.
+    """
+
+    found: list[Found]
+    correlation: NDArray[np.float64]
+    before: float
+    after: float
+    chance: float
+    noise: dict[str, float]
+    misfit: dict[str, float]
+    computed_noise: float
+    samples: int
+    effective: float
+    runs: int
+    converged: bool
+    starts: list[Start]
+    left_out: dict[str, float]
+    criterion: float
+    units: dict[str, str]
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Values of those of the FMU."""
+        return {f.unknown.name: f.value for f in self.found if f.unknown.kind == "parameter"}
+
+    def sensor(self, signal: str) -> tuple[float, float, float, float]:
+        """Delay, drift, bias and gain of a signal, as far as they were sought."""
+        own = {f.unknown.kind: f.value for f in self.found if f.unknown.signal in ("", signal)}
+        return own.get("delay", 0.0), own.get("drift", 0.0), own.get("bias", 0.0), own.get("gain", 1.0)

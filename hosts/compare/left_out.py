@@ -1,0 +1,137 @@
+"""What a fit is worth on seconds it was not fitted on: each part of the log is left out in turn, to first order.
+
+With the Jacobian at the solution the parameters without a part follow from linear equations, so that nothing is driven
+again. What is left out of the parameters' equations with a window are also the windows that overlap it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.compare.log import Signal
+from hosts.compare.stretches import Stretch
+
+Array = NDArray[np.float64]
+_PARTS = 10  # of a run without restart
+FEWEST = 4  # parts that do not overlap, from which something can be said
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Parts of a log, each of which can be left out.
+
+    Parameters
+    ----------
+    number : ndarray of int, shape (n,)
+        Of the part in which each residual lies.
+    begins : ndarray of shape (k,)
+        In the log, s.
+    length : float
+        Of a part, s.
+    """
+
+    number: NDArray[np.intp]
+    begins: Array
+    length: float
+
+    @property
+    def independent(self) -> float:
+        """As how many parts they count of which none overlaps another."""
+        step = np.minimum(np.diff(np.sort(self.begins)), self.length)
+        return 1.0 + float(step.sum()) / self.length
+
+
+def parts_of(outputs: Mapping[str, Signal], stretches: Sequence[Stretch]) -> Parts:
+    """The windows, or equal parts of a run without restart.
+
+    Parameters
+    ----------
+    outputs : mapping of str to Signal
+        Samples that are compared, in the order of the residuals.
+    """
+    if len(stretches) > 1:
+        places = np.array([s.place for s in stretches])
+        begins, length = np.array([s.begin for s in stretches]), stretches[0].end
+    else:
+        times = np.concatenate([s.time for s in outputs.values()])
+        length = max(float(np.ptp(times)), 1e-9) / _PARTS
+        places = begins = float(times.min()) + length * np.arange(_PARTS)
+    number = np.concatenate([np.searchsorted(places - 1e-9, s.time, side="right") - 1 for s in outputs.values()])
+    return Parts(np.clip(number, 0, len(places) - 1), begins, length)
+
+
+def clustered_covariance(jacobian: Array, residual: Array, parts: Parts) -> Array:
+    """Covariance of parameters whose residuals may be alike within a part in any way, and between neighbours.
+
+    Parameters
+    ----------
+    jacobian : ndarray of shape (n, p)
+    residual : ndarray of shape (n,)
+
+    Returns
+    -------
+    ndarray of shape (p, p)
+
+    Notes
+    -----
+    (J'J)⁻¹ S'BS (J'J)⁻¹ with the scores J'r of each part in the rows of S and Bartlett's weights B over twice the
+    length of a part, times k/(k - 1) (A. C. Cameron, D. L. Miller, A practitioner's guide to cluster-robust inference,
+    Journal of Human Resources 50 (2015) 317-372).
+    """
+    scores = _sums(jacobian * residual[:, None], parts)
+    apart = np.abs(parts.begins[:, None] - parts.begins) / (2.0 * parts.length)
+    inverse = np.linalg.pinv(jacobian.T @ jacobian)
+    count = parts.independent
+    middle = scores.T @ np.clip(1.0 - apart, 0.0, None) @ scores * (count / max(count - 1.0, 1.0))
+    return np.asarray(inverse @ middle @ inverse)
+
+
+def left_out(jacobian: Array, residual: Array, parts: Parts) -> Array:
+    """Residuals of each part with the parameters that the other parts give, to first order.
+
+    Parameters
+    ----------
+    jacobian : ndarray of shape (n, p)
+    residual : ndarray of shape (n,)
+
+    Returns
+    -------
+    ndarray of shape (n,)
+    """
+    size = np.linalg.norm(jacobian, axis=0)
+    scaled = jacobian / np.where(size > 0.0, size, 1.0)
+    matrices = np.array([scaled[parts.number == k].T @ scaled[parts.number == k] for k in range(len(parts.begins))])
+    scores = _sums(scaled * residual[:, None], parts)
+    found = residual.copy()
+    for k, begin in enumerate(parts.begins):
+        others = np.abs(parts.begins - begin) >= parts.length * (1.0 - 1e-9)
+        rows = parts.number == k
+        change = np.linalg.pinv(matrices[others].sum(axis=0), rcond=1e-12) @ scores[others].sum(axis=0)
+        found[rows] -= scaled[rows] @ change
+    return found
+
+
+def without_each(jacobian: Array, residual: Array, parts: Parts, steps: Sequence[float]) -> list[float]:
+    """Root mean square of `left_out` where one parameter is moved back by its step and not fitted, to first order.
+
+    Parameters
+    ----------
+    steps : sequence of float
+        From the found value of each parameter to that it has without being fitted.
+    """
+    found = []
+    for k, step in enumerate(steps):
+        others = np.delete(jacobian, k, axis=1)
+        errors = left_out(others, residual + jacobian[:, k] * step, parts)
+        found.append(float(np.sqrt(np.mean(errors**2))))
+    return found
+
+
+def _sums(rows: Array, parts: Parts) -> Array:
+    made = np.zeros((len(parts.begins), rows.shape[1]))
+    np.add.at(made, parts.number, rows)
+    return made

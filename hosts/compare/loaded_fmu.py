@@ -1,0 +1,80 @@
+"""An FMU that is loaded once and drives stretches of a log as often as wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from hosts.common.numbers import Value
+from hosts.compare.log import Signal
+from hosts.compare.stretches import Stretch
+from hosts.driving.co_simulation import Result, run
+from hosts.driving.derived_columns import derive_columns
+from hosts.driving.pilots.speed_holder import SpeedHolder
+from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.fmu import Fmu
+
+_GAINS = 0.8, 0.5, 0.1  # pedal per m/s, per m and per m/s2: the speed is to be as measured, not comfortable
+
+
+def _holder(speed: Signal, pedal: float) -> SpeedHolder:
+    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)), *_GAINS, pedal=pedal)
+
+
+class LoadedFmu:
+    """An FMU and our names for its variables.
+
+    Parameters
+    ----------
+    path : Path
+        FMU.
+    step : float
+        Communication step, s.
+
+    Attributes
+    ----------
+    can_reset : bool or None
+        Whether it repeats itself after a reset; else it is loaded again for each drive. None: not known.
+    """
+
+    def __init__(self, path: Path, aliases: Aliases, step: float) -> None:
+        self._path, self._aliases, self._step = path, aliases, step
+        self._fmu: Fmu | None = None
+        self._driven = False
+        self.can_reset: bool | None = None
+
+    def close(self) -> None:
+        """Unload it."""
+        if self._fmu is not None:
+            self._fmu.__exit__(None, None, None)
+            self._fmu = None
+
+    def drive(self, stretch: Stretch, values: Mapping[str, Value] | None = None) -> Result:
+        """Drive one stretch.
+
+        Parameters
+        ----------
+        values : mapping of str to float, int, bool or str, optional
+            Start values by our names, in place of those of the stretch.
+        """
+        if self._fmu is not None and self.can_reset is False:
+            self.close()
+        if self._fmu is None:
+            self._fmu = Fmu(self._path)
+        elif self._driven:
+            self._fmu.reset()
+        self._driven = True
+        manoeuvre = stretch.manoeuvre
+        if values:
+            manoeuvre = replace(manoeuvre, start={**manoeuvre.start, **values})
+        fmu = AliasedFmu(self._fmu, self._aliases)
+        # A pilot has a memory: each run has its own.
+        driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal)
+        self._fmu.messages.clear()
+        result = run(fmu, manoeuvre, self._step, driver)
+        derive_columns(result, self._aliases)
+        return result

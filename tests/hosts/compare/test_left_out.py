@@ -1,0 +1,61 @@
+"""Parts that are left out of a fit, against fits that were made without them, and intervals against many logs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from hosts.compare.left_out import Parts, clustered_covariance, left_out, without_each
+
+LENGTH, SAMPLES = 10.0, 40
+
+
+def linear(begins: np.ndarray, seed: int = 3) -> tuple[np.ndarray, np.ndarray, Parts]:
+    """Jacobian and residuals at the least squares solution of a linear model, with parts of `LENGTH` seconds."""
+    random = np.random.default_rng(seed)
+    number = np.repeat(np.arange(len(begins)), SAMPLES)
+    jacobian = random.normal(size=(len(number), 3)) * (1.0, 30.0, 0.01)
+    target = random.normal(size=len(number)) + random.normal(size=len(begins))[number]
+    p = np.linalg.lstsq(jacobian, target, rcond=None)[0]
+    return jacobian, jacobian @ p - target, Parts(number, begins, LENGTH)
+
+
+@pytest.mark.parametrize("every", [10.0, 5.0])
+def test_what_is_left_of_a_part_is_that_of_a_fit_without_it_and_without_its_neighbours(every: float) -> None:
+    jacobian, residual, parts = linear(every * np.arange(8))
+    found = left_out(jacobian, residual, parts)
+    for k, begin in enumerate(parts.begins):
+        near = np.abs(parts.begins - begin) < LENGTH
+        kept = ~near[parts.number]
+        change = np.linalg.lstsq(jacobian[kept], -residual[kept], rcond=None)[0]
+        rows = parts.number == k
+        np.testing.assert_allclose(found[rows], residual[rows] + jacobian[rows] @ change, rtol=1e-9)
+    assert np.mean(found**2) > np.mean(residual**2)
+
+
+def test_a_parameter_that_tells_nothing_does_not_pay() -> None:
+    jacobian, residual, parts = linear(LENGTH * np.arange(8))
+    whole = float(np.sqrt(np.mean(left_out(jacobian, residual, parts) ** 2)))
+    # The first is moved far from its start; the others stand at it.
+    apart = 10.0 / np.linalg.norm(jacobian[:, 0]) * np.linalg.norm(residual)
+    moved, *still = without_each(jacobian, residual, parts, [apart, 0.0, 0.0])
+    assert moved > 2.0 * whole
+    assert max(still) < whole
+
+
+def test_intervals_hold_where_all_samples_of_a_window_are_off_together() -> None:
+    random, begins, hits = np.random.default_rng(5), LENGTH * np.arange(12), 0
+    number = np.repeat(np.arange(len(begins)), SAMPLES)
+    parts, plain = Parts(number, begins, LENGTH), 0
+    t, logs = float(stats.t.ppf(0.975, parts.independent - 1.0)), 400
+    for _ in range(logs):
+        jacobian = random.normal(size=(len(number), 1)) + random.normal(size=(len(begins), 1))[number]
+        noise = random.normal(size=len(begins))[number] + 0.3 * random.normal(size=len(number))
+        p = np.linalg.lstsq(jacobian, noise, rcond=None)[0]  # the true value is 0
+        r = jacobian @ p - noise
+        hits += abs(p[0]) <= t * np.sqrt(clustered_covariance(jacobian, r, parts)[0, 0])
+        plain += abs(p[0]) <= 1.96 * np.sqrt(np.mean(r**2) / float((jacobian**2).sum()))
+    print(f"\nwithin the interval of 95 %: {hits / logs:.3f}; as if all samples were independent: {plain / logs:.3f}")
+    assert 0.90 < hits / logs < 0.99
+    assert plain / logs < 0.6
