@@ -126,8 +126,9 @@ class Instance:
         return str(_NUMBERS[2 + self.three].get(kind, (kind,))[0])
 
     def _type(self, kind: str) -> Callable[[Any], Any]:
-        numbers = float if self._suffix(kind) in ("Real", "Float64", "Float32") else int
-        return {"Boolean": _truth, "String": str}.get(kind, numbers)
+        if kind in ("Boolean", "String"):
+            return _truth if kind == "Boolean" else str
+        return float if self._suffix(kind) in ("Real", "Float64", "Float32") else int
 
     def _read(self, place: Place) -> list[Any]:
         """The values of an array as the FMU has them."""

@@ -123,10 +123,10 @@ def _should_be(column: str, frame: pd.DataFrame) -> NDArray[np.bool_]:
     """Which runs, if they have not this measure, lack it; in the others it does not exist."""
     status = frame["status"].astype(str).to_numpy()
     if "missing" not in frame:
-        return status != DONE
+        return np.asarray(status != DONE)
     lacking = [None if names is None else names.split(MISSING) for names in frame["missing"].astype(object)]
     named = [known is None or column in known for known in lacking]
-    return (status == FAILED) | ((status != DONE) & np.array(named, dtype=np.bool_))
+    return np.asarray((status == FAILED) | ((status != DONE) & np.array(named, dtype=np.bool_)))
 
 
 def limit_ends(record: Mapping[str, Any] | None) -> tuple[float, float]:
