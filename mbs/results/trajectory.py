@@ -16,7 +16,7 @@ from ali3.files import whole_file
 from ali3.tables import TextTable
 from ali3.words import brief
 from mbs.common.checks import flag, shown, whole
-from mbs.elements.road import Road
+from mbs.elements.road import PortRoad, Road
 from mbs.results.accuracy import Accuracy
 from mbs.results.left_out import LeftOut
 from mbs.results.poses import Poses
@@ -197,7 +197,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         """Roads of a scene as this run had them, those of files read."""
         found = [dict(road) for road in roads]
         for number, road in self.roads.items():
-            if number < len(found):
+            if number < len(found) and not isinstance(road, PortRoad):
                 found[number] = {"kind": "file", "path": road} if isinstance(road, str) else scene_part(road)
         return drawn_roads(found)
 

@@ -116,11 +116,13 @@ def test_the_start_stands_on_the_answers_as_on_a_road() -> None:
         assert now[f"wheel_{w}.Fz"] == pytest.approx(first[f"wheel_{w}.Fz"], rel=1e-6)
 
 
-@pytest.mark.parametrize(("place", "height_there"), [(0.0, 0.3), (0.5, 0.38)])
+@pytest.mark.parametrize(("place", "slope_there", "height_there"), [(0.0, 0.0, 0.3), (0.5, 0.0, 0.38), (0.0, 0.1, 0.4)])
 def test_between_answers_lies_their_mean_by_the_inverse_squares_of_the_distances(
-    place: float, height_there: float
+    place: float, slope_there: float, height_there: float
 ) -> None:
-    """A point of a body on a vertical guide rests on 0.2 m at x = -1 and 0.4 m at x = 1, as on the mean."""
+    """A point of a body on a vertical guide rests on 0.2 m at x = -1 and 0.4 m at x = 1, as on the mean; with slopes
+    that rise to the middle from both sides it is higher.
+    """
     m = mbs.Model("between")
     body = m.body("body", mass=10.0, com=(place, 0.0, 1.0), inertia=(1.0, 1.0, 1.0))
     m.prismatic("guide", m.ground, body, axis=(0.0, 0.0, 1.0))
@@ -130,10 +132,13 @@ def test_between_answers_lies_their_mean_by_the_inverse_squares_of_the_distances
     m.sense_position("z", body, component="z")
     m.sense_element("force", "foot", "normal_force")
     inputs = {"low.road_x": -1.0, "low.road_height": 0.2, "high.road_x": 1.0, "high.road_height": 0.4}
+    for side, sign in (("low", 1.0), ("high", -1.0)):
+        inputs[f"{side}.road_normal_x"] = -sign * slope_there / np.hypot(1.0, slope_there)
+        inputs[f"{side}.road_normal_z"] = 1.0 / np.hypot(1.0, slope_there)
     s = mbs.Simulation(mbs.compile(m), inputs=inputs)
     s.step(0.002, 1500)
     assert s.sensors["force"] == pytest.approx(98.1, rel=1e-3)
-    level = mbs.Simulation(mbs.compile(m), inputs=inputs | {f"{side}.road_height": 0.3 for side in ("low", "high")})
+    level = mbs.Simulation(mbs.compile(m), inputs={f"{side}.road_height": 0.3 for side in ("low", "high")})
     level.step(0.002, 1500)
     assert s.sensors["z"] - level.sensors["z"] == pytest.approx(height_there - 0.3, abs=1e-5)
 
