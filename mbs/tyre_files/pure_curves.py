@@ -46,7 +46,7 @@ def tmeasy_force(slope: float, most: float, most_at: float, slides: float, slide
     up = slope * s / ((1.0 - x) ** 2 + slope * s / most)
     fallen = np.clip((s - most_at) / (slides_at - most_at), 0.0, 1.0)
     down = most - (most - slides) * fallen**2 * (3.0 - 2.0 * fallen)
-    return np.sign(slip) * np.where(s < most_at, up, down)
+    return np.asarray(np.sign(slip) * np.where(s < most_at, up, down))
 
 
 def tmeasy_trail(first: float, zero: float, end: float, slip: ArrayLike) -> Array:

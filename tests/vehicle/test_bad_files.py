@@ -14,7 +14,7 @@ from mbs.vehicle.car import car_from
 from mbs.vehicle.changes import changed_content
 from tests.vehicle.content import numbers, sentences, tables
 
-FIRST, *_ = CAR_NAMES = sorted(car_names(), reverse=True)  # prototype
+FIRST, CAR_NAMES = "prototype", sorted(car_names(), reverse=True)
 
 
 def refused(changes, name=FIRST, lines=1):
@@ -83,7 +83,7 @@ def test_lengths_in_mm_and_masses_in_t(name):
 def test_each_table_in_a_wrong_unit_or_negative(name, factor):
     for table in tables(load(name)._data):
         changes = {p: factor * v for p, v in numbers(name).items() if p.startswith(f"{table}.")}
-        if changes:
+        if changes and not table.endswith(".alignment"):  # any sign, and any small angle, is one that a wheel has
             assert told(changes, name), table
 
 
@@ -269,7 +269,7 @@ def test_a_file_with_a_byte_order_mark_is_read(copied):
 
 @pytest.mark.parametrize("name", ["", "protoype", "/nowhere/car.toml", "a\0b", "x" * 5000, "..."])
 def test_names_of_no_car(name):
-    with pytest.raises(CarFileError, match=r"^There is no car '.*the cars of the package are .*prototype\.$"):
+    with pytest.raises(CarFileError, match=r"^There is no car '.*the cars of the package are .*prototype, saloon\.$"):
         load(name)
 
 

@@ -55,7 +55,7 @@ def test_the_scene_of_a_car_is_one(car: str) -> None:
     found = scene(car)
     assert scene_errors(found) == []
     assert found["focus"] == "chassis"
-    assert 3.0 < found["extent"] < 7.0
+    assert 3.0 < found["extent"] < 8.0
     assert not [shape for shape in found["shapes"] if shape["kind"] == "wheel" and not 0.2 < shape["radius"] < 0.4]
 
 
