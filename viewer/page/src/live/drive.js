@@ -20,6 +20,8 @@ const PLOTTED = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
 const PLOT_MS = 120;
 const PANEL_MS = 100;
 const RESTART_MS = 250;
+/** Hands are asked by a clock of their own: a picture that takes long holds no pedal. */
+const HANDS_MS = 16;
 
 /**
  * Fill an element with an FMU that runs.
@@ -166,6 +168,7 @@ class Drive {
   /** Take everything out of the page. */
   dispose() {
     this._ended = true;
+    clearInterval(this._asking);
     this._listeners?.abort();
     this.session?.close();
     this.stage?.dispose();
@@ -205,6 +208,7 @@ class Drive {
     this._drawn = NaN; // what the last picture showed
     this._ran = false;
     this._listen();
+    this._asking = setInterval(() => this._poll(), HANDS_MS);
     this._frame();
     if (this.options.run !== false) await this.run(this.options.speed ?? 1);
   }
@@ -270,8 +274,7 @@ class Drive {
     const camera = this.options.camera ?? (this.isCar ? "chase" : "");
     if (this.view.cameraNames.includes(camera)) this.camera(camera);
     const has = this.stage.parts.map((part) => part.view.has ?? {});
-    const shown = picturePanel(has, (wishes) => this.stage.set(wishes));
-    if (shown) this.plots.element.before(shown);
+    this.plots.element.before(picturePanel(has, (wishes) => this.stage.set(wishes), this.options.view?.quality));
   }
 
   /** Another communication step; the inner one is not longer than it. */
@@ -349,12 +352,15 @@ class Drive {
     this._tell("Paused, because the page was not on the screen.");
   }
 
+  _poll() {
+    if (this.hands.poll(this.get("speed")).changed) this.gamepadPanel.fill();
+    this.gamepadPanel.show();
+  }
+
   _frame() {
     if (this._ended) return;
     requestAnimationFrame(() => this._frame());
     const { session } = this;
-    if (this.hands.poll(this.get("speed")).changed) this.gamepadPanel.fill();
-    this.gamepadPanel.show();
     const shown = session.shown;
     if (shown !== this._drawn || session.running !== this._ran) {
       [this._drawn, this._ran] = [shown, session.running];

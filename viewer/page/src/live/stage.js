@@ -29,7 +29,7 @@ export class Stage {
       this.element.append(element);
       return { ...item, holder, notice, hud, element };
     });
-    this._options = options;
+    this._options = { driven: !options.keep, ...options };
     this.dirty = true;
   }
 
