@@ -13,7 +13,7 @@ import { Session } from "./session.js";
 import { Stage } from "./stage.js";
 import style from "./style.css";
 import { levers } from "./touch.js";
-import { missingParts, unpack } from "./unpack.js";
+import { missingParts, unpack, unpackedJson } from "./unpack.js";
 
 const ACTS = ["steering", "throttle", "brake"];
 const PLOTTED = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
@@ -178,7 +178,7 @@ class Drive {
   async _open(parts, { beside, ends, script }) {
     const runs = beside ? (await decoded(beside)).runs : [];
     const recordings = runs.map((run, k) => ({ title: `${run.name} (recorded)`, scene: run.scene, recording: { ...run, end: ends[k] } }));
-    const table = script ? JSON.parse(new TextDecoder().decode(await unpack(script))) : null;
+    const table = script ? await unpackedJson(script) : null;
     this.script = table;
     const fmus = [];
     for (const part of parts) {
@@ -193,11 +193,13 @@ class Drive {
       error: (at, text) => this._error(at, text),
     });
     const pictures = [];
-    for (const { title, scene, roads, description } of fmus) {
-      const choices = roads ? JSON.parse(new TextDecoder().decode(await unpack(roads))) : {};
-      pictures.push({ title, scene, roads: choices, variables: new Map(description.variables.map((v) => [v.name, v])) });
+    for (const { title, scene, roads, world: packed, description } of fmus) {
+      const choices = roads ? await unpackedJson(roads) : {};
+      const world = packed ? await unpackedJson(packed) : null;
+      const drawn = world ? { ...scene, roads: choices[world.road], scenery: world.scenery } : scene;
+      pictures.push({ title, scene: drawn, roads: choices, world, variables: new Map(description.variables.map((v) => [v.name, v])) });
     }
-    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep });
+    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep }, (sentence) => this._tell(sentence));
     this._layOut(fmus[0]);
     this.stage.open();
     this.problem = this.stage.problem;
@@ -267,14 +269,37 @@ class Drive {
       camera: (name) => this.camera(name),
       stepSize: (step) => this._stepSize(step),
       csv: () => this._download(),
+      mute: () => this._mute(),
+      place: (name) => this._place(name),
     };
     this.act = act;
-    this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views });
+    const { places = {} } = this.options;
+    this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views, places: Object.keys(places), sound: this.isCar });
     this.root.append(this.bar.element);
     const camera = this.options.camera ?? (this.isCar ? "chase" : "");
     if (this.view.cameraNames.includes(camera)) this.camera(camera);
     const has = this.stage.parts.map((part) => part.view.has ?? {});
     this.plots.element.before(picturePanel(has, (wishes) => this.stage.set(wishes), this.options.view?.quality));
+  }
+
+  _nextCamera() {
+    const { cameraNames, cameras } = this.view;
+    if (cameras) this.camera(cameraNames[(cameraNames.indexOf(cameras.name) + 1) % cameraNames.length]);
+  }
+
+  _mute() {
+    this._muted = !this._muted;
+    this.stage.mute(this._muted);
+    this.bar.sound(this._muted ? "Sound off" : "Sound on");
+  }
+
+  /** Begin again at a place of the world. @param {string} name */
+  async _place(name) {
+    const { session } = this;
+    const { running } = session;
+    await session.restart({ ...session.start, ...this.options.places[name] });
+    if (running) await session.run();
+    this.draw();
   }
 
   /** Another communication step; the inner one is not longer than it. */
@@ -308,6 +333,7 @@ class Drive {
   }
 
   _clear() {
+    this.stage?.renew();
     for (const part of this.stage?.parts ?? []) if (!part.view?.problem) this.stage.tell(part, "");
     this._tell("");
   }
@@ -339,7 +365,9 @@ class Drive {
     this._listeners = new AbortController();
     const { signal } = this._listeners;
     const { act } = this;
-    const acts = { p: act.toggle, ".": act.step, Backspace: act.back, Home: act.reset };
+    const acts = { p: act.toggle, ".": act.step, Backspace: act.back, Home: act.reset, m: act.mute, c: () => this._nextCamera() };
+    const once = () => this.stage.sound();
+    for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, once, { signal, once: true });
     keys({ acts, signal, first: (event) => this.hands.key(event, this.get("speed")) });
     window.addEventListener("blur", () => this.hands.letKeysGo(), { signal });
     document.addEventListener("visibilitychange", () => this._hidden(), { signal });

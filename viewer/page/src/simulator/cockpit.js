@@ -1,12 +1,12 @@
 // Everything that one car's page shows and takes: picture, instruments, controls, hands.
 import { el } from "../common/dom.js";
+import { Effects } from "../effects/driven.js";
 import { Hands } from "../live/hands.js";
 import { levers } from "../live/touch.js";
 import { SceneView } from "../scene/scene_view.js";
 import { Cluster } from "./cluster.js";
 import { Controls } from "./controls.js";
 import { readByHost } from "./device_words.js";
-import { Effects } from "./effects.js";
 import { Beat } from "./frames.js";
 import { Help } from "./help.js";
 import { simulatorKeys } from "./keys.js";
