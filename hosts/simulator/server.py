@@ -156,12 +156,13 @@ class Server:
             feed.cancel()
             del self._pages[page.number]
             self._let_go(page, "was closed")
-            self._left()
+            if page.watched:
+                self._left()
 
     def _left(self) -> None:
         """With nobody who sees it the car stands."""
         with contextlib.suppress(HostError):  # a car that has ended stands
-            if not self._pages and self._first_frame is None and self._car.latest().running:
+            if not self._pages and self._car.latest().running:
                 self._car.command("pause")
                 self._left_alone = True
                 self._tell("told", "Paused: the last page is gone; the car drives on when one comes back.")

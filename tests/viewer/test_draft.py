@@ -65,7 +65,8 @@ def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_abov
     def darkness(lift):
         numbers = {}
         for frame in car["frames"].values():
-            if "start" not in frame:
+            if "start" not in frame:  # of a wheel, the rack or the steering wheel, beside its parent
+                numbers[frame.get("angle", frame.get("way"))] = 0.0
                 continue
             (x, y, z), turn = frame["start"]
             numbers |= dict(zip(frame["position"], (x, y, z + lift), strict=True))
