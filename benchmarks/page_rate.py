@@ -97,20 +97,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             renderers.add(found["renderer"])
             rows.append(_row(name, quality, found))
         chromium.close()
-    print_table(
-        rows,
-        {
-            "scene": "",
-            "quality": "",
-            "ms": ".3g",
-            "best_ms": ".3g",
-            "worst_ms": ".3g",
-            "rate": ".3g",
-            "first_s": ".3g",
-            "calls": "d",
-            "triangles": "d",
-        },
-    )
+    times = dict.fromkeys(("ms", "best_ms", "worst_ms", "rate", "first_s"), ".3g")
+    print_table(rows, {"scene": "", "quality": "", **times, "calls": "d", "triangles": "d"})
     print(
         f"\nms: median of a picture of {options.size[0]} x {options.size[1]}; rate: pictures a second; "
         "first_s: until the first picture"
@@ -123,14 +111,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _row(name: str, quality: str, found: dict[str, Any]) -> dict[str, Any]:
     ms = statistics.median(found["times"])
-    row = {
-        "scene": name,
-        "quality": quality,
-        "ms": ms,
-        "best_ms": min(found["times"]),
-        "worst_ms": max(found["times"]),
-        "rate": 1000.0 / ms,
-    }
+    times = {"ms": ms, "best_ms": min(found["times"]), "worst_ms": max(found["times"]), "rate": 1000.0 / ms}
+    row = {"scene": name, "quality": quality, **times}
     return row | {"first_s": found["first"] / 1000.0, "triangles": found["triangles"], "calls": found["calls"]}
 
 

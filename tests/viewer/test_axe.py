@@ -46,9 +46,8 @@ def findings(chromium: Any, file: Path, colours: str) -> list[str]:
     context = chromium.new_context(viewport={"width": 900, "height": 500}, color_scheme=colours)
     page = context.new_page()
     page.goto(file.as_uri())
-    page.evaluate(
-        "async () => { await player.ready; for (const part of document.querySelectorAll('details')) part.open = true; }"
-    )
+    page.evaluate("async () => { await player.ready; }")
+    page.evaluate("for (const part of document.querySelectorAll('details')) part.open = true")
     page.evaluate("window.player.settings?.toggle(true)")
     page.evaluate(AXE.read_text(encoding="utf-8"))
     found: list[str] = page.evaluate(FINDINGS)
