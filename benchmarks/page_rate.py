@@ -1,4 +1,4 @@
-"""How fast a page draws, by the processor: ``python -m benchmarks.page_rate [--json FILE]``; at 1280 x 720 pixels or ``--size``.
+"""How fast a page draws, by the processor: ``python -m benchmarks.page_rate [--size W H] [--json FILE]``.
 
 A picture of each scene is drawn again and again in a Chromium without a window, whose WebGL is SwiftShader; each time
 one pixel is read, so that the picture is there. On a machine with a graphics card a page is faster by far.

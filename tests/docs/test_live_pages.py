@@ -60,7 +60,7 @@ def test_pages_that_cannot_be_made_are_left_out_with_one_line(
     assert "puma.html" not in shown
 
     monkeypatch.setenv(live_pages.MODE, "required")
-    with pytest.raises(Exception, match="could not be made: hatchback: there is no compiler"):
+    with pytest.raises(Exception, match="could not be made: proving_ground: there is no compiler"):
         live_pages.build(app)
 
     monkeypatch.delenv(live_pages.MODE)
