@@ -89,7 +89,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with sync_playwright() as play:
         chromium = play.chromium.launch(executable_path=executable, args=browser.launch_arguments())
         version = chromium.version
-        page = chromium.new_page(viewport=dict(zip(("width", "height"), options.size, strict=True)))
+        page = chromium.new_page(viewport={"width": options.size[0], "height": options.size[1]})
         page.set_content("<body style='margin:0'><div id='picture' style='width:100vw;height:100vh'></div></body>")
         page.add_script_tag(content=script)
         for name, quality in watched([(name, quality) for name in options.scenes for quality in QUALITIES]):

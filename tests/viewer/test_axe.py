@@ -56,12 +56,12 @@ def findings(chromium: Any, file: Path, colours: str) -> list[str]:
 
 
 @pytest.mark.parametrize("kind", ["live", "recorded"])
-def test_axe_finds_nothing_in_light_and_dark(chromium, kind, request):
+def test_axe_finds_nothing_in_light_and_dark(chromium: Any, kind: str, request: pytest.FixtureRequest) -> None:
     file = request.getfixturevalue(kind)
     assert [findings(chromium, file, colours) for colours in ("light", "dark")] == [[], []]
 
 
-def test_axe_would_find_a_control_without_a_name(chromium, recorded, tmp_path):
+def test_axe_would_find_a_control_without_a_name(chromium: Any, recorded: Path, tmp_path: Path) -> None:
     file = tmp_path / "wrong.html"
     text = recorded.read_text(encoding="utf-8")
     file.write_text(text.replace('<main id="view">', "<input><main id=view>"), encoding="utf-8")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import fmpy
 import pytest
@@ -23,7 +24,9 @@ def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.slow
-def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(chromium, car, tmp_path, capsys):
+def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
+    chromium: Any, car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert view([str(car), "--live", "--world", "proving_ground", "--no-open", "--out", str(tmp_path)]) == 0
     file = next(tmp_path.glob("*_live.html"))
     assert file.stat().st_size <= MOST_BYTES
@@ -58,7 +61,7 @@ def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(chromi
     page.close()
 
 
-def test_a_world_and_a_road_are_refused_together(car, tmp_path, capsys):
+def test_a_world_and_a_road_are_refused_together(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     wishes = ["--world", "proving_ground", "--road", "washboard.road"]
     assert view([str(car), "--live", *wishes, "--no-open", "--out", str(tmp_path)]) != 0
     assert "give it once" in capsys.readouterr().err
