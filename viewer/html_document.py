@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from html import escape
 
 from ali3 import html
 from viewer.bundle import bundle
@@ -12,6 +13,8 @@ from viewer.errors import ViewerError
 _SOURCES = {"script-src": "'wasm-unsafe-eval'", "worker-src": "blob:"}
 
 _STYLE = "html,body{margin:0;height:100%;overflow:hidden;font:14px/1.4 system-ui,sans-serif}#view{height:100%}"
+_HEADING = "h1{position:absolute;width:1px;height:1px;margin:-1px;overflow:hidden;clip-path:inset(50%)}"
+"""For screen readers."""
 
 
 def html_document(title: str, data: object, function: str, connect: str = "") -> str:
@@ -41,12 +44,12 @@ def html_document(title: str, data: object, function: str, connect: str = "") ->
         "catch(error){view.textContent='This page cannot be shown: '+(error&&error.message||error);}})();"
     )
     body = (
-        '<div id="view"></div>\n'
+        f'<header><h1>{escape(title)}</h1></header>\n<main id="view"></main>\n'
         "<noscript>This page draws with JavaScript, which is switched off in this browser.</noscript>\n"
         f'<script type="application/json" id="data">{json_in_html(data)}</script>'
     )
     sources = _SOURCES | ({"connect-src": connect} if connect else {})
-    return html.page(title, body, _STYLE, scripts=(script(), start), sources=sources)
+    return html.page(title, body, _STYLE + _HEADING, scripts=(script(), start), sources=sources)
 
 
 def script() -> str:

@@ -17,6 +17,7 @@ from sphinx.util import logging
 ROOT = Path(__file__).parents[2]
 PLACE = "live"
 PAGES = {
+    "proving_ground": "**The proving ground in a tab**: the prototype car with sound, from the places of its map.",
     "prototype": "**The prototype car**: keys, gamepad or levers drive it; its parameters are sliders.",
     "hatchback": "**The hatchback**, a front-driven electric car: the colours of its frame are stresses, which are "
     "computed while it is driven.",

@@ -40,6 +40,12 @@ def prototype(folder: Path) -> str:
     return written(built(folder, "--car", "prototype"), folder, "--title", "The prototype car")
 
 
+def proving_ground(folder: Path) -> str:
+    """The paper's car in the world of the simulator."""
+    more = ("--world", "proving_ground", "--title", "The proving ground")
+    return written(built(folder, "--car", "prototype"), folder, *more)
+
+
 def hatchback(folder: Path) -> str:
     """The other car of the package, its frame coloured by stress, which is computed quasi-statically."""
     fmu = built(folder, "--car", "hatchback", "--poses", "all")
@@ -88,6 +94,7 @@ def _to_and_fro(rows: Sequence[Sequence[float]], times: int) -> list[str]:
 
 
 MAKERS: dict[str, Callable[[Path], str]] = {
+    "proving_ground": proving_ground,
     "prototype": prototype,
     "hatchback": hatchback,
     "double_four_bar": double_four_bar_beside,

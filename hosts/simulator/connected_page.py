@@ -37,6 +37,7 @@ class ConnectedPage:
         self.sources: set[str] = set()
         self.watches_devices = False
         self.stalled = False
+        self.watched = False  # has had a frame
         self.texts: deque[str] = deque(maxlen=MOST_TEXTS)  # of a page that stalls the oldest are lost
         self._now = now
         self._unseen: deque[tuple[float, float]] = deque()
@@ -83,6 +84,7 @@ class ConnectedPage:
 
     def saw(self, count: float) -> None:
         """It has the frames up to this count."""
+        self.watched = True
         while self._unseen and self._unseen[0][0] <= count:
             self._unseen.popleft()
 

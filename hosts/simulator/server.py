@@ -70,6 +70,7 @@ class Server:
         self._pages: dict[int, ConnectedPage] = {}
         self._served = 0
         self._last_new_start = -NEW_START_PERIOD
+        self._left_alone = False
         self._first_frame: Callable[[], None] | None = None
         self._said: deque[str] = deque(maxlen=100)
 
@@ -138,6 +139,7 @@ class Server:
         self._served += 1
         page = self._pages[self._served] = ConnectedPage(self._served, connection)
         page.texts.append(self._hello)
+        self._came_back()
         if self.devices is not None:
             page.texts.append(_text("devices", devices=self.devices.state()))
         feed = asyncio.create_task(self._feed(page))
@@ -154,6 +156,22 @@ class Server:
             feed.cancel()
             del self._pages[page.number]
             self._let_go(page, "was closed")
+            if page.watched:
+                self._left()
+
+    def _left(self) -> None:
+        """With nobody who sees it the car stands."""
+        with contextlib.suppress(HostError):  # a car that has ended stands
+            if not self._pages and self._car.latest().running:
+                self._car.command("pause")
+                self._left_alone = True
+                self._tell("told", "Paused: the last page is gone; the car drives on when one comes back.")
+
+    def _came_back(self) -> None:
+        if self._left_alone:
+            self._left_alone = False
+            with contextlib.suppress(HostError):
+                self._car.command("run")
 
     async def _take(self, page: ConnectedPage, data: str | bytes) -> None:
         """What a page says; a sentence goes back where it is refused."""

@@ -57,7 +57,7 @@ def no_world(roads: list[Any]) -> World:
     return World("", None, content)
 
 
-def make_world(given: str, tell: Callable[[str], None]) -> World:
+def make_world(given: str, tell: Callable[[str], None], thin: bool = False) -> World:
     """A world by its name, or from a file.
 
     Parameters
@@ -66,6 +66,8 @@ def make_world(given: str, tell: Callable[[str], None]) -> World:
         A name of the package, or a file that ``ali3 road --world`` takes.
     tell : callable
         Takes lines that say how far it is, where it is made for the first time.
+    thin : bool
+        Few and round numbers, as a page carries it.
 
     Raises
     ------
@@ -74,12 +76,12 @@ def make_world(given: str, tell: Callable[[str], None]) -> World:
     """
     file = Path(given)
     room = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:12] if file.is_file() else "named"
-    folder = cache_folder("worlds", room)
+    folder = cache_folder("worlds", f"{room}-thin" if thin else room)
 
     def hear(line: str) -> None:
         if line.endswith(_GOING_ON):
             tell(line)
 
-    run_module("ali3", "road", "--world", given, "--out", str(folder), hear=hear)
+    run_module("ali3", "road", "--world", given, "--out", str(folder), *(["--thin"] if thin else []), hear=hear)
     content = read_world_record(folder / f"{file.stem}.json")
     return World(str(content["name"]), folder / content["road"], content)

@@ -18,7 +18,7 @@ from ali3.running import run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_setting_options
 
-_OF_LIVE = ("title", "name", "paused")
+_OF_LIVE = ("title", "name", "paused", "world")
 _OF_SHOWN = (
     *("geometry", "begin", "end", "most", "camera", "at", "arrows", "deformation", "png", "mp4", "gltf", "size"),
     "stop_time",
@@ -48,6 +48,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(fmu, "--step", "that of the FMU")
     add_setting_options(fmu)
     add_option(fmu, "--road")
+    add_option(fmu, "--world", "none")
     live = parser.add_argument_group("live: an FMU of ali3 build runs in the page")
     live.add_argument("--live", action="store_true", help="the page runs the FMUs; results are drawn beside them")
     live.add_argument("--title", metavar="TEXT", help="of the page; default: the names of the models")

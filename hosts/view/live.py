@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from hosts.common.numbers import Value
     from hosts.driving.manoeuvre import Manoeuvre
     from hosts.fmu.variables import Variable
+    from hosts.simulator.world_files import World
     from hosts.view.page_parts import FmuParts
     from viewer.recording import Recording
 
@@ -50,14 +51,17 @@ def _written(options: argparse.Namespace, given: Wishes) -> int:
     name = "_".join(dict.fromkeys(path.stem for path in paths))
     file = (options.out or Path("out")) / f"{name}_live.html"
     road = next((text for name, text in reversed(given.values) if name == ROAD), "")
-    fmus = [fmu_parts(path, road) for path in paths]
     check_writable(file)
+    world = _world(options, road)
+    fmus = [fmu_parts(path, road if world is None else str(world.road)) for path in paths]
     names = _names(fmus, options.name)
     manoeuvre = _manoeuvre(fmus, options.manoeuvre)
-    start = {**({} if manoeuvre is None else manoeuvre.start), **_start(fmus, given)}
+    places = {} if world is None else _places(world, fmus[0])
+    first = next(iter(places.values()), {})
+    start = {**first, **({} if manoeuvre is None else manoeuvre.start), **_start(fmus, given)}
     if fmus[0].own_road is not None:
         start[ROAD] = fmus[0].own_road.name
-    wanted = {"name": name, **_page_options(fmus, options), "start": start}
+    wanted = {"name": name, **_page_options(fmus, options), "start": start, **({"places": places} if places else {})}
     recordings = _beside(results, fmus[0])
     ends = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]
     with_binaries = [with_binary(fmu) for fmu in fmus]
@@ -70,9 +74,32 @@ def _written(options: argparse.Namespace, given: Wishes) -> int:
         for item in fmu.scene.get("missing", []):
             print(f"{fmu.name}: {item['name']} is not drawn: {item['why'].rstrip('.')}.")
     print(f"{file}: {file.stat().st_size / 1e6:.1f} MB; it opens from disk in a browser and needs nothing else")
+    if world is not None and world.content.get("thin"):
+        print(world.content["thin"])
     if not options.no_open:
         open_page(file)
     return 0
+
+
+def _world(options: argparse.Namespace, road: Value) -> World | None:
+    """The world that goes into the page."""
+    if options.world is None:
+        return None
+    if road:
+        raise HostError(f"The road is given by --world {options.world} and by {road}; give it once.")
+    from hosts.simulator.world_files import make_world
+
+    return make_world(options.world, lambda line: print(line, flush=True), thin=True)
+
+
+def _places(world: World, fmu: FmuParts) -> dict[str, dict[str, Value]]:
+    """Start values of the places of a world, where the FMU has them."""
+    if ROAD not in fmu.variables.names:
+        raise HostError(
+            f"{fmu.path} has no parameter '{ROAD}', so that the world {world.name} cannot be put under it; leave "
+            "--world out."
+        )
+    return {name: values for name, values in world.places().items() if set(values) <= set(fmu.variables.names)}
 
 
 def _manoeuvre(fmus: Sequence[FmuParts], given: str | None) -> Manoeuvre | None:

@@ -61,20 +61,25 @@ class FmuParts:
         """Roads of the drawing by what the parameter `road.file` may be set to: none, or a road file in the FMU."""
         if ROAD not in self.variables.names:
             return {}
+        own = None if self.own_road is None else self.own_road.name
         names = ["", *(path.removeprefix(_ROADS) for path in self.resources if path.startswith(_ROADS))]
-        places = {name: name for name in names}
-        if self.own_road is not None:
-            places[self.own_road.name] = str(self.own_road)
+        names = [name for name in names if name != own]
         with ThreadPoolExecutor() as pool:
-            scenes = list(pool.map(lambda name: scene_of(self.path, {ROAD: places[name]}), names))
-        return {name: scene["roads"] for name, scene in zip(names, scenes, strict=True) if scene is not None}
+            scenes = list(pool.map(lambda name: scene_of(self.path, {ROAD: name}), names))
+        found = {name: scene["roads"] for name, scene in zip(names, scenes, strict=True) if scene is not None}
+        return found if own is None else found | {own: self.scene["roads"]}
 
     def record(self, title: str) -> dict[str, Any]:
         """The FMU as JSON of the page; `wasm` must be there."""
         assert self.wasm is not None
+        scene, own = self.scene, dict[str, Any]()
+        if self.own_road is not None:  # its drawing is long: it stands among the roads, once and packed
+            world = {"road": self.own_road.name, "scenery": scene.get("scenery", [])}
+            scene, own = scene | {"roads": [], "scenery": []}, {"world": packed(json.dumps(world).encode())}
         return {
             "title": title,
-            "scene": self.scene,
+            "scene": scene,
+            **own,
             "roads": packed(json.dumps(self.roads()).encode()),
             "description": description_record(self.description, self.variables),
             "wasm": packed(self.wasm),

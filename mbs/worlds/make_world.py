@@ -48,7 +48,9 @@ def read_world(file: Path) -> WorldDescription:
     return world
 
 
-def make_world(file: Path, name: str, road: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
+def make_world(
+    file: Path, name: str, road: Path, tell: Callable[[str, float], None], thin: bool = False
+) -> dict[str, Any]:
     """Write the road file of a world, and return its record.
 
     Parameters
@@ -61,6 +63,8 @@ def make_world(file: Path, name: str, road: Path, tell: Callable[[str, float], N
         To write.
     tell : callable
         Called with what is done and its part, 0 to 1.
+    thin : bool
+        Fewer and rounder numbers, for a page; the record says under ``thin`` how far they are off.
 
     Raises
     ------
@@ -70,17 +74,21 @@ def make_world(file: Path, name: str, road: Path, tell: Callable[[str, float], N
     if file.suffix.lower() == ".toml" and read_toml(file, RoadFileError).get("kind") == "world":
         from mbs.worlds.road_of_world import write_world_road
         from mbs.worlds.terrain import Terrain
+        from mbs.worlds.thin_world import off_by, thinner
         from mbs.worlds.world_record import world_record
 
         world = read_world(file)
+        if thin:
+            world = world.model_copy(update={"spacing": thinner(world.spacing)})
         tell("ground and courses", 0.0)
         try:
             terrain = Terrain(world, file.parent)
             record = world_record(terrain, lambda part: tell("drawing", part))
         except RoadFileError as error:
             raise RoadFileError(str(error) if str(file) in str(error) else f"{file}: {error}") from None
-        write_world_road(terrain, road, lambda part: tell("road", part))
-        return record | {"checksum": checksum_of(road)}
+        write_world_road(terrain, road, lambda part: tell("road", part), thin)
+        off = {"thin": off_by(terrain, road).sentence} if thin else {}
+        return record | {"checksum": checksum_of(road)} | off
     return _of_road(file, name, road)
 
 

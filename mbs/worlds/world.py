@@ -23,7 +23,7 @@ def shipped_worlds() -> list[str]:
     return [path.stem for path in sorted(WORLDS.glob("*.toml"))] + [path.stem for path in sorted(ROADS.glob("*.road"))]
 
 
-def world(given: str, out: Path, picture: Path | None) -> int:
+def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> int:
     """Put the files of a world into a folder; gives the exit code.
 
     Parameters
@@ -34,6 +34,8 @@ def world(given: str, out: Path, picture: Path | None) -> int:
         Folder.
     picture : Path, optional
         PNG file of its map.
+    thin : bool
+        Fewer and rounder numbers, for a page.
 
     Raises
     ------
@@ -51,13 +53,15 @@ def world(given: str, out: Path, picture: Path | None) -> int:
 
         name, others = named_files(file)
         files += others
-    key = key_of(files)
-    made, kept = world_files(key, lambda folder: _make(file, name, folder), out)
+    key = key_of(files) + ("-thin" if thin else "")
+    made, kept = world_files(key, lambda folder: _make(file, name, folder, thin), out)
     if picture is not None:
         add_file(key, f"{name}.png", lambda target: _draw(out / f"{name}.json", target), picture)
         made.append(picture)
     for path in made:
         print(f"written: {path} ({path.stat().st_size / 1e6:.3g} MB)")
+    if (off := read_json(out / f"{name}.json").get("thin")) is not None:
+        print(off)
     print(f"{'kept from before' if kept else 'made'}: {time.perf_counter() - begin:.2f} s")
     return 0
 
@@ -75,10 +79,10 @@ def _file(given: str) -> Path:
     raise UserError(f"There is no world '{given}' and no such file; worlds are {', '.join(shipped_worlds())}.")
 
 
-def _make(file: Path, name: str, folder: Path) -> None:
+def _make(file: Path, name: str, folder: Path, thin: bool) -> None:
     from mbs.worlds.make_world import make_world
 
-    record: dict[str, Any] = make_world(file, name, folder / f"{name}.road", _Line(name))
+    record: dict[str, Any] = make_world(file, name, folder / f"{name}.road", _Line(name), thin)
     (folder / f"{name}.json").write_text(
         json.dumps(record, allow_nan=False, separators=(",", ":"), ensure_ascii=False), encoding="utf-8"
     )

@@ -50,7 +50,9 @@ def test_pages_that_cannot_be_made_are_left_out_with_one_line(
     app = site(tmp_path)
     live_pages.build(app)
     said = capsys.readouterr().err
-    assert said.startswith("warning: pages that run FMUs are left out of the site: hatchback: there is no compiler; ")
+    assert said.startswith(
+        "warning: pages that run FMUs are left out of the site: proving_ground: there is no compiler; "
+    )
     assert said.count("\n") == 1
     shown = text(live_pages, app)
     assert '<a href="live/prototype.html">Open it</a> (1.6 MB)' in shown
@@ -58,7 +60,7 @@ def test_pages_that_cannot_be_made_are_left_out_with_one_line(
     assert "puma.html" not in shown
 
     monkeypatch.setenv(live_pages.MODE, "required")
-    with pytest.raises(Exception, match="could not be made: hatchback: there is no compiler"):
+    with pytest.raises(Exception, match="could not be made: proving_ground: there is no compiler"):
         live_pages.build(app)
 
     monkeypatch.delenv(live_pages.MODE)

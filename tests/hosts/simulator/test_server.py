@@ -195,6 +195,25 @@ def test_a_page_that_closes_lets_its_inputs_go(car, served):
     assert any("Page 1 was closed: steering, throttle let go." in text for text in served.told)
 
 
+def test_the_car_stands_when_its_last_page_goes_and_drives_on_when_one_comes_back(car, served):
+    with connect(served.url) as one:
+        frames(one, 1)
+        with connect(served.url) as other:
+            frames(other, 1)
+        until(lambda: len(served.server._pages) == 1)
+        assert car.orders == []
+    until(lambda: car.orders == [("pause", 0.0)])
+    assert any("the last page is gone" in text for text in served.told)
+    with connect(served.url) as back:
+        frames(back, 1)
+        assert car.orders == [("pause", 0.0), ("run", 0.0)]
+        car.running = False
+    until(lambda: not served.server._pages)
+    with connect(served.url) as again:
+        texts(again, "hello")
+        assert len(car.orders) == 2, "who has paused it finds it paused"
+
+
 def test_a_page_that_stalls_lets_its_inputs_go_and_has_the_word_again_when_it_wakes(car, served, monkeypatch):
     monkeypatch.setattr(connected_page, "STALLED", 0.2)
     want = json.dumps({"type": "want", "source": "keys", "values": {"throttle": [1.0, 2.5]}})
@@ -336,7 +355,7 @@ def test_a_message_that_is_wrong_is_one_sentence_and_the_page_stays(car, served,
         assert text.endswith(".")
         assert "\n" not in text
         frames(page, 3)
-    assert car.orders == []
+    assert set(car.orders) <= {("pause", 0.0)}, "the last page is gone"
 
 
 def read_to_the_end(page):

@@ -252,3 +252,21 @@ def test_a_cache_that_cannot_be_written_is_said(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "file" / "cache"))
     assert main(["--world", "plane", "--out", str(tmp_path / "out")]) == 2
     assert "ALI3_CACHE is" in capsys.readouterr().err
+
+
+def test_a_thin_world_is_off_by_what_it_says(folder, own_cache, tmp_path, capsys):
+    made = {}
+    for kind, more in (("whole", []), ("thin", ["--thin"])):
+        assert main(["--world", str(folder / "mine.toml"), "--out", str(tmp_path / kind), *more]) == 0
+        made[kind] = tmp_path / kind / "mine.road"
+    most, nearly_all = map(float, re.findall(r"(?:at most|and by) ([0-9.e-]+) mm", capsys.readouterr().out))
+    random = np.random.default_rng(5)
+    x, y = 10.0 + 280.0 * random.random(20000), 10.0 + 180.0 * random.random(20000)
+    heights = {}
+    for kind, path in made.items():
+        with opened(path) as at:
+            heights[kind] = at(x, y)[0]
+    off = 1e3 * np.abs(heights["thin"] - heights["whole"])
+    assert 0.01 < np.quantile(off, 0.99) < 1.5 * nearly_all < 5.0
+    assert off.max() < 1.2 * most
+    assert made["thin"].stat().st_size < 0.5 * made["whole"].stat().st_size

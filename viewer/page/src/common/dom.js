@@ -18,6 +18,7 @@ export function el(tag, set = {}, ...children) {
     else if (key === "role" || key.includes("-")) element.setAttribute(key, value);
     else element[key] = value;
   }
+  if (/^(input|select)$/.test(name) && element.title && !element.hasAttribute("aria-label")) element.setAttribute("aria-label", element.title);
   element.append(.../** @type {(Node | string)[]} */ (children));
   return element;
 }

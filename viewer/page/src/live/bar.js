@@ -6,8 +6,8 @@ const SPEEDS = [[1, "real time"], ...SLOW, [2, "fast × 2"], [5, "fast × 5"]];
 
 /** The bar; it calls `act` of the page and shows what it is told. */
 export class Bar {
-  /** @param {Data} act - Functions: reset, toggle, step, back, speed, scrub, camera, csv. */
-  constructor(act, { cameras, steps, step, views }) {
+  /** @param {Data} act - Functions: reset, toggle, step, back, speed, scrub, camera, csv, mute, place. */
+  constructor(act, { cameras, steps, step, views, places = [], sound = false }) {
     this._play = button("play", "Run", act.toggle, "run or pause (P)");
     this._line = el("input", { type: "range", min: 0, max: 1, step: "any", title: "go back, then drive on from there", data: "timeline" });
     this._line.addEventListener("input", () => act.scrub(Number(this._line.value)));
@@ -26,6 +26,12 @@ export class Bar {
     );
     this._camera = select("camera", "camera", cameras.map((c) => [c, c]), act.camera);
     if (cameras.length) this.element.append(this._camera);
+    this._sound = button("mute", "Sound on", act.mute, "sound (M)");
+    if (sound) this.element.append(this._sound);
+    if (places.length) {
+      const spots = places.map((name) => [name, name.replaceAll("_", " ")]);
+      this.element.append(select("place", "begin at a place of the world", spots, act.place));
+    }
     for (const { data, text, title, work } of views) this.element.append(button(data, text, work, title));
     this.element.append(button("csv", "Save CSV", act.csv, "inputs and outputs of the run as a table"));
   }
@@ -33,6 +39,11 @@ export class Bar {
   /** A camera was chosen. */
   camera(name) {
     this._camera.value = name;
+  }
+
+  /** What the button of the sound says. @param {string} text */
+  sound(text) {
+    this._sound.textContent = text;
   }
 
   /**

@@ -13,13 +13,15 @@ import { Session } from "./session.js";
 import { Stage } from "./stage.js";
 import style from "./style.css";
 import { levers } from "./touch.js";
-import { missingParts, unpack } from "./unpack.js";
+import { missingParts, unpack, unpackedJson } from "./unpack.js";
 
 const ACTS = ["steering", "throttle", "brake"];
 const PLOTTED = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
 const PLOT_MS = 120;
 const PANEL_MS = 100;
 const RESTART_MS = 250;
+/** Hands are asked by a clock of their own: a picture that takes long holds no pedal. */
+const HANDS_MS = 16;
 
 /**
  * Fill an element with an FMU that runs.
@@ -166,6 +168,7 @@ class Drive {
   /** Take everything out of the page. */
   dispose() {
     this._ended = true;
+    clearInterval(this._asking);
     this._listeners?.abort();
     this.session?.close();
     this.stage?.dispose();
@@ -175,7 +178,7 @@ class Drive {
   async _open(parts, { beside, ends, script }) {
     const runs = beside ? (await decoded(beside)).runs : [];
     const recordings = runs.map((run, k) => ({ title: `${run.name} (recorded)`, scene: run.scene, recording: { ...run, end: ends[k] } }));
-    const table = script ? JSON.parse(new TextDecoder().decode(await unpack(script))) : null;
+    const table = script ? await unpackedJson(script) : null;
     this.script = table;
     const fmus = [];
     for (const part of parts) {
@@ -190,11 +193,13 @@ class Drive {
       error: (at, text) => this._error(at, text),
     });
     const pictures = [];
-    for (const { title, scene, roads, description } of fmus) {
-      const choices = roads ? JSON.parse(new TextDecoder().decode(await unpack(roads))) : {};
-      pictures.push({ title, scene, roads: choices, variables: new Map(description.variables.map((v) => [v.name, v])) });
+    for (const { title, scene, roads, world: packed, description } of fmus) {
+      const choices = roads ? await unpackedJson(roads) : {};
+      const world = packed ? await unpackedJson(packed) : null;
+      const drawn = world ? { ...scene, roads: choices[world.road], scenery: world.scenery } : scene;
+      pictures.push({ title, scene: drawn, roads: choices, world, variables: new Map(description.variables.map((v) => [v.name, v])) });
     }
-    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep });
+    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep }, (sentence) => this._tell(sentence));
     this._layOut(fmus[0]);
     this.stage.open();
     this.problem = this.stage.problem;
@@ -205,6 +210,7 @@ class Drive {
     this._drawn = NaN; // what the last picture showed
     this._ran = false;
     this._listen();
+    this._asking = setInterval(() => this._poll(), HANDS_MS);
     this._frame();
     if (this.options.run !== false) await this.run(this.options.speed ?? 1);
   }
@@ -263,15 +269,37 @@ class Drive {
       camera: (name) => this.camera(name),
       stepSize: (step) => this._stepSize(step),
       csv: () => this._download(),
+      mute: () => this._mute(),
+      place: (name) => this._place(name),
     };
     this.act = act;
-    this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views });
+    const { places = {} } = this.options;
+    this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views, places: Object.keys(places), sound: this.isCar });
     this.root.append(this.bar.element);
     const camera = this.options.camera ?? (this.isCar ? "chase" : "");
     if (this.view.cameraNames.includes(camera)) this.camera(camera);
     const has = this.stage.parts.map((part) => part.view.has ?? {});
-    const shown = picturePanel(has, (wishes) => this.stage.set(wishes));
-    if (shown) this.plots.element.before(shown);
+    this.plots.element.before(picturePanel(has, (wishes) => this.stage.set(wishes), this.options.view?.quality));
+  }
+
+  _nextCamera() {
+    const { cameraNames, cameras } = this.view;
+    if (cameras) this.camera(cameraNames[(cameraNames.indexOf(cameras.name) + 1) % cameraNames.length]);
+  }
+
+  _mute() {
+    this._muted = !this._muted;
+    this.stage.mute(this._muted);
+    this.bar.sound(this._muted ? "Sound off" : "Sound on");
+  }
+
+  /** Begin again at a place of the world. @param {string} name */
+  async _place(name) {
+    const { session } = this;
+    const { running } = session;
+    await session.restart({ ...session.start, ...this.options.places[name] });
+    if (running) await session.run();
+    this.draw();
   }
 
   /** Another communication step; the inner one is not longer than it. */
@@ -305,6 +333,7 @@ class Drive {
   }
 
   _clear() {
+    this.stage?.renew();
     for (const part of this.stage?.parts ?? []) if (!part.view?.problem) this.stage.tell(part, "");
     this._tell("");
   }
@@ -336,7 +365,9 @@ class Drive {
     this._listeners = new AbortController();
     const { signal } = this._listeners;
     const { act } = this;
-    const acts = { p: act.toggle, ".": act.step, Backspace: act.back, Home: act.reset };
+    const acts = { p: act.toggle, ".": act.step, Backspace: act.back, Home: act.reset, m: act.mute, c: () => this._nextCamera() };
+    const once = () => this.stage.sound();
+    for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, once, { signal, once: true });
     keys({ acts, signal, first: (event) => this.hands.key(event, this.get("speed")) });
     window.addEventListener("blur", () => this.hands.letKeysGo(), { signal });
     document.addEventListener("visibilitychange", () => this._hidden(), { signal });
@@ -349,12 +380,15 @@ class Drive {
     this._tell("Paused, because the page was not on the screen.");
   }
 
+  _poll() {
+    if (this.hands.poll(this.get("speed")).changed) this.gamepadPanel.fill();
+    this.gamepadPanel.show();
+  }
+
   _frame() {
     if (this._ended) return;
     requestAnimationFrame(() => this._frame());
     const { session } = this;
-    if (this.hands.poll(this.get("speed")).changed) this.gamepadPanel.fill();
-    this.gamepadPanel.show();
     const shown = session.shown;
     if (shown !== this._drawn || session.running !== this._ran) {
       [this._drawn, this._ran] = [shown, session.running];

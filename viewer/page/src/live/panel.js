@@ -1,6 +1,6 @@
 // The panel beside the picture: inputs, the gamepad, parameters by group.
 import { control } from "./controls.js";
-import { el, short } from "../common/dom.js";
+import { el, select, short } from "../common/dom.js";
 import { sourcesOf } from "./gamepad.js";
 
 /** A part of the panel that opens and closes. */
@@ -79,11 +79,11 @@ export function gamepadPanel(gamepad, inputs) {
       return;
     }
     const lines = inputs.map((name) => {
-      const options = sourcesOf(gamepad.pad).map((source) => el("option", { value: source }, source));
-      const select = el("select", { data: `assign ${name}` }, ...options);
-      select.value = gamepad.assigned[name] ?? "none";
-      select.addEventListener("change", () => gamepad.assign(name, select.value));
-      return el("label.a3-control", {}, `${name} `, select);
+      const options = sourcesOf(gamepad.pad).map((one) => el("option", { value: one }, one));
+      const source = el("select", { data: `assign ${name}` }, ...options);
+      source.value = gamepad.assigned[name] ?? "none";
+      source.addEventListener("change", () => gamepad.assign(name, source.value));
+      return el("label.a3-control", {}, `${name} `, source);
     });
     const zone = el("input", { type: "range", min: 0, max: 0.3, step: 0.01, value: gamepad.zone, data: "dead zone" });
     zone.addEventListener("input", () => (gamepad.zone = Number(zone.value)));
@@ -107,11 +107,14 @@ export function gamepadPanel(gamepad, inputs) {
  * What the pictures show beside shapes.
  * @param {{arrows?: boolean, stress?: boolean, deformation?: boolean}[]} has - What each picture can.
  * @param {(wishes: Data) => void} set - Told what a person wants, as `SceneView.set` has it.
- * @returns {HTMLElement | null} Nothing where there is nothing to choose.
+ * @param {string} [quality] - That is chosen at first.
+ * @returns {HTMLElement}
  */
-export function picturePanel(has, set) {
+export function picturePanel(has, set, quality = "auto") {
   const can = (what) => has.some((one) => one[what]);
-  const lines = [];
+  const levels = ["auto", "high", "low", "draft"].map((level) => [level, `quality ${level}`]);
+  /** @type {HTMLElement[]} */
+  const lines = [select("quality", "how finely the picture is drawn", levels, (wish) => set({ quality: wish }), quality)];
   for (const [what, words] of [["arrows", "forces as arrows"], ["stress", "colours of stress"]]) {
     if (!can(what)) continue;
     const box = el("input", { type: "checkbox", checked: what === "stress", data: `show ${what}` });
@@ -129,5 +132,5 @@ export function picturePanel(has, set) {
     lines.push(el("label.a3-control", {}, "deformation ", slider, words));
     set({ deformation: 1 });
   }
-  return lines.length ? section("Picture", true, ...lines) : null;
+  return section("Picture", true, ...lines);
 }

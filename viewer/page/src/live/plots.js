@@ -21,12 +21,12 @@ export class Plots {
     this._plots = new Map();
     this._list = el("div");
     const options = names.map((name) => el("option", { value: name }, name));
-    const choice = el("select", { data: "plot" }, el("option", { value: "" }, "plot …"), ...options);
+    const choice = el("select", { data: "plot", title: "a signal that is plotted" }, el("option", { value: "" }, "plot …"), ...options);
     choice.addEventListener("change", () => {
       if (choice.value) this.add(choice.value);
       choice.value = "";
     });
-    const span = el("select", { data: "span" }, ...SPANS.map(([value, words]) => el("option", { value }, words)));
+    const span = el("select", { data: "span", title: "how much time the plots show" }, ...SPANS.map(([value, words]) => el("option", { value }, words)));
     span.addEventListener("change", () => {
       this._span = Number(span.value);
       this.stale = true;

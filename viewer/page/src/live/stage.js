@@ -1,5 +1,6 @@
 // The pictures: one beside the other, each of an FMU that runs or of a recording that goes along.
 import { SceneView } from "../scene/scene_view.js";
+import { Effects } from "../effects/driven.js";
 import { Blend, turnsOf } from "./blend.js";
 import { el } from "../common/dom.js";
 import { Hud } from "./hud.js";
@@ -16,8 +17,11 @@ export class Stage {
   /**
    * @param {Data[]} items - `{title, scene, variables}` of an FMU, or `{title, scene, recording}`.
    * @param {Data} options - Of SceneView.
+   * @param {(sentence: string) => void} [tell] - Told what cannot be heard.
    */
-  constructor(items, options) {
+  constructor(items, options, tell = () => {}) {
+    this._tell = tell;
+    this._epoch = 0;
     this.element = el("div.a3-stage");
     this._surveyed = 0;
     /** @type {Data[]} one for each item: what it has, the elements, and what is made of them */
@@ -29,7 +33,7 @@ export class Stage {
       this.element.append(element);
       return { ...item, holder, notice, hud, element };
     });
-    this._options = options;
+    this._options = { driven: !options.keep, ...options };
     this.dirty = true;
   }
 
@@ -43,6 +47,7 @@ export class Stage {
       }
       new ResizeObserver(() => (this.dirty = true)).observe(part.holder);
     }
+    for (const part of this.parts) this._follow(part);
     this.problem = this.parts.map((part) => part.view.problem).find(Boolean) ?? "";
     for (const part of this.parts) if (part.view.problem) this.tell(part, part.view.problem);
   }
@@ -50,6 +55,34 @@ export class Stage {
   /** Draw the roads that belong to a value of the parameter `road.file`, moved by other parameters. */
   chooseRoads(name) {
     for (const part of this.parts) if (part.roads?.[name]) part.road = name;
+  }
+
+  /** Marks, dust and sound of a car: of the first picture, so that one is heard. */
+  _follow(part) {
+    if (part.view.problem || !part.variables) return;
+    part.effects?.dispose();
+    const { variables } = part;
+    const constants = [...variables.values()].filter((v) => v.variability === "constant").map((v) => [v.name, Number(v.start)]);
+    part.effects = new Effects(part.view, { columns: [...variables.keys()], constants: Object.fromEntries(constants) }, this._tell);
+    part.effects.sound.mute(this._muted ?? false);
+    if (this._heard) this.sound();
+  }
+
+  /** Sound may begin: a hand has touched the page. */
+  sound() {
+    this._heard = true;
+    this.parts[0].effects?.start();
+  }
+
+  /** @param {boolean} on */
+  mute(on) {
+    this._muted = on;
+    for (const { effects } of this.parts) effects?.sound.mute(on);
+  }
+
+  /** Another run, or an instant of before: nothing goes on across it. */
+  renew() {
+    this._epoch += 1;
   }
 
   _drawRoads(part, lookup) {
@@ -62,7 +95,9 @@ export class Stage {
     if (first) return;
     const camera = part.view.cameras?.name;
     part.view.dispose();
-    part.view = new SceneView(part.holder, { ...part.scene, roads }, this._options);
+    const away = part.world && part.road !== part.world.road;
+    part.view = new SceneView(part.holder, { ...part.scene, roads, ...(away ? { scenery: [] } : {}) }, this._options);
+    this._follow(part);
     if (camera && !part.view.problem) part.view.camera(camera);
     if (this._wishes) part.view.set?.(this._wishes);
   }
@@ -123,6 +158,7 @@ export class Stage {
       const lookup = this.lookup(part, record, time);
       this._drawRoads(part, lookup);
       part.view.update(lookup);
+      part.effects?.update(lookup, time, this._epoch);
       const end = part.recording ? part.recording.t[part.recording.t.length - 1] : Infinity;
       part.hud.show(lookup, Math.min(time, end), part.recording ? null : pace);
       if (part.recording?.end) this.tell(part, time > end ? part.recording.end : "");
@@ -146,7 +182,10 @@ export class Stage {
   }
 
   dispose() {
-    for (const part of this.parts) part.view?.dispose();
+    for (const part of this.parts) {
+      part.effects?.dispose();
+      part.view?.dispose();
+    }
   }
 }
 

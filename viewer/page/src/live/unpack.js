@@ -12,6 +12,11 @@ export async function unpack(given) {
   return bytes[0] === 0x1f && bytes[1] === 0x8b ? gunzipped(bytes) : bytes;
 }
 
+/** JSON of base64, packed. @param {string} given @returns {Promise<Data>} */
+export async function unpackedJson(given) {
+  return JSON.parse(new TextDecoder().decode(await unpack(given)));
+}
+
 /** What this browser lacks, as one sentence; empty if nothing. @param {Data} [scope] */
 export function missingParts(scope = globalThis) {
   if (typeof scope.WebAssembly !== "object") {

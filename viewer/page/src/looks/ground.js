@@ -1,6 +1,7 @@
 // The ground as a surface fixed to the earth: its pattern stands still while the picture's origin moves with the focus.
 import * as THREE from "three";
 import { across, cross, dot } from "../scene/math.js";
+import { prelit } from "./draft/prelit.js";
 import { SKYLIGHT } from "./skylight.js";
 
 /** Metres after which each layer of the pattern repeats: grain, patches, tones, painted lines. */
@@ -79,22 +80,34 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
   material.customProgramCacheKey = () => `ali3-ground-${grass}-${fine}`;
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
-    shader.vertexShader = `attribute float wet;\nvarying vec3 vGround;\nvarying float vWet;\n${shader.vertexShader}`.replace(
-      "#include <begin_vertex>",
-      "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;\nvWet = wet;",
-    );
-    const pieces = { map_fragment: ASPHALT, ...(fine ? { roughnessmap_fragment: ROUGHNESS, normal_fragment_maps: RELIEF } : { lights_fragment_end: SKYLIGHT }) };
-    shader.fragmentShader = PARAMETERS + shader.fragmentShader;
+    patterned(shader);
+    const pieces = fine ? { roughnessmap_fragment: ROUGHNESS, normal_fragment_maps: RELIEF } : { lights_fragment_end: SKYLIGHT };
     for (const [name, code] of Object.entries(pieces)) {
       shader.fragmentShader = shader.fragmentShader.replace(`#include <${name}>`, `#include <${name}>\n${code}`);
     }
   };
+  /** The same pattern, lit at its points only. @param {Data} light of `lightOf` */
+  const drafted = (light) =>
+    prelit(light, {}, `ground ${grass}`, (shader) => {
+      Object.assign(shader.uniforms, uniforms);
+      if (grass) shader.fragmentShader = `#define A_GRASS\n${shader.fragmentShader}`;
+      patterned(shader);
+    });
   /** @param {number[]} origin earth position of the picture's origin */
   const follow = (origin) => {
     const [a, b] = [dot(origin, x), dot(origin, y)];
     PERIODS.forEach((period, i) => uniforms.aOffset.value[i].set(modulo(a, period), modulo(b, period)));
   };
-  return { material, follow };
+  return { material, drafted, follow };
+}
+
+/** @param {Data} shader of a material of three.js */
+function patterned(shader) {
+  shader.vertexShader = `attribute float wet;\nvarying vec3 vGround;\nvarying float vWet;\n${shader.vertexShader}`.replace(
+    "#include <begin_vertex>",
+    "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;\nvWet = wet;",
+  );
+  shader.fragmentShader = PARAMETERS + shader.fragmentShader.replace("#include <map_fragment>", `#include <map_fragment>\n${ASPHALT}`);
 }
 
 const modulo = (a, period) => a - period * Math.floor(a / period);

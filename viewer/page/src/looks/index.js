@@ -17,26 +17,27 @@ export function makeLook(view) {
   const { options, scene, renderer, software } = view;
   const name = options.look ?? lookOf(scene);
   if (LOOKS[name] === undefined) throw new Error(`There is no look '${name}'; there are ${Object.keys(LOOKS).join(", ")}.`);
-  const pace = new Pace(renderer, options.quality ?? "auto", software);
+  const pace = new Pace(renderer, options.quality ?? "auto", { software, driven: options.driven ?? false });
   renderer.shadowMap.enabled = name !== "board";
-  const look = LOOKS[name](view, pace.high);
+  const look = LOOKS[name](view, pace.level === "high");
   for (const sentence of look.tell) view.notes.tell(sentence);
   const apply = () => {
-    look.quality(pace.high);
+    look.quality(pace.level);
     if (!view.size) return;
     view.resize();
     if (view.drawn) view.render();
   };
   pace.changed = apply;
+  look.quality(pace.level);
   return {
     name,
     caption: look.caption ?? "",
     height: look.height ?? null,
     get pixelRatio() {
-      return pace.high ? Math.min(globalThis.devicePixelRatio || 1, 2) : 1;
+      return pace.level === "high" ? Math.min(globalThis.devicePixelRatio || 1, 2) : 1;
     },
     get quality() {
-      return pace.high ? "high" : "low";
+      return pace.level;
     },
     choose: (quality) => pace.choose(quality),
     follow: () => look.follow(view.origin),

@@ -8,7 +8,7 @@ export const LIFT = 0.004;
 /**
  * Lines thinner than a pixel are drawn a pixel wide and so much fainter: the same light, and no dots instead of a line.
  * The attribute `aside` goes from the middle of a line to its edge.
- * @param {{vertexShader: string, fragmentShader: string, uniforms: Data}} shader @param {{value: Data}} viewport pixels
+ * @param {Data} shader of three.js @param {{value: Data}} viewport pixels
  */
 export function widen(shader, viewport) {
   shader.uniforms.aViewport = viewport;
@@ -36,7 +36,7 @@ if (min(min(edgeSeen.w, middleSeen.w), aheadSeen.w) > 0.0) {
   );
 }
 
-/** @param {{vertexShader: string}} shader of three.js @param {number} share of the distance */
+/** @param {Data} shader of three.js @param {number} share of the distance */
 export function lift(shader, share) {
   shader.vertexShader = shader.vertexShader.replace(
     "#include <project_vertex>",

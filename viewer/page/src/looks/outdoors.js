@@ -1,6 +1,7 @@
 // A car's world: sky, sun, fog and a proving ground.
 import * as THREE from "three";
 import { across, add, cross, scale, unit } from "../scene/math.js";
+import { makeDraft } from "./draft/index.js";
 import { groundMaterial } from "./ground.js";
 import { mirrorOf } from "./mirror.js";
 import { noiseTexture } from "./noise.js";
@@ -44,21 +45,35 @@ export function outdoors(view, fine) {
   const grass = groundMaterial({ noise, up, grass: true });
   const roads = makeRoads(scene, { up, asphalt: asphalt.material, road: road.material, grass: grass.material, extent });
   world.add(roads.group);
+  const draft = makeDraft(view, sun);
+  /** Ground by its material, and back. */
+  const twins = new Map();
+  const dress = (on) => {
+    if (on && twins.size === 0) for (const { material, drafted } of [asphalt, road, grass]) twins.set(material, drafted(draft.light));
+    const owns = new Map([...twins].map(([own, twin]) => [twin, own]));
+    roads.dress((material) => (on ? twins : owns).get(material) ?? material);
+  };
   return {
     follow(origin) {
+      draft.follow(origin);
       for (const surface of [asphalt, road, grass]) surface.follow(origin);
       roads.follow(origin);
       land?.follow(origin, view.cameras.current.position.toArray(), renderer.getDrawingBufferSize(pixels));
     },
-    quality(high) {
-      sharpen(sun, high ? 2048 : 1024);
+    quality(level) {
+      sharpen(sun, level === "high" ? 2048 : 1024);
+      draft.set(level === "draft");
+      dress(draft.on);
+      land?.show(draft.on ? draft.light : null);
     },
     restore: bake,
     height: land?.height ?? null,
     tell: [...roads.unknown, ...(land?.tell ?? [])],
     dispose() {
+      draft.dispose();
       land?.dispose();
       roads.dispose();
+      for (const twin of twins.values()) twin.dispose();
       for (const { material } of [asphalt, road, grass]) material.dispose();
       noise.dispose();
       sun.dispose();

@@ -36,6 +36,10 @@ export function makeRoads(scene, looks) {
     follow(origin) {
       for (const { follow } of pieces) follow(origin);
     },
+    /** Materials in place of others. @param {(material: THREE.Material | THREE.Material[]) => THREE.Material} other */
+    dress(other) {
+      for (const { mesh } of pieces) mesh.material = other(mesh.material);
+    },
     dispose() {
       for (const { mesh } of pieces) mesh.geometry.dispose();
     },

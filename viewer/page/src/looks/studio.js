@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { across, add, cross, dot, fromColumns, scale, unit } from "../scene/math.js";
 import { turn } from "../shapes/place.js";
 import { niceStep } from "../scene/forces.js";
+import { makeDraft } from "./draft/index.js";
 import { gridSurface } from "./grid.js";
 import { mirrorOf } from "./mirror.js";
 import { room } from "./room.js";
@@ -34,16 +35,22 @@ export function studio(view, fine) {
     world.environmentIntensity = 0.5;
   };
   bake();
+  const draft = makeDraft(view, sun, { shadows: false });
   return {
     caption: `grid ${step} m`,
     follow(origin) {
+      draft.follow(origin);
       floor.follow(origin);
       floor.mesh.position.fromArray(scale(up, view.floor - dot(up, origin)));
     },
-    quality: (high) => sharpen(sun, high ? 2048 : 1024),
+    quality(level) {
+      sharpen(sun, level === "high" ? 2048 : 1024);
+      draft.set(level === "draft");
+    },
     restore: bake,
     tell: [],
     dispose() {
+      draft.dispose();
       floor.mesh.geometry.dispose();
       floor.mesh.material.dispose();
       sun.dispose();

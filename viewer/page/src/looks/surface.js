@@ -1,9 +1,12 @@
 // What a world is made of: asphalt, grass, wet, gravel, concrete, ice and paint, drawn by noise at several scales.
 import * as THREE from "three";
 import { dot } from "../scene/math.js";
+import { prelit } from "./draft/prelit.js";
 import { lift, PAINT, widen } from "./lifted.js";
-import { COLOURS, CREASE, GLOSS, HEAD, MIRROR, NOISE, RELIEF } from "./surface_code.js";
+import { COLOURS, CREASE, DRAFT, GLOSS, HEAD, MIRROR, NOISE, RELIEF } from "./surface_code.js";
 
+/** Share of the distance by which paint is drawn nearer in a draft, whose ground is coarser. */
+const DRAFTED = 0.01;
 /** Metres after which each layer of noise repeats; none is a multiple of another. */
 export const LAYERS = [1.3, 8.9, 61, 273];
 
@@ -37,6 +40,8 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
     ground: surfaceMaterial(shared, false),
     /** Of what is painted on it: the colour is an attribute. */
     paint: surfaceMaterial(shared, true),
+    /** The same, lit at their points only. @param {Data} light of `lightOf` */
+    drafted: (light) => ({ ground: draftMaterial(shared, light, false), paint: draftMaterial(shared, light, true) }),
     /** @param {THREE.Texture} texture cube of the sky, which wet places mirror */
     mirror(texture) {
       uniforms.aSky.value = texture;
@@ -54,24 +59,14 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
 const modulo = (a, period) => a - period * Math.floor(a / period);
 
 function surfaceMaterial({ uniforms, fine, second, viewport }, painted) {
-  const settings = painted ? { vertexColors: true, transparent: true, depthWrite: false } : {};
+  const settings = settingsOf(painted);
   const material = fine ? new THREE.MeshStandardMaterial({ metalness: 0, ...settings }) : new THREE.MeshLambertMaterial(settings);
   material.defines = { ...material.defines, ...(painted ? { A_PAINTED: 1 } : {}), ...(second ? { A_SECOND: 1 } : {}) };
   material.customProgramCacheKey = () => `ali3-surface-${painted}-${second}-${fine}`;
   material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, uniforms);
-    shader.vertexShader = `varying vec3 vGround;\n${shader.vertexShader}`.replace(
-      "#include <begin_vertex>",
-      "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;",
-    );
-    if (painted) {
-      widen(shader, viewport);
-      lift(shader, PAINT);
-    }
-    const layers = LAYERS.map((period) => period.toFixed(1));
-    const [noise, relief] = [NOISE, RELIEF].map((code) => code.replace(/LAYER_(\d)/g, (_, k) => `(plane + aOffset[${k}]) / ${layers[k]}`));
-    const pieces = { color_fragment: noise + COLOURS, normal_fragment_begin: CREASE, lights_fragment_end: MIRROR };
-    if (fine) Object.assign(pieces, { roughnessmap_fragment: GLOSS, normal_fragment_maps: relief });
+    onGround(shader, uniforms, painted && viewport);
+    const pieces = { color_fragment: layered(NOISE) + COLOURS, normal_fragment_begin: CREASE, lights_fragment_end: MIRROR };
+    if (fine) Object.assign(pieces, { roughnessmap_fragment: GLOSS, normal_fragment_maps: layered(RELIEF) });
     shader.fragmentShader = HEAD + shader.fragmentShader;
     if (!fine) shader.fragmentShader = `#define A_COARSE\n${shader.fragmentShader}`;
     for (const [name, code] of Object.entries(pieces)) {
@@ -79,4 +74,29 @@ function surfaceMaterial({ uniforms, fine, second, viewport }, painted) {
     }
   };
   return material;
+}
+
+const settingsOf = (painted) => (painted ? { vertexColors: true, transparent: true, depthWrite: false } : {});
+
+/** Noise at the places of its layers. @param {string} code */
+const layered = (code) => code.replace(/LAYER_(\d)/g, (_, k) => `(plane + aOffset[${k}]) / ${LAYERS[k].toFixed(1)}`);
+
+/** The place on the ground goes along; paint is widened and lifted. @param {Data} shader @param {Data} uniforms @param {{value: Data} | false} viewport of paint @param {number} [nearer] */
+function onGround(shader, uniforms, viewport, nearer = PAINT) {
+  Object.assign(shader.uniforms, uniforms);
+  shader.vertexShader = `varying vec3 vGround;\n${shader.vertexShader}`.replace(
+    "#include <begin_vertex>",
+    "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;",
+  );
+  if (!viewport) return;
+  widen(shader, viewport);
+  lift(shader, nearer);
+}
+
+function draftMaterial({ uniforms, second, viewport }, light, painted) {
+  return prelit(light, settingsOf(painted), `surface ${painted} ${second}`, (shader) => {
+    onGround(shader, uniforms, painted && viewport, DRAFTED);
+    const defines = `#define A_COARSE\n${painted ? "#define A_PAINTED\n" : ""}${second ? "#define A_SECOND\n" : ""}`;
+    shader.fragmentShader = (defines + HEAD + shader.fragmentShader).replace("#include <color_fragment>", `#include <color_fragment>\n${layered(DRAFT)}`);
+  });
 }

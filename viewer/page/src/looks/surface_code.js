@@ -73,6 +73,32 @@ float wetness = first.y * (0.35 + 0.65 * film);
 float slick = wetness + 0.55 * second.x;
 `;
 
+/** The same from two layers of noise and one tone for all, for drafts: the mean colours are those above. */
+export const DRAFT = /* glsl */ `
+vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
+float grain = texture2D(aNoise, LAYER_0).r;
+float tone = texture2D(aNoise, LAYER_2).b;
+vec2 at = ((plane + aSpot - aCover.yx) / aCover.wz).yx;
+vec4 first = texture2D(aCoverA, at, A_SHARPER);
+#ifdef A_SECOND
+vec3 second = texture2D(aCoverB, at, A_SHARPER).xyz;
+#else
+vec3 second = vec3(0.0);
+#endif
+float rest = max(0.0, 1.0 - dot(first, vec4(1.0)) - dot(second, vec3(1.0)));
+first *= first; first *= first; first *= first;
+second *= second; second *= second; second *= second;
+rest *= rest; rest *= rest; rest *= rest;
+float total = rest + dot(first, vec4(1.0)) + dot(second, vec3(1.0)) + 1e-6;
+#ifdef A_PAINTED
+diffuseColor.rgb *= 0.72 + 0.3 * grain;
+#else
+vec3 mean = rest * vec3(0.11) + first.x * mix(vec3(0.05, 0.084, 0.02), vec3(0.125, 0.13, 0.04), tone) + first.y * vec3(0.037, 0.039, 0.041);
+mean += first.z * vec3(0.27, 0.25, 0.22) + first.w * vec3(0.31, 0.3, 0.28) + second.x * vec3(0.57, 0.66, 0.71) + second.y * 0.57 + second.z * vec3(0.15, 0.11, 0.068);
+diffuseColor.rgb *= (0.5 + 0.55 * grain + 0.5 * tone) * mean / total;
+#endif
+`;
+
 /** What is wet or ice mirrors the sky. */
 export const GLOSS = /* glsl */ `
 roughnessFactor = mix(0.9 + 0.08 * some.g, 0.1 + 0.2 * (1.0 - film), min(1.0, slick));

@@ -79,6 +79,25 @@ function divided(cell, points) {
  *   error: by how much the heights are off where points are left out, in metres
  */
 export function pieceMesh(piece, field) {
+  const { base, positions, normals, parts: drawn } = pieceParts(piece, field);
+  const levels = [];
+  for (let k = 0; k < Math.max(...drawn.map((part) => part.levels.length)); k++) {
+    const each = drawn.map((part) => part.levels[Math.min(k, part.levels.length - 1)]);
+    const triangles = new Uint32Array(each.reduce((sum, level) => sum + level.triangles.length, 0));
+    each.reduce((offset, level) => (triangles.set(level.triangles, offset), offset + level.triangles.length), 0);
+    levels.push({ error: Math.max(...each.map(({ error }) => error)), triangles });
+  }
+  return { base, positions, normals, levels };
+}
+
+/**
+ * The same with the coarsenesses of every part by itself.
+ * @param {Part[]} piece
+ * @param {import("./heights.js").HeightField} field
+ * @returns {{base: number[], positions: Float32Array, normals: Float32Array,
+ *   parts: {middle: number[], radius: number, levels: {error: number, triangles: number[]}[]}[]}} middle: on the ground, m
+ */
+export function pieceParts(piece, field) {
   const first = piece[0];
   const base = [0, 1].map((k) => first.patch.origin[k] + first.patch.spacing[k] * [first.i0, first.j0][k]);
   const count = piece.reduce((sum, { n, m }) => sum + n * m + 2 * (n + m), 0);
@@ -89,16 +108,13 @@ export function pieceMesh(piece, field) {
     starts.push(at);
     at = addPoints(part, field, base, positions, normals, at);
   }
-  const levels = [];
-  for (const stride of STRIDES) {
-    if (stride > 1 && piece.every(({ n, m }) => stride >= Math.min(n, m))) break;
-    const error = piece.reduce((most, part) => Math.max(most, errorOf(part, stride)), 0);
-    const lists = piece.map((part, k) => trianglesOf(part, stride, starts[k]));
-    const triangles = new Uint32Array(lists.reduce((sum, list) => sum + list.length, 0));
-    lists.reduce((offset, list) => (triangles.set(list, offset), offset + list.length), 0);
-    levels.push({ error, triangles });
-  }
-  return { base, positions, normals, levels };
+  const made = piece.map((part, k) => {
+    const { patch, n, m } = part;
+    const strides = STRIDES.filter((stride) => stride === 1 || stride < Math.min(n, m));
+    const levels = strides.map((stride) => ({ error: errorOf(part, stride), triangles: trianglesOf(part, stride, starts[k]) }));
+    return { middle: middleOf(part), radius: 0.5 * Math.hypot((n - 1) * patch.spacing[0], (m - 1) * patch.spacing[1]), levels };
+  });
+  return { base, positions, normals, parts: made };
 }
 
 function addPoints({ patch, i0, j0, n, m }, field, base, positions, normals, start) {

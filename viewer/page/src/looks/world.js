@@ -2,7 +2,8 @@
 import * as THREE from "three";
 import { coverage } from "./coverage.js";
 import { SURFACES } from "./heights.js";
-import { makeScenery } from "./scenery/index.js";
+import { coarseTerrain } from "./draft/coarse_terrain.js";
+import { makeScenery, tellOf } from "./scenery/index.js";
 import { surfaceMaterials } from "./surface.js";
 import { groundOf, terrain } from "./terrain.js";
 
@@ -26,12 +27,27 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   for (const name of strange) tell.push(`The surface '${name}' is not known to this page and is drawn as asphalt.`);
   const cover = raster === null ? nothing() : coverage(raster, fine ? 8 : 1);
   const materials = surfaceMaterials({ noise, axes, sun, cover, corner: raster?.origin ?? [0, 0], fine });
-  const land = field === null ? null : terrain(roads[0], materials.ground, axes, field);
-  const scenery = makeScenery(things, { axes, paint: materials.paint, ground: field });
-  const group = new THREE.Group().add(...(land === null ? [] : [land.group]), scenery.group);
+  const group = new THREE.Group();
+  const full = () => {
+    const land = field === null ? null : terrain(roads[0], materials.ground, axes, field);
+    return versionOf(land, makeScenery(things, { axes, paint: materials.paint, ground: field }), [materials.ground, materials.paint]);
+  };
+  const coarse = (light) => {
+    const { ground, paint } = materials.drafted(light);
+    const land = field === null ? null : coarseTerrain(ground, axes, field);
+    return versionOf(land, makeScenery(things, { axes, paint, ground: field, drafted: true }), [ground, paint]);
+  };
+  const made = {};
+  let shown = null;
+  /** Show the world as it is, or its draft with a light; each is made when it is first seen. @param {Data | null} light */
+  const show = (light) => {
+    shown = light === null ? (made.full ??= full()) : (made.coarse ??= coarse(light));
+    group.clear().add(shown.group);
+  };
   return {
     group,
-    tell: [...tell, ...scenery.tell],
+    show,
+    tell: [...tell, ...tellOf(things)],
     mirror: materials.mirror,
     /** Height of the ground at a place of the earth's plane; null without a terrain. @param {number} x @param {number} y */
     height: field === null ? null : (x, y) => field.at(x, y),
@@ -41,15 +57,27 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
      */
     follow(origin, eye, pixels) {
       materials.follow(origin, pixels);
+      shown.follow(origin, eye);
+    },
+    dispose() {
+      for (const version of Object.values(made)) version.dispose();
+      for (const texture of cover.textures) texture.dispose();
+    },
+  };
+}
+
+/** Ground and scenery of one quality. */
+function versionOf(land, scenery, materials) {
+  return {
+    group: new THREE.Group().add(...(land === null ? [] : [land.group]), scenery.group),
+    follow(origin, eye) {
       land?.follow(origin, eye);
       scenery.follow(origin, eye);
     },
     dispose() {
       land?.dispose();
       scenery.dispose();
-      for (const texture of cover.textures) texture.dispose();
-      materials.ground.dispose();
-      materials.paint.dispose();
+      for (const material of materials) material.dispose();
     },
   };
 }

@@ -15,7 +15,8 @@ export class SceneView {
    * @param {HTMLElement} container an element with a size; the picture fills it
    * @param {Data} scene see viewer/scene.schema.json
    * @param {object} [options]
-   * @param {"high" | "low" | "auto"} [options.quality] auto: by the measured time of a picture
+   * @param {"high" | "low" | "draft" | "auto"} [options.quality] auto: by the measured time of a picture
+   * @param {boolean} [options.driven] pictures must keep up with what moves now: auto may choose a draft
    * @param {"outdoors" | "studio" | "board"} [options.look] by default after the scene
    * @param {string} [options.camera] the first camera
    * @param {boolean} [options.antialias] smooth edges; by default where a graphics card draws, on boards and in high quality
@@ -150,7 +151,7 @@ export class SceneView {
    * @param {number} [wish.stressMost] the stress at the end of the colours, in its unit; 0: the largest so far
    * @param {number} [wish.deformation] displacements of flexible bodies are drawn so many times
    * @param {boolean} [wish.words] sentences over the picture
-   * @param {"high" | "low" | "auto"} [wish.quality]
+   * @param {"high" | "low" | "draft" | "auto"} [wish.quality]
    */
   set({ arrows, arrowScale, stress, stressMost, deformation, words, quality }) {
     const { parts } = this;

@@ -17,15 +17,17 @@ export function heightAt(turn, coils, wire, height) {
   return wire / 2 + ends * flat + (active / (coils - 2 * dead)) * rest;
 }
 
-/** Triangles of a wire, by index. @param {number} coils @returns {number[]} */
-export function coilTriangles(coils) {
-  const rings = Math.round(coils * PER_TURN) + 1;
+/** Triangles of a wire, by index. @param {number} coils @param {number} [every] ring and side is taken @returns {number[]} */
+export function coilTriangles(coils, every = 1) {
+  const last = Math.round(coils * PER_TURN);
+  const sides = Array.from({ length: Math.floor(AROUND / every) }, (_, k) => k * every);
   const triangles = [];
-  for (let i = 0; i + 1 < rings; i++) {
-    for (let j = 0; j < AROUND; j++) {
-      const [a, b] = [i * AROUND + j, i * AROUND + ((j + 1) % AROUND)];
-      triangles.push(a, a + AROUND, b, b, a + AROUND, b + AROUND);
-    }
+  for (let i = 0; i < last; i += every) {
+    const [ring, next] = [i * AROUND, Math.min(i + every, last) * AROUND];
+    sides.forEach((side, k) => {
+      const other = sides[(k + 1) % sides.length];
+      triangles.push(ring + side, next + side, ring + other, ring + other, next + side, next + other);
+    });
   }
   return triangles;
 }

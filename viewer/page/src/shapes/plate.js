@@ -26,6 +26,7 @@ export function plate(shape, { materials }) {
   const { group, place } = roundTubes(points.length, true, 0.75 * thickness, material);
   const faces = new THREE.Mesh(new THREE.BufferGeometry(), material);
   group.add(faces);
+  faces.userData.alone = points.some(([frame]) => frame !== points[0][0]); // it changes its form
   let triangles = null;
   const put = (corners) => {
     place(corners);

@@ -15,6 +15,8 @@ export function spring(shape, { materials, frames }) {
   const geometry = new THREE.BufferGeometry();
   geometry.setIndex(coilTriangles(coils));
   const wound = new THREE.Mesh(geometry, material);
+  wound.userData.alone = true; // it changes its form
+  wound.userData.coarse = coilTriangles(coils, 2); // of a draft
   const seat = new THREE.CylinderGeometry(1, 1, 1, 24);
   const seats = [0, 1].map(() => new THREE.Mesh(seat, materials.named("dark_paint")));
   const object = new THREE.Group().add(wound, ...seats);

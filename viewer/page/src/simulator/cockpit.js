@@ -1,12 +1,12 @@
 // Everything that one car's page shows and takes: picture, instruments, controls, hands.
 import { el } from "../common/dom.js";
+import { Effects } from "../effects/driven.js";
 import { Hands } from "../live/hands.js";
 import { levers } from "../live/touch.js";
 import { SceneView } from "../scene/scene_view.js";
 import { Cluster } from "./cluster.js";
 import { Controls } from "./controls.js";
 import { readByHost } from "./device_words.js";
-import { Effects } from "./effects.js";
 import { Beat } from "./frames.js";
 import { Help } from "./help.js";
 import { simulatorKeys } from "./keys.js";
@@ -21,6 +21,8 @@ import { Wants } from "./wants.js";
 
 /** Least time between two drawings of the small map and of the report on time, s. */
 const [MAP_EVERY, STEPS_EVERY] = [0.1, 0.1];
+/** Hands are asked by a clock of their own, ms: a picture that takes long holds no pedal. */
+const HANDS_MS = 16;
 /** What L makes of the speed. */
 const SLOW = 0.25;
 /** The picture stands higher by this share, since instruments are below. */
@@ -52,6 +54,7 @@ export class Cockpit {
     this.act = this._acts();
     this._open(root, scene, world);
     this._listen();
+    this._asking = setInterval(() => this._poll(), HANDS_MS);
   }
 
   /** Rates of pictures and frames, pictures a second, and the delay of the picture, s. */
@@ -91,7 +94,6 @@ export class Cockpit {
   draw() {
     const now = this._clock();
     const shown = this._frames().at(now);
-    this._poll();
     if (!shown) return;
     this._beat.tick(now);
     const { before, after, share, time, stalled } = shown;
@@ -117,6 +119,7 @@ export class Cockpit {
 
   /** Take listeners and the picture away. */
   dispose() {
+    clearInterval(this._asking);
     this._listeners.abort();
     this._observer.disconnect();
     this.effects.dispose();
@@ -153,7 +156,7 @@ export class Cockpit {
   }
 
   _open(root, scene, world) {
-    this.view = new SceneView(this._picture, scene, { words: false, lift: LIFT, trail: TRAIL, onMessage: (sentence) => this._say(sentence) });
+    this.view = new SceneView(this._picture, scene, { words: false, lift: LIFT, trail: TRAIL, driven: true, onMessage: (sentence) => this._say(sentence) });
     this.problem = this.view.problem;
     this._observer = new ResizeObserver(() => (this._dirty = true));
     this._observer.observe(this._root);

@@ -20,7 +20,7 @@ export class Controls {
     this._saved.addEventListener("input", () => this._showFar());
     this._saved.addEventListener("change", () => this._rewind(act));
     this._camera = select("camera", "camera (C, 1 to 5)", cameras.map((name) => [name, name]), act.camera); // prettier-ignore
-    this._quality = select("quality", "how finely the picture is drawn", ["auto", "high", "low"].map((q) => [q, `quality ${q}`]), act.quality); // prettier-ignore
+    this._quality = select("quality", "how finely the picture is drawn", ["auto", "high", "low", "draft"].map((q) => [q, `quality ${q}`]), act.quality); // prettier-ignore
     this._sound = button("mute", "Sound on", act.mute, "sound (M)");
     const spots = places.map(({ name }) => [name, name.replaceAll("_", " ")]);
     this._place = select("place", "begin at a place of the world", [["", "places …"], ...spots], (name) => this._go(act, name));

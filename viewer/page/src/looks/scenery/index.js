@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { dot, fromColumns } from "../../scene/math.js";
 import { turn } from "../../shapes/place.js";
 import { skylit } from "../skylight.js";
-import { PAINTS, arrowStrips, dashes, edges } from "./ribbon.js";
+import { PAINTS, ROUGHLY, arrowStrips, dashes, edges } from "./ribbon.js";
 import { MOST_TEXTS, addSign, signTexture } from "./signs.js";
 import { coneGeometry, postGeometry } from "./small_things.js";
 import { FAR, Forest, formOf, kindOf } from "./trees.js";
@@ -12,6 +12,9 @@ import { addBarrier, addBuilding, windows } from "./walls.js";
 
 /** Sides of the squares that scenery is gathered in, at least, in metres, and about how many squares there may be. */
 const [SQUARE, SQUARES] = [250, 20];
+
+/** One tree of so many stands in a draft. */
+const FEW = 3;
 
 const KINDS = ["line", "cone", "tree", "sign", "barrier", "post", "building", "arrow"];
 const placeOf = (thing) => thing.at ?? thing.points[Math.floor(thing.points.length / 2)];
@@ -33,13 +36,8 @@ export function squares(things) {
   return [...found.values()];
 }
 
-/**
- * @param {Data[]} things a scene's `scenery`
- * @param {{axes: number[][], paint: THREE.Material, ground: Data | null}} looks ground: heights as drawn
- */
-export function makeScenery(things, { axes, paint, ground }) {
-  const group = new THREE.Group();
-  turn(group, fromColumns(...axes));
+/** What of a scenery can be drawn, and the sentences on what cannot. @param {Data[]} things */
+function drawable(things) {
   const known = things.filter(({ kind }) => KINDS.includes(kind));
   const strange = [...new Set(things.filter((thing) => !known.includes(thing)).map(({ kind }) => kind))];
   const tell = strange.map((kind) => `Scenery of the kind '${kind}' is not known to this page and is not drawn.`);
@@ -48,11 +46,28 @@ export function makeScenery(things, { axes, paint, ground }) {
     tell.push(`${texts.length - MOST_TEXTS} of ${texts.length} different texts of signs are not drawn; there may be ${MOST_TEXTS}.`);
     texts.length = MOST_TEXTS;
   }
-  const held = makeHeld(known, texts);
+  return { known, texts, tell };
+}
+
+/** Sentences on what of a scenery is not drawn. @param {Data[]} things */
+export const tellOf = (things) => drawable(things).tell;
+
+/**
+ * @param {Data[]} things a scene's `scenery`
+ * @param {{axes: number[][], paint: THREE.Material, ground: Data | null, drafted?: boolean}} looks ground: heights as drawn;
+ *   drafted: in few calls, with few trees
+ */
+export function makeScenery(things, { axes, paint, ground, drafted = false }) {
+  const group = new THREE.Group();
+  turn(group, fromColumns(...axes));
+  const { known, texts } = drawable(things);
+  const held = makeHeld(known, texts, drafted ? 5 : 12);
   const pieces = [];
-  for (const square of squares(known)) {
+  const fewer = () => known.filter(({ kind, seed }, k) => kind !== "tree" || (seed ?? k) % FEW === 0);
+  for (const square of drafted ? [fewer()] : squares(known)) {
+    if (square.length === 0) continue;
     const base = placeOf(square[0]).slice();
-    for (const mesh of squareMeshes(square, base, { held, texts, paint, ground })) {
+    for (const mesh of squareMeshes(square, base, { held, texts, paint, ground, off: drafted ? ROUGHLY : undefined })) {
       group.add(mesh);
       pieces.push({ mesh, base });
     }
@@ -65,7 +80,7 @@ export function makeScenery(things, { axes, paint, ground }) {
       if (levels === undefined) continue;
       const { center, radius } = mesh.boundingSphere;
       const away = Math.hypot(...[0, 1, 2].map((k) => center.getComponent(k) + mesh.position.getComponent(k) - camera[k])) - radius;
-      mesh.geometry = levels[away > FAR ? 1 : 0];
+      mesh.geometry = levels[drafted || away > FAR ? 1 : 0];
     }
   };
   const dispose = () => {
@@ -75,11 +90,11 @@ export function makeScenery(things, { axes, paint, ground }) {
     }
     for (const thing of held.owned) thing.dispose();
   };
-  return { group, follow, tell, dispose };
+  return { group, follow, dispose };
 }
 
-/** Materials and geometries that all squares share; only what the things need. */
-function makeHeld(things, texts) {
+/** Materials and geometries that all squares share; only what the things need. @param {Data[]} things @param {string[]} texts @param {number} sides of cones */
+function makeHeld(things, texts, sides) {
   const has = (kind) => things.some((thing) => thing.kind === kind);
   const plain = skylit(new THREE.MeshLambertMaterial({ vertexColors: true }));
   const held = { plain, owned: [plain], cones: new Map() };
@@ -95,19 +110,19 @@ function makeHeld(things, texts) {
     held.boards = own(skylit(new THREE.MeshLambertMaterial({ map })));
   }
   held.cone = (colour) => {
-    if (!held.cones.has(colour)) held.cones.set(colour, own(coneGeometry(colour)));
+    if (!held.cones.has(colour)) held.cones.set(colour, own(coneGeometry(colour, sides)));
     return held.cones.get(colour);
   };
   return held;
 }
 
-function squareMeshes(square, base, { held, texts, paint, ground }) {
+function squareMeshes(square, base, { held, texts, paint, ground, off }) {
   const of = (kind) => square.filter((thing) => thing.kind === kind);
   const meshes = [];
   const [painted, plain, boards, walls] = Array.from({ length: 4 }, () => new Triangles(base));
-  for (const line of of("line")) addLine(painted, line, ground);
+  for (const line of of("line")) addLine(painted, line, ground, off);
   for (const arrow of of("arrow")) for (const strip of arrowStrips(arrow, ground)) addStrip(painted, strip, PAINTS.white);
-  for (const barrier of of("barrier")) addBarrier(plain, barrier);
+  for (const barrier of of("barrier")) addBarrier(plain, barrier, off !== undefined);
   for (const building of of("building")) addBuilding(walls, building);
   for (const sign of of("sign")) {
     const index = texts.indexOf(sign.text);
@@ -135,8 +150,8 @@ function squareMeshes(square, base, { held, texts, paint, ground }) {
   return meshes;
 }
 
-function addLine(made, { points, width, colour = "white", dash }, ground) {
-  for (const stretch of dashes(points, dash)) addStrip(made, edges(stretch, width, ground), PAINTS[colour] ?? PAINTS.white);
+function addLine(made, { points, width, colour = "white", dash }, ground, off) {
+  for (const stretch of dashes(points, dash)) addStrip(made, edges(stretch, width, ground, off), PAINTS[colour] ?? PAINTS.white);
 }
 
 /** Quads between pairs of points: right, left. */

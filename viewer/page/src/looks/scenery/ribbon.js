@@ -12,6 +12,8 @@ export const PAINTS = {
 
 /** Longest and shortest steps along a line, and how far it may be off the ground where steps are left out, in metres. */
 const [LONGEST, SHORTEST, OFF] = [2, 0.1, 1e-3];
+/** The same of a draft, whose ground is not nearer to the heights. */
+export const ROUGHLY = 1e-2;
 
 /**
  * Stretches of a line that are painted.
@@ -50,9 +52,10 @@ export function dashes(points, dash) {
  * Both edges of a line, on the ground.
  * @param {number[][]} points of its middle @param {number} width
  * @param {{at: (x: number, y: number) => number, stepAt: (x: number, y: number) => number} | null} ground heights as drawn
+ * @param {number} [off] of the ground and of its edges where steps are left out, m
  * @returns {number[][][]} pairs of points: right edge, left edge
  */
-export function edges(points, width, ground) {
+export function edges(points, width, ground, off = OFF) {
   const stations = ground === null ? points : dense(points, ground);
   const pairs = stations.map((at, i) => {
     const side = across(stations, i);
@@ -61,7 +64,7 @@ export function edges(points, width, ground) {
       return [x, y, (ground === null ? at[2] : ground.at(x, y)) + LIFT];
     });
   });
-  return thinned(pairs);
+  return thinned(pairs, off);
 }
 
 function dense(points, ground) {
@@ -95,11 +98,11 @@ function across(stations, i) {
 }
 
 /** Without pairs that lie on the line between others. */
-function thinned(pairs) {
+function thinned(pairs, off) {
   const kept = [pairs[0]];
   let from = 0;
   for (let to = 2; to < pairs.length; to++) {
-    if (fits(pairs, from, to)) continue;
+    if (fits(pairs, from, to, off)) continue;
     kept.push(pairs[to - 1]);
     from = to - 1;
   }
@@ -107,7 +110,7 @@ function thinned(pairs) {
   return kept;
 }
 
-function fits(pairs, from, to) {
+function fits(pairs, from, to, off) {
   if (to - from > 40) return false; // so that a long line costs no more than its length
   return [0, 1].every((edge) => {
     const [a, b] = [pairs[from][edge], pairs[to][edge]];
@@ -115,7 +118,7 @@ function fits(pairs, from, to) {
     for (let k = from + 1; k < to; k++) {
       const p = pairs[k][edge];
       const t = ((p[0] - a[0]) * (b[0] - a[0]) + (p[1] - a[1]) * (b[1] - a[1])) / length2;
-      if (Math.hypot(...[0, 1, 2].map((axis) => p[axis] - a[axis] - t * (b[axis] - a[axis]))) > OFF) return false;
+      if (Math.hypot(...[0, 1, 2].map((axis) => p[axis] - a[axis] - t * (b[axis] - a[axis]))) > off) return false;
     }
     return true;
   });

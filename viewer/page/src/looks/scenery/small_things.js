@@ -16,14 +16,14 @@ function turned(made, rings, sides) {
   }
 }
 
-/** @param {string} colour orange, yellow or blue */
-export function coneGeometry(colour = "orange") {
+/** @param {string} colour orange, yellow or blue @param {number} [sides] */
+export function coneGeometry(colour = "orange", sides = 12) {
   const made = new Triangles();
   const paint = CONES[colour] ?? CONES.orange;
   made.box([0, 0, 0], [0.56, 0.56, 0.05], 0, paint.map((value) => 0.6 * value));
   const levels = [0.05, 0.38, 0.58, 0.72, 0.86, 1];
   const rings = levels.map((z, k) => ({ z, radius: 0.21 - 0.165 * z, colour: k % 2 === 1 ? WHITE : paint }));
-  turned(made, [...rings, { z: 1, radius: 0.001, colour: paint }], 12);
+  turned(made, [...rings, { z: 1, radius: 0.001, colour: paint }], sides);
   return made.geometry();
 }
 

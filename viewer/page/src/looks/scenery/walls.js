@@ -7,8 +7,13 @@ const BEAM = [[0.0, 0.6], [0.08, 0.66], [0.08, 0.72], [0.0, 0.8], [0.08, 0.88], 
 /** Metres between the posts of a rail. */
 const POSTS = 4;
 
-/** @param {import("./triangles.js").Triangles} made @param {{points: number[][], height?: number}} barrier */
-export function addBarrier(made, { points, height = 0.8 }) {
+/**
+ * @param {import("./triangles.js").Triangles} made @param {{points: number[][], height?: number}} barrier
+ * @param {boolean} [coarse] with a third of the points along and across
+ */
+export function addBarrier(made, { points: all, height = 0.8 }, coarse = false) {
+  const beam = BEAM.filter((_, k) => !coarse || k % 3 === 0);
+  const points = all.filter((_, k) => !coarse || k % 3 === 0 || k === all.length - 1);
   let way = POSTS / 2;
   for (let i = 0; i + 1 < points.length; i++) {
     const [a, b] = [points[i], points[i + 1]];
@@ -17,8 +22,8 @@ export function addBarrier(made, { points, height = 0.8 }) {
     const along = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
     const at = (/** @type {number[]} */ [x, y, z], /** @type {number[]} */ [out, up]) => [x - along[1] * out, y + along[0] * out, z + up * height];
     for (const side of [1, -1]) {
-      for (let k = 0; k + 1 < BEAM.length; k++) {
-        const [low, high] = [BEAM[k], BEAM[k + 1]].map(([out, up]) => [side * (out + 0.01), up]);
+      for (let k = 0; k + 1 < beam.length; k++) {
+        const [low, high] = [beam[k], beam[k + 1]].map(([out, up]) => [side * (out + 0.01), up]);
         const corners = side > 0 ? [at(b, low), at(a, low), at(a, high), at(b, high)] : [at(a, low), at(b, low), at(b, high), at(a, high)];
         made.quad(corners, ZINC);
       }

@@ -1,5 +1,7 @@
 // Tyre marks, dust and sound of the car, as far as this computer has them.
-import { CarSound, Dust, TyreMarks } from "../effects/index.js";
+import { Dust } from "./dust.js";
+import { CarSound } from "./sound/car_sound.js";
+import { TyreMarks } from "./tyre_marks.js";
 
 /** The effects of a picture. */
 export class Effects {

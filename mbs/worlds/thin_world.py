@@ -1,0 +1,71 @@
+"""A world that a page can carry: fewer and rounder numbers of its ground, and how far they are off."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mbs.kernel.header.limits import ROAD_TILE
+from mbs.roads.road_header import read_header
+from mbs.roads.shared_tiles import read_shared
+from mbs.worlds.terrain import Terrain
+
+SPACING = (0.1, 0.2)
+"""m: least distances of the points along x and y."""
+TOLERANCE = 5e-4
+"""m: heights of a tile that are nearer to a polynomial are stored as it."""
+STEP = 2.0**-12
+"""m: heights are whole multiples of it."""
+LOOKED_AT = 16
+"""Cells of a tile in whose middle the heights are compared."""
+
+
+@dataclass(frozen=True)
+class Off:
+    """How far the heights of a thin world are off, m: at most, and in all places but one of a thousand."""
+
+    most: float
+    nearly_all: float
+    places: int
+
+    @property
+    def sentence(self) -> str:
+        """For people."""
+        return (
+            f"Thin ground: its heights are off by at most {1e3 * self.most:.3g} mm and by "
+            f"{1e3 * self.nearly_all:.2g} mm in 99.9 % of {self.places} places."
+        )
+
+
+def thinner(spacing: tuple[float, float]) -> tuple[float, float]:
+    """Distances of the points of the thin world."""
+    return max(spacing[0], SPACING[0]), max(spacing[1], SPACING[1])
+
+
+def off_by(terrain: Terrain, road: Path) -> Off:
+    """Compare a road file with the terrain in the middle of some cells of every tile.
+
+    Parameters
+    ----------
+    terrain : Terrain
+        What it was made of.
+    road : Path
+        As it lies on the disk.
+    """
+    chance = np.random.default_rng(1)
+    differences = []
+    with road.open("rb") as file:
+        head = read_header(file, road)
+        x0, y0, dx, dy = head.real[:4]
+        columns = head.tiles[1]
+        for number, (z, *_) in read_shared(file, head, road):
+            i, j = chance.integers(0, ROAD_TILE - 1, (2, LOOKED_AT))
+            rows, places = (number // columns) * ROAD_TILE + i, (number % columns) * ROAD_TILE + j
+            inside = (rows < head.nx - 1) & (places < head.ny - 1)
+            middle = 0.25 * (z[i, j] + z[i + 1, j] + z[i, j + 1] + z[i + 1, j + 1])
+            x, y = x0 + (rows + 0.5) * dx, y0 + (places + 0.5) * dy
+            differences.append(np.abs(middle - terrain.at(x, y))[inside])
+    found = np.concatenate(differences)
+    return Off(float(found.max()), float(np.quantile(found, 0.999)), len(found))

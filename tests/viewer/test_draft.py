@@ -1,0 +1,95 @@
+"""The draft of a picture: few calls and triangles, and still the same things at the same places."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import compile
+from mbs.scenes import prototype_car
+from tests.viewer.hand_world import scenery, terrain
+
+MOST_CALLS, MOST_TRIANGLES = 60, 50_000
+
+
+@pytest.fixture(scope="module")
+def car():
+    return compile(prototype_car.build()).scene | {"roads": [terrain()], "scenery": scenery()}
+
+
+def _cost(drawn):
+    return drawn.ask("[view.renderer.info.render.calls, view.renderer.info.render.triangles]")
+
+
+def _orange(picture):
+    """Pixels of cones."""
+    red, green, blue = np.moveaxis(picture, 2, 0)
+    return (red > 120) & (red > 1.7 * green) & (green > 1.1 * blue) & (red - blue > 90)
+
+
+def _groups(mask, gap=2):
+    """Runs of columns that are not farther apart than `gap`."""
+    columns = np.flatnonzero(mask.any(axis=0))
+    return [] if columns.size == 0 else np.split(columns, np.flatnonzero(np.diff(columns) > gap) + 1)
+
+
+def test_a_draft_has_few_calls_and_triangles_and_the_same_things_at_the_same_places(drawn, car):
+    drawn.show(car, camera="chase", quality="low")
+    fine, costs = drawn.picture(), _cost(drawn)
+    drawn.ask("view.set({ quality: 'draft' })")
+    draft, cheap = drawn.picture(), _cost(drawn)
+    assert cheap[0] < MOST_CALLS < costs[0]
+    assert cheap[1] < MOST_TRIANGLES < costs[1]
+    assert drawn.ask("view.look.quality") == "draft"
+    red = [np.argwhere((p[..., 0] > 2 * p[..., 1]) & (p[..., 0] > 90)) for p in (fine, draft)]
+    boxes = [[*mask.min(axis=0), *mask.max(axis=0)] for mask in red]
+    assert np.abs(np.subtract(*boxes)).max() <= 2, "the frame of the car stands where it stands in full"
+    white = [(p.min(axis=2) > 150) & (np.ptp(p, axis=2) < 25) for p in (fine, draft)]
+    lines = [mask[85:140].sum() for mask in white]
+    assert lines[1] > 0.6 * lines[0] > 20, "lines are still there"
+    drawn.ask("view.set({ quality: 'low' })")
+    assert np.abs(drawn.picture() - fine).max() <= 2, "back to the picture of before"
+
+
+def test_cones_stand_where_they_are_in_a_draft(drawn, car):
+    drawn.show(car, camera="chase", quality="draft")
+    picture = drawn.picture()
+    cones = [thing["at"] for thing in car["scenery"] if thing["kind"] == "cone"]
+    groups = _groups(_orange(picture))
+    places = sorted(drawn.project([x, y, 0.25])[0] for x, y, _ in cones)
+    assert len(groups) == len(places)
+    assert np.abs([group.mean() - place for group, place in zip(groups, places, strict=True)]).max() < 1.5
+
+
+def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_above(drawn, car):
+    def darkness(lift):
+        numbers = {}
+        for frame in car["frames"].values():
+            if "start" not in frame:  # of a wheel, the rack or the steering wheel, beside its parent
+                numbers[frame.get("angle", frame.get("way"))] = 0.0
+                continue
+            (x, y, z), turn = frame["start"]
+            numbers |= dict(zip(frame["position"], (x, y, z + lift), strict=True))
+            numbers |= dict(zip(frame["quaternion"], turn, strict=True))
+        drawn.update(numbers)
+        picture = drawn.picture().mean(axis=2)
+        x, y, _ = car["frames"]["chassis"]["start"][0]
+        under, beside = (np.round(drawn.project([x, y + a, 0.0])).astype(int) for a in (-0.35, -2.5))
+        return 1.0 - picture[under[1], under[0]] / picture[beside[1], beside[0]]
+
+    drawn.show(car, camera="top", quality="draft")
+    drawn.ask("view.parts.group.visible = false")
+    drawn.ask("view.world.children.find((part) => part.isBatchedMesh).material.visible = false")
+    standing, flying = darkness(0.0), darkness(2.5)
+    assert 0.15 < standing < 0.8
+    assert flying < 0.5 * standing
+
+
+def test_what_is_driven_is_drafted_by_the_processor_and_only_that(drawn, car):
+    """In this browser the processor draws."""
+    drawn.show(car, driven=True)
+    assert drawn.ask("view.look.quality") == "draft"
+    drawn.show(car)
+    assert drawn.ask("view.look.quality") == "low"
+    with pytest.raises(Exception, match="There is no quality 'ugly'; there are high, low, draft, auto"):
+        drawn.ask("view.set({ quality: 'ugly' })")

@@ -1,0 +1,68 @@
+"""A world in a page that runs an FMU: one file with its road, thin, its drawing and its places."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import pytest
+
+import mbs
+from fmu_src.build.build import build_fmu
+from hosts.view.command import main as view
+from mbs.scenes import prototype_car
+from tests.in_browser import wait_until
+
+MOST_BYTES = 8e6
+
+
+@pytest.fixture(scope="module")
+def car(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("car")
+    return build_fmu(mbs.compile(prototype_car.build()), "prototype_car", folder, [fmpy.platform, "wasm32"])
+
+
+@pytest.mark.slow
+def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
+    chromium: Any, car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert view([str(car), "--live", "--world", "proving_ground", "--no-open", "--out", str(tmp_path)]) == 0
+    file = next(tmp_path.glob("*_live.html"))
+    assert file.stat().st_size <= MOST_BYTES
+    assert "Thin ground: its heights are off by at most" in capsys.readouterr().out
+    page = chromium.new_page(viewport={"width": 640, "height": 360})
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(file.as_uri())
+    page.evaluate("async () => { await player.ready; }")
+    assert page.evaluate("player.view.messages") == []
+    assert page.evaluate("player.view.look.quality") == "draft", "here the processor draws"
+    cost = page.evaluate("[player.view.renderer.info.render.calls, player.view.renderer.info.render.triangles]")
+    assert 10 < cost[0] < 60
+    assert 20_000 < cost[1] < 50_000
+    page.keyboard.down("ArrowUp")
+    wait_until(page, "player.get('speed') > 5", timeout=120)
+    page.keyboard.up("ArrowUp")
+    assert page.evaluate("player.stage.parts[0].effects.sound.mixer !== null"), "a key has switched the sound on"
+    page.keyboard.press("m")
+    assert page.evaluate("player.stage.parts[0].effects.sound.mixer.volume") == 0
+    place = page.evaluate("Object.keys(player.options.places)")[3]
+    page.get_by_title("begin at a place of the world").select_option(place)
+    wanted = page.evaluate("name => player.options.places[name]", place)
+    wait_until(
+        page,
+        "([x, y]) => Math.hypot(player.view.origin[0] - x, player.view.origin[1] - y) < 5",
+        [wanted["initial.x"], wanted["initial.y"]],
+    )
+    page.select_option("[data-a3=quality]", "low")
+    wait_until(page, "player.view.look.quality === 'low' && player.view.renderer.info.render.triangles > 100000")
+    assert errors == []
+    page.close()
+
+
+def test_a_world_and_a_road_are_refused_together(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    wishes = ["--world", "proving_ground", "--road", "washboard.road"]
+    assert view([str(car), "--live", *wishes, "--no-open", "--out", str(tmp_path)]) != 0
+    assert "give it once" in capsys.readouterr().err
+    assert list(tmp_path.glob("*.html")) == []

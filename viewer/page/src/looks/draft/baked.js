@@ -1,0 +1,116 @@
+// The solid parts of a scene in one call: fewer triangles, colours at their points.
+import * as THREE from "three";
+import { prelit } from "./prelit.js";
+import { within } from "./thinned.js";
+
+/** Triangles of all solid parts together, at most. */
+export const MOST = 17000;
+/** The finest lattice, beside the size of the drawing. */
+const FINEST = 1.5e-3;
+/** Cameras do not see this layer. */
+const UNSEEN = 1;
+
+/** Whether a mesh is drawn by itself: see-through, or of a form that changes. @param {THREE.Mesh} mesh */
+const stays = (mesh) => /** @type {THREE.Material} */ (mesh.material).transparent || mesh.userData.alone;
+
+/** Numbers of a mesh in the axes of a group. @param {THREE.Mesh} mesh @param {THREE.Matrix4} toGroup */
+function surfaceOf(mesh, toGroup) {
+  const geometry = mesh.geometry.clone().applyMatrix4(toGroup.multiply(mesh.matrixWorld));
+  const { position, normal } = geometry.attributes;
+  const { r, g, b } = /** @type {THREE.MeshStandardMaterial} */ (mesh.material).color;
+  const index = geometry.index ? [...geometry.index.array] : [...Array(position.count).keys()];
+  geometry.dispose();
+  return { positions: [...position.array], normals: [...normal.array], colours: Array(position.count).fill([r, g, b]).flat(), index };
+}
+
+function together(surfaces) {
+  const made = { positions: [], normals: [], colours: [], index: [] };
+  for (const { positions, normals, colours, index } of surfaces) {
+    const from = made.positions.length / 3;
+    for (const value of index) made.index.push(from + value);
+    for (const value of positions) made.positions.push(value);
+    for (const value of normals) made.normals.push(value);
+    for (const value of colours) made.colours.push(value);
+  }
+  return made;
+}
+
+function geometryOf({ positions, normals, colours, index }) {
+  const geometry = new THREE.BufferGeometry();
+  for (const [name, values] of Object.entries({ position: positions, normal: normals, color: colours })) {
+    geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(values), 3));
+  }
+  return geometry.setIndex(index);
+}
+
+/**
+ * @param {import("../../scene/parts.js").Parts} parts
+ * @param {Data} light of `lightOf` @param {number} extent
+ */
+export function baked(parts, light, extent) {
+  parts.group.updateMatrixWorld(true);
+  const hidden = [];
+  const movers = [];
+  const single = new Map();
+  const gather = (object, bends) => {
+    const meshes = [];
+    object.traverse((part) => {
+      if (!(part instanceof THREE.Mesh)) return;
+      if (!stays(part)) meshes.push(part);
+      else if (!bends || !part.userData.alone) single.set(part, part.material);
+    });
+    return meshes;
+  };
+  const carriers = [...parts.carriers.values()];
+  for (const carrier of carriers) movers.push({ object: carrier, meshes: gather(carrier, true) });
+  for (const { object, update } of parts.shapes) if (update) for (const mesh of gather(object, false)) movers.push({ object: mesh, meshes: [mesh] });
+  const solid = movers.filter(({ meshes }) => meshes.length > 0);
+  const surfaces = within(solid.map(({ object, meshes }) => {
+    const inverse = object.matrixWorld.clone().invert();
+    return together(meshes.map((mesh) => surfaceOf(mesh, inverse.clone())));
+  }), MOST, FINEST * extent); // prettier-ignore
+  for (const { meshes } of solid) hidden.push(...meshes);
+  const drawn = solid.map((mover, k) => ({ ...mover, surface: surfaces[k] })).filter(({ surface }) => surface.index.length > 0);
+  const [points, corners] = ["positions", "index"].map((name) => drawn.reduce((sum, { surface }) => sum + surface[name].length, 0));
+  const material = prelit(light, { vertexColors: true, side: THREE.DoubleSide }, "baked");
+  const batch = new THREE.BatchedMesh(Math.max(1, drawn.length), Math.max(3, points / 3), Math.max(3, corners), material);
+  Object.assign(batch, { frustumCulled: false, perObjectFrustumCulled: false, sortObjects: false });
+  for (const mover of drawn) mover.id = batch.addInstance(batch.addGeometry(geometryOf(mover.surface)));
+  const twins = new Map();
+  for (const own of new Set(single.values())) {
+    const { color, opacity, side, transparent, depthWrite } = own;
+    twins.set(own, prelit(light, { color, opacity, side, transparent, depthWrite }, `single ${transparent}`));
+  }
+  return {
+    mesh: batch,
+    /** Draw this in place of the parts, or the parts again. @param {boolean} on */
+    show(on) {
+      batch.visible = on;
+      for (const mesh of hidden) mesh.layers.set(on ? UNSEEN : 0);
+      for (const [mesh, own] of single) {
+        mesh.material = on ? twins.get(own) : own;
+        const { coarse, fine = mesh.geometry.index } = mesh.userData;
+        if (coarse === undefined) continue;
+        mesh.userData.fine = fine;
+        mesh.geometry.setIndex(on ? coarse : fine);
+      }
+    },
+    /** After the parts have their places. */
+    follow() {
+      parts.group.updateMatrixWorld(true);
+      for (const [own, twin] of twins) twin.opacity = own.opacity;
+      for (const { id, object } of drawn) {
+        let shown = true;
+        for (let at = object; at !== null && at !== parts.group; at = at.parent) shown &&= at.visible;
+        batch.setVisibleAt(id, shown);
+        batch.setMatrixAt(id, object.matrixWorld);
+      }
+    },
+    dispose() {
+      batch.dispose();
+      material.dispose();
+      for (const twin of twins.values()) twin.dispose();
+      batch.removeFromParent();
+    },
+  };
+}

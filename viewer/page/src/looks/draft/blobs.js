@@ -1,0 +1,102 @@
+// Shadows without a map of them: soft dark places on the ground below the body and below every wheel.
+import * as THREE from "three";
+import { add, dot, scale, subtract, unit, cross, rotate } from "../../scene/math.js";
+import { lift, LIFT } from "../lifted.js";
+
+/** How dark the middle of a shadow is. */
+const DARK = 0.62;
+/** Sides of the body's shadow beside those of the rectangle of its wheels, and of a wheel's beside its radius and width. */
+const [LONG, WIDE, TREAD, FLANK] = [1.42, 1.2, 1.3, 1.3];
+/** Share of the distance by which a shadow is drawn nearer: above paint, below tyre marks. */
+const NEARER = 0.005;
+/** Metres above the ground at which a body throws half of its shadow. */
+const FADE = 1;
+
+/** Height of the roads of a scene at a place; null where none can be told. @param {Data} view the SceneView */
+function ground({ scene, up, look }, point) {
+  if (look?.height && up[2] > 0.9) return look.height(point[0], point[1]);
+  const road = (scene.roads ?? []).find(({ kind }) => kind === "flat" || kind === "plane");
+  if (road === undefined) return null;
+  const normal = unit(road.normal ?? up) ?? up;
+  const base = road.point ?? scale(up, road.height ?? 0);
+  return dot(point, up) + dot(normal, subtract(base, point)) / dot(normal, up);
+}
+
+/** @param {Data} view the SceneView */
+export function blobs(view) {
+  const { scene, parts, up } = view;
+  const wheels = (scene.shapes ?? []).filter(({ kind }) => kind === "wheel");
+  const count = wheels.length > 0 ? wheels.length + 1 : 0;
+  const geometry = new THREE.BufferGeometry();
+  const places = new THREE.BufferAttribute(new Float32Array(12 * count), 3).setUsage(THREE.DynamicDrawUsage);
+  const darks = new THREE.BufferAttribute(new Float32Array(4 * count), 1).setUsage(THREE.DynamicDrawUsage);
+  const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]]; // prettier-ignore
+  geometry.setAttribute("position", places);
+  geometry.setAttribute("dark", darks);
+  geometry.setAttribute("corner", new THREE.BufferAttribute(Float32Array.from(Array(count).fill(corners).flat(2)), 2));
+  geometry.setIndex(Array.from({ length: count }, (_, k) => [0, 1, 2, 0, 2, 3].map((i) => 4 * k + i)).flat());
+  const mesh = new THREE.Mesh(geometry, material());
+  mesh.frustumCulled = false;
+  mesh.renderOrder = 0.5;
+  const put = (k, middle, ahead, left, origin, least) => {
+    corners.forEach(([a, b], i) => {
+      const corner = add(middle, add(scale(ahead, a), scale(left, b)));
+      const level = ground(view, corner) ?? least;
+      const gap = Math.max(0, dot(middle, up) - level);
+      places.array.set(subtract(add(corner, scale(up, level + LIFT - dot(corner, up))), origin), 12 * k + 3 * i);
+      darks.array[4 * k + i] = DARK / (1 + (gap / FADE) ** 2);
+    });
+  };
+  return {
+    mesh,
+    /** @param {number[]} origin earth position of the picture's origin */
+    follow(origin) {
+      const centres = wheels.map(({ frame, at }) => parts.frames.point(frame, at ?? [0, 0, 0]));
+      mesh.visible = count > 0 && centres.every((centre) => centre !== null);
+      if (!mesh.visible) return;
+      const { rotation } = parts.frames.pose(scene.focus || wheels[0].frame);
+      const level = (direction) => unit(subtract(direction, scale(up, dot(direction, up)))) ?? [1, 0, 0];
+      const forward = level(rotate(rotation, [1, 0, 0]));
+      const left = cross(up, forward);
+      const least = Math.min(...centres.map((centre, k) => dot(centre, up) - wheels[k].radius));
+      const spread = [forward, left].map((way) => {
+        const along = centres.map((centre) => dot(centre, way));
+        return [0.5 * (Math.min(...along) + Math.max(...along)), 0.5 * (Math.max(...along) - Math.min(...along))];
+      });
+      const middle = add(add(scale(forward, spread[0][0]), scale(left, spread[1][0])), scale(up, least));
+      const radius = wheels[0].radius;
+      put(0, middle, scale(forward, LONG * spread[0][1] + radius), scale(left, WIDE * spread[1][1] + 0.3 * radius), origin, least);
+      centres.forEach((centre, k) => {
+        const bottom = add(centre, scale(up, -wheels[k].radius));
+        const axle = level(rotate(parts.frames.pose(wheels[k].frame).rotation, wheels[k].axis ?? [0, 1, 0]));
+        put(k + 1, bottom, scale(cross(axle, up), TREAD * wheels[k].radius), scale(axle, FLANK * wheels[k].width), origin, least);
+      });
+      places.needsUpdate = darks.needsUpdate = true;
+    },
+    dispose() {
+      geometry.dispose();
+      mesh.material.dispose();
+      mesh.removeFromParent();
+    },
+  };
+}
+
+function material() {
+  const made = new THREE.MeshBasicMaterial({ color: "#05060a", transparent: true, depthWrite: false, side: THREE.DoubleSide });
+  made.onBeforeCompile = (shader) => {
+    const head = "varying vec2 vCorner;\nvarying float vDark;\n";
+    shader.vertexShader = `attribute vec2 corner;\nattribute float dark;\n${head}${shader.vertexShader}`.replace(
+      "#include <begin_vertex>",
+      "#include <begin_vertex>\nvCorner = corner;\nvDark = dark;",
+    );
+    lift(shader, NEARER);
+    shader.fragmentShader = `${head}${shader.fragmentShader}`.replace(
+      "#include <color_fragment>",
+      `#include <color_fragment>
+vec2 inside = 1.0 - vCorner * vCorner;
+diffuseColor.a *= vDark * smoothstep(0.0, 0.55, inside.x * inside.y);`,
+    );
+  };
+  made.customProgramCacheKey = () => "ali3-blobs";
+  return made;
+}

@@ -1,0 +1,83 @@
+// A world's ground in few calls: every part of it as coarse as its distance allows, put together again as the eye moves on.
+import * as THREE from "three";
+import { dot, fromColumns } from "../../scene/math.js";
+import { turn } from "../../shapes/place.js";
+import { apron } from "../apron.js";
+import { bundles, parts, pieceParts } from "../terrain_mesh.js";
+
+/** Cells a side of a part, meshes, and points of a mesh, at most. */
+const [CELLS, PIECES, POINTS] = [64, 14, 60000];
+/** Error of the heights that may be seen, m: near as paint is drawn above the ground, and so much more a metre away. */
+const [LEAST, ERROR] = [8e-3, 2.5e-3];
+/** Metres that the eye goes before levels are chosen again. */
+const STEP = 15;
+
+/**
+ * Index of the coarsest level that a distance allows.
+ * @param {{error: number}[]} levels from the finest @param {number} far m
+ */
+export function levelAt(levels, far) {
+  const allowed = LEAST + ERROR * Math.max(0, far);
+  let level = 0;
+  while (level + 1 < levels.length && levels[level + 1].error <= allowed) level++;
+  return level;
+}
+
+/**
+ * @param {THREE.Material} material
+ * @param {number[][]} axes x, y and up of the world
+ * @param {import("../heights.js").HeightField} field
+ */
+export function coarseTerrain(material, axes, field) {
+  const group = new THREE.Group();
+  turn(group, fromColumns(...axes));
+  const pieces = bundles(parts(field.patches, CELLS), PIECES, POINTS).map((piece) => meshOf(pieceParts(piece, field), material));
+  const around = apron(field, material);
+  group.add(...pieces.map(({ mesh }) => mesh), around.mesh);
+  let chosen = null;
+  /** @param {number[]} origin earth position of the picture's origin @param {number[]} eye of the camera, from there */
+  const follow = (origin, eye) => {
+    const from = axes.map((axis) => dot(origin, axis));
+    const camera = axes.slice(0, 2).map((axis, k) => from[k] + dot(eye, axis));
+    around.follow(from);
+    const moved = chosen === null || Math.hypot(camera[0] - chosen[0], camera[1] - chosen[1]) > STEP;
+    if (moved) chosen = camera;
+    for (const { mesh, base, choose } of pieces) {
+      mesh.position.set(base[0] - from[0], base[1] - from[1], -from[2]);
+      if (moved) choose(camera);
+    }
+  };
+  const dispose = () => {
+    for (const { mesh } of [...pieces, around]) mesh.geometry.dispose();
+  };
+  return { group, follow, dispose };
+}
+
+function meshOf({ base, positions, normals, parts: drawn }, material) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+  geometry.computeBoundingSphere();
+  const finest = drawn.reduce((sum, { levels }) => sum + levels[0].triangles.length, 0);
+  const index = new THREE.BufferAttribute(new Uint32Array(finest), 1).setUsage(THREE.DynamicDrawUsage);
+  geometry.setIndex(index);
+  let before = "";
+  /** @param {number[]} eye x and y in the world */
+  const choose = (eye) => {
+    const levels = drawn.map(({ middle, radius, levels: all }) => levelAt(all, Math.hypot(eye[0] - middle[0], eye[1] - middle[1]) - radius));
+    const now = levels.join("");
+    if (now === before) return;
+    before = now;
+    let used = 0;
+    drawn.forEach((part, k) => {
+      const { triangles } = part.levels[levels[k]];
+      index.array.set(triangles, used);
+      used += triangles.length;
+    });
+    index.clearUpdateRanges();
+    index.addUpdateRange(0, used);
+    index.needsUpdate = true;
+    geometry.setDrawRange(0, used);
+  };
+  return { mesh: new THREE.Mesh(geometry, material), base, choose };
+}

@@ -1,0 +1,46 @@
+// Materials that are lit at their points only: the cheapest that still shows forms.
+import * as THREE from "three";
+
+/** Light from all of the sky, with what other materials take from its picture. */
+const SKY = "vec3(0.42, 0.55, 0.8)";
+
+const VERTEX = /* glsl */ `
+vec3 facing = normal;
+#ifdef USE_BATCHING
+facing = mat3(batchingMatrix) * facing;
+#endif
+#ifdef USE_INSTANCING
+facing = mat3(instanceMatrix) * facing;
+#endif
+facing = normalize(mat3(modelMatrix) * facing);
+vLit = max(dot(facing, aTo), 0.0) * aLight + ${SKY} * (0.75 + 0.25 * dot(facing, aUp));`;
+
+/** The light of a picture for such materials. @param {THREE.DirectionalLight} sun @param {number[]} up */
+export function lightOf(sun, up) {
+  const strength = new THREE.Vector3(sun.color.r, sun.color.g, sun.color.b).multiplyScalar(sun.intensity / Math.PI);
+  return { aTo: { value: sun.position.clone().normalize() }, aLight: { value: strength }, aUp: { value: new THREE.Vector3(...up) } };
+}
+
+/**
+ * @param {Data} light of `lightOf`
+ * @param {THREE.MeshBasicMaterialParameters} look
+ * @param {string} key of the program, another one where `more` is another one
+ * @param {(shader: Data) => void} [more] further changes of the shader
+ */
+export function prelit(light, look, key, more = () => {}) {
+  const material = new THREE.MeshBasicMaterial(look);
+  material.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, light);
+    shader.vertexShader = `uniform vec3 aTo, aLight, aUp;\nvarying vec3 vLit;\n${shader.vertexShader}`.replace(
+      "#include <begin_vertex>",
+      `#include <begin_vertex>\n${VERTEX}`,
+    );
+    shader.fragmentShader = `varying vec3 vLit;\n${shader.fragmentShader}`.replace(
+      "#include <color_fragment>",
+      "#include <color_fragment>\ndiffuseColor.rgb *= vLit;",
+    );
+    more(shader);
+  };
+  material.customProgramCacheKey = () => `ali3-prelit-${key}`;
+  return material;
+}

@@ -1,0 +1,88 @@
+// Drafts: fewer triangles of the same form, coarser ground, and the choice of the level by measured times.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { levelAt } from "../src/looks/draft/coarse_terrain.js";
+import { thinned, within } from "../src/looks/draft/thinned.js";
+import { nextLevel } from "../src/looks/pace.js";
+import { coilTriangles } from "../src/shapes/coil.js";
+
+/** A closed ball of squares cut in two, with outward normals. */
+function ball(radius, n) {
+  const surface = { positions: [], normals: [], colours: [], index: [] };
+  for (let i = 0; i <= n; i++) {
+    for (let j = 0; j <= 2 * n; j++) {
+      const [a, b] = [(Math.PI * i) / n, (Math.PI * j) / n];
+      const normal = [Math.sin(a) * Math.cos(b), Math.sin(a) * Math.sin(b), Math.cos(a)];
+      surface.positions.push(...normal.map((value) => radius * value));
+      surface.normals.push(...normal);
+      surface.colours.push(1, 0, 0);
+      const at = i * (2 * n + 1) + j;
+      if (i < n && j < 2 * n) surface.index.push(at, at + 2 * n + 1, at + 1, at + 1, at + 2 * n + 1, at + 2 * n + 2);
+    }
+  }
+  return surface;
+}
+
+function volume({ positions, index }) {
+  const at = (k) => [positions[3 * k], positions[3 * k + 1], positions[3 * k + 2]];
+  let sum = 0;
+  for (let k = 0; k < index.length; k += 3) {
+    const [[a, b, c], [d, e, f], [g, h, i]] = [at(index[k]), at(index[k + 1]), at(index[k + 2])];
+    sum += (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6;
+  }
+  return sum;
+}
+
+test("a thinned ball has few triangles, its points on the ball and its volume", () => {
+  const fine = ball(1, 60);
+  const coarse = thinned(fine, 0.2);
+  assert.ok(coarse.index.length < fine.index.length / 8);
+  const exact = (4 / 3) * Math.PI;
+  assert.ok(Math.abs(volume(fine) / exact - 1) < 0.005);
+  assert.ok(Math.abs(volume(coarse) / exact - 1) < 0.06, `${volume(coarse) / exact}`);
+  for (let k = 0; k < coarse.positions.length; k += 3) {
+    const place = coarse.positions.slice(k, k + 3);
+    const far = Math.hypot(...place);
+    assert.ok(far < 1 + 1e-9 && far > 0.97);
+    const along = place.reduce((sum, value, i) => sum + value * coarse.normals[k + i], 0);
+    assert.ok(along > 0.9 * far);
+  }
+});
+
+test("surfaces together keep to a number of triangles, and stay as they are where they do", () => {
+  const balls = [ball(1, 40), ball(0.1, 40)];
+  const made = within(balls, 1500, 0.01);
+  const count = made.reduce((sum, { index }) => sum + index.length / 3, 0);
+  assert.ok(count <= 1500 && count > 400);
+  assert.equal(within(balls, 1e6, 0.01), balls);
+});
+
+test("the two sides of a thin sheet keep their own normals", () => {
+  const side = (z) => [[0, 0, z], [1, 0, z], [1, 1, z], [0, 1, z]]; // prettier-ignore
+  const positions = [...side(0.001), ...side(-0.001)].flat();
+  const normals = [...Array(4).fill([0, 0, 1]), ...Array(4).fill([0, 0, -1])].flat();
+  const sheet = thinned({ positions, normals, colours: Array(24).fill(0.5), index: [0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6] }, 0.1);
+  assert.equal(sheet.index.length, 12);
+  assert.deepEqual([...new Set(sheet.normals.filter((_, k) => k % 3 === 2))].sort(), [-1, 1]);
+});
+
+test("ground is drawn the more coarsely the farther away, never off by more than is allowed", () => {
+  const levels = [0, 0.005, 0.05, 0.2].map((error) => ({ error }));
+  assert.deepEqual([0, 10, 20, 500].map((far) => levelAt(levels, far)), [1, 1, 2, 3]); // prettier-ignore
+});
+
+test("a level that is too slow gets coarser, a draft that is quick gets finer; only what is driven is drafted", () => {
+  assert.equal(nextLevel("high", 100, false), "low");
+  assert.equal(nextLevel("low", 100, false), "low");
+  assert.equal(nextLevel("low", 100, true), "draft");
+  assert.equal(nextLevel("draft", 100, true), "draft");
+  assert.equal(nextLevel("draft", 5, true), "low");
+  assert.equal(nextLevel("draft", 20, true), "draft");
+  assert.equal(nextLevel("high", 10, true), "high");
+});
+
+test("a coarse wire uses points of the fine one, from its first to its last ring", () => {
+  const [fine, coarse] = [coilTriangles(6), coilTriangles(6, 2)];
+  assert.ok(coarse.length < fine.length / 4);
+  assert.equal(Math.floor(Math.max(...coarse) / 7), Math.floor(Math.max(...fine) / 7));
+});
