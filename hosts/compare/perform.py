@@ -165,6 +165,7 @@ def _fit(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
             f"the fitted FMU differ on the root mean square: {', '.join(told)}."
         )
+        print(f"note: {task.notes[-1]}")
     curves = {n: SensedCurve(Curve(best, n), *found.sensor(n)) for n in outputs}
     return found, compare(outputs, curves, options.longest_delay, options.skip)
 
