@@ -64,6 +64,10 @@ def _car() -> System:
     return manoeuvres.system_of("slalom")
 
 
+def _tables() -> System:
+    return compile(prototype_car.build(fidelity=10))
+
+
 SCENES = (
     Scene("double four-bar", 0.03, 330, lambda: compile(double_four_bar.build())),
     Scene("40 windows", 0.01, 200, lambda: compile(double_four_bar.build(windows=40))),
@@ -76,6 +80,8 @@ SCENES = (
     Scene("launch and brake", 0.01, 500, _car, "launch_and_brake"),
     Scene("full lock", 0.01, 500, _car, "full_lock"),
     Scene("drop", 0.002, 500, _car, "drop"),
+    Scene("lane change, tables", 0.01, 500, _tables, "double_lane_change_replay"),
+    Scene("slalom, tables", 0.005, 500, _tables, "slalom"),
     Scene("slalom, flexible frame", 0.005, 100, _flexible, "slalom"),
     Scene("drop, flexible frame", 0.002, 200, _flexible, "drop"),
     Scene("kerb test, flexible frame", 0.01, 100, lambda: compile(kerb_test.build(3))),

@@ -1,29 +1,25 @@
 """Cars whose suspensions are tables against those with links: ``python -m benchmarks.tables [--json FILE]``.
 
 The same manoeuvres with the same step. Path: largest distance of the reference points over the length of the way;
-loads: largest difference over the largest change of a wheel load. Instructions a step where valgrind is installed, of
-the first 300 steps of the prototype.
+loads: largest difference over the largest change of a wheel load. What steps cost:
+`python -m benchmarks.instructions`.
 """
 
 from __future__ import annotations
 
 import sys
-import tempfile
 from collections.abc import Sequence
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ali3.running import run_command
-from benchmarks import instructions
 from benchmarks.car import manoeuvres
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from mbs import Settings, System, compile
-from mbs.kernel import build
 from mbs.vehicle import load
 
 STEPS = (0.002, 0.005, 0.01)  # s
@@ -36,7 +32,6 @@ NAMES = (
     "launch_and_brake",
     "drop",
 )
-COUNTED = (("slalom", 0.005), ("double_lane_change_replay", 0.01), ("double_lane_change_replay", 0.002))
 WHEELS = ("FL", "FR", "RL", "RR")
 COLUMNS = {
     "car": "",
@@ -50,7 +45,6 @@ COLUMNS = {
     "iterations": ".2f",
     "iterations_links": ".2f",
 }
-COST = {"manoeuvre": "", "h_s": "g", "instructions": ",d", "instructions_links": ",d", "ratio": ".2f"}
 
 
 @cache
@@ -84,25 +78,6 @@ def compare(car: str, name: str, h: float) -> dict[str, Any]:
     }
 
 
-def cost() -> list[dict[str, Any]]:
-    """Instructions a step of the prototype, by tables and by links."""
-    with tempfile.TemporaryDirectory() as folder:
-        program = Path(folder) / "run_system"
-        sources = [instructions.SOURCE, *build.sources(lanes=False)]
-        include, what = (build.HERE / "include",), "the program that repeats steps"
-        build.compile_c(sources, build.host_target(), program, include=include, what=what, shared=False)
-        rows = []
-        for name, h in COUNTED:
-            found = [
-                instructions.measure(instructions.Scene(name, h, 300, of, name), program, Path(folder))["instructions"]
-                for of in (lambda: tabled(manoeuvres.PROTOTYPE), lambda: manoeuvres.system_of("slalom"))
-            ]
-            ratio = None if None in found else found[0] / found[1]
-            keys = ("instructions", "instructions_links", "ratio")
-            rows.append({"manoeuvre": name, "h_s": h, **dict(zip(keys, (*found, ratio), strict=True))})
-    return rows
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, print, and write what was asked for."""
     parser = parser_of("tables", __doc__)
@@ -114,9 +89,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         todo = [(car, name, h) for car in options.cars for name in options.manoeuvres for h in STEPS]
         rows = [compare(car, name, h) for car, name, h in watched(todo)]
         print_table(rows, COLUMNS)
-        costs = cost()
-        print_table(costs, COST)
-        save_rows(options.json, describe("tables", Settings(), cost=costs), rows)
+        save_rows(options.json, describe("tables", Settings()), rows)
         return 0
 
     return run_command(work, (RuntimeError,))

@@ -80,7 +80,9 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
         name = f"{name or made.name}_{only.name.lower()}"
     where = f"{made.folder / _FILE}: the car '{made.name}' cannot be built"
     try:
-        makers: Mapping[int, Maker] = made.fidelities() if fidelity is None else {0: partial(made.model, None, only)}
+        makers: Mapping[Any, Maker] = made.fidelities()
+        if fidelity is not None:
+            makers = {0: partial(made.model, None, only)}
         systems = posed_systems(makers, min(makers), poses)
     except (ValueError, RuntimeError) as error:
         raise SceneError(f"{where}: {error}") from error

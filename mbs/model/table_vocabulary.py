@@ -26,6 +26,8 @@ from mbs.model.tabled import (
 class TableVocabulary(BodyVocabulary):
     """What a table moves."""
 
+    coordinate_rates: dict[int, float]
+
     def travel(self, name: str, *, unit: str = "m", rate: float = 0.0) -> Coordinate:
         """A coordinate that tables are functions of, 0 as drawn.
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -179,7 +180,7 @@ def check_drawn(found: Array, drawn: Array, what: str) -> None:
         raise ModelError(f"The table of {what} is off the drawing by {off:.3g} where its coordinates are zero.")
 
 
-def checked_parameters(given: object, what: str) -> tuple[object, ...]:
+def checked_parameters(given: Any, what: str) -> tuple[Any, ...]:
     """One or two different coordinates."""
     found = tuple(given) if isinstance(given, (list, tuple)) else (given,)
     if is_number(given) or len(found) not in (1, 2) or (len(found) == 2 and found[0] is found[1]):

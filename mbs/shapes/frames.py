@@ -79,7 +79,8 @@ class FrameNames:
 
 def turns_of(model: Model) -> list[Spin | Turning]:
     """What turns about an axis of a body; what is on a tabled one has no frame."""
-    return [t for t in (*model.spins, *model.turnings) if not t.carrier.is_tabled]
+    every: list[Spin | Turning] = [*model.spins, *model.turnings]
+    return [t for t in every if not t.carrier.is_tabled]
 
 
 def modes_of(body: FlexibleBody) -> tuple[str, ...]:

@@ -33,7 +33,7 @@ def rotations(axis: tuple[float, ...], angles: Array) -> Array:
     return Rotation.from_rotvec(np.multiply.outer(angles, axis)).as_matrix()
 
 
-def watch(m: Model, base: Body, tip: Body) -> Model:
+def watch(m: Model, base: Body, tip: Body, damping: float = 0.0) -> Model:
     for what, order in (("at", 0), ("rate", 1), ("second", 2)):
         for c in "xyz":
             m.sense_position(f"{what}.{c}", tip, HAND, c, order=order)
@@ -44,10 +44,12 @@ def watch(m: Model, base: Body, tip: Body) -> Model:
             m.sense_rotation(f"{name}.w{c}", body, c, order=1)
         for c in "wxyz":
             m.sense_rotation(f"{name}.q{c}", body, c)
-    for kind in ("kinetic", "total"):
+    for kind in ("kinetic", "gravity", "total"):
         m.sense_energy(kind, kind)
-    m.spring_damper("spring", (base, (0.5, 0.2, 0.0)), (tip, HAND), stiffness=8.0, free_length=1.3)
+    ends = (base, (0.5, 0.2, 0.0)), (tip, HAND)
+    spring = m.spring_damper("spring", *ends, stiffness=8.0, free_length=1.3, damping=damping)
     m.sense_element("spring", "spring", "length")
+    m.sense_energy("work", "nonconservative", [spring])
     return m
 
 
@@ -89,7 +91,7 @@ def one_by_joint(gravity: float = 9.81) -> System:
     return compile(watch(m, base, arm))
 
 
-def two_by_table() -> System:
+def two_by_table(damping: float = 0.0) -> System:
     """A chain of two, the second one over both angles."""
     m = Model("tables")
     base = base_of(m)
@@ -108,7 +110,7 @@ def two_by_table() -> System:
         com=HAND,
         inertia=TIP,
     )
-    return compile(watch(m, base, tip))
+    return compile(watch(m, base, tip, damping))
 
 
 def two_by_joints() -> System:
@@ -164,6 +166,16 @@ def test_steps_converge_with_the_order_of_their_method() -> None:
         assert found.report is not None
         assert found.report.mean_iterations < 3.5
     assert [np.log2(a / b) for a, b in pairwise(errors)] == pytest.approx([2.0, 2.0], abs=0.2)
+
+
+def test_the_work_of_a_damper_is_what_the_energy_loses() -> None:
+    """Ways on tabled bodies are right to second order, so that the difference falls with the square of the step."""
+    system, errors = two_by_table(damping=8.0), []
+    for h in (0.01, 0.005, 0.0025):
+        run = simulate(system, 0.5, h, method="ali3p")
+        assert run["work"][-1] < -0.1
+        errors.append(abs(float(run["total"][-1] - run["total"][0] - run["work"][-1])))
+    assert np.log2(errors[0] / errors[2]) / 2.0 == pytest.approx(2.0, abs=0.4)
 
 
 def momenta(run: Trajectory) -> tuple[Array, Array]:

@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from fmu_src.build.car_registry import build_car
 from mbs import Pose, Simulation, System, compile, simulate
 from mbs.common.errors import ModelError
 from mbs.model.tabled import TabledBody
@@ -114,3 +115,12 @@ def test_stresses_are_refused_and_a_rack_with_mass_is_a_sentence() -> None:
         Simulation(systems("prototype")[0]).sensors["bending_moment.SG1"]
     with pytest.raises(ModelError, match=r"steering\.kind is 'column', whose rack is a body"):
         column_car().model(fidelity=Fidelity.TABLE)
+
+
+def test_an_fmu_of_one_fidelity_is_named_after_it() -> None:
+    built = build_car("prototype", fidelity=10)
+    assert built.name == "prototype_table"
+    assert list(built.systems) == [0]
+    assert "tabled_size" in built.systems[0].arrays
+    with pytest.raises(ValueError, match="it must be one of: 0 rigid"):
+        build_car("prototype", fidelity=7)

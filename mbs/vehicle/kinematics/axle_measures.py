@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.affine import AffineVector
-from mbs.vehicle.car import Car
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.kinematics.wheel_loads import OWN, wheel_loads
 from mbs.vehicle.kinematics.wheel_motion import WheelMotion, steering_axis, wheel_motion
 from mbs.vehicle.linkages.continuation import HEAVE, ROLL
@@ -127,12 +127,12 @@ def roll_centre_height(wheels: list[WheelMotion]) -> float:
     return float(0.5 * sum(heights) - ground)
 
 
-def anti_measures(car: Car, axle: str, wheels: list[WheelMotion]) -> dict[str, float]:
+def anti_measures(car: CarContent, axle: str, wheels: list[WheelMotion]) -> dict[str, float]:
     """Anti-dive and its like, %.
 
     Parameters
     ----------
-    car : Car
+    car : CarContent
         Gives the shares, the wheelbase and the height of the centre of mass.
     wheels : list of WheelMotion
         Left and right.
@@ -146,7 +146,7 @@ def anti_measures(car: Car, axle: str, wheels: list[WheelMotion]) -> dict[str, f
     return {name: float(value) for name, value in found.items()}
 
 
-def brake_share(car: Car, axle: str) -> float:
+def brake_share(car: CarContent, axle: str) -> float:
     """Share of an axle in the braking force on the level road, by the balance of the brakes and the wheels' radii."""
     front = car.brakes.balance / car.front.wheel.centre[2]
     rear = (1.0 - car.brakes.balance) / car.rear.wheel.centre[2]

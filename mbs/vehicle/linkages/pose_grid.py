@@ -10,11 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.simulation.evaluator import RANK_TOLERANCE
 from mbs.vehicle.linkages.linkage import (
     CLOSE,
     LEFT_OVER,
     MOST_ITERATIONS,
-    RANK_TOLERANCE,
     Array,
     Linkage,
     NotReachedError,
@@ -104,7 +104,7 @@ def _points(low: float, high: float, spacing: float) -> Array:
     """Equally spaced from `low` to `high` or a little farther, with zero among them."""
     below = int(np.ceil(-low / spacing))
     step = -low / below
-    return step * np.arange(-below, int(np.ceil(high / step - 1e-9)) + 1)
+    return np.asarray(step * np.arange(-below, int(np.ceil(high / step - 1e-9)) + 1), float)
 
 
 def _march(
@@ -151,7 +151,7 @@ def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float],
         if not np.abs(step).max() < 0.5:
             break
         if np.abs(step).max() < CLOSE and np.abs(off).max() < LEFT_OVER:
-            return q
+            return np.asarray(q)
     raise NotReachedError(
         f"no position with springs compressed by {compression[0]:g} and {compression[1]:g} m and a rack at {rack:g} m"
     )

@@ -73,6 +73,16 @@ bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t
   return a.idle != 0;
 }
 
+/* Signals that elements use, also those of dependents. */
+static void look(ali3_instance *in, const double *q, const double *qd) {
+  if (in->system->n_tabled > 0) {
+    ali3_tabled_prepare(in, q);
+    ali3_tabled_extend(in, q, qd, NULL);
+    q = in->extended[0], qd = in->extended[1];
+  }
+  ali3_active_signals(in, q, qd);
+}
+
 /* Forces f of element e to coordinates and dependents. */
 static void spread(ali3_instance *in, int32_t e, const double *f, double *Q) {
   const ali3_system *S = in->system;
@@ -89,7 +99,7 @@ static void spread(ali3_instance *in, int32_t e, const double *f, double *Q) {
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
-  ali3_active_signals(in, call->q, call->qd);
+  look(in, call->q, call->qd);
   memcpy(call->Q, in->gravity_force, (size_t)S->size.nq * sizeof(double));
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, call->q);
@@ -139,7 +149,7 @@ void ali3_law_pieces(ali3_instance *in, uint32_t *piece) {
                                 .y_new = in->y_work,
                                 .out = in->out_work,
                                 .potential = in->potential_work};
-  ali3_active_signals(in, call.q, call.qd);
+  look(in, call.q, call.qd);
   for (int32_t e = 0; e < in->system->size.ne; e++) {
     ali3_element_args a;
     local(in, e, u, ud);

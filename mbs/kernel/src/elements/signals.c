@@ -1,9 +1,6 @@
 /* From coordinates to the signals of elements, and from the tangents of signals back to coordinates. */
 #include <string.h>
 
-#if !defined(ALI3_WIDTH)
-#include "../tabled/tabled.h"
-#endif
 #include "../instance.h"
 #include "signals.h"
 
@@ -12,13 +9,6 @@ void ali3_active_signals(ali3_instance *in, const real *q, const real *qd) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->sig_ptr, *col = S->sig_col;
   const double *val = S->sig_val;
-#if !defined(ALI3_WIDTH)
-  if (S->n_tabled > 0) {
-    ali3_tabled_prepare(in, q);
-    ali3_tabled_extend(in, q, qd, NULL);
-    q = in->extended[0], qd = in->extended[1];
-  }
-#endif
   for (int32_t a = 0; a < S->n_active; a++) {
     const int32_t i = S->active_signal[a];
     real u = ali3_same(S->sig_const[i]), ud = {0};
