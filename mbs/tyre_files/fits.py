@@ -59,8 +59,13 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
     def fitted(
         names: Sequence[str], start: Sequence[float], left: Callable[[dict[str, float]], Array]
     ) -> dict[str, float]:
-        found = least_squares(lambda x: left(dict(zip(names, map(float, x), strict=True))), start, x_scale="jac")
-        return dict(zip(names, map(float, found.x), strict=True))
+        def named(x: Array) -> dict[str, float]:
+            return dict(zip(names, map(float, x), strict=True))
+
+        def differences(x: Array) -> Array:
+            return left(named(x))
+
+        return named(least_squares(differences, start, x_scale="jac").x)
 
     def errors(name: str, c: dict[str, float]) -> Array:
         law, slip, wanted = (
@@ -237,10 +242,11 @@ def _five(slip: Array, force: Array, first: Five | None = None) -> Five:
         low[2], high[2] = 0.7 * held, min(1.4 * held, 0.9999)
         low[1], high[1], low[3], high[3] = _LESS * first[2], _MORE * first[2], _LESS * gap, _MORE * gap
     start = np.clip([1.0, float(slip[peak]), 0.85, 0.5, 1.0], np.multiply(low, 1.01), np.multiply(high, 0.99))
-    found = least_squares(
-        lambda x: (tmeasy_force(*parts(x), slip) - force) / scale, np.log(start), bounds=(np.log(low), np.log(high))
-    )
-    return parts(found.x)
+
+    def differences(x: Array) -> Array:
+        return np.asarray((tmeasy_force(*parts(x), slip) - force) / scale)
+
+    return parts(least_squares(differences, np.log(start), bounds=(np.log(low), np.log(high))).x)
 
 
 def _three(share: Array, weight: Array, first: Three | None = None) -> Three:
@@ -257,7 +263,11 @@ def _three(share: Array, weight: Array, first: Three | None = None) -> Three:
     start = np.clip([0.2, 0.8], np.multiply(low, 1.01), np.multiply(high, 0.99))
     bounds = [-1.0, *np.log(low)], [1.0, *np.log(high)]
     begin = [float(np.clip(share[0], -0.99, 0.99)), *np.log(start)]
-    return parts(least_squares(lambda x: (tmeasy_trail(*parts(x), TANGENT) - share) * weight, begin, bounds=bounds).x)
+
+    def differences(x: Array) -> Array:
+        return np.asarray((tmeasy_trail(*parts(x), TANGENT) - share) * weight)
+
+    return parts(least_squares(differences, begin, bounds=bounds).x)
 
 
 def _curve(slip: Array, force: dict[float, Array]) -> TyreCurve:
