@@ -125,9 +125,9 @@ def terminals(arrays: Sequence[Array]) -> bytes:
                 memberName=member.name.rpartition(".")[2],
                 variableKind="signal",
             )
-    for name, members in plugs:
+    for name, ports in plugs:
         terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="plug")
-        for variable, member, kind in members:
+        for variable, member, kind in ports:
             named = {"variableName": variable, "memberName": member, "variableKind": kind}
             ElementTree.SubElement(terminal, "TerminalMemberVariable", named)
     return to_bytes(root)
