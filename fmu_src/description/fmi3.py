@@ -127,8 +127,8 @@ def terminals(arrays: Sequence[Array]) -> bytes:
             )
     for name, ports in plugs:
         terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="plug")
-        for variable, member, kind in ports:
-            named = {"variableName": variable, "memberName": member, "variableKind": kind}
+        for place, called, kind in ports:
+            named = {"variableName": place, "memberName": called, "variableKind": kind}
             ElementTree.SubElement(terminal, "TerminalMemberVariable", named)
     return to_bytes(root)
 
