@@ -125,10 +125,10 @@ def terminals(arrays: Sequence[Array]) -> bytes:
                 memberName=member.name.rpartition(".")[2],
                 variableKind="signal",
             )
-    for name, members in plugs:
+    for name, ports in plugs:
         terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="plug")
-        for variable, member, kind in members:
-            named = {"variableName": variable, "memberName": member, "variableKind": kind}
+        for place, called, kind in ports:
+            named = {"variableName": place, "memberName": called, "variableKind": kind}
             ElementTree.SubElement(terminal, "TerminalMemberVariable", named)
     return to_bytes(root)
 
@@ -137,7 +137,7 @@ _FORCE = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 _ANSWER = ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")
 # By the last part of the name of its first port: what a terminal is called, and its members, each the last part of the
 # name of a variable, the name that a partner has for it, and its kind. Those that a model does not have are left out.
-_PLUGS = {
+_PLUGS: dict[str, tuple[str, tuple[tuple[str, str, str], ...]]] = {
     "drive_torque": ("drive_torque_port", (("drive_torque", "flow", "inflow"), ("omega", "potential", "signal"))),
     "steering_rack_actuator_force": (
         "steering_rack_actuator_force_port",

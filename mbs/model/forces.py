@@ -235,11 +235,11 @@ class ForceVocabulary(BodyVocabulary):
         """
         what = f"lift '{name}'"
         owned = self.owned(body, f"The {what}")
-        axes = [
+        front, top = (
             owned.vector(direction(axis, self.dimension, f"the {word} axis of {what}"))
             for axis, word in ((forward, "forward"), (up, "upward"))
-        ]
-        return self.add(Lift(lift_area, air_density).record(name, self._end((body, point), what), *axes, wind))
+        )
+        return self.add(Lift(lift_area, air_density).record(name, self._end((body, point), what), front, top, wind))
 
     def road(self, road: Road | RoadFile, *, file: str | None = None) -> int:
         """Add a road.

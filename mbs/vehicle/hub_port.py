@@ -19,7 +19,7 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin) -> None:
     wheel : str
         Its name, as "FL".
     """
-    channels = []
+    channels: list[int] = []
     for letter, (unit, largest, what) in LARGEST.items():
         for c in "xyz":
             text = f"{what} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"

@@ -103,14 +103,8 @@ def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"
             for k, c in enumerate("xyz"):
                 text = f"{what} of the point '{name}' of the chassis along the earth's {c} axis"
                 unit = "m/s" if order else "m"
-                b.port_senses.append(
-                    partial(
-                        *(m.sense_coordinate, f"point_{name}.{prefix}{c}", point[k]),
-                        order=order,
-                        unit=unit,
-                        description=text,
-                    )
-                )
+                named = partial(m.sense_coordinate, f"point_{name}.{prefix}{c}", point[k])
+                b.port_senses.append(partial(named, order=order, unit=unit, description=text))
 
 
 def wind_port(b: CarBuilder) -> Wind | None:

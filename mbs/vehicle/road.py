@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, Road
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road
 from mbs.model import Model
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import TEXTS, RoadFile
@@ -48,6 +48,7 @@ class RoadSection(Section):
         """
         own = self.default() if road is None else road.road if isinstance(road, RoadFile) else road
         target = ("road", ground)
+        assert not isinstance(own, PortRoad), "a car with its road at ports has no parameters of one"
         if isinstance(own, KerbRoad | PlaneRoad):
             m.parameter(
                 "road.friction",
