@@ -135,9 +135,10 @@ def _polished(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> N
 def _begins(p: NDArray[np.float64], unknowns: Sequence[Unknown], count: int) -> list[NDArray[np.float64]]:
     """The given values, and points of Sobol's sequence in the ranges of the FMU's parameters."""
     own = [k for k, u in enumerate(unknowns) if u.kind == "parameter"]
-    points = qmc.Sobol(len(own), rng=_SEED).random_base2(max(count - 1, 1).bit_length())[: count - 1] if own else []
     found = [p]
-    for point in points:
+    if not own:
+        return found
+    for point in qmc.Sobol(len(own), rng=_SEED).random_base2(max(count - 1, 1).bit_length())[: count - 1]:
         q = p.copy()
         q[own] = [u.low + (0.1 + 0.8 * x) * (u.high - u.low) for u, x in zip(unknowns, point, strict=False)]
         found.append(q)
