@@ -1,8 +1,9 @@
-"""A progress bar on the terminal for runs that take a while."""
+"""A progress bar on the terminal for runs that take a while; a line for each tenth where there is none."""
 
 from __future__ import annotations
 
 import math
+import sys
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -15,7 +16,7 @@ _FORM = "{percentage:3.0f} % {bar:40} {remaining} left"
 
 
 class Progress:
-    """A bar on the standard error stream; silent until `delay` seconds have passed.
+    """A bar on the standard error stream, or a line a tenth; silent until `delay` seconds have passed.
 
     Parameters
     ----------
@@ -24,14 +25,15 @@ class Progress:
     clock : callable
         Seconds, monotone.
     everywhere : bool
-        Also where the stream is no terminal, such as a file, which the bar fills with control characters.
+        The bar also where the stream is no terminal, such as a file, which it fills with control characters.
     """
 
     def __init__(
         self, delay: float, clock: Callable[[], float] = time.perf_counter, *, everywhere: bool = True
     ) -> None:
         self._clock, self._from = clock, clock() + delay
-        self._hidden = False if everywhere else None  # None: tqdm looks whether the stream is a terminal
+        self._everywhere = everywhere
+        self._told = -1  # tenths
         self._bar: tqdm[None] | None = None
 
     def __enter__(self) -> Progress:
@@ -46,9 +48,14 @@ class Progress:
         if self._bar is None:
             if self._clock() < self._from:
                 return
+            if not self._everywhere and not sys.stderr.isatty():
+                if (tenths := int(10.0 * share + 1e-9)) > self._told:
+                    print(f"{10 * tenths:3d} % ...", file=sys.stderr, flush=True)
+                    self._told = tenths
+                return
             from tqdm import tqdm
 
-            self._bar = tqdm(total=1.0, initial=share, bar_format=_FORM, disable=self._hidden)
+            self._bar = tqdm(total=1.0, initial=share, bar_format=_FORM)
         self._bar.update(share - self._bar.n)
 
 

@@ -57,7 +57,7 @@ def test_the_bar_goes_to_the_error_stream(choice, capsys):
 
 
 @pytest.mark.parametrize("terminal", [True, False])
-def test_a_bar_that_comes_by_itself_is_for_terminals_alone(terminal, monkeypatch):
+def test_a_bar_that_comes_by_itself_is_for_terminals_and_lines_are_for_files(terminal, monkeypatch):
     class Stream(io.StringIO):
         def isatty(self):
             return terminal
@@ -66,5 +66,7 @@ def test_a_bar_that_comes_by_itself_is_for_terminals_alone(terminal, monkeypatch
     monkeypatch.setattr(sys, "stderr", stream)
     with Progress(DELAY, lambda: now[0], everywhere=False) as bar:
         now[0] = 4.0
-        bar.update(0.25)
-    assert bool(stream.getvalue()) is terminal
+        for share in (0.25, 0.26, 0.3):
+            bar.update(share)
+    assert ("\r" in stream.getvalue()) is terminal
+    assert terminal or stream.getvalue() == " 20 % ...\n 30 % ...\n"
