@@ -161,15 +161,14 @@ def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> 
 
 def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcome]], out: Path) -> Generator[None]:
     """Do all tasks under a progress bar; after each its outcome is among the others, and kept in the folder."""
-    from tqdm import tqdm
-
+    from ali3.bars import bar as bar_of
     from ali3.isolated import Lost, done_by
     from hosts.catalogue.kept import keep
     from hosts.catalogue.task import do
 
     form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
     parts = [0.0] * len(tasks)
-    with tqdm(total=float(len(tasks)), bar_format=form, delay=2.0, desc="catalogue", disable=None) as bar:
+    with bar_of(total=float(len(tasks)), bar_format=form, desc="catalogue") as bar:
 
         def progress(place: int, part: float) -> None:
             parts[place] = max(part, parts[place])

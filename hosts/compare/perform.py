@@ -136,7 +136,7 @@ def _refuse_odd(problems: list[str], options: argparse.Namespace) -> None:
 def _fit(
     options: argparse.Namespace, task: Task, replay: Replay, before: Comparison, wanted: _Fitting
 ) -> tuple[Fit, Comparison]:
-    from tqdm import tqdm
+    from ali3.bars import bar as bar_of
 
     if not replay.check_reset():
         print("note: the FMU does not repeat itself to the last bit.")
@@ -145,7 +145,7 @@ def _fit(
     outputs = overlapping(outputs, task.end, options.skip, guesses)
     coarse = fit_step(options.fit_step, task.parameters)
     unknowns = [*wanted.parameters, *nuisances(wanted.nuisances, outputs, guesses, options.longest_delay)]
-    with tqdm(desc="fit", unit="run", delay=2.0, disable=None) as bar:
+    with bar_of(desc="fit", unit="run") as bar:
 
         def simulate(values: Mapping[str, float]) -> Result | None:
             bar.update()

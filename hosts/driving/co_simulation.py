@@ -80,10 +80,10 @@ def run_with_bar(
     fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Pilot | None = None, every: int = 1
 ) -> Result:
     """`run` with a progress bar on the terminal."""
-    from tqdm import tqdm
+    from ali3.bars import bar as bar_of
 
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
-    with tqdm(total=steps, desc=what, unit="step", delay=2.0, disable=None) as bar:
+    with bar_of(total=steps, desc=what, unit="step") as bar:
         return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n), every=every)
 
 

@@ -85,7 +85,7 @@ def _drive(folder: Path) -> RecordedDrive:
 
 @contextmanager
 def _bar(drive: RecordedDrive, what: str) -> Iterator[Callable[[int], None]]:
-    from tqdm import tqdm
+    from ali3.bars import bar as bar_of
 
-    with tqdm(total=drive.meta.get("rows") or None, desc=what, unit="row", delay=2.0, disable=None) as bar:
+    with bar_of(total=drive.meta.get("rows") or None, desc=what, unit="row") as bar:
         yield lambda done: bar.update(done - bar.n)

@@ -7,8 +7,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
-from tqdm import tqdm
-
+from ali3.bars import bar as bar_of
 from hosts.common.errors import HostError
 from hosts.driving.driver import Driver, make_driver
 from hosts.driving.manoeuvre import Manoeuvre
@@ -115,7 +114,7 @@ def run_headless(
     car.command("step", max(1, round(seconds / car.step)))
     last, since = -1, time.monotonic()
     try:
-        with tqdm(total=seconds, delay=2.0, disable=None if bar else True, bar_format=_BAR) as progress:
+        with bar_of(total=seconds, disable=not bar, bar_format=_BAR) as progress:
             while True:
                 moment = car.latest()
                 for event in car.events():

@@ -87,15 +87,13 @@ def soak(options: argparse.Namespace, prog: str) -> int:
 
 def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> None:
     """Drive all tasks under a progress bar, each in a process; of one that is not done its outcome has the seconds."""
-    from tqdm import tqdm
-
+    from ali3.bars import bar as bar_of
     from ali3.isolated import Lost, done_by
     from hosts.soak.drive import Failure, drive
 
     form = "{desc}: {percentage:3.0f} % {bar} {n_fmt} of {total_fmt} s, {elapsed} so far, {remaining} to go"
     total = math.ceil(sum(task.seconds for task in tasks))
-    # none where there is no terminal
-    with tqdm(total=total, desc="soak", bar_format=form, disable=None) as bar:
+    with bar_of(total=total, desc="soak", bar_format=form, delay=0.0) as bar:
 
         def progress(place: int, seconds: float) -> None:
             outcomes[place].simulated = min(seconds, tasks[place].seconds)

@@ -1,9 +1,8 @@
-"""A progress bar on the terminal for runs that take a while; a line for each tenth where there is none."""
+"""A progress bar on the terminal for runs that take a while; lines where there is none."""
 
 from __future__ import annotations
 
 import math
-import sys
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -16,7 +15,7 @@ _FORM = "{percentage:3.0f} % {bar:40} {remaining} left"
 
 
 class Progress:
-    """A bar on the standard error stream, or a line a tenth; silent until `delay` seconds have passed.
+    """A bar on the standard error stream, or lines; silent until `delay` seconds have passed.
 
     Parameters
     ----------
@@ -33,7 +32,6 @@ class Progress:
     ) -> None:
         self._clock, self._from = clock, clock() + delay
         self._everywhere = everywhere
-        self._told = -1  # tenths
         self._bar: tqdm[None] | None = None
 
     def __enter__(self) -> Progress:
@@ -48,14 +46,14 @@ class Progress:
         if self._bar is None:
             if self._clock() < self._from:
                 return
-            if not self._everywhere and not sys.stderr.isatty():
-                if (tenths := int(10.0 * share + 1e-9)) > self._told:
-                    print(f"{10 * tenths:3d} % ...", file=sys.stderr, flush=True)
-                    self._told = tenths
-                return
-            from tqdm import tqdm
+            if self._everywhere:
+                from tqdm import tqdm
 
-            self._bar = tqdm(total=1.0, initial=share, bar_format=_FORM)
+                self._bar = tqdm(total=1.0, initial=share, bar_format=_FORM)
+            else:
+                from ali3.bars import bar
+
+                self._bar = bar(total=1.0, initial=share, bar_format=_FORM, delay=0.0)
         self._bar.update(share - self._bar.n)
 
 

@@ -66,7 +66,8 @@ def test_a_bar_that_comes_by_itself_is_for_terminals_and_lines_are_for_files(ter
     monkeypatch.setattr(sys, "stderr", stream)
     with Progress(DELAY, lambda: now[0], everywhere=False) as bar:
         now[0] = 4.0
-        for share in (0.25, 0.26, 0.3):
-            bar.update(share)
+        bar.update(0.25)
+        bar.update(0.26)
     assert ("\r" in stream.getvalue()) is terminal
-    assert terminal or stream.getvalue() == " 20 % ...\n 30 % ...\n"
+    lines = stream.getvalue().splitlines()
+    assert terminal or [line[:4] for line in lines] == ["25 %", "26 %"]  # the first, and the last when it ends

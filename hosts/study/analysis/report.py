@@ -68,7 +68,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     """The report of a frame of runs; see `write_report`."""
     if not len(frame):
         raise HostError(f"{folder} has no run yet; there is nothing to report.")
-    from tqdm import tqdm
+    from ali3.bars import bar as bar_of
 
     data = study_data(frame)
     pictures = Pictures(make_folder(folder / "analysis"))
@@ -85,7 +85,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
             body.append(element("h2", "Rank correlations"))
             body.append(paragraph("Spearman's: 1 or -1 where the measure only grows or only falls with it.", "faint"))
             body.append(pictures.add(plot_correlations(data, shown), "correlations", "Rank correlations"))
-        for k, response in enumerate(tqdm(shown, desc="report", unit="measure", delay=2.0, disable=None)):
+        for k, response in enumerate(bar_of(shown, desc="report", unit="measure")):
             body += measure_section(data, response, k, pictures, commands, numbers)
     main = main_response(data)
     write_study_slide(data, None if main is None else indices_of(data, main), folder)

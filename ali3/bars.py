@@ -1,0 +1,51 @@
+"""Bars of what takes a while: drawn on a terminal; elsewhere, such as in a file, a line of each now and then."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
+
+_DELAY = 2.0  # s before a bar appears
+_LATER = 1.5  # how much later than the last the next line comes
+_LONGEST = 60.0  # s between lines
+
+
+class _Lines:
+    """A stream to which a bar draws itself: each drawing is a line without control characters."""
+
+    bar: tqdm[Any] | None = None
+
+    def write(self, text: str) -> None:
+        if line := text.strip():
+            sys.stderr.write(f"{line}\n")
+            if self.bar is not None:
+                self.bar.mininterval *= _LATER
+
+    def flush(self) -> None:
+        sys.stderr.flush()
+
+
+def bar(*things: Any, **options: Any) -> tqdm[Any]:
+    """A bar on the standard error stream, silent for two seconds.
+
+    Parameters
+    ----------
+    *things, **options
+        Of `tqdm.tqdm`.
+
+    Returns
+    -------
+    tqdm
+        The bar.
+    """
+    from tqdm import tqdm
+
+    options = {"delay": _DELAY} | options
+    if sys.stderr.isatty():
+        return tqdm(*things, **options)
+    lines = _Lines()
+    lines.bar = tqdm(*things, file=lines, ascii=True, mininterval=_DELAY, maxinterval=_LONGEST, **options)
+    return lines.bar
