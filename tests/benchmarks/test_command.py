@@ -39,7 +39,7 @@ def test_the_bar_shows_itself_during_a_first_item_that_takes_long(capsys, monkey
     for k in watched(range(2)):
         if k == 0:
             time.sleep(0.4)
-            assert "  0 %" in capsys.readouterr().err
+            assert "0 %" in capsys.readouterr().err
     assert "100 %" in capsys.readouterr().err
 
 

@@ -20,7 +20,8 @@ from tests.vehicle.content import sentences, tables
 TABLES = [(name, path) for name in car_names() for path in tables(load(name)._data)]
 OPTIONAL = {
     *("chassis.accelerometers", "chassis.frame", "chassis.frame.gauges", "chassis.ground_contact", "payload"),
-    *("front.stops", "rear.stops", "front.anti_roll_bar", "rear.anti_roll_bar", "front.suspension.steering_stop"),
+    *("front.alignment", "rear.alignment", "front.tyre.bore", "rear.tyre.bore", "front.stops", "rear.stops"),
+    *("front.anti_roll_bar", "rear.anti_roll_bar", "front.suspension.steering_stop"),
 }
 
 
