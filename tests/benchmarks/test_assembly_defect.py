@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 
+import pytest
 from matplotlib import image
 
 from benchmarks import assembly_defect
 from benchmarks.paper.assembly_defect import GOAL
 
 
+@pytest.mark.slow
 def test_quick_run(tmp_path, capsys):
     file, chart = tmp_path / "rows.json", tmp_path / "chart.png"
     assert assembly_defect.main(["--quick", "--json", str(file), "--chart", str(chart)]) == 0

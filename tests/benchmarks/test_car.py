@@ -19,6 +19,7 @@ KEYS = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_rows_and_files(tmp_path, capsys):
     file, picture = tmp_path / "car.json", tmp_path / "car.png"
     arguments = [
@@ -59,6 +60,7 @@ def test_verdict_takes_the_largest_step_within_both_bounds():
     assert verdict(rows[:2]) == ["a: no step stays within the bounds"]
 
 
+@pytest.mark.slow
 def test_another_car_has_its_own_references(capsys):
     arguments = ["--car", "hatchback", "--no-fmu", "--repeats", "1", "--manoeuvres", "step_steer"]
     assert car.main(arguments) == 0

@@ -82,6 +82,7 @@ def test_stability_maps_judge_every_method_and_explain_what_stopped(tmp_path, ca
     assert "dead point" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_default_is_right_on_the_spinning_beam_and_the_standing_car(tmp_path, capsys):
     assert dissipative.main(["--quick", "--json", str(tmp_path / "d.json")]) == 0
     _, rows = read(tmp_path / "d.json")
@@ -96,6 +97,7 @@ def test_the_default_is_right_on_the_spinning_beam_and_the_standing_car(tmp_path
     assert "spinning_beam" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_default_warns_where_it_is_wrong_and_nowhere_else(tmp_path, capsys):
     assert honesty.main(["--quick", "--json", str(tmp_path / "h.json")]) == 0
     meta, rows = read(tmp_path / "h.json")

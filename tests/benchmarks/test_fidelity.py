@@ -55,6 +55,7 @@ def test_what_cannot_be_chosen(output: str, tolerance: float, said: str) -> None
         fidelity.cheapest(ROWS, output, tolerance)
 
 
+@pytest.mark.slow
 def test_measured_rows_and_chart(tmp_path: Path) -> None:
     rows = [fidelity.measure("kerb_test", f, 0.01, 1) for f in (Fidelity.RIGID, Fidelity.QUASI_STATIC)]
     assert rows[0]["moment"] is None

@@ -32,6 +32,7 @@ def pendulum(dimension: int) -> Drawing:
     return Drawing(dimension, [bar], [joint], [], [end], 0.0, 0.0, None, 2.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_the_reference_swings_as_the_elliptic_functions(dimension):
     """Angle from below: sin(a/2) = k sn(K - w t), k = sin(45 deg), w^2 = 3 g / 2 L."""
@@ -75,6 +76,7 @@ def test_the_command_judges_runs_and_compares_costs(tmp_path: Path, monkeypatch,
     assert "cost over before" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_a_wrong_run_without_a_word_is_found(monkeypatch):
     """The judge itself: with the checks of a run turned off the same cases are silently wrong."""
     told, silent = (list(random_honesty.rows_of(1, [7])) for _ in range(2))

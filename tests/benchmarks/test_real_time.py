@@ -18,6 +18,7 @@ from benchmarks.shared.instructions import counter
 H = 2e-3
 
 
+@pytest.mark.slow
 def test_the_rows_say_what_steps_cost_and_the_pictures_are_drawn(prototype_fmu, tmp_path, capsys, monkeypatch):
     for module in ("benchmarks.shared.instructions", "benchmarks.real_time"):
         monkeypatch.setattr(f"{module}.counter", lambda: None)  # counted in another test

@@ -50,6 +50,7 @@ def test_nothing_imports_a_command() -> None:
     assert not wrong
 
 
+@pytest.mark.slow
 def test_tests_other_than_those_of_the_commands_import_no_command() -> None:
     tests = [f for f in files(ROOT / "tests") if "benchmarks" not in f.relative_to(ROOT).parts]
     found = {(f.name, name) for f in tests for name in imports(f) if name.startswith("benchmarks")}

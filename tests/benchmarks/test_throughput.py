@@ -10,6 +10,7 @@ from benchmarks import throughput
 from mbs.kernel.binding.many import widest_lanes
 
 
+@pytest.mark.slow
 def test_ways_and_the_thousand_cars(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(throughput, "SCENES", throughput.SCENES[:1])
     monkeypatch.setattr(throughput, "PARTS", 2)

@@ -60,6 +60,7 @@ def test_the_fit_finds_the_numbers_of_a_drive(drive: Drive, monkeypatch: pytest.
     assert linear.windows > 20.0 * found.windows
 
 
+@pytest.mark.slow
 def test_the_steps_of_a_bicycle_are_fine_enough(drive: Drive) -> None:
     """Heun's method at the samples against LSODA, over the whole drive."""
     model = MODELS[PLACES["saturating bicycle, tanh"]]

@@ -320,6 +320,7 @@ def test_files_of_the_user_cannot_break_a_command(script: Path, crowded: Path) -
     assert "The driver needs variables" in done.stderr
 
 
+@pytest.mark.slow
 def test_as_a_module_it_forgets_the_current_folder(crowded: Path) -> None:
     # Python itself looks for these before it starts the module
     for name in ("ali3", "types", "typing", "test", "threading"):

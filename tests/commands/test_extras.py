@@ -32,6 +32,7 @@ def imported() -> Iterator[str]:
                     yield (node.module or "").partition(".")[0]
 
 
+@pytest.mark.slow
 def test_every_import_has_a_line_that_installs_it() -> None:
     names = set(imported()) - sys.stdlib_module_names - set(PACKAGES)
     assert len(names) > 20
@@ -78,6 +79,7 @@ def test_the_extra_of_the_command_comes_first(command: str, extra: str, package:
     assert missing_package(package, extra).endswith(f'pip install "ali3[{told}]"')
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("start", "told"), [(("ali3", "study"), "study"), (("hosts.study",), "study")])
 def test_a_study_without_its_packages(start: tuple[str, ...], told: str, tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text('fmu = "no.fmu"\n')
@@ -97,6 +99,7 @@ def caught(work: Callable[[], object]) -> ModuleNotFoundError:
     return raised.value
 
 
+@pytest.mark.slow
 def test_a_module_that_a_library_wants_at_run_time(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("trimesh.viewer")
     monkeypatch.setitem(sys.modules, "pyglet", None)
@@ -107,6 +110,7 @@ def test_a_module_that_a_library_wants_at_run_time(monkeypatch: pytest.MonkeyPat
     )
 
 
+@pytest.mark.slow
 def test_a_mistake_in_code_is_no_missing_package() -> None:
     error = caught(lambda: __import__("nothing_of_this_name"))
     assert caught(lambda: missing_module(error)) is error

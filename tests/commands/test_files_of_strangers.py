@@ -265,6 +265,7 @@ def _fault(read: Callable[[Path], Any], path: Path, may_be_read: bool, many: boo
     return "" if may_be_read else "it is read"
 
 
+@pytest.mark.slow
 def test_what_a_stranger_gives_is_refused_in_one_sentence(tmp_path: Path) -> None:
     """All readers, and all that may lie in the place of their files."""
     faults, count = [], 0

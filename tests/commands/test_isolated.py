@@ -79,6 +79,7 @@ def test_a_process_keeps_what_it_has_between_tasks_and_prints_what_it_likes(work
     assert worker.do("") == (3, process)
 
 
+@pytest.mark.slow
 @posix
 def test_after_a_loss_there_is_a_new_process(worker: Isolated[str, Any]) -> None:
     ways = {

@@ -65,6 +65,7 @@ def test_no_name_of_a_file_tells_a_terminal_what_to_do(capsys: pytest.CaptureFix
     assert capsys.readouterr().err == "error: m.toml has '\\x1b[2J\\x9b' in\nits second line.\n"
 
 
+@pytest.mark.slow
 def test_errors_of_ours_keep_their_traceback() -> None:
     for error in (ZeroDivisionError(), ModuleNotFoundError("No module named 'x'", name="x")):
         with pytest.raises(type(error)):

@@ -47,6 +47,7 @@ def test_a_free_hanging_chain_is_textbook_too(links):
     assert len(system.arrays["mass_val"]) <= 14 * links
 
 
+@pytest.mark.slow
 def test_size_grows_linearly():
     small, large = (compile(double_four_bar.build(n)) for n in (200, 400))
     assert counts(large) == (802, 801, 801, 1)
@@ -88,6 +89,7 @@ def calls(model):
     return count
 
 
+@pytest.mark.slow
 def test_calls_grow_linearly():
     compile(double_four_bar.build(2))  # what is imported late
     small, middle, large = (calls(double_four_bar.build(n)) for n in (50, 100, 200))

@@ -98,6 +98,7 @@ def test_beyond_the_tolerance_the_loop_is_refused_with_joint_distance_and_remedy
         compile(build(drawn.shifted(1e-3, seed=1)))
 
 
+@pytest.mark.slow
 def test_a_larger_tolerance_takes_it():
     model = drawn.bennett(drawn.shifted(1e-3))
     with pytest.raises(ModelError, match=r"tolerance=0\.0007\."):

@@ -30,6 +30,7 @@ def test_round_trip(name, tmp_path):
         np.testing.assert_array_equal(again.arrays[key], values)
 
 
+@pytest.mark.slow
 def test_compiling_twice_gives_equal_bytes(data):
     assert compile(rows_of_every_kind()).to_bytes() == data
 

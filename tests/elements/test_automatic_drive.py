@@ -68,6 +68,7 @@ def test_power_at_the_wheels_is_never_more_than_the_engine_gives() -> None:
             assert out["engine_torque"] * out["engine_speed"] <= 50e3 + 1e-6
 
 
+@pytest.mark.slow
 def test_torque_falls_with_speed_and_the_tangent_is_its_derivative() -> None:
     h = 0.01
     for throttle in (0.0, 0.3, 1.0):
@@ -115,6 +116,7 @@ def test_shift_is_continuous_in_time() -> None:
     assert np.max(np.abs(np.diff(torques))) < 0.01 * np.max(torques)
 
 
+@pytest.mark.slow
 def test_gears_do_not_hunt() -> None:
     element = drive_element()
     for throttle in (0.0, 0.5, 1.0):

@@ -60,6 +60,7 @@ def test_torque_acts_on_the_wheel_relative_to_its_carrier_by_virtual_work() -> N
     assert r.f[6] == r.out["torque"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("h", [0.02, 0.01, 0.002, 0.001])
 def test_held_wheel_gives_by_less_than_a_millimetre_and_does_not_creep(h: float) -> None:
     s = wheel(1.0, 0.95 * TORQUE, ramp=0.5)

@@ -33,6 +33,7 @@ def shaft(torque: float, rate: float = 0.0, ramp: float = 0.2, spring: float = 0
     return Stepper(np.array([INERTIA]), np.zeros(1), parts, [0.0], [rate])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("h", [0.01, 0.001])
 def test_it_holds_below_its_largest_force_and_does_not_creep(h: float) -> None:
     s = shaft(0.9 * LARGEST)
@@ -54,6 +55,7 @@ def test_beyond_it_the_rest_of_the_torque_accelerates() -> None:
     assert s.results[0].out["sticking"] == 0.0
 
 
+@pytest.mark.slow
 def test_it_takes_force_times_way_and_comes_to_rest() -> None:
     """All the kinetic energy goes: 1/2 I w^2 = F x, but for what stays wound up."""
     rate = 20.0

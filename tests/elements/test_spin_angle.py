@@ -53,6 +53,7 @@ def cone(tilt: float, n: int) -> list[Rotation]:
     return [Rotation.from_euler("z", psi) * Rotation.from_euler("x", tilt) for psi in np.linspace(0.0, 2.0 * np.pi, n)]
 
 
+@pytest.mark.slow
 def test_an_axis_around_a_cone_gives_the_angle_that_no_position_tells() -> None:
     """Once about the vertical: e . w = psi' sin(tilt), so -2 pi sin(tilt), and the error of steps falls with h^2."""
     for tilt in (0.02, 0.5, -0.9):
@@ -64,6 +65,7 @@ def test_an_axis_around_a_cone_gives_the_angle_that_no_position_tells() -> None:
         assert error[1] / error[2] == pytest.approx(4.0, rel=0.01)
 
 
+@pytest.mark.slow
 def test_the_wheel_is_where_small_turns_bring_it() -> None:
     """Carrier and angle together against the product of small turns by the wheel's own angular velocity."""
     n, rng = 4001, np.random.default_rng(3)

@@ -98,6 +98,7 @@ def test_side_force_builds_up_over_the_relaxation_length(speed: float) -> None:
     assert r.out["lateral_force"] == pytest.approx(-(1.0 - np.exp(-1.0)) * 23974.0 * slip, rel=0.01)
 
 
+@pytest.mark.slow
 def test_rolling_wheel_converges_with_order_two() -> None:
     def course(h: float) -> Array:
         corner = Corner(10.0, push=lambda t: (800.0 * np.sin(6.0 * t) ** 2, 100.0 * np.sin(9.0 * t) ** 2))
@@ -145,6 +146,7 @@ def test_standing_tyre_gives_no_energy_in_closed_cycles(h: float) -> None:
     assert max(work / peak for size, work, peak in rows if size > 1e-2) > 1.0  # large loops slide and lose
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("h", [0.01, 0.002])
 def test_braked_wheel_stops_on_a_slope_and_stays(h: float) -> None:
     corner = Corner(8.0, grade=(0.1, 0.03), pedal=lambda t: min(1.0, max(0.0, (t - 0.2) / 0.2)))

@@ -62,6 +62,7 @@ def frame_figures(theory: str) -> dict[str, np.ndarray]:
     }
 
 
+@pytest.mark.slow
 def test_the_frame_in_calculix_lies_between_our_two_theories() -> None:
     """Shear makes the short tubes softer; solid-expanded sections shear less than Cowper's thin ring."""
     soft, stiff = frame_figures("timoshenko"), frame_figures("euler_bernoulli")

@@ -34,6 +34,7 @@ def _spin_run(parts: int, check: bool | None = None) -> tuple[np.ndarray, np.nda
     return run.t, *spinning_beam.in_turning_axes(run.t, run["tip.x"], run["tip.y"])
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.BendingWarning")  # one and two parts bend too far
 def test_spin_up_converges_with_the_parts() -> None:
     """One floating frame misses the stiffening by the centrifugal tension and cannot pass the speed at which the beam
@@ -102,6 +103,7 @@ def flapping_frequency(parts: int, speed: float) -> tuple[float, float]:
     return 2 * np.pi * min(found), 1.8751041**2 * np.sqrt(E * radius**2 / 4 / rho) / length**2
 
 
+@pytest.mark.slow
 def test_rotating_beam_frequencies_approach_southwell() -> None:
     """Flapping of a blade without hub radius: w^2 = w0^2 + 1.193 W^2 (Southwell). Tension acts between the parts."""
     speed = 40.0

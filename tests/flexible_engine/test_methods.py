@@ -75,6 +75,7 @@ def test_the_energy_momentum_step_keeps_the_energy_of_bodies_that_deform(h: floa
     assert np.ptp(run["total"]) < KEPT * np.ptp(run["kinetic"])
 
 
+@pytest.mark.slow
 def test_the_energy_momentum_step_carries_a_spinning_beam_to_its_deflection() -> None:
     """Coordinates without mass: what the velocity has off the rows there no energy bounds; it grew by 5 1/s."""
     system = compile(spinning_beam.build())

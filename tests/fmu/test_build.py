@@ -62,6 +62,7 @@ def test_scene_of_a_file(file: Path, function: str, name: str) -> None:
     assert [s["name"] for s in system.meta["sensors"]] == ["bob.x"]
 
 
+@pytest.mark.slow
 def test_command_builds_into_a_new_folder(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "a" / "b"
     assert build_fmu.main(["--scene", f"{file}:swing", "--out", str(out), "--platforms", PLATFORM]) == 0

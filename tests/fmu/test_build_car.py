@@ -47,6 +47,7 @@ def command(car: object, out: Path) -> list[str]:
     return ["--car", str(car), "--out", str(out), "--kind", "native", "--platforms", PLATFORM]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("given", ["{}", "{}/car.toml"])
 def test_a_folder_or_a_file_becomes_an_fmu(
     car: Path, tmp_path: Path, given: str, capsys: pytest.CaptureFixture[str]
@@ -118,6 +119,7 @@ def test_faults_are_sentences_and_nothing_is_built(
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_what_is_odd_is_a_warning_without_the_place_in_the_source(
     car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

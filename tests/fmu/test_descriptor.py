@@ -37,6 +37,7 @@ def test_fmpy_finds_nothing(build: Callable[..., Path], scene: str, kind: str) -
     assert validate_fmu(str(build(scene, kind))) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["native", "python"])
 @pytest.mark.parametrize("scene", ["crane", "reach", "sled"])
 def test_fmu_manipulation_toolbox_finds_nothing(build: Callable[..., Path], scene: str, kind: str) -> None:

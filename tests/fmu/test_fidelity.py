@@ -54,6 +54,7 @@ def values(fmu: Fmu, steps: int = 0, begin: int = 0) -> list[float]:
     return fmu.getter(OUTPUTS)()
 
 
+@pytest.mark.slow
 def test_the_description_offers_the_fidelities(kerb: Path) -> None:
     assert validate_fmu(str(kerb)) == []
     (v,) = (v for v in read_model_description(str(kerb)).modelVariables if v.name == "fidelity")
@@ -130,6 +131,7 @@ def test_a_reset_goes_back_to_the_default(kerb: Path) -> None:
         assert values(fmu, 5) == values(other, 5)
 
 
+@pytest.mark.slow
 def test_fmi_3_has_the_fidelities_too(kerb_fmus: Path, own: dict[int, list[list[float]]]) -> None:
     """The same bits as the engine with a flexible frame."""
     file = kerb_fmus / "fmi3.fmu"
@@ -169,6 +171,7 @@ def test_a_stress_needs_no_word(kerb: Path) -> None:
         assert logged(kerb, fidelity, list(OUTPUTS)) == []
 
 
+@pytest.mark.slow
 def test_an_output_that_no_system_computes_is_told_once_a_run(
     made_once: Callable[[str, Callable[[Path], None]], Path], kind: str, need: Callable[[str], None]
 ) -> None:

@@ -96,6 +96,7 @@ def compare(system: mbs.System, run: mbs.Trajectory, tolerance: float) -> dict[s
     return scene
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CARS)
 def test_a_car_is_drawn_by_its_outputs_where_the_engine_has_it(name: str) -> None:
     """Arms from three points, wheels, rack and levers, in a run with full lock, brakes and slides."""
@@ -113,6 +114,7 @@ def test_a_car_is_drawn_by_its_outputs_where_the_engine_has_it(name: str) -> Non
     assert "steering.file" not in turned
 
 
+@pytest.mark.slow
 def test_a_rim_turns_as_the_engine_turns_it() -> None:
     """A point of the rim, from carrier, axis and angle, against the rate of the wheel along its axis."""
     system = car("prototype")
@@ -125,6 +127,7 @@ def test_a_rim_turns_as_the_engine_turns_it() -> None:
     assert np.max(np.abs(rate - run["wheel_FL.omega"])[5:-5]) < 0.02 * np.max(run["wheel_FL.omega"])
 
 
+@pytest.mark.slow
 def test_a_steering_column_is_drawn_by_its_outputs_too() -> None:
     """Its rack is a body: the tie rods drawn on it end where its own joints are."""
     system = car("hatchback", True)
@@ -183,6 +186,7 @@ def test_without_poses_the_drawing_says_what_is_missing_and_what_to_do() -> None
     assert all("coupler" not in str(shape) for shape in scene["shapes"])
 
 
+@pytest.mark.slow
 def test_all_poses_of_a_car_come_after_all_else_at_every_fidelity() -> None:
     made = load("prototype")
     plain = [entry["name"] for entry in car("prototype").meta["sensors"]]

@@ -144,6 +144,7 @@ def test_an_input_without_limits(build: Callable[..., Path], kind: str, host: Ho
     assert driven.get("torque") == -1e6
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings(
     "ignore::mbs.simulation.large_bending.BendingWarning"
 )  # one body a bar bends by 0.05 rad, as warned

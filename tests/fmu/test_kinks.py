@@ -103,6 +103,7 @@ def test_both_sides_of_a_kink(name: str, less: float, build: Callable[..., Path]
     assert f"'{element}' passes a kink" in str(_derivative(driven, [driven.references["mass.ax"]], "push"))
 
 
+@pytest.mark.slow
 def test_a_car_at_the_limits_of_its_motor(prototype_fmu: Path, host: HostMaker) -> None:
     """The step in which the engine reaches its power has no derivative by the throttle; all but one other have."""
     driven = host(prototype_fmu).start({"initial.speed": 2.0})

@@ -129,6 +129,7 @@ def machine(make: Callable[[], Any]) -> type[RuleBasedStateMachine]:
     return Calls
 
 
+@pytest.mark.slow
 def test_random_sequences(build: Callable[..., Path], host: HostMaker) -> None:
     first = host(build("crane", "native"))
 

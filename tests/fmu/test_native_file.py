@@ -92,6 +92,7 @@ def test_the_reference_results_repeat(build: Callable[..., Path], kind: str) -> 
     assert swings[1] != swings[0]
 
 
+@pytest.mark.slow
 def test_the_reference_results_of_a_car_have_stresses() -> None:
     cars = [mbs.compile(prototype_car.build(fidelity=fidelity)) for fidelity in (0, 1)]
     systems, (follower, _) = following(cars)

@@ -197,6 +197,7 @@ def lagging() -> dict[str, Columns]:
     return {name: late(name, 0.5 * H) for name in LEFT}
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:missing input")
 @of_kinds("native", "fmi3", "fmi3_scalar", "python")
 def test_held_inputs_are_late_by_half_a_communication_step(car: Road, lagging: dict[str, Columns]) -> None:
@@ -303,6 +304,7 @@ def test_moments_and_stresses_of_the_kerb_in_every_kind(kerb_fmus: Path) -> None
         assert found[stress] == pytest.approx(across * found[moment], rel=1e-9)
 
 
+@pytest.mark.slow
 @of_kinds("native")
 def test_a_host_in_c_and_libcosim_run_the_references_of_constant_inputs(car: Road, tmp_path: Path) -> None:
     fmu, folder = car("drop"), unpack(car("drop"), tmp_path / "fmu")

@@ -279,6 +279,7 @@ def test_starts_on_a_slope_and_parameters_without_effect_are_told(car: Path, hos
     assert level.messages == []
 
 
+@pytest.mark.slow
 def test_a_car_built_on_a_road_file_has_it_as_its_start_value(tmp_path: Path, host: Any) -> None:
     write_road(KerbRoad(1.0, 0.05, -0.05, "before", FRICTION), tmp_path / "step.road")
     system = mbs.compile(prototype_car.build(RoadFile(tmp_path / "step.road")))
@@ -293,6 +294,7 @@ def test_a_car_built_on_a_road_file_has_it_as_its_start_value(tmp_path: Path, ho
     assert heights(driven, 500) == found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind_3", ["fmi3", "fmi3_scalar"])
 def test_fmi_3_gives_the_same(
     built: Callable[[str], Path], host: Any, roads: Path, kind_3: str, tmp_path: Path

@@ -19,6 +19,7 @@ from tests.in_process import run
 H = 0.01
 
 
+@pytest.mark.slow
 def test_rows_at_an_interval_are_those_of_every_step(kerb_fmus: Path, tmp_path: Path) -> None:
     tables, said = {}, {}
     for name, more in (("all", ()), ("few", ("--interval", "0.05"))):

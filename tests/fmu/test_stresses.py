@@ -191,6 +191,7 @@ def test_only_the_same_model_is_followed() -> None:
             one.follow(two)
 
 
+@pytest.mark.slow
 def test_a_run_in_python_has_the_same_numbers(kerb_fmus: Path) -> None:
     """Bit for bit those of the FMU, from one run and from states; a thinned run has those of its samples."""
     system = compile(kerb_test.build(0))

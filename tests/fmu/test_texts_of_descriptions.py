@@ -26,6 +26,7 @@ def car(request: pytest.FixtureRequest) -> tuple[str, tuple[Variable, ...]]:
     return request.param, with_nominal(table, sizes, sizes)
 
 
+@pytest.mark.slow
 def test_typical_sizes_are_those_of_common_drives_and_equal_on_both_sides(
     car: tuple[str, tuple[Variable, ...]],
 ) -> None:

@@ -96,6 +96,7 @@ def test_a_state_brings_the_lever_back(stick: Path, host: HostMaker) -> None:
     assert driven.run(20, H, 10 * H) == first
 
 
+@pytest.mark.slow
 def test_two_hosts_and_the_engine_agree_bit_for_bit(stick: Path, tmp_path: Path) -> None:
     wanted = reference()
     times = np.arange(101) * H
@@ -125,6 +126,7 @@ def test_two_hosts_and_the_engine_agree_bit_for_bit(stick: Path, tmp_path: Path)
     assert np.array_equal(table["rod.x"], wanted["rod.x"])
 
 
+@pytest.mark.slow
 def test_a_table_between_two_positions_is_refused(stick: Path, tmp_path: Path) -> None:
     (tmp_path / "half.csv").write_text('"time","lever"\n0,0\n1,0.5\n')
     command = [sys.executable, "-m", "hosts.run.command", stick, "--manoeuvre", tmp_path / "half.csv"]

@@ -59,6 +59,7 @@ def test_the_car_is_what_its_constants_tell(car: tuple[mbs.System, Path]) -> Non
     assert 0.5 * ideal < 1.0 / np.tan(right) - 1.0 / np.tan(left) < 1.5 * ideal
 
 
+@pytest.mark.slow
 def test_launch_and_brake(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     r, said = drive(car, "launch_and_brake", tmp_path)
     t, speed = r["time"], r["speed"]
@@ -77,6 +78,7 @@ def test_launch_and_brake(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     assert abs(float(told["- steering, structure, rest"][0])) < 1e-6 * works[0]
 
 
+@pytest.mark.slow
 def test_kerb_drop(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     r, said = drive(car, "kerb_drop", tmp_path, 0.002)
     for wheel in ("FL", "FR"):
@@ -98,6 +100,7 @@ def test_drop_comes_to_rest_on_four_wheels(car: tuple[mbs.System, Path], tmp_pat
         assert r[f"wheel_{wheel}.Fz"][-1] == pytest.approx(load, rel=0.03)
 
 
+@pytest.mark.slow
 def test_step_steer(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     r, _ = drive(car, "step_steer", tmp_path)
     late = r["time"] > 5.0
@@ -111,6 +114,7 @@ def test_step_steer(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     assert np.abs(r["chassis.ay"][r["time"] < 1.0]).max() < 1e-3
 
 
+@pytest.mark.slow
 def test_slalom_is_the_same_to_both_sides(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     r, _ = drive(car, "slalom", tmp_path)
     ay = r["chassis.ay"]
@@ -118,6 +122,7 @@ def test_slalom_is_the_same_to_both_sides(car: tuple[mbs.System, Path], tmp_path
     assert ay.max() == pytest.approx(-ay.min(), rel=0.1)
 
 
+@pytest.mark.slow
 def test_steady_cornering(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     r, _ = drive(car, "steady_cornering", tmp_path)
     late = r["time"] > 15.0

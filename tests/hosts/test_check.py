@@ -45,6 +45,7 @@ def spoil(fmu: Path, copy: Path, old: str, new: str) -> Path:
     return copy
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["native", "fmi3"])
 def test_ours_pass(fmus: dict[str, Path], kind: str) -> None:
     done = check(fmus[kind])
@@ -63,6 +64,7 @@ def test_texts_without_an_end_are_cut(fmus: dict[str, Path], tmp_path: Path, opt
     assert len(done.stdout) + len(done.stderr) < 60_000
 
 
+@pytest.mark.slow
 def test_a_description_that_does_not_fit_is_bad(fmus: dict[str, Path], tmp_path: Path) -> None:
     guid = fmpy.read_model_description(str(fmus["native"])).guid
     done = check(spoil(fmus["native"], tmp_path / "a.fmu", guid, "{another}"))
@@ -79,6 +81,7 @@ def test_other_files_are_errors(tmp_path: Path) -> None:
     assert check(other).returncode == check(tmp_path / "none.fmu").returncode == 2
 
 
+@pytest.mark.slow
 def test_an_fmu_that_crashes_is_bad(fmus: dict[str, Path], tmp_path: Path) -> None:
     source = tmp_path / "crash.c"
     as_it_is_loaded = "__attribute__((constructor)) void crash(void) { raise(SIGSEGV); }\n"
@@ -97,6 +100,7 @@ def test_an_fmu_that_crashes_is_bad(fmus: dict[str, Path], tmp_path: Path) -> No
     assert "crashed (SIGSEGV)" in done.stdout or sys.platform == "win32"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["native", "fmi3"])
 def test_it_checks_with_what_is_set(tmp_path: Path, capfd: pytest.CaptureFixture[str], kind: str) -> None:
     name, system = load_scene(f"{Path(__file__).with_name('scenes.py')}:tuned")

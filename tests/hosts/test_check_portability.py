@@ -69,6 +69,7 @@ def changed(fmu: Path, copy: Path, changes: list[Change], shared: Path | None = 
     return copy
 
 
+@pytest.mark.slow
 def test_ours_have_none_of_it(fmus: dict[str, Path]) -> None:
     for fmu in fmus.values():
         found = findings(fmu)
@@ -126,6 +127,7 @@ TEXTS: list[tuple[str, str, str, list[Change]]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "check", "said", "changes"), TEXTS)
 def test_documents(
     fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, said: str, changes: list[Change]
@@ -183,6 +185,7 @@ CALLS: list[tuple[str, str, str, Change]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "check", "said", "change"), CALLS)
 def test_calls(
     fmus: dict[str, Path], tmp_path: Path, shared: Path, kind: str, check: str, said: str, change: Change

@@ -51,6 +51,7 @@ def colours(picture: Path) -> int:
     return len(np.unique(pixels.reshape(-1, 3), axis=0))
 
 
+@pytest.mark.slow
 def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
     command = [sys.executable, "-m", "hosts.run.command", fmus["sledge"], "--manoeuvre", turn, "--step", "0.02"]
     utf8 = os.environ | {"PYTHONIOENCODING": "utf-8"}
@@ -96,6 +97,7 @@ def test_a_result_is_a_manoeuvre_that_repeats_the_run(
     assert (first["steering"][100] in (0.0, 0.5)) == bool(held)
 
 
+@pytest.mark.slow
 def test_a_result_that_began_with_a_state_repeats_the_run(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
     with Fmu(fmus["sledge"]) as fmu:
         fmu.initialise({"steering": 0.2, "throttle": 0.5})
@@ -111,6 +113,7 @@ def test_a_result_that_began_with_a_state_repeats_the_run(fmus: dict[str, Path],
         np.testing.assert_allclose(again[name], first[name], rtol=1e-9, atol=1e-9, err_msg=name)
 
 
+@pytest.mark.slow
 def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
     (tmp_path / "swing.csv").write_text('"time","torque"\n0,0\n1,0\n1,4\n4,4\n')
     done = drive(fmus["motor_pendulum"], "-m", tmp_path / "swing.csv", "--out", tmp_path)
@@ -121,6 +124,7 @@ def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
     assert colours(tmp_path / "motor_pendulum_swing.png") > 100
 
 
+@pytest.mark.slow
 def test_a_car_that_stands_still_gets_a_page_without_a_warning(fmus: dict[str, Path], tmp_path: Path) -> None:
     (tmp_path / "rest.csv").write_text('"time","throttle"\n0,0\n1,0\n')
     done = drive(fmus["sledge"], "-m", tmp_path / "rest.csv", "--out", tmp_path)
@@ -128,6 +132,7 @@ def test_a_car_that_stands_still_gets_a_page_without_a_warning(fmus: dict[str, P
     assert "distance driven            0.00 m" in done.stdout
 
 
+@pytest.mark.slow
 def test_messages_of_the_fmu_are_shown(fmus: dict[str, Path], tmp_path: Path) -> None:
     (tmp_path / "hard.csv").write_text('"time","torque"\n0,0\n1,90\n')
     done = drive(fmus["motor_pendulum"], "-m", tmp_path / "hard.csv", "--out", tmp_path)

@@ -52,6 +52,7 @@ def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
     assert "{100% of #r1#}" in told[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "rows"),
     [
@@ -73,6 +74,7 @@ def test_with_held_inputs_results_are_the_same_bytes(
     assert len(tables[0].splitlines()) == 102
 
 
+@pytest.mark.slow
 def test_what_goes_straight_is_held_and_late_and_this_is_told(
     fmus: dict[tuple[str, str], Path], tmp_path: Path
 ) -> None:
@@ -95,6 +97,7 @@ def test_what_goes_straight_is_held_and_late_and_this_is_told(
     assert left < 0.1 * lag
 
 
+@pytest.mark.slow
 def test_states_and_start_values_are_those_of_fmi_2(fmus: dict[tuple[str, str], Path]) -> None:
     for kind in KINDS:
         with Fmu(fmus["crane", kind]) as fmu, Fmu(fmus["crane", kind]) as other:

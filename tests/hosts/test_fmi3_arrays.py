@@ -85,6 +85,7 @@ def test_a_run_with_inputs_and_parameters_that_are_elements(fmu: Path, tmp_path:
     assert np.abs(expected).max() > 0.5
 
 
+@pytest.mark.slow
 def test_a_study_over_elements(fmu: Path, tmp_path: Path) -> None:
     file = tmp_path / "study.toml"
     file.write_text(

@@ -27,6 +27,7 @@ def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return {k: build_fmu(system, name, tmp_path_factory.mktemp(k), [fmpy.platform], kind=k) for k in KINDS}
 
 
+@pytest.mark.slow
 def test_a_study(fmus: dict[str, Path], tmp_path: Path) -> None:
     text = (HERE / "study" / "study.txt").read_text(encoding="utf-8").replace("runs = 16", "runs = 4")
     found = {}
@@ -42,6 +43,7 @@ def test_a_study(fmus: dict[str, Path], tmp_path: Path) -> None:
         assert found["fmi3"].attrs["units"][name] == found["native"].attrs["units"][name] == "m"
 
 
+@pytest.mark.slow
 def test_a_comparison_with_a_log(fmus: dict[str, Path], tmp_path: Path) -> None:
     """Its log is the motion of a softer spring by SciPy; FMI 3.0 holds inputs, which makes them half a step late."""
     stiffness, damping, mass, length, gravity = 60.0, 1.0, 2.0, 0.8, 9.80665

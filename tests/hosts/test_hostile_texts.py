@@ -194,6 +194,7 @@ def test_the_simulator(chromium: Any) -> None:
     check(program.page, MARKUP)
 
 
+@pytest.mark.slow
 def test_reports(foreign: Path, tmp_path: Path, chromium: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(synthetic_records, "EVIL", MARKUP)
     write_report(tmp_path / "report.html", *synthetic_records.synthetic(tmp_path / "none.fmu", tests=2, points=50))
@@ -215,6 +216,7 @@ def test_the_documentation_in_an_fmu(tmp_path: Path, chromium: Any) -> None:
     check(opened(chromium, tmp_path / "index.html"), MARKUP)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", ["</script>", "</SCRIPT >", "<!--", "a\rb"])
 def test_a_script_that_is_not_whole_is_refused(text: str) -> None:
     with pytest.raises(ValueError, match="holds </script"):

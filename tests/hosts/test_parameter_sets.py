@@ -353,6 +353,7 @@ def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(
     ]
 
 
+@pytest.mark.slow
 def test_what_does_nothing_is_told(tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for text, words in (
         (ssv(), "empty: it sets nothing"),
@@ -368,6 +369,7 @@ def test_what_does_nothing_is_told(tuned: Path, file: Path, tmp_path: Path, caps
     assert "--set: 'spring.damping' is given as 1 and as 2; give it once" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
     tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -495,6 +497,7 @@ def test_a_set_of_all_parameters_of_a_car_is_the_engine_with_them(file: Path, tm
     assert found == {n: simulation.sensors[n] for n in names}
 
 
+@pytest.mark.slow
 def test_a_column_of_whole_numbers_is_held_between_its_rows(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     name, system = load_scene(f"{HERE / 'scenes.py'}:switched")
     fmu = build_fmu(system, name, tmp_path, [PLATFORM])

@@ -31,6 +31,7 @@ def sledge(tmp_path_factory):
     return build_fmu(mbs.compile(m), "sledge", tmp_path_factory.mktemp("sledge"), [fmpy.platform])
 
 
+@pytest.mark.slow
 def test_what_the_parameter_is_set_to(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert road_value("rough.road", tmp_path) == "rough.road"  # of the FMU
@@ -45,6 +46,7 @@ def test_what_the_parameter_is_set_to(tmp_path, monkeypatch):
         road_value("bad.csv", tmp_path / "out")
 
 
+@pytest.mark.slow
 def test_a_run_on_a_table(sledge, tmp_path, capsys):
     (tmp_path / "hill.csv").write_text(TABLE.format(3.0))
     out = tmp_path / "out"

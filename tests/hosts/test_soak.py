@@ -94,6 +94,7 @@ def test_what_is_set_wins_over_the_start_by_chance(car: Path, ground: Ground, tm
     assert made.counts.highest > 0.8
 
 
+@pytest.mark.slow
 def test_a_failing_stretch_is_saved_and_repeated(
     car: Path, ground: Ground, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -118,6 +119,7 @@ def test_a_failing_stretch_is_saved_and_repeated(
         assert again["solver.energy_balance"][-1] > 1e-6
 
 
+@pytest.mark.slow
 def test_a_refused_step_is_saved_with_its_inputs(car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     real, tried = Fmu.step, []
 
@@ -143,6 +145,7 @@ def test_a_refused_step_is_saved_with_its_inputs(car: Path, tmp_path: Path, monk
     assert "was refused when it was recorded only" in str(found.first[0])
 
 
+@pytest.mark.slow
 def test_a_state_that_is_not_restored_is_seen(car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert drive(task(car, tmp_path, seconds=2.0)).rewinds >= 1
     real = Fmu.restore
@@ -262,6 +265,7 @@ def test_a_process_that_dies_is_a_failure(
     assert "2 failures" in told
 
 
+@pytest.mark.slow
 def test_bad_wishes_are_refused(car: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     def refused(*arguments: str) -> str:
         assert main([str(car), "--soak", "--out", str(tmp_path), *arguments]) == 2

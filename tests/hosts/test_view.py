@@ -100,6 +100,7 @@ def shown(page: Path) -> list[dict[str, Any]]:
     return list(data["runs"])
 
 
+@pytest.mark.slow
 def test_a_result_is_shown_with_the_scene_of_its_fmu(result: Path, said: Said) -> None:
     status, text = said(result)
     assert status == 0
@@ -357,6 +358,7 @@ def test_without_a_browser_for_pictures_there_is_one_sentence(
     assert not Path("p.png").exists()
 
 
+@pytest.mark.slow
 def test_pictures_and_animations_are_written_without_a_page(result: Path, said: Said) -> None:
     from PIL import Image
 

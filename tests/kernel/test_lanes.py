@@ -52,6 +52,7 @@ def compare(many: Many, single: list[Simulation], together: list[Simulation], h:
     return sum(end.alone for end in ended), {0 if e.error is None else e.error.status for e in ended}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", WIDTHS)
 def test_cars_have_the_bits_of_single_runs(width: int) -> None:
     """Wild driving, kerbs, a fall and a launch beside each other; at 40 ms steps are halved, or refused without halves.

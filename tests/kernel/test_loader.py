@@ -318,6 +318,7 @@ def test_a_velocity_row_that_is_more_or_less_is_refused(changes: dict[str, list[
     assert said in refused(pack(sleigh().arrays() | changes))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "build", [bricard.build, spatial_chain.build, lambda: hinge(0.1)], ids=["Bricard", "chain", "angle"]
 )

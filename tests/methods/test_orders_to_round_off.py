@@ -82,6 +82,7 @@ def test_the_governor_gets_better_with_every_halving_of_the_step():
     assert found[4] < 3e-12  # a tolerance in metres alone left 4e-8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "method", "steps", "least"),
     [

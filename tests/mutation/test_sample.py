@@ -104,6 +104,7 @@ def mutants_in(tree: Path, operator: str) -> list[Sampled]:
     return sorted((m for m in many if m.operator == operator and m.file.endswith("area.py")), key=str)
 
 
+@pytest.mark.slow
 def test_a_mutant_is_found_where_its_file_was_moved_and_its_lines_wrapped(tree: Path) -> None:
     comparison = mutants_in(tree, "comparison")
     (swapped,) = (m for m in mutants_in(tree, "order") if "add" in m.line)
@@ -132,6 +133,7 @@ def test_a_line_that_stands_twice_is_told_apart_by_its_function_or_told(tree: Pa
         elsewhere.apply(tree)
 
 
+@pytest.mark.slow
 def test_every_stored_mutant_is_in_the_code() -> None:
     gone = []
     for mutant in read(STORED):

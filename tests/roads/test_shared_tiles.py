@@ -40,6 +40,7 @@ def run(system, path, t_end=1.0):
     return mbs.simulate(system, t_end, H, pose=mbs.Pose(speed=12.0), parameters={"road.file": path}, progress=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("frictions", [many(), np.round(many(), 1), few(), 0.8], ids=["all", "some", "two", "one"])
 def test_the_same_road_in_both_versions(tmp_path, car, frictions):
     road = rough(frictions)
@@ -77,6 +78,7 @@ def test_level_ground_is_one_tile(tmp_path):
     assert (tmp_path / "a.road").stat().st_size == HEADER.size + 100 * 100 * ENTRY.size + record
 
 
+@pytest.mark.slow
 def test_more_tiles_than_are_kept_lead_to_the_same_bits(tmp_path, car):
     """64 tiles are kept; the file has 29 x 5, of which the car passes all in x."""
     road = rough(few())

@@ -104,6 +104,7 @@ def test_who_drives_into_a_wall_is_refused_with_the_place() -> None:
     assert refused.value.status == Status.WHEEL_IN_ROAD
 
 
+@pytest.mark.slow
 def test_told_where_the_road_is_made_and_where_a_car_is_built(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

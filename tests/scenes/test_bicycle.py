@@ -53,6 +53,7 @@ def test_the_system_has_the_published_eigenvalues():
     np.testing.assert_allclose(found, AT_FIVE, atol=PRINTED)
 
 
+@pytest.mark.slow
 def test_the_system_has_the_published_speeds():
     weave, capsize = stable_speeds()
     assert weave == pytest.approx(WEAVE, abs=1e-10)

@@ -93,6 +93,7 @@ def test_ten_seconds_at_one_millisecond(windows, bound):
     assert position_error(windows, END, 0.001, TIGHT) < bound
 
 
+@pytest.mark.slow
 def test_singular_passages_at_small_steps_need_a_violation_well_below_the_regularisation():
     """What is left of the violation, times alpha, is an error of the multipliers where a row loses its lever."""
     steps = np.random.default_rng(5).uniform(0.0006, 0.003, 12)

@@ -110,6 +110,7 @@ def test_ports_do_not_change_the_motion():
         np.testing.assert_allclose(ported[name], rigid[name], rtol=0, atol=1e-6 * size)
 
 
+@pytest.mark.slow
 def test_a_stiff_frame_moves_like_a_rigid_body(monkeypatch):
     body = CAR.flexible_frame.reduced(3)
     inputs = {"steering": ([0.0, 0.2, 0.6, 2.0], [0.0, 0.0, 0.2, 0.2]), "throttle": 0.4}
@@ -138,6 +139,7 @@ def test_a_start_at_speed_does_not_ring(h):
     assert np.abs(flexible["chassis.x"] - rigid["chassis.x"]).max() < 1e-3
 
 
+@pytest.mark.slow
 def test_in_a_steady_turn_the_flexible_and_the_quasi_static_car_agree():
     inputs = {"steering": ([0.0, 1.0, 3.0, 8.0], [0.0, 0.0, 0.2, 0.2]), "throttle": 0.15}
     quasi, flexible = (simulate(car(f), 8.0, 0.01, inputs, progress=False) for f in (1, 3))
@@ -156,6 +158,7 @@ def test_an_unknown_fidelity_is_named(fidelity):
         prototype_car.build(fidelity=fidelity)
 
 
+@pytest.mark.slow
 def test_a_fidelity_is_given_as_member_number_or_name():
     for number, name in enumerate(("rigid", "quasi_static", "load_paths", "dynamic", "many_modes")):
         assert Fidelity.of(number) is Fidelity.of(name) is Fidelity.of(name.upper()) is Fidelity.of(np.int64(number))

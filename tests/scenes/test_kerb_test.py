@@ -26,6 +26,7 @@ def run(fidelity):
     return simulation, simulation.run(kerb_test.DURATION, H, progress=False)
 
 
+@pytest.mark.slow
 def test_the_guide_follows_the_speed_of_the_test():
     _, t = run(3)
     way = t["chassis.x"] - t["chassis.x"][0]
@@ -79,6 +80,7 @@ def test_the_kerb_is_what_loads_the_gauges_most():
         assert change.max() > 2.0 * change[t.t < 7.5].max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fidelity", [1, 3])
 def test_moments_return_once_the_tyres_let_go(fidelity):
     """The tyres hold the track in which the car came to stand, 131 N to the side at each wheel, as real ones do."""

@@ -50,6 +50,7 @@ def test_the_balance_of_a_drive_closes():
         assert np.abs(open_ - 2.0 * t[f"energy.{name}"]).max() > 100.0 * np.abs(open_).max()
 
 
+@pytest.mark.slow
 def test_the_works_converge_by_second_order():
     runs = [launch_and_brake(h) for h in (0.004, 0.002, 0.001)]
     for name in ("drive", "brakes", "tyres", "drag"):

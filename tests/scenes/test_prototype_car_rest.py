@@ -34,6 +34,7 @@ def test_a_hundred_seconds_at_rest(case):
     assert t.report.mean_iterations < 1.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("h", [0.01, 0.005])
 def test_the_energy_momentum_step_lets_the_braked_car_stand(h):
     """Its carried velocity rings; brushes and brakes that took that for a motion let the car creep by metres."""
@@ -43,6 +44,7 @@ def test_the_energy_momentum_step_lets_the_braked_car_stand(h):
     assert moved(t, 20.0, 60.0) < SETTLED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", ["grade_x", "grade_y"])
 @pytest.mark.parametrize("grade", [GRADE, -GRADE])
 def test_parked_on_a_slope_up_down_and_across(way, grade):

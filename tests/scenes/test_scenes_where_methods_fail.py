@@ -93,6 +93,7 @@ def test_the_equal_arms_stay_on_their_branch_through_every_singular_position():
     np.testing.assert_allclose(t["slider.position.x"], 2.0 * t["A.position.x"], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_spatial_slider_crank_follows_its_reduction_to_one_angle():
     names = ("slider.position.x",)
     steps = np.array([0.002, 0.001, 0.0005])
@@ -142,6 +143,7 @@ def test_the_pendulum_keeps_its_energy_and_rod_over_a_thousand_seconds(h):
     assert energy.max() - energy[0] < 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_classical_methods_follow_the_pendulum_which_is_never_singular(method):
     end = 0.3 if method == "velocity transformation" else 2.0  # its coordinate has a dead point on the way
@@ -152,6 +154,7 @@ def test_classical_methods_follow_the_pendulum_which_is_never_singular(method):
     np.testing.assert_allclose(found.positions, references.pendulum(found.t), atol=tolerance)
 
 
+@pytest.mark.slow
 def test_classical_methods_fail_where_theory_says_and_name_the_rank():
     four_bar, names = compile(double_four_bar.build()), ("B0.position.x", "B0.position.y")
     fixed = run(four_bar, 1.0, 0.001, "velocity transformation", names)

@@ -69,6 +69,7 @@ def _stream(seed: int, number: int) -> np.random.Generator:
     return rng
 
 
+@pytest.mark.slow
 def test_a_drop_in_a_long_run(monkeypatch: pytest.MonkeyPatch) -> None:
     """50 s in which the car lands once: from 0.3 m on its floor, whose force is 26 % off at 10 ms; from 0.1 m not."""
     system = mbs.compile(prototype_car.build())

@@ -33,6 +33,7 @@ def test_a_pickled_system_is_its_file_and_can_be_placed(car: System) -> None:
     assert copy.copy(car).arrays is car.arrays
 
 
+@pytest.mark.slow
 def test_a_process_gives_the_run_back(car: System) -> None:
     here = driven(car)
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:

@@ -181,6 +181,7 @@ def test_a_continued_run_begins_where_the_first_ended():
         assert first.poses[name][-1] == pytest.approx(second.poses[name][0], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_a_system_from_a_file_has_poses_and_scene(tmp_path):
     system = mbs.compile(prototype_car.build())
     system.save(tmp_path / "car.ali3")

@@ -37,6 +37,7 @@ def test_the_robot_in_steps_that_are_too_long_says_so() -> None:
             puma.replay(system, h)
 
 
+@pytest.mark.slow
 def test_a_checked_run_goes_on_bit_for_bit() -> None:
     checked, plain = (Simulation(swing(), inputs={"push": 0.3}, parameters={"stiffness": 5.0}) for _ in range(2))
     for simulation, estimate in ((checked, True), (plain, False)):

@@ -46,6 +46,7 @@ def test_kinematics_at_the_drawing_are_what_the_file_sets(car):
                 )
 
 
+@pytest.mark.slow
 def test_bump_steer_is_that_of_the_linkage_with_straight_wheels(car):
     """The hub turns with its carrier: what is set adds to what the linkage does, to first order."""
     straight, aligned = (kinematics(c, (-0.02, 0.02), 3).drawn("front") for c in (load("hatchback"), car))
@@ -79,6 +80,7 @@ def test_rear_toe_in_pushes_both_wheels_inwards_by_the_slope_of_the_tyre():
     assert abs(run["chassis.yaw"][-1]) < 1e-3
 
 
+@pytest.mark.slow
 def test_mirrored_angles_make_the_mirrored_car(car):
     """With driver and battery on one side moved to the middle the mirror image drives the mirrored way."""
 

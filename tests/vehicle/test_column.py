@@ -78,6 +78,7 @@ def test_friction_is_overcome_on_the_way_and_not_on_the_way_back():
     assert difference[half[0]] - difference[half[1]] == pytest.approx(2.0 * expected, rel=0.05)
 
 
+@pytest.mark.slow
 def test_stiffer_columns_approach_the_rigid_rack():
     light = {**SMOOTH, "rack_mass": 0.2, "damping": 0.0}
     rigid = Simulation(compile(load("prototype").model()), pose=Pose(speed=15.0)).run(4.0, H, inputs=LEFT)

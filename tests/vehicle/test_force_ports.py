@@ -33,6 +33,7 @@ def test_works_of_forces_and_wind_close_the_balance(axes: str) -> None:
     assert abs(left) < 1e-6 * max(map(abs, works.values())) + own
 
 
+@pytest.mark.slow
 def test_a_hitch_pulls_as_a_trailer_does() -> None:
     """Force F at a point h above the ground and d behind the rear axle: wheel loads move by F h and Fz d over the
     wheelbase; the point tells where it is and how fast.
@@ -88,6 +89,7 @@ def test_head_wind_and_tail_wind_change_the_drag_by_the_speed_over_the_air() -> 
     assert drags[0.0] / drags[None] == pytest.approx((15.0 / 20.0) ** 2, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> None:
     """By order one, held over 2 and 4 ms."""
     (fine, path, _, loop), (coarse, *_) = (drive(step, 15.0, throttle=0.4) for step in (0.002, 0.004))
@@ -100,6 +102,7 @@ def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> N
     assert works["energy.tyres"] == 0.0
 
 
+@pytest.mark.slow
 def test_long_steps_shake_a_slow_wheel_and_derivatives_calm_it() -> None:
     """At 5 m/s and 10 ms: what the FMU warns of."""
     held, followed, short = (drive(h, 5.0, slopes=s)[2] for h, s in ((0.01, False), (0.01, True), (0.004, False)))

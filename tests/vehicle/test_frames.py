@@ -49,6 +49,7 @@ def test_the_prototype_finds_its_joints_by_place() -> None:
     assert joints.reference == "S1c"
 
 
+@pytest.mark.slow
 def test_a_frame_of_the_user_carries_the_car_in_every_fidelity(small: Car) -> None:
     assert list(small.fidelities()) == [Fidelity.RIGID, Fidelity.QUASI_STATIC, Fidelity.DYNAMIC]
     rest = {fidelity: at_rest(small, fidelity).sensors for fidelity in (0, 1, 3)}
@@ -104,6 +105,7 @@ def _drive_axes(car: Car) -> tuple[np.ndarray, np.ndarray]:
     return z, x
 
 
+@pytest.mark.slow
 def test_contact_with_the_ground_may_be_given_by_joints() -> None:
     by_name = PROTOTYPE.changed({"chassis.ground_contact.points": ["F1L", "S1L", "S1c"]})
     by_place = PROTOTYPE.changed(
@@ -166,6 +168,7 @@ def _same_as_the_tubes(car: Car, fidelities: tuple[int, ...]) -> None:
             np.testing.assert_allclose(two_run[name], one_run[name], rtol=0, atol=1e-2 * size)
 
 
+@pytest.mark.slow
 def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
     """Nodes with three freedoms: rotations, which carry no mass, are condensed out before the files are written."""
     pytest.importorskip("meshio", reason="extra 'fem'")

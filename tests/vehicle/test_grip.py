@@ -51,6 +51,7 @@ def reached(car, axle):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axle", ["front", "rear"])
 @pytest.mark.parametrize("name", [n for n in car_names() if load(n).front.tyre.kind == "tmeasy"])
 def test_it_is_what_the_tyres_reach(name, axle):
@@ -92,6 +93,7 @@ def at_the_limit(car):
     return run["chassis.ay"][k], sum(run[f"{w}.Fy"][k] for w in wheels), most
 
 
+@pytest.mark.slow
 def test_curves_of_more_force_raise_the_lateral_limit():
     """The hatchback's front tyres slide first, so that their largest forces are its limit."""
     car = load("hatchback")

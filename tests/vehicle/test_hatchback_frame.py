@@ -111,6 +111,7 @@ def test_all_forces_on_the_chassis_enter_by_its_ports(payload: str) -> None:
     np.testing.assert_allclose(moment, 0.0, rtol=0, atol=1e-5 * weight)
 
 
+@pytest.mark.slow
 def test_the_kerb_gives_every_fidelity_the_same_stresses() -> None:
     for gauge in GAUGES:
         expected = peak(kerb(3), gauge)
@@ -167,6 +168,7 @@ def test_the_scene_gives_the_gauges_of_every_fidelity(fidelity: int, tolerance: 
     assert stress(part, eta).max() < part["stress"]["range"] < part["stress"]["limit"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "words"),
     [

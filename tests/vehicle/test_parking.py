@@ -31,6 +31,7 @@ def parked():
     return _parked(0.005, **{"front.tyre.bore": BORE, "rear.tyre.bore": BORE})
 
 
+@pytest.mark.slow
 def test_a_car_of_1250_kg_asks_for_kilonewtons_at_the_rack(parked):
     """By power the rack carries the moment of both wheels, beside what lifts the car: that is there on ice too."""
     ice = _parked(0.005, **{"front.tyre.grip": 0.0})

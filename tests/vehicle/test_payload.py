@@ -24,6 +24,7 @@ def at_rest(car: Car, fidelity: int, parameters: dict[str, float] | None = None)
     return mbs.Simulation(mbs.compile(car.model(fidelity=fidelity)), parameters=REST | (parameters or {})).sensors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fidelity", [0, 1, 3])
 def test_wheels_carry_a_passenger_by_the_rule_of_the_lever(fidelity: int) -> None:
     """Axle loads and the moment about the x axis, of the places where the wheels stand then."""
@@ -40,6 +41,7 @@ def test_wheels_carry_a_passenger_by_the_rule_of_the_lever(fidelity: int) -> Non
     assert gained["FR"] > gained["FL"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fidelity", [1, 2, 3])
 def test_a_payload_bends_the_frame_like_masses_on_the_joints_that_share_it(fidelity: int, tmp_path: Path) -> None:
     """At the mean of the joints each takes the same share: another frame carries these masses itself."""
@@ -62,6 +64,7 @@ def test_a_payload_bends_the_frame_like_masses_on_the_joints_that_share_it(fidel
         assert abs(two[name] - empty[name]) > 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fidelity", [1, 3])
 def test_a_payload_of_the_file_is_the_parameter_of_the_model(fidelity: int) -> None:
     rebuilt = PROTOTYPE.changed({"payload.luggage.mass": 30.0})
@@ -70,6 +73,7 @@ def test_a_payload_of_the_file_is_the_parameter_of_the_model(fidelity: int) -> N
         assert two[name] == pytest.approx(value, rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_both_flexible_chassis_bend_alike_under_a_passenger() -> None:
     quasi, modal = (at_rest(PROTOTYPE, fidelity, {"payload.passenger.mass": MASS}) for fidelity in (1, 3))
     for name in MOMENTS:

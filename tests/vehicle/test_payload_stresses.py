@@ -28,6 +28,7 @@ def change(fidelity: str) -> np.ndarray:
     return moments(loaded) - moments(empty)
 
 
+@pytest.mark.slow
 def test_moments_at_rest_change_with_a_payload_as_in_the_dynamic_frame() -> None:
     expected = change("dynamic")
     largest = np.abs(expected).max()
@@ -36,6 +37,7 @@ def test_moments_at_rest_change_with_a_payload_as_in_the_dynamic_frame() -> None
         np.testing.assert_allclose(change(fidelity), expected, rtol=0, atol=part * largest, err_msg=fidelity)
 
 
+@pytest.mark.slow
 def test_a_car_that_is_loaded_is_one_rebuilt_with_the_load() -> None:
     values = {"payload.driver.mass": 0.0, "payload.driver.point": PLACE}
     for fidelity in ("quasi_static", "load_paths", "dynamic"):

@@ -79,6 +79,7 @@ def throttle_at(t: float) -> float:
     return 0.2 + 0.6 * np.sin(1.5 * t) ** 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [rigid, hatchback])
 def test_a_copy_of_the_drive_in_a_second_place_gives_the_closed_car(make: Callable[[], Car]) -> None:
     """At 2 ms: wheel loads below 1 % of their mean, path below 0.2 % of its length."""
@@ -105,6 +106,7 @@ def test_a_copy_of_the_drive_in_a_second_place_gives_the_closed_car(make: Callab
     assert np.linalg.norm(away[0] - away[1]) < 2e-3 * np.linalg.norm(away[0])
 
 
+@pytest.mark.slow
 def test_what_a_port_replaces_is_left_out_and_all_else_stays_in_its_order() -> None:
     inputs, sensors = names(rigid())
     faults = []

@@ -10,6 +10,7 @@ import re
 import warnings
 
 import jsonschema
+import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
@@ -78,6 +79,7 @@ def scaled(value, factor):
     return value
 
 
+@pytest.mark.slow
 @given(changed_files())
 @settings(max_examples=EXAMPLES, deadline=None, derandomize=EXAMPLES <= 60, suppress_health_check=list(HealthCheck))
 def test_random_changes_give_a_car_or_sentences(file):

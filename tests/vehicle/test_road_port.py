@@ -77,6 +77,7 @@ def drive(step: float, order: str) -> dict[str, float]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", ["in turn", "at once"])
 def test_answers_of_a_copy_of_the_road_converge_to_the_closed_car(order: str) -> None:
     """By order two: the plane misses curvature. At 2 ms loads within 1 %, the path within 0.2 %."""

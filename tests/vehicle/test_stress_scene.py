@@ -49,6 +49,7 @@ def gauge(part: dict[str, Any], eta: np.ndarray, name: str) -> np.ndarray:
     return np.asarray(2.0 * ((1.0 - found.xi) * ends[:, 0] + found.xi * ends[:, 1]))
 
 
+@pytest.mark.slow
 def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
     part: dict[str, Any],
 ) -> None:
@@ -77,6 +78,7 @@ def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
         np.testing.assert_allclose(gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=STRESS * largest)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("fidelity", "tolerance"), [(2, STRESS), (1, 3e-3)])
 def test_the_same_scene_gives_the_gauges_of_the_other_fidelities(
     fidelity: int, tolerance: float, part: dict[str, Any]

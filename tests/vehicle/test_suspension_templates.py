@@ -97,6 +97,7 @@ def test_twist_beam_in_roll_turns_about_the_line_through_its_pivot_and_the_shear
     assert measured()["rear.roll_camber"] == pytest.approx(1.0 + twist[3], rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_shear_axis_through_the_pivots_makes_trailing_arms():
     """Then nothing steers or leans against the chassis, and the roll centre is on the road."""
     points = hatchback().rear.suspension.points
@@ -107,6 +108,7 @@ def test_a_shear_axis_through_the_pivots_makes_trailing_arms():
     assert arms["rear.roll_camber"] == pytest.approx(1.0, abs=2e-3)
 
 
+@pytest.mark.slow
 def test_a_shear_axis_through_the_wheels_makes_a_rigid_axle():
     """Then the wheels stand upright on the road in roll; the roll centre is where the lines to the pivots meet."""
     car = hatchback()
@@ -117,6 +119,7 @@ def test_a_shear_axis_through_the_wheels_makes_a_rigid_axle():
     assert rigid["rear.roll_steer"] == pytest.approx((pivot[2] - centre[2]) / (centre[0] - pivot[0]), abs=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", ["suspension.torsional_stiffness", "anti_roll_bar.stiffness"])
 def test_torsion_stiffens_the_rear_axle_by_the_square_of_its_twist(part):
     axle, more = hatchback().rear, 400.0
@@ -129,6 +132,7 @@ def test_torsion_stiffens_the_rear_axle_by_the_square_of_its_twist(part):
     assert stiffer["rear.wheel_rate"] == pytest.approx(measured()["rear.wheel_rate"], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_front_bar_stiffens_roll_by_the_square_of_its_twist_and_leaves_bump_alone():
     car, more = hatchback(), 200.0
     twist = rolls(car.front, instant.macpherson(car.front.suspension.points))
@@ -139,6 +143,7 @@ def test_the_front_bar_stiffens_roll_by_the_square_of_its_twist_and_leaves_bump_
     assert stiffer["front.wheel_rate"] == pytest.approx(measured()["front.wheel_rate"], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_without_its_bar_an_axle_rolls_on_its_springs_alone():
     """The factor 0 is a bar that is not there."""
     car = hatchback()

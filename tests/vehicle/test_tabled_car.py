@@ -77,6 +77,7 @@ def _off(name: str, axle: str) -> tuple[float, float]:
     return place, turn
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "axle"), [(name, axle) for name in CARS for axle in ("front", "rear")])
 def test_tables_are_the_links_at_any_travel_and_rack(name: str, axle: str) -> None:
     place, turn = _off(name, axle)

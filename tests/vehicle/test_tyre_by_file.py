@@ -70,6 +70,7 @@ def test_it_runs_straight_and_turns_left_to_the_left(car):
     assert run[1.0]["energy.tyres"][-1] < -100.0
 
 
+@pytest.mark.slow
 def test_scaling_factors_are_parameters_that_change_the_tyre(car):
     values = car.values()
     names = [f"{axle}.tyre.{name}" for axle in ("front", "rear") for name in ("grip", "lmux", "lmuy", "lkx", "lky")]

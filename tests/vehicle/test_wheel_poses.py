@@ -49,6 +49,7 @@ def carrier(run: mbs.Trajectory, wheel: str) -> Rotation:
     return Rotation.from_quat(vector(run, wheel, "qx", "qy", "qz", "qw"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("car", CARS)
 def test_they_are_the_last_outputs_at_every_fidelity(car: str) -> None:
     wanted = [f"wheel_{w}.{part}" for w in WHEELS for part in PARTS]

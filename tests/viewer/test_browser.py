@@ -30,6 +30,7 @@ class Told(BaseHTTPRequestHandler):
         pass
 
 
+@pytest.mark.slow
 def test_a_secret_address_is_on_no_command_line_and_is_reached(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, chromium: Any
 ) -> None:

@@ -33,6 +33,7 @@ def _groups(mask, gap=2):
     return [] if columns.size == 0 else np.split(columns, np.flatnonzero(np.diff(columns) > gap) + 1)
 
 
+@pytest.mark.slow
 def test_a_draft_has_few_calls_and_triangles_and_the_same_things_at_the_same_places(drawn, car):
     drawn.show(car, camera="chase", quality="low")
     fine, costs = drawn.picture(), _cost(drawn)
@@ -85,6 +86,7 @@ def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_abov
     assert flying < 0.5 * standing
 
 
+@pytest.mark.slow
 def test_what_is_driven_is_drafted_by_the_processor_and_only_that(drawn, car):
     """In this browser the processor draws."""
     drawn.show(car, driven=True)

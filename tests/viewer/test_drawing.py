@@ -302,6 +302,7 @@ def test_asphalt_lies_on_the_earth_and_not_under_the_camera(drawn):
     assert np.abs(drawn.picture() - here).mean() > 1.0
 
 
+@pytest.mark.slow
 def test_a_kerb_far_away_leaves_the_road_under_the_car(drawn):
     road = {"kind": "profile", "stations": [-0.0005, 0.0005], "heights": [0.0, 0.1], "origin": [1e6, 0, 0]}
     drawn.show(scene(shapes=[ball((0, 0, 0.3))], focus="body", roads=[road]), at(0, 0, 0))

@@ -174,6 +174,7 @@ def test_without_new_numbers_the_sound_fades(drawn):
     assert np.abs(samples[-RATE // 4 :]).max() < 1e-3
 
 
+@pytest.mark.slow
 def test_without_audio_one_sentence_and_it_goes_on(drawn):
     said = drawn.ask(
         """async columns => {

@@ -70,6 +70,7 @@ def corner(tmp_path_factory):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("error")
 def test_the_validator_finds_nothing(tmp_path):
     files = []

@@ -136,6 +136,7 @@ def assert_same_bits(fmu: Path, table: str, folder: Path) -> None:
     assert [n for n in ("time", *outputs) if seen[n].tobytes() != native[n].tobytes()] == []
 
 
+@pytest.mark.slow
 def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_the_same_bits(
     car: Path, chromium: Any, tmp_path: Path
 ) -> None:
@@ -278,6 +279,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     opened.close()
 
 
+@pytest.mark.slow
 def test_two_run_side_by_side_and_one_that_stops_does_not_stop_the_other(
     car: Path, reach: Path, chromium: Any, tmp_path: Path
 ) -> None:
@@ -311,6 +313,7 @@ def test_a_browser_that_lacks_a_part_says_so(reach: Path, chromium: Any, tmp_pat
     opened.close()
 
 
+@pytest.mark.slow
 def test_the_command_as_a_program(reach: Path, tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "ali3", "view", "--live", "--no-open", reach, "--out", tmp_path],

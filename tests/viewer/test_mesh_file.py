@@ -197,6 +197,7 @@ def test_a_file_that_is_not_there(tmp_path):
         read_mesh(tmp_path / "b.stl")
 
 
+@pytest.mark.slow
 def test_a_fine_mesh_is_thinned_and_says_so(tmp_path):
     n = 300
     u, v = np.meshgrid(np.linspace(0, np.pi, n), np.linspace(0, 2 * np.pi, 2 * n, endpoint=False), indexing="ij")

@@ -153,6 +153,7 @@ def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(o
     assert page("() => { window.player.set({ deformation: 1 }); return window.player.view.floor }") > -0.2
 
 
+@pytest.mark.slow
 def test_a_body_that_falls_stays_above_the_floor(opened: Callable[..., Opened], tmp_path: Path) -> None:
     falling = run("falls", T, roads=[])
     falling.columns["body.z"] = 0.5 - 4.9 * T**2

@@ -322,6 +322,7 @@ def test_without_webgl_there_is_one_sentence_and_the_diagrams(
     assert [line for line in page.said if line.startswith("error")] == []
 
 
+@pytest.mark.slow
 def test_in_a_notebook_it_runs_in_its_frame(browser: Any, tmp_path: Path) -> None:
     (tmp_path / "cell.html").write_text(f"<!DOCTYPE html><meta charset='utf-8'>{html_of(crank(TIMES), height=300)}")
     page = browser.new_page(viewport={"width": 640, "height": 400})

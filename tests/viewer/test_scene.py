@@ -60,6 +60,7 @@ def test_the_schema_in_the_package_is_that_of_the_types() -> None:
     assert SCHEMA_FILE.read_text(encoding="utf-8") == schema_text()
 
 
+@pytest.mark.slow
 def test_keys_that_are_not_there() -> None:
     wrong = []
     for path, key in PLACES:
@@ -97,6 +98,7 @@ def test_keys_that_are_misspelt() -> None:
 ODD_VALUES = (-1, [], {}, [1, 2], True, float("nan"), float("inf"), "</script>\n" * 99, 10**400)
 
 
+@pytest.mark.slow
 def test_any_value_is_good_or_has_one_sentence() -> None:
     wrong = []
     for path, key in PLACES:

@@ -376,6 +376,7 @@ class TestOnePage:
         assert set(times) == {1.0}
         assert shared.ask("player.cockpit.plan.trail.points.includes(null)")
 
+    @pytest.mark.slow
     def test_a_report_is_drawn(self, shared: Program) -> None:
         shown(shared, 1.0)
         shared.page.keyboard.press("g")

@@ -123,6 +123,7 @@ def test_without_the_package_that_encodes(tmp_path, monkeypatch):
         write_mp4(tmp_path / "a.mp4", hand_scenes.crank(T))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("_drawn")
 def test_a_film_that_ffmpeg_refuses(tmp_path, monkeypatch):
     monkeypatch.setattr(video, "_QUALITY", "no number")

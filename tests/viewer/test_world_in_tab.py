@@ -61,6 +61,7 @@ def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
     page.close()
 
 
+@pytest.mark.slow
 def test_a_world_and_a_road_are_refused_together(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     wishes = ["--world", "proving_ground", "--road", "washboard.road"]
     assert view([str(car), "--live", *wishes, "--no-open", "--out", str(tmp_path)]) != 0

@@ -199,6 +199,7 @@ def test_a_world_costs_few_calls_and_triangles(drawn):
     assert 10_000 < triangles < 300_000
 
 
+@pytest.mark.slow
 def test_lanes_are_where_the_raster_has_them(drawn):
     drawn.show(world(), at(0, 0, 3.0), camera="top")
     picture = drawn.picture()

@@ -80,6 +80,7 @@ def test_states_go_back_bit_for_bit(told: Any) -> None:
     assert told["states"] == [[told["time"], True, True]] * 2
 
 
+@pytest.mark.slow
 def test_memory_is_given_back(told: Any) -> None:
     """A leak of 200 instances would be about 100 MB, of 3000 states 60 MB."""
     assert told["grown"] < 2e6

@@ -115,6 +115,7 @@ def test_a_percent_sign_is_one(prototype: Fmu) -> None:
     assert "'50%.road' (/resources/roads/50%.road)" in made.messages[-1][1]
 
 
+@pytest.mark.slow
 def test_a_file_that_is_open_stays_when_another_takes_its_name(prototype: Fmu, tmp_path: Path) -> None:
     """Of a road with more tiles than are near; what comes later is read from the file as it was opened."""
     for name, seed in (("long.road", 1), ("other.road", 2)):
@@ -147,6 +148,7 @@ def test_a_file_that_is_open_stays_when_another_takes_its_name(prototype: Fmu, t
     assert driven("none") == usual
 
 
+@pytest.mark.slow
 def test_the_same_sources_give_the_same_module(small: Callable[[str], Fmu], tmp_path: Path) -> None:
     name, system = load_scene(f"{SCENES}:crane")
     again = build(system, name, tmp_path, ["wasm32"], kind="native")
@@ -161,6 +163,7 @@ def bare(tmp_path: Path) -> Path:
     return build(system, name, tmp_path / "bare", [fmpy.platform], kind="native")
 
 
+@pytest.mark.slow
 def test_an_fmu_is_compiled_again_from_its_own_sources(bare: Path, small: Callable[[str], Fmu], tmp_path: Path) -> None:
     out = tmp_path / "out"
     assert build_fmu.main(["--fmu", str(bare), "--platforms", "wasm32", "--out", str(out)]) == 0
@@ -216,6 +219,7 @@ def test_what_cannot_be_compiled_again(
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_other_tools_do_not_mind_it(small: Callable[[str], Fmu], tmp_path: Path, capfd: Any) -> None:
     fmu = small("crane")
     assert "wasm32" in {part.name for part in (fmu.folder / "binaries").iterdir()}
@@ -246,6 +250,7 @@ def test_sources_for_a_file_system_leave_the_room_out() -> None:
         assert b"#if defined(ALI3_ALONE)" in sources[name]
 
 
+@pytest.mark.slow
 def test_the_kernel_alone_is_a_module_too(tmp_path: Path) -> None:
     import wasmtime
 

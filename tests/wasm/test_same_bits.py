@@ -56,6 +56,7 @@ PLANS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PLANS)
 @pytest.mark.parametrize("host", HOSTS)
 def test_the_prototype(prototype: Fmu, expected: Any, name: str, host: Callable[[Fmu, Plan], Driven]) -> None:
@@ -98,6 +99,7 @@ def refused_steps() -> Plan:
     return Plan({}, ["pull"], steps)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("host", HOSTS)
 def test_steps_that_are_refused(small: Callable[[str], Fmu], host: Callable[[Fmu, Plan], Driven]) -> None:
     fmu, plan = small("reach"), refused_steps()

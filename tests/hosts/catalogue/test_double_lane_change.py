@@ -123,6 +123,7 @@ def test_prototype_has_a_limit_on_the_obstacle_course(driven: TestRecord) -> Non
     assert any("depends on the driver" in note for note in driven.notes)
 
 
+@pytest.mark.slow
 def test_clearance_does_not_depend_on_the_step(prototype: TestedCar) -> None:
     least = [
         double_lane_change.drive(
@@ -145,6 +146,7 @@ def test_what_a_car_lacks_and_wrong_settings_are_told(prototype: TestedCar) -> N
         perform(double_lane_change.TEST, prototype, {"lowest": 90.0, "highest": 80.0})
 
 
+@pytest.mark.slow
 def test_a_car_that_does_not_reach_the_speed_is_told(prototype: TestedCar) -> None:
     slow = double_lane_change.drive(prototype, _LAYOUTS[0], 240.0, next(iter(DRIVERS)))
     assert not slow.clean

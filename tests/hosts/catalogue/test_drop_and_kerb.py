@@ -77,6 +77,7 @@ def test_kerb_is_passed_both_ways(over_kerb: TestRecord) -> None:
     assert not any("stress" in name for name in measured)
 
 
+@pytest.mark.slow
 def test_results_do_not_depend_on_the_step(prototype: TestedCar, fallen: TestRecord, over_kerb: TestRecord) -> None:
     for record, test, worst in ((fallen, drop.TEST, 0.01), (over_kerb, kerb.TEST, 0.03)):
         coarse = values(perform(test, replace(prototype, step=0.005)))
@@ -95,6 +96,7 @@ def test_kerb_on_a_step_too_long_for_the_weighting(prototype: TestedCar) -> None
     assert any("0.01 s" in note for note in record.notes)
 
 
+@pytest.mark.slow
 def test_a_kerb_that_is_not_reached_is_told(prototype: TestedCar) -> None:
     # so slow that rolling resistance stops the car before the edge
     record = perform(kerb.TEST, prototype, {"speed": 4.0, "ahead": 7.5})

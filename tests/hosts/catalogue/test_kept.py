@@ -19,6 +19,7 @@ from hosts.catalogue.task import Task, do
 SETTINGS = {"height": 0.05, "duration": 4.0}
 
 
+@pytest.mark.slow
 def test_what_is_kept_is_what_was_done(
     prototype_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

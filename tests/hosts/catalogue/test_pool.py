@@ -19,6 +19,7 @@ from tests.hosts.catalogue.crashing_car import CrashingCar, FaultyCar
 FAST = {"method": 3.0, "steering_rate": 30.0}
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="ends a process by a signal")
 def test_a_crash_and_a_fault_are_rows_and_the_others_are_done(tmp_path: Path) -> None:
     cars = [CrashingCar(label="a"), BicycleCar(label="b"), FaultyCar(label="c"), BicycleCar(label="d", ratio=20.0)]

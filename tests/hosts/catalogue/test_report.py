@@ -268,6 +268,7 @@ def test_a_car_whose_file_is_gone_and_characters_that_cannot_be_there(fmu, tmp_p
     assert "it says \ufffd\ufffd[31m\ufffd" in text
 
 
+@pytest.mark.slow
 def test_the_file_is_whole_or_not_there(fmu, tmp_path):
     (tmp_path / "file").write_text("x")
     with pytest.raises(FileError, match="cannot be made"):

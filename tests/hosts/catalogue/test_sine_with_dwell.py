@@ -78,6 +78,7 @@ def test_a_linear_car_keeps_the_limits() -> None:
     assert found["sideslip"].value == pytest.approx(largest, rel=0.01)
 
 
+@pytest.mark.slow
 def test_tyres_that_slide_move_the_car_too_little() -> None:
     record = perform(standard_test("sine_with_dwell"), BicycleCar(strongest=4.0), FEW)
     found = {m.name: m for m in record.measures}

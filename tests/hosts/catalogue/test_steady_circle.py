@@ -46,12 +46,14 @@ def test_gradients_are_those_of_the_linear_model(understeering: tuple[dict[str, 
     assert "Steering on the circle" in [plot.title for plot in record.plots]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", [2, 3])
 def test_all_methods_measure_the_same_gradient(method: int) -> None:
     m, _ = drive(BicycleCar(), method=method)
     assert m["understeer_gradient"] == pytest.approx(BicycleCar().understeer(), rel=0.03)
 
 
+@pytest.mark.slow
 def test_a_car_that_oversteers_has_a_critical_speed() -> None:
     car = BicycleCar(front=1.3, rear=1.2)
     m, record = drive(car)

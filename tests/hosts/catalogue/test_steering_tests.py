@@ -135,6 +135,7 @@ def _exact(frequency: np.ndarray) -> np.ndarray:
     return np.array([(m.C @ np.linalg.solve(x * np.eye(2) - m.A, m.B) + m.D)[:, 0] for x in s]).T
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steered_by", ["steering_wheel_angle_demand", "steering"])
 def test_chirp_has_the_responses_of_the_model(steered_by: str) -> None:
     # a step of 10 ms would hold the part of the acceleration that follows the wheel at once back by half of it

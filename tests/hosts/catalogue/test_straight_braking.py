@@ -77,6 +77,7 @@ def test_locked_wheels_are_told(prototype: TestedCar) -> None:
     assert max(harder[f"locked_time.{w}"] for w in ("FL", "FR", "RL", "RR")) > 0.0
 
 
+@pytest.mark.slow
 def test_results_do_not_depend_on_the_step(prototype: TestedCar, gentle: TestRecord) -> None:
     fine = values(gentle)
     for step in (0.001, 0.005):
@@ -88,6 +89,7 @@ def test_results_do_not_depend_on_the_step(prototype: TestedCar, gentle: TestRec
         assert coarse["deceleration.time_to_90"] == pytest.approx(fine["deceleration.time_to_90"], abs=5e-3)
 
 
+@pytest.mark.slow
 def test_a_car_too_weak_for_the_speed_is_told(prototype: TestedCar) -> None:
     record = perform(straight_braking.TEST, prototype, {"speed": 250.0})
     assert any("250 km/h" in note for note in record.notes)

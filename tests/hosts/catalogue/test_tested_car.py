@@ -68,6 +68,7 @@ def test_a_foreign_car_is_driven_to_the_same_bits(prototype: TestedCar, foreign:
     assert ours.time[-1] < 2.0
 
 
+@pytest.mark.slow
 def test_a_second_drive_has_the_same_bits(prototype: TestedCar) -> None:
     first, second = drive(prototype), drive(prototype)
     assert first.values.tobytes() == second.values.tobytes()

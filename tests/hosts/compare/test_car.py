@@ -117,6 +117,7 @@ def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> 
     )
 
 
+@pytest.mark.slow
 def test_a_delay_of_the_log_is_found_with_its_sign(car: Path, tmp_path: Path) -> None:
     _, record = compared(car, logged(car, tmp_path, {"initial.speed": 15.0}, delay=0.06))
     assert values(record)["chassis.wz.delay"] == pytest.approx(0.06, abs=2e-3)
@@ -155,6 +156,7 @@ def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys:
     assert 0.2 < started < 0.9
 
 
+@pytest.mark.slow
 def test_a_log_that_begins_in_a_turn_starts_in_it(
     car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -171,6 +173,7 @@ def test_a_log_that_begins_in_a_turn_starts_in_it(
     assert values(record)["chassis.wz.rms"] < 0.01
 
 
+@pytest.mark.slow
 def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The second half is left out; a window whose car has another grip departs from none, but is off by more."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
@@ -211,6 +214,7 @@ def test_windows_are_fitted_and_left_out_in_turn(car: Path, tmp_path: Path, caps
     assert "Fitted with inner steps of 4 ms" in said
 
 
+@pytest.mark.slow
 def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path) -> None:
     """The linkage of this car is rigid, so that the angles on the road tell that of the steering wheel."""
     log = logged(car, tmp_path, {"initial.speed": 15.0})
@@ -225,6 +229,7 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
     assert other < one + 0.002
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "words"),
     [

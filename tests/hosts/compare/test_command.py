@@ -44,6 +44,7 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.usefixtures("tuned")
 class TestCommand:
+    @pytest.mark.slow
     def test_a_fit_that_is_stopped_leaves_the_comparison(
         self,
         tuned: Path,
@@ -66,6 +67,7 @@ class TestCommand:
         assert "The fit was stopped after " in (tmp_path / "drive.html").read_text()
         assert not (tmp_path / "drive.ssv").exists()
 
+    @pytest.mark.slow
     def test_compare_and_fit(self, tuned: Path, log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         arguments = [str(tuned), str(log), "--out", str(tmp_path), "--json", str(tmp_path / "all.json")]
         assert (
@@ -92,6 +94,7 @@ class TestCommand:
         again = {m["name"]: m["value"] for m in json.loads((tmp_path / "all.json").read_text())["measures"]}
         assert again["bob.x.rms"] == pytest.approx(0.01, rel=0.15)
 
+    @pytest.mark.slow
     @pytest.mark.parametrize(
         ("change", "words"),
         [
@@ -116,6 +119,7 @@ class TestCommand:
         assert main([*common, "--fit", "spring.stiffness"]) == 2
         assert "Nothing was fitted" in capsys.readouterr().err
 
+    @pytest.mark.slow
     def test_a_constant_signal(self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         columns = log_columns()
         file = write(tmp_path / "flat.csv", columns | {"bob.y": 0.0 * columns["bob.y"] - 1.0})
@@ -158,6 +162,7 @@ class TestCommand:
         assert said.count("\n") == 1
         assert not list(tmp_path.iterdir())
 
+    @pytest.mark.slow
     def test_a_gap_in_an_input(self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         columns = log_columns()
         hole = (columns["time"] > 2.0) & (columns["time"] < 3.0)
@@ -188,6 +193,7 @@ class TestCommand:
         assert main([*common, "--fit", "step_size=0.01:0.012"]) == 2
         assert "does not change any of the compared signals" in capsys.readouterr().err
 
+    @pytest.mark.slow
     def test_the_log_is_never_written_over(self, tuned: Path, tmp_path: Path) -> None:
         file = write(tmp_path / "own.csv", log_columns())
         before = file.read_bytes()

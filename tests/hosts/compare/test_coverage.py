@@ -90,6 +90,7 @@ def test_white_noise_would_promise_too_much(replay: Replay) -> None:
     assert max(ratios) < 3.5
 
 
+@pytest.mark.slow
 def test_a_drift_of_the_clock_comes_back(replay: Replay) -> None:
     found = {f.unknown.name: f for f in fitted(replay, 3, 0.0, ("delay", "drift"), drift=4e-3).found}
     assert abs(found["drift"].value - 4e-3) < 1.5 * found["drift"].half_width

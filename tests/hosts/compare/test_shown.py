@@ -36,6 +36,7 @@ def test_deviations_are_in_degrees(comparison: Comparison) -> None:
     assert gear.split()[:2] == ["gear", "0.2"]
 
 
+@pytest.mark.slow
 def test_the_picture_has_no_rating_that_is_none(comparison: Comparison, tmp_path: Path) -> None:
     figure = comparison_figure(comparison, None, "a drive", {})
     titles = [axes.get_title(loc) for axes in figure.axes for loc in ("left", "center")]

@@ -52,6 +52,7 @@ def test_several_run_beside_each_other(rigid_fmu: Path) -> None:
     made.close()
 
 
+@pytest.mark.slow
 def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
     ends = {}
     for gain in (1.0, 0.0):

@@ -218,6 +218,7 @@ def read_for_ever(name: str, sizes: Sizes) -> None:
         shared.moments.read()
 
 
+@pytest.mark.slow
 @POSIX
 def test_a_reader_that_stalls_or_dies_delays_no_step(make: Made) -> None:
     car = make()

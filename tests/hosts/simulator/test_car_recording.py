@@ -48,6 +48,7 @@ def counts(folder: Path) -> list[tuple[int, int]]:
     return found
 
 
+@pytest.mark.slow
 def test_a_drive_with_all_jumps_is_repeated_bit_for_bit(fmu: Callable[[str], Path], tmp_path: Path) -> None:
     folder = tmp_path / "drive"
     with Car(settings(fmu("sledge"), folder, world="a plane")) as car:
@@ -77,6 +78,7 @@ def test_a_drive_with_all_jumps_is_repeated_bit_for_bit(fmu: Callable[[str], Pat
     assert drive.meta["world"] == "a plane"
 
 
+@pytest.mark.slow
 def test_unpaced_the_car_waits_for_a_slow_recorder(
     fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -114,6 +116,7 @@ def test_paced_it_does_not_wait_and_counts_what_is_lost(
     assert rows[:16] == [(0, k) for k in range(16)]
 
 
+@pytest.mark.slow
 def test_a_disk_that_is_full_ends_the_recording_and_not_the_drive(
     fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -128,6 +131,7 @@ def test_a_disk_that_is_full_ends_the_recording_and_not_the_drive(
         assert texts[0].startswith("The recording ends here: the disk is full ")
 
 
+@pytest.mark.slow
 def test_a_folder_with_a_recording_is_refused(fmu: Callable[[str], Path], tmp_path: Path) -> None:
     with Car(settings(fmu("sledge"), tmp_path / "drive")):
         pass

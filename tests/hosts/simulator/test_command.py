@@ -226,6 +226,7 @@ def renamed(fmus, tmp_path):
     return made
 
 
+@pytest.mark.slow
 def test_an_fmu_with_other_names_says_what_it_lacks_and_runs_all_the_same(renamed, told):
     code, out, _ = told(renamed, "--headless", "--stop-time", 0.1)
     assert code == 0
@@ -236,6 +237,7 @@ def test_an_fmu_with_other_names_says_what_it_lacks_and_runs_all_the_same(rename
     assert "20 steps" in told(renamed, "--headless", "--stop-time", 0.1, "--step", 0.005)[1]
 
 
+@pytest.mark.slow
 def test_an_alias_file_gives_it_our_names(renamed, told, tmp_path):
     (tmp_path / "names.toml").write_text(ALIASES)
     out = told(renamed, "--headless", "--stop-time", 0.1, "--aliases", tmp_path / "names.toml")[1]
@@ -316,6 +318,7 @@ def test_a_recording_is_not_written_over_another(fmus, told, tmp_path):
     assert "another program is recording there" in told(*run)[2]
 
 
+@pytest.mark.slow
 def test_files_that_are_no_fmu_and_an_fmu_of_fmi_3(told, tmp_path):
     assert "There is no file none.fmu" in told("none.fmu", "--headless", "--stop-time", 1)[2]
     (tmp_path / "text.fmu").write_text("text")

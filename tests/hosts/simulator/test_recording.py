@@ -146,6 +146,7 @@ def test_a_recording_is_repeated_bit_for_bit(fmus: dict[str, Path], tmp_path: Pa
     assert (found.rows, found.different, found.first, found.notes) == (173 + 10, 0, [], [])
 
 
+@pytest.mark.slow
 @TABLES
 def test_one_bit_of_an_input_is_found(fmus: dict[str, Path], tmp_path: Path, table: str) -> None:
     drive = Drive(fmus["sledge"], tmp_path / "drive", table, {})
@@ -163,6 +164,7 @@ def test_one_bit_of_an_input_is_found(fmus: dict[str, Path], tmp_path: Path, tab
     assert found.first[0].count in (60, 61)  # one bit may not be seen in the outputs of its own step
 
 
+@pytest.mark.slow
 def test_rewinds_and_starts_are_not_guessed(fmus: dict[str, Path], tmp_path: Path) -> None:
     """What an event says is used: with another count, other start values or without the event the replay tells."""
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
@@ -184,6 +186,7 @@ def test_rewinds_and_starts_are_not_guessed(fmus: dict[str, Path], tmp_path: Pat
         replay(read_recording(folder))
 
 
+@pytest.mark.slow
 def test_a_recording_that_begins_with_a_state(fmus: dict[str, Path], tmp_path: Path) -> None:
     drive = Drive(fmus["sledge"], tmp_path / "first", None, {"initial.speed": 3.0})
     drive.steps(33)
@@ -219,6 +222,7 @@ def as_recorded(result: Result, drive: RecordedDrive) -> NDArray[np.float64]:
     return np.column_stack([result.values[:-1, :n], result.values[1:, n:]])
 
 
+@pytest.mark.slow
 @TABLES
 def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Path, table: str) -> None:
     """Since the last start, without what was rewound; from the folder, from a file, and a part with its state."""
@@ -265,6 +269,7 @@ def test_a_step_that_was_refused_is_refused_again(fmus: dict[str, Path], tmp_pat
     assert made.at(0.2)["steering"] == 0.1
 
 
+@pytest.mark.slow
 def test_whole_inputs_are_repeated(fmus: dict[str, Path], tmp_path: Path) -> None:
     drive = Drive(fmus["switched"], tmp_path / "drive", None, {})
     for gear in (1, -1, 3, 0):
@@ -359,6 +364,7 @@ def test_without_pyarrow_the_table_is_text_and_that_is_said(tmp_path: Path, monk
     assert read_recording(tmp_path / "drive").rows().values.tolist() == [[1.0]]
 
 
+@pytest.mark.slow
 def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Path) -> None:
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     meta = json.loads((folder / "recording.json").read_text())

@@ -28,6 +28,7 @@ def hammer(name: str) -> None:
     shared.close()
 
 
+@pytest.mark.slow
 def test_no_torn_record_and_none_older_than_one_before() -> None:
     shared = SharedValues(SIZES)
     process = multiprocessing.get_context("spawn").Process(target=hammer, args=(shared.name,))

@@ -112,6 +112,7 @@ class Page:
             self.next()
 
 
+@pytest.mark.slow
 def test_a_drive_from_a_page_and_the_report_at_ctrl_c(sledge, tmp_path):
     with program(sledge, "--port", 0, "--step", STEP, "--json", tmp_path / "r.json") as running:
         assert request(running.port, f"/{running.key}", {})[0] == 200
@@ -179,6 +180,7 @@ def attack(page, rng, kind):
             page.send('{"type":"seen","count":1e15}')
 
 
+@pytest.mark.slow
 def test_hostile_clients_do_not_stop_the_car(sledge):
     with program(sledge, "--port", 0, "--step", STEP) as running:
         with connect(running.url) as connection:
@@ -205,6 +207,7 @@ def test_hostile_clients_do_not_stop_the_car(sledge):
     assert "Traceback" not in running.said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("address", ["127.0.0.1", "0.0.0.0"])
 def test_it_needs_the_token(sledge, address):
     with program(sledge, "--port", 0, "--listen", address) as running:
@@ -226,6 +229,7 @@ def test_a_port_that_is_taken_is_one_sentence(sledge):
     assert re.search(rf"error: The port {port} of 127.0.0.1 is taken .* --port \d+\.$", done.stderr.strip())
 
 
+@pytest.mark.slow
 def test_a_car_that_dies_ends_the_command_with_a_sentence_and_the_report(sledge):
     with program(sledge, "--port", 0, "--step", STEP) as running, connect(running.url) as connection:
         page = Page(connection)

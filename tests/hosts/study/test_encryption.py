@@ -150,6 +150,7 @@ def test_another_scheduler_with_certificates_of_the_configuration(
     assert "without TLS" not in capfd.readouterr().err
 
 
+@pytest.mark.slow
 def test_certificates_that_are_missing_are_one_sentence(tmp_path: Path) -> None:
     with pytest.raises(HostError, match=r"tls://127.0.0.1:9 needs certificates, .* has none: distributed.comm.tls"):
         connected("tls://127.0.0.1:9", None).__enter__()

@@ -100,6 +100,7 @@ def test_variants_keep_all_limits_in_all_their_manoeuvres() -> None:
     assert [(s.within, s.outside) for s in (left, right, both)] == [(2, 1), (1, 2), (1, 2)]
 
 
+@pytest.mark.slow
 def test_a_study_with_limits(
     study_file: Callable[..., Path], tmp_path: Path, scheduler: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -120,6 +121,7 @@ def test_a_study_with_limits(
     assert "16 of 16 variants" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_report_has_the_shares(tmp_path: Path) -> None:
     text = report_of(made_frame(), tmp_path, lambda index: [])[0].read_text(encoding="utf-8")
     assert "3 of 10 runs, 2 without a result" in text

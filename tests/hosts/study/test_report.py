@@ -67,6 +67,7 @@ def test_the_whole_report(frame: pd.DataFrame, tmp_path: Path) -> None:
     assert table.loc["stiffness", "first"] == pytest.approx(3.2**2 / 12 / (3.2**2 / 12 + 1.0), abs=0.2)
 
 
+@pytest.mark.slow
 def test_half_a_study_says_so(frame: pd.DataFrame, tmp_path: Path) -> None:
     half = frame.iloc[:60]
     half.attrs = frame.attrs
@@ -169,6 +170,7 @@ def test_extremes_reasons_and_statistics(frame: pd.DataFrame) -> None:
     assert statistics(peak)["5 %"] == pytest.approx(frame["peak"].quantile(0.05))
 
 
+@pytest.mark.slow
 def test_what_the_fmu_said(frame: pd.DataFrame, tmp_path: Path) -> None:
     told = frame.iloc[:70].copy()
     told["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(70)]
@@ -189,6 +191,7 @@ def test_two_manoeuvres_are_two_responses() -> None:
     assert rank_correlations(data, data.responses).ravel().tolist() == pytest.approx([1.0, -1.0])
 
 
+@pytest.mark.slow
 def test_a_design_of_saltellis_with_failed_runs(tmp_path: Path) -> None:
     """A linear model: the indices of the report are those of the closed form."""
     from SALib.sample import sobol

@@ -91,6 +91,7 @@ def test_a_changed_study_is_refused(half: Path, old: str, new: str, words: str) 
     assert f"rows stay as they are: {words} Put it back" in refused(half)
 
 
+@pytest.mark.slow
 def test_only_what_is_missing_is_made(
     finished: Path, half: Path, scheduler: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -26,6 +26,7 @@ def seek(study_file: Callable[..., Path], tmp_path: Path) -> Callable[..., int]:
     return command
 
 
+@pytest.mark.slow
 def test_the_stiffness_for_a_lowest_place(
     seek: Callable[..., int], spring: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -58,6 +59,7 @@ def test_the_stiffness_for_a_lowest_place(
     assert min(float(row.split(",")[place]) for row in table[1:]) == pytest.approx(record["reached"], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_value_that_cannot_be_met(
     seek: Callable[..., int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -112,6 +114,7 @@ def test_a_parameter_that_the_fmu_has_not_is_told_before_its_range(
     assert "the FMU has no parameter or input 'front.bar'" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_turn_is_two_pi_radians() -> None:
     """Frequencies are measured in rad/s and shown in Hz."""
     assert conversion("Hz", "rad/s") == pytest.approx(2.0 * math.pi)

@@ -30,6 +30,7 @@ def loads(car, obstacle, spacing, speed, folder):
     return np.array([run["wheel_FL.Fz"].max(), run["wheel_RL.Fz"].max()])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("number", "speeds"), [(0, (5.0, 10.0, 20.0)), (7, (15.0, 25.0))], ids=["kerb", "ramp 1"])
 def test_loads_over_kerb_and_ramp_converge(tmp_path, car, number, speeds):
     world = read_world(FILE)

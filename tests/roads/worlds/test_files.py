@@ -55,6 +55,7 @@ def test_wheels_feel_what_is_drawn_within_5_mm_and_what_is_described_within_3_mm
     assert np.abs(described - z).max() < 3e-3
 
 
+@pytest.mark.slow
 def test_the_patches_cover_the_world_once_and_have_no_cracks(proving_ground):
     record = proving_ground.record
     x0, y0, x1, y1 = record["bounds"]

@@ -43,6 +43,7 @@ def own_cache(tmp_path, monkeypatch):
     return tmp_path / "cache" / "worlds"
 
 
+@pytest.mark.slow
 def test_the_example_of_the_page_is_a_world_to_drive_in(folder, own_cache, tmp_path, capsys):
     out = tmp_path / "worlds"
     assert main(["--world", str(folder / "mine.toml"), "--out", str(out), "--picture", str(out / "mine.png")]) == 0
@@ -254,6 +255,7 @@ def test_a_cache_that_cannot_be_written_is_said(tmp_path, monkeypatch, capsys):
     assert "ALI3_CACHE is" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_thin_world_is_off_by_what_it_says(folder, own_cache, tmp_path, capsys):
     made = {}
     for kind, more in (("whole", []), ("thin", ["--thin"])):

@@ -75,6 +75,7 @@ def test_page_table_and_json(made, found):
     assert drawn["roll_wheel_rate"] > drawn["wheel_rate"]
 
 
+@pytest.mark.slow
 def test_the_page_of_the_documentation_prints_what_it_says(capsys):
     text = (Path(__file__).parents[3] / "docs" / "kinematics.md").read_text(encoding="utf-8")
     code, said = (re.search(rf"```{kind}\n(.*?)```", text, re.DOTALL)[1] for kind in ("python", "text"))

@@ -325,6 +325,7 @@ JSON = st.recursive(
 KEYS = {"input": st.just("throttle") | JSON, "mapping": JSON, "settings": JSON, "on": JSON, "keep": JSON}
 
 
+@pytest.mark.slow
 def test_no_message_does_more_than_be_refused(attach, start):
     rested(attach())
     run = start()

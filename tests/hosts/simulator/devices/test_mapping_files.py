@@ -40,6 +40,7 @@ SETTINGS = st.builds(
 )
 
 
+@pytest.mark.slow
 @UNHURRIED
 @given(INPUTS, SETTINGS, st.text(max_size=40))
 def test_a_mapping_is_read_as_it_was_written(tmp_path_factory, inputs, settings, name):

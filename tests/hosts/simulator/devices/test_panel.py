@@ -179,6 +179,7 @@ def test_a_calibration_is_led_by_words_and_kept(panel, start, wheel):
     assert panel.mapping("brake")["low"] == pytest.approx(-0.47, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_the_force_is_set_and_tested(panel, start, wheel, monkeypatch):
     haptics = Haptics().install(monkeypatch)
     panel.run = start(lambda: None)
