@@ -54,6 +54,8 @@ class Result:
         By the number of a row: inputs before a jump at its time, where the row alone does not tell them.
     starts : list of int
         Rows at which runs begin that were put one after the other.
+    lost : list of str
+        Inputs that moved between the rows otherwise than the rows tell, where not every step has one.
     """
 
     names: list[str]
@@ -68,6 +70,7 @@ class Result:
     late: list[str] = field(default_factory=list)
     jumps: dict[int, list[float]] = field(default_factory=dict)
     starts: list[int] = field(default_factory=lambda: [0])
+    lost: list[str] = field(default_factory=list)
 
     def __contains__(self, name: str) -> bool:
         return name in self.names
@@ -79,12 +82,12 @@ class Result:
 def run_with_bar(
     fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Pilot | None = None, every: int = 1
 ) -> Result:
-    """`run` with a progress bar on the terminal."""
+    """`run` with a progress bar on the terminal; its last step has a row also where the stop time has none."""
     from tqdm import tqdm
 
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
     with tqdm(total=steps, desc=what, unit="step", delay=2.0, disable=None) as bar:
-        return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n), every=every)
+        return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n), every=every, last=True)
 
 
 def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
@@ -139,7 +142,6 @@ class _Senses(Mapping[str, float]):
         self._parts = [
             (fmu.reader([names[k] for k in part]), np.empty(len(part)), np.array(part, dtype=np.intp))
             for part in ([k for k in range(len(names)) if k not in self._later], later)
-            if part
         ]
 
     def read(self) -> None:
@@ -187,6 +189,7 @@ def run(
     progress: Callable[[int], None] = lambda done: None,
     until: Callable[[float, Mapping[str, float]], bool] | None = None,
     every: int = 1,
+    last: bool = False,
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
@@ -208,6 +211,8 @@ def run(
     every : int
         Steps from one recorded row to the next. Outputs that are `DEAR` are read in the others where who drives looks
         at one.
+    last : bool
+        Whether the last step has a row in any case, which then comes sooner than the others.
 
     Returns
     -------
@@ -234,7 +239,7 @@ def run(
     used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
     set_inputs = _setter(fmu, used)
     steps = max(1, round(manoeuvre.stop_time / step))
-    values = np.empty((steps // every + 1, len(inputs) + len(outputs)))
+    values = np.empty((steps // every + 2, len(inputs) + len(outputs)))
     columns = [inputs.index(n) for n in used]
     held = fmu.start_values(inputs)
     for name, value in {**manoeuvre.start, **first}.items():
@@ -247,6 +252,8 @@ def run(
     straight = straight if fmu.follows_slopes else []
     places, follow = [inputs.index(n) for n in straight], _line_follower(fmu, straight)
     jumps: dict[int, list[float]] = {}
+    lost, slopes = np.zeros(len(inputs), bool), list[float]()
+    sizes = np.array([np.abs(manoeuvre.inputs[n]).max() for n in straight])
     done, failed = 0, 0
     begin = clock.perf_counter()
     for k in range(steps):
@@ -262,19 +269,25 @@ def run(
         if used:
             set_inputs(now)
             held[columns] = now
-        if k % every == 0:
+        jumped = np.abs(held - before) > _ROUND_OFF * (np.abs(held) + np.abs(before))
+        if k % every:
+            lost |= jumped
+        else:
             values[k // every, : len(inputs)] = held
-            jumped = np.abs(held - before) > _ROUND_OFF * (np.abs(held) + np.abs(before))
             if every > 1 or jumped[places if k else columns].any():
                 jumps[k // every] = before.tolist()
         if straight:
             then = manoeuvre.at(t + step, whole, before=True)
-            follow([(then[n] - wanted[n]) / step for n in straight])
+            earlier, slopes = slopes, [(then[n] - wanted[n]) / step for n in straight]
+            if k % every:
+                lost[places] |= np.abs(np.subtract(slopes, earlier)) * step > _ROUND_OFF * sizes
+            follow(slopes)
             held[places] = [then[n] for n in straight]
         try:
             fmu.step(manoeuvre.state_time + t, step)
         except StepRefusedError:
             failed = 1
+            held[places] = [wanted[n] for n in straight]
             break
         done = k + 1
         senses.read()
@@ -286,12 +299,18 @@ def run(
             break
     wall = clock.perf_counter() - begin
     progress(done)
+    rows = [*range(0, done + 1, every)]
+    if last and done % every:
+        if failed:
+            jumps[len(rows)] = before.tolist()
+        values[len(rows)] = [*held, *senses.whole()]
+        rows.append(done)
     names = inputs + outputs
     return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
-        step * (every * np.arange(done // every + 1, dtype=np.float64)),
-        values[: done // every + 1],
+        step * np.array(rows, dtype=np.float64),
+        values[: len(rows)],
         wall,
         done * step,
         failed,
@@ -299,4 +318,5 @@ def run(
         [n for n in inputs if n not in straight],
         [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
         jumps,
+        lost=[n for n, gone in zip(inputs, lost.tolist(), strict=True) if gone],
     )
