@@ -23,7 +23,8 @@ class Integrator:
     """What the loop needs of an FMU: y, the integral of u, exact for inputs that go straight."""
 
     def __init__(self, slopes: bool, refused: int = 1000, outputs: Sequence[str] = ("y",)) -> None:
-        self.path, self.messages, self.follows_slopes, self.tunable = Path("integrator.fmu"), list[str](), slopes, []
+        self.path, self.messages, self.follows_slopes = Path("integrator.fmu"), list[str](), slopes
+        self.tunable = list[str]()
         self._names = {"input": ["u"], "output": list(outputs), "parameter": []}
         self.variables = {n: SimpleNamespace(type="Real", variability="continuous", causality=c, unit="m")
                           for c, names in self._names.items() for n in names}  # fmt: skip
@@ -64,7 +65,7 @@ def driven(time: Sequence[float], u: Sequence[float], every: int, slopes: bool =
 @pytest.mark.parametrize("refused", [1000, 13, 10])
 def test_the_last_step_has_a_row(slopes: bool, refused: int) -> None:
     """Also where the stop time is no multiple of the interval, or the FMU refuses a step before it."""
-    asked = {"time": (0.0, 0.17), "u": (1.0, 3.0), "slopes": slopes, "refused": refused}
+    asked: dict[str, Any] = {"time": (0.0, 0.17), "u": (1.0, 3.0), "slopes": slopes, "refused": refused}
     few, each = driven(every=5, **asked), driven(every=1, **asked)
     end = min(17, refused)
     rows = [*range(0, end, 5), end]
