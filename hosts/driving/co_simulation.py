@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,13 +14,12 @@ from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.run_checks import check_columns
+from hosts.driving.senses import Senses
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import StepRefusedError
 
 # Of a value that is reached at the end of a step and set again for the next.
 _ROUND_OFF = 1e-9
-DEAR = ("stress.", "bending_moment.")
-"""Outputs that an FMU may find when they are read: they are read where a row is recorded or who drives looks at one."""
 
 
 @dataclass(frozen=True)
@@ -119,62 +118,6 @@ def _line_follower(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequenc
     return follow
 
 
-class _NoOutputError(HostError, KeyError):
-    """Who drives looks for an output that there is not."""
-
-    __str__ = Exception.__str__
-
-
-class _Senses(Mapping[str, float]):
-    """The outputs after a step by name.
-
-    Parameters
-    ----------
-    all_rows : bool
-        Whether the outputs of each step are recorded, so that none is read later than the others.
-    """
-
-    def __init__(self, fmu: SimulatedFmu, names: Sequence[str], all_rows: bool) -> None:
-        self._places = {n: k for k, n in enumerate(names)}
-        self.row = np.empty(len(names))
-        later = [] if all_rows else [k for k, n in enumerate(names) if n.startswith(DEAR)]
-        self._later, self._fresh = frozenset(later), True
-        self._parts = [
-            (fmu.reader([names[k] for k in part]), np.empty(len(part)), np.array(part, dtype=np.intp))
-            for part in ([k for k in range(len(names)) if k not in self._later], later)
-        ]
-
-    def read(self) -> None:
-        """Take over the outputs of now, but for those that are dear."""
-        self._fresh = not self._later
-        self._take(0)
-
-    def whole(self) -> NDArray[np.float64]:
-        """All outputs of now."""
-        if not self._fresh:
-            self._fresh = True
-            self._take(-1)
-        return self.row
-
-    def _take(self, part: int) -> None:
-        read, into, places = self._parts[part]
-        read(into)
-        self.row[places] = into
-
-    def __getitem__(self, name: str) -> float:
-        try:
-            place = self._places[name]
-            return (self.whole() if place in self._later else self.row).item(place)
-        except KeyError:
-            raise _NoOutputError(f"Who drives needs the output '{name}', which the FMU does not have.") from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._places)
-
-    def __len__(self) -> int:
-        return len(self._places)
-
-
 def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, float]) -> str:
     act = next(f"{n} = {x}" for n, x in acts.items() if not math.isfinite(x))
     sense = next((f": the output {n} of the FMU is {x}" for n, x in senses.items() if not math.isfinite(x)), "")
@@ -209,8 +152,8 @@ def run(
     until : callable, optional
         Of the time and the outputs; the run ends with the first step after which it is true.
     every : int
-        Steps from one recorded row to the next. Outputs that are `DEAR` are read in the others where who drives looks
-        at one.
+        Steps from one recorded row to the next. Outputs that are `hosts.driving.senses.DEAR` are read in the others
+        where who drives looks at one.
     last : bool
         Whether the last step has a row in any case, which then comes sooner than the others.
 
@@ -225,7 +168,7 @@ def run(
     inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
     discrete = {n for n in manoeuvre.inputs if fmu.variables[n].variability == "discrete"}
     whole = discrete | {n for n in manoeuvre.inputs if fmu.variables[n].type == "Integer"}
-    senses = _Senses(fmu, outputs, every == 1)
+    senses = Senses(fmu, outputs, every == 1)
 
     first = manoeuvre.initial(whole)
     fmu.initialise({**manoeuvre.start, **first})

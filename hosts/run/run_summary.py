@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hosts.driving.co_simulation import DEAR, Result
+from hosts.driving.co_simulation import Result
 from hosts.driving.course import Course
+from hosts.driving.senses import DEAR
 
 WHEELS = ("FL", "FR", "RL", "RR")
 # A wheel that carries less is in the air, N.
