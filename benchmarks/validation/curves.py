@@ -14,7 +14,7 @@ G = 9.81
 WIDTH = 0.1  # g, of a bin: 0.05 g to either side of its middle
 SLOW, FAST = 1.0, 2.0  # Hz: of the acceleration by which is binned, and of that which is compared
 ENOUGH = 2.0  # s in a bin whose means are judged
-STEADY = 0.5  # s at the begin of a window, in which the start is forgotten
+STEADY = 0.5  # s at the beginning of a window, in which the start is forgotten
 
 
 @dataclass(frozen=True)

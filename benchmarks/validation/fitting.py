@@ -58,7 +58,10 @@ def begins(drive: Drive, seconds: Spans) -> NDArray[np.intp]:
 
 
 def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others: Spans = JUDGED) -> Fitted:
-    """Fit a model on yaw rate and lateral velocity in the windows of some seconds, and judge it in those of others."""
+    """Fit a model in the windows of some seconds, and judge it in those of others.
+
+    What is fitted is yaw rate and lateral velocity, of a model without lateral velocity the yaw rate alone.
+    """
     steps = round(LENGTH / drive.interval)
     low, high = (np.array([getattr(u, end) for u in model.unknowns]) for end in ("low", "high"))
 

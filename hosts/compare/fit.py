@@ -18,7 +18,7 @@ from hosts.compare.fit_result import Fit, Found, Start
 from hosts.compare.left_out import FEWEST, Parts, clustered_covariance, left_out, without_each
 from hosts.compare.log import Signal
 from hosts.compare.noise import computed_noise, difference_steps, measured_noise
-from hosts.compare.residuals import Residuals, Unknown
+from hosts.compare.residuals import RefusedError, Residuals, Unknown
 from hosts.driving.co_simulation import Result
 
 Jacobian = Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -53,14 +53,15 @@ def fit(
     evaluations : int
         At most, of each round.
     starts : int
-        How many searches: one from the given values, the others from points spread over the ranges.
+        How many searches: one from the given values, the others from points spread over the ranges; of these, such
+        whose steps the FMU refuses are left out.
     parts : Parts, optional
         Of the log, that are left out in turn.
 
     Raises
     ------
     HostError
-        A parameter has no effect at all.
+        A parameter has no effect at all, or the FMU refuses a step with the given values.
 
     Notes
     -----
@@ -82,6 +83,7 @@ def fit(
     width = np.array([u.scale for u in unknowns])
     p = np.clip([u.start for u in unknowns], bounds[0] + 1e-6 * width, bounds[1] - 1e-6 * width)
     # A model that misses more than noise is weighted by what it misses, so that no signal outweighs the others.
+    residuals.accepted(p)
     first = residuals(p)
     residuals.noise = {
         n: least[n] * max(1.0, float(np.sqrt(np.mean(first[b] ** 2))))
@@ -97,11 +99,18 @@ def fit(
             residuals, begin, jacobian, bounds, x_scale=width, max_nfev=most, xtol=_STEP, ftol=_CHANGE, gtol=1e-12
         )
 
-    tried = [search(begin, residuals.one_sided, evaluations) for begin in _begins(p, unknowns, starts)]
-    told = [
-        Start(begin.tolist(), t.x.tolist(), float(np.sqrt(np.mean(t.fun**2))))
-        for begin, t in zip(_begins(p, unknowns, starts), tried, strict=True)
-    ]
+    tried: list[OptimizeResult] = []
+    told: list[Start] = []
+    refused: list[str] = []
+    for k, begin in enumerate(_begins(p, unknowns, starts)):
+        try:
+            tried.append(search(begin, residuals.one_sided, evaluations))
+        except RefusedError as error:
+            if k == 0:
+                raise
+            refused.append(str(error))
+            continue
+        told.append(Start(begin.tolist(), tried[-1].x.tolist(), float(np.sqrt(np.mean(tried[-1].fun ** 2)))))
     solution = min(tried, key=lambda t: float(t.cost))
     for _ in range(_ROUNDS - 1):
         r = solution.fun
@@ -119,7 +128,8 @@ def fit(
     residuals.noise = {n: residuals.noise[n] * left[n] for n in outputs}
     r, jacobian = residuals(p), residuals.jacobian(p)
     begun = residuals(start)
-    return _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, told, parts)
+    made = _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, told, parts)
+    return replace(made, refused=refused)
 
 
 def _polished(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> NDArray[np.float64]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +42,7 @@ class Start:
     begin, end : list of float
         The unknowns.
     residual : float
-        Root mean square, over the noise of the measured signals.
+        Root mean square over the first weights: what the given values miss of each signal, at least its noise.
     """
 
     begin: list[float]
@@ -71,13 +71,15 @@ class Fit:
     runs : int
         Of the FMU.
     starts : list of Start
-        One where only one was asked for.
+        One where only one was asked for; without those that the FMU refused.
     left_out : dict of str to float
         By signal, in its unit: root mean square over parts of the log left out of the fit in turn, to first order.
     criterion : float
         Of Bayes (Schwarz), with the effective number of samples: the lower of two fits to the same log is the better.
     units : dict of str to str
         Of the signals.
+    refused : list of str
+        Of each start that the FMU refused: a sentence with its parameters.
     """
 
     found: list[Found]
@@ -96,6 +98,7 @@ class Fit:
     left_out: dict[str, float]
     criterion: float
     units: dict[str, str]
+    refused: list[str] = field(default_factory=list)
 
     @property
     def parameters(self) -> dict[str, float]:

@@ -124,6 +124,7 @@ def fit_notes(fit: Fit) -> list[str]:
             f"Of {', '.join(idle)} the fit does not pay for itself: parts of the log that are left out are met as well "
             "with its start value."
         )
+    notes += [f"Another start (--starts) is left out. {words}" for words in fit.refused]
     residuals = [start.residual for start in fit.starts]
     if max(residuals) > _ALIKE * min(residuals):
         notes.append(

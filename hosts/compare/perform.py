@@ -92,6 +92,9 @@ def _wanted(options: argparse.Namespace, task: Task) -> _Fitting:
     nuisances(names, task.outputs, {}, options.longest_delay)  # their names
     if names and not options.fit:
         raise HostError("--nuisance goes with --fit; delays and drift are estimated without both.")
+    for option, given in {"--starts": options.starts > 1, "--fit-step": options.fit_step is not None}.items():
+        if given and not options.fit:
+            raise HostError(f"{option} goes with --fit; without it no parameters are sought.")
     if task.windowed and any(t.startswith("initial.") for t in options.fit):
         raise HostError("--fit initial.* does not go with --windows: each window begins in its own measured state.")
     begin = task.stretches[0].manoeuvre.start  # as set, or as measured

@@ -24,6 +24,10 @@ _SECANT = 1e-3  # of a range: over finer steps shifts of gears and the kinks of 
 _REFUSED = 1e3  # residual where the FMU refuses a step: far worse than any fit
 
 
+class RefusedError(HostError):
+    """The FMU refuses steps where derivatives are wanted."""
+
+
 @dataclass(frozen=True)
 class Unknown:
     """A number that is sought.
@@ -147,18 +151,24 @@ class Residuals:
 
     def jacobian(self, p: Array) -> Array:
         """Derivatives of shape (n, p); central differences where both sides lie within the bounds."""
+        curves = self.accepted(p)
         columns = [self._difference(p, k) for k in range(self.count)]
-        curves = self._curves(p)
-        assert curves is not None  # the solver asks at points that it has accepted
         columns += [self._exact(p, k, curves) for k in range(self.count, len(self.unknowns))]
         return np.column_stack(columns)
 
     def one_sided(self, p: Array) -> Array:
         """`jacobian` by half as many runs: differences to that side of the parameters on which the range is wider."""
+        curves = self.accepted(p)
         columns = [self._one_sided(p, k) for k in range(self.count)]
-        curves = self._curves(p)
-        assert curves is not None  # as above
         return np.column_stack(columns + [self._exact(p, k, curves) for k in range(self.count, len(self.unknowns))])
+
+    def accepted(self, p: Array) -> dict[str, Curve]:
+        """Simulated signals; `RefusedError` where the FMU refuses a step."""
+        curves = self._curves(p)
+        if curves is None:
+            at = [f"{u.name} = {x:.6g} {u.unit}" for u, x in zip(self.unknowns[: self.count], p, strict=False)]
+            raise RefusedError(f"The FMU refuses steps with {', '.join(at)}.")
+        return curves
 
     def _one_sided(self, p: Array, k: int) -> Array:
         u, q = self.unknowns[k], p.copy()
@@ -180,7 +190,7 @@ class Residuals:
         if len(at) < 2:
             at.append((float(p[k]), self(p)))
         if len(at) < 2 or at[0][0] == at[1][0]:
-            raise HostError(
+            raise RefusedError(
                 f"The FMU refuses steps on both sides of {u.name} = {p[k]:.6g} {u.unit}; give it another range."
             )
         return np.asarray((at[0][1] - at[1][1]) / (at[0][0] - at[1][0]))

@@ -119,6 +119,7 @@ def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
             "runs": f.runs,
             "converged": f.converged,
             "starts": [asdict(start) for start in f.starts],
+            "refused_starts": f.refused,
             "left_out": {n: x if math.isfinite(x) else None for n, x in f.left_out.items()},
             "criterion": f.criterion,
         }

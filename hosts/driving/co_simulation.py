@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,13 +14,12 @@ from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.run_checks import check_columns
+from hosts.driving.senses import Senses
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import StepRefusedError
 
 # Of a value that is reached at the end of a step and set again for the next.
 _ROUND_OFF = 1e-9
-DEAR = ("stress.", "bending_moment.")
-"""Outputs that an FMU may find when they are read: they are read where a row is recorded or who drives looks at one."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +53,8 @@ class Result:
         By the number of a row: inputs before a jump at its time, where the row alone does not tell them.
     starts : list of int
         Rows at which runs begin that were put one after the other.
+    lost : list of str
+        Inputs that moved between the rows otherwise than the rows tell, where not every step has one.
     """
 
     names: list[str]
@@ -68,6 +69,7 @@ class Result:
     late: list[str] = field(default_factory=list)
     jumps: dict[int, list[float]] = field(default_factory=dict)
     starts: list[int] = field(default_factory=lambda: [0])
+    lost: list[str] = field(default_factory=list)
 
     def __contains__(self, name: str) -> bool:
         return name in self.names
@@ -79,12 +81,12 @@ class Result:
 def run_with_bar(
     fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Pilot | None = None, every: int = 1
 ) -> Result:
-    """`run` with a progress bar on the terminal."""
+    """`run` with a progress bar on the terminal; its last step has a row also where the stop time has none."""
     from ali3.bars import bar as bar_of
 
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
     with bar_of(total=steps, desc=what, unit="step") as bar:
-        return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n), every=every)
+        return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n), every=every, last=True)
 
 
 def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
@@ -116,63 +118,6 @@ def _line_follower(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequenc
     return follow
 
 
-class _NoOutputError(HostError, KeyError):
-    """Who drives looks for an output that there is not."""
-
-    __str__ = Exception.__str__
-
-
-class _Senses(Mapping[str, float]):
-    """The outputs after a step by name.
-
-    Parameters
-    ----------
-    all_rows : bool
-        Whether the outputs of each step are recorded, so that none is read later than the others.
-    """
-
-    def __init__(self, fmu: SimulatedFmu, names: Sequence[str], all_rows: bool) -> None:
-        self._places = {n: k for k, n in enumerate(names)}
-        self.row = np.empty(len(names))
-        later = [] if all_rows else [k for k, n in enumerate(names) if n.startswith(DEAR)]
-        self._later, self._fresh = frozenset(later), True
-        self._parts = [
-            (fmu.reader([names[k] for k in part]), np.empty(len(part)), np.array(part, dtype=np.intp))
-            for part in ([k for k in range(len(names)) if k not in self._later], later)
-            if part
-        ]
-
-    def read(self) -> None:
-        """Take over the outputs of now, but for those that are dear."""
-        self._fresh = not self._later
-        self._take(0)
-
-    def whole(self) -> NDArray[np.float64]:
-        """All outputs of now."""
-        if not self._fresh:
-            self._fresh = True
-            self._take(-1)
-        return self.row
-
-    def _take(self, part: int) -> None:
-        read, into, places = self._parts[part]
-        read(into)
-        self.row[places] = into
-
-    def __getitem__(self, name: str) -> float:
-        try:
-            place = self._places[name]
-            return (self.whole() if place in self._later else self.row).item(place)
-        except KeyError:
-            raise _NoOutputError(f"Who drives needs the output '{name}', which the FMU does not have.") from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._places)
-
-    def __len__(self) -> int:
-        return len(self._places)
-
-
 def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, float]) -> str:
     act = next(f"{n} = {x}" for n, x in acts.items() if not math.isfinite(x))
     sense = next((f": the output {n} of the FMU is {x}" for n, x in senses.items() if not math.isfinite(x)), "")
@@ -187,6 +132,7 @@ def run(
     progress: Callable[[int], None] = lambda done: None,
     until: Callable[[float, Mapping[str, float]], bool] | None = None,
     every: int = 1,
+    last: bool = False,
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
@@ -206,8 +152,10 @@ def run(
     until : callable, optional
         Of the time and the outputs; the run ends with the first step after which it is true.
     every : int
-        Steps from one recorded row to the next. Outputs that are `DEAR` are read in the others where who drives looks
-        at one.
+        Steps from one recorded row to the next. Outputs that are `hosts.driving.senses.DEAR` are read in the others
+        where who drives looks at one.
+    last : bool
+        Whether the last step has a row in any case, which then comes sooner than the others.
 
     Returns
     -------
@@ -220,7 +168,7 @@ def run(
     inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
     discrete = {n for n in manoeuvre.inputs if fmu.variables[n].variability == "discrete"}
     whole = discrete | {n for n in manoeuvre.inputs if fmu.variables[n].type == "Integer"}
-    senses = _Senses(fmu, outputs, every == 1)
+    senses = Senses(fmu, outputs, every == 1)
 
     first = manoeuvre.initial(whole)
     fmu.initialise({**manoeuvre.start, **first})
@@ -234,7 +182,7 @@ def run(
     used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
     set_inputs = _setter(fmu, used)
     steps = max(1, round(manoeuvre.stop_time / step))
-    values = np.empty((steps // every + 1, len(inputs) + len(outputs)))
+    values = np.empty((steps // every + 2, len(inputs) + len(outputs)))
     columns = [inputs.index(n) for n in used]
     held = fmu.start_values(inputs)
     for name, value in {**manoeuvre.start, **first}.items():
@@ -247,6 +195,8 @@ def run(
     straight = straight if fmu.follows_slopes else []
     places, follow = [inputs.index(n) for n in straight], _line_follower(fmu, straight)
     jumps: dict[int, list[float]] = {}
+    lost, slopes = np.zeros(len(inputs), bool), list[float]()
+    sizes = np.array([np.abs(manoeuvre.inputs[n]).max() for n in straight])
     done, failed = 0, 0
     begin = clock.perf_counter()
     for k in range(steps):
@@ -262,19 +212,25 @@ def run(
         if used:
             set_inputs(now)
             held[columns] = now
-        if k % every == 0:
+        jumped = np.abs(held - before) > _ROUND_OFF * (np.abs(held) + np.abs(before))
+        if k % every:
+            lost |= jumped
+        else:
             values[k // every, : len(inputs)] = held
-            jumped = np.abs(held - before) > _ROUND_OFF * (np.abs(held) + np.abs(before))
             if every > 1 or jumped[places if k else columns].any():
                 jumps[k // every] = before.tolist()
         if straight:
             then = manoeuvre.at(t + step, whole, before=True)
-            follow([(then[n] - wanted[n]) / step for n in straight])
+            earlier, slopes = slopes, [(then[n] - wanted[n]) / step for n in straight]
+            if k % every:
+                lost[places] |= np.abs(np.subtract(slopes, earlier)) * step > _ROUND_OFF * sizes
+            follow(slopes)
             held[places] = [then[n] for n in straight]
         try:
             fmu.step(manoeuvre.state_time + t, step)
         except StepRefusedError:
             failed = 1
+            held[places] = [wanted[n] for n in straight]
             break
         done = k + 1
         senses.read()
@@ -286,12 +242,18 @@ def run(
             break
     wall = clock.perf_counter() - begin
     progress(done)
+    rows = [*range(0, done + 1, every)]
+    if last and done % every:
+        if failed:
+            jumps[len(rows)] = before.tolist()
+        values[len(rows)] = [*held, *senses.whole()]
+        rows.append(done)
     names = inputs + outputs
     return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
-        step * (every * np.arange(done // every + 1, dtype=np.float64)),
-        values[: done // every + 1],
+        step * np.array(rows, dtype=np.float64),
+        values[: len(rows)],
         wall,
         done * step,
         failed,
@@ -299,4 +261,5 @@ def run(
         [n for n in inputs if n not in straight],
         [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
         jumps,
+        lost=[n for n, gone in zip(inputs, lost.tolist(), strict=True) if gone],
     )

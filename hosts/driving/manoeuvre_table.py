@@ -79,6 +79,11 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     if recorded and recorded not in names[1:]:
         raise HostError(f"{path}: there is no column {brief(recorded)}, with which outputs would begin.")
     inputs = names[1 : names.index(recorded)] if recorded else names[1:]
+    if lost := [n for n in inputs if n in record.lost and (known is None or n in known)]:
+        raise HostError(
+            f"{path} was written every {record.interval:g} s, and {', '.join(lost)} moved in between otherwise than "
+            "its rows tell, so that the run cannot be repeated; run without --interval to have a table that repeats."
+        )
     for k, (t, *before) in sorted(record.jumps.items(), reverse=True):
         if not 0 <= k < len(rows) or rows[k][0] != t or len(before) != len(inputs):
             raise HostError(
@@ -100,7 +105,8 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
 @dataclass(frozen=True)
 class _Record:
     """What the record beside a table says that is the result of a run: its first output, start values, held inputs, by
-    rows the time and the inputs before a jump, the state that it began with and its time, and the step in s.
+    rows the time and the inputs before a jump, the state that it began with and its time, the step and the interval of
+    rows in s, and the inputs of which the rows do not tell all.
     """
 
     outputs_from: str = ""
@@ -109,6 +115,8 @@ class _Record:
     jumps: Mapping[int, list[float]] = field(default_factory=dict)
     state: tuple[bytes | None, float] = (None, 0.0)
     step: float | None = None
+    interval: float = 0.0
+    lost: tuple[str, ...] = ()
 
 
 def _record_of(path: Path) -> _Record:
@@ -127,8 +135,10 @@ def _record_of(path: Path) -> _Record:
             raise ValueError
         if any(not isinstance(value, (bool, int, float, str)) for value in start.values()):
             raise ValueError
+        interval, lost = float(record.get("interval_s", step)), tuple(record.get("lost", ()))
         saved = (None, 0.0) if state is None else (read_state(path.parent / state["file"], str(file)), state["time"])
-        return _Record(first, start, set(held), jumps, (saved[0], float(saved[1])), float(step))
+        begun = saved[0], float(saved[1])
+        return _Record(first, start, set(held), jumps, begun, float(step), interval, lost)
     except (AttributeError, KeyError, TypeError, ValueError):
         raise HostError(f"{file} is no whole record of the run whose result is {path.name}; run it again.") from None
 

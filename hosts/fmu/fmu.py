@@ -26,7 +26,7 @@ from ali3.xml_memory import is_lack_of_memory
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.instance import Instance, State
-from hosts.fmu.scalars import Place, element_names, scalars
+from hosts.fmu.scalars import TEXTS, Place, element_names, scalars
 from hosts.fmu.variables import Variables
 
 _NOT_COMPUTED = "logNotComputed"
@@ -149,6 +149,12 @@ class Fmu:
             raise HostError(f"The FMU could not be initialised: {self._last_message() or error}") from None
 
     def _fitting(self, name: str, value: Value) -> Value:
+        place = self._places[name]
+        if place.size > 1 and place.type in TEXTS:
+            raise HostError(
+                f"'{name}' is one of {place.size} elements of an array of type {place.type}; such arrays keep the "
+                "values of the FMU: FMI sets all elements at once, and the start values of the others are not known."
+            )
         if isinstance(value, str) or self.variables[name].type not in ("Integer", "Enumeration"):
             return value
         return self._whole(name, value)
@@ -170,10 +176,11 @@ class Fmu:
         def set_values(values: Sequence[float]) -> None:
             for k in whole:
                 self._whole(names[k], values[k])
+            further = {self._places[names[k]]: self._fitting(names[k], values[k]) for k in others}
             try:
                 set_numbers([values[k] for k in numbers] if others else values)
-                if others:
-                    self._instance.set({self._places[names[k]]: self._fitting(names[k], values[k]) for k in others})
+                if further:
+                    self._instance.set(further)
             except FMICallException as error:
                 raise HostError(f"An input was refused: {self._last_message() or error}") from None
 

@@ -116,10 +116,13 @@ class Instance:
             found: dict[int, list[Any]] = {}
             for place, value in values.items():
                 if place.type == kind:
-                    found.setdefault(place.reference, self._arrays.row(place))[place.item] = value
+                    if place.reference not in found:
+                        found[place.reference] = self._arrays.row(place)
+                    found[place.reference][place.item] = value
             getattr(self.slave, f"set{self._suffix(kind)}")(
                 list(found), [self._type(kind)(value) for row in found.values() for value in row]
             )
+            self._arrays.keep(found)  # nothing of what was refused
 
     def _suffix(self, kind: str) -> str:
         """The end of the names of the functions of a type."""
@@ -242,13 +245,17 @@ class _Arrays:
         self._read, self._rows, self._from_fmu = read, dict[int, list[Any]](), False
 
     def row(self, place: Place) -> list[Any]:
-        """All values of a variable as they were set last; of a scalar one that will be replaced."""
+        """All values of a variable as they were set last, to be changed; of a scalar one that will be replaced."""
         if place.size == 1:
             return [None]
-        if place.reference not in self._rows:
-            start = self._starts[place.reference]
-            self._rows[place.reference] = self._read(place) if self._from_fmu else list(start)
-        return self._rows[place.reference]
+        kept = self._rows.get(place.reference)
+        if kept is None:
+            kept = self._read(place) if self._from_fmu else self._starts[place.reference]
+        return list(kept)
+
+    def keep(self, rows: Mapping[int, list[Any]]) -> None:
+        """Values that the FMU has taken, by reference."""
+        self._rows.update({reference: row for reference, row in rows.items() if len(row) > 1})
 
     def reset(self) -> None:
         """Start values again."""

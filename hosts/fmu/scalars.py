@@ -20,6 +20,9 @@ KINDS = {"Float64": "Real", "Float32": "Real"} | {
 }
 """Types of FMI 3.0 by those of FMI 2.0."""
 
+TEXTS = ("String", "Binary")
+"""Types whose start values are elements of XML."""
+
 
 @dataclass(frozen=True)
 class Place:
@@ -77,12 +80,13 @@ def scalars(
         shape = v.shape or ()
         counted = [v.name + f"[{','.join(map(str, k))}]" for k in itertools.product(*(range(1, n + 1) for n in shape))]
         called = names.get(v.name, []) if shape else [v.name]
-        starts = (v.start or "").split() if shape else [v.start]  # one value is that of all elements
+        texts = v.type in TEXTS  # of theirs FMPy knows the first start value only, which may hold blanks
+        starts = (v.start or "").split() if shape and not texts else [v.start]  # one value is that of all elements
         for item, name in enumerate(called if len(called) == (len(counted) or 1) else counted):
             element = copy.copy(v)
             element.name, element.type = name, KINDS.get(v.type, v.type)
             element.dimensions, element.shape = [], ()
-            element.start = starts[item if len(starts) > 1 else 0] if starts else None
+            element.start = None if (texts and item) or not starts else starts[item if len(starts) > 1 else 0]
             variables.append(element)
             places[name] = Place(v.valueReference, v.type, item, len(counted) or 1)
     return variables, places

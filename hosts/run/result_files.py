@@ -78,6 +78,8 @@ def write_record(
         "token": fmu.description.guid,
         "manoeuvre": manoeuvre.name,
         "step_s": step,
+        "interval_s": float(result.time[1]) if len(result.time) > 1 else step,
+        "lost": result.lost,
         "simulated_s": result.simulated,
         "failed_steps": result.failed_steps,
         "set": settings.records(),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hosts.driving.co_simulation import DEAR, Result
+from hosts.driving.co_simulation import Result
 from hosts.driving.course import Course
+from hosts.driving.senses import DEAR
 
 WHEELS = ("FL", "FR", "RL", "RR")
 # A wheel that carries less is in the air, N.
@@ -45,6 +46,8 @@ def summary(
     """
     rows: list[tuple[str, str]] = []
     interval = float(result.time[1]) if len(result.time) > 1 else step
+    if interval > 1.5 * step:
+        rows.append((f"rows every {interval:g} s", "largest values and means are of these rows"))
     if "chassis.x" in result and "chassis.y" in result:
         x, y = result["chassis.x"], result["chassis.y"]
         rows.append(("distance driven", f"{np.hypot(np.diff(x), np.diff(y)).sum():.2f} m"))
@@ -71,7 +74,8 @@ def summary(
         largest = max(loads, key=lambda w: float(loads[w].max()))
         at = result.time[int(loads[largest].argmax())]
         rows.append(("largest wheel load", f"{loads[largest].max():.0f} N ({largest}, at {at:.2f} s)"))
-        lift = "  ".join(f"{w} {1e3 * interval * np.count_nonzero(f[1:] < _LIFT_FORCE):.0f}" for w, f in loads.items())
+        lasting = 1e3 * np.diff(result.time)
+        lift = "  ".join(f"{w} {lasting[f[1:] < _LIFT_FORCE].sum():.0f}" for w, f in loads.items())
         rows.append(("wheels in the air", f"{lift}  ms"))
     if course is not None and "chassis.x" in result and "chassis.y" in result and "chassis.yaw" in result:
         out = course.corners_outside(result["chassis.x"], result["chassis.y"], result["chassis.yaw"], *outline)

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from hosts.study.measures import StudyMeasure
 
 DONE, INCOMPLETE, FAILED = "done", "incomplete", "failed"
+"""How a run ended: every measure that exists is a number; some is none; there is no result."""
 MISSING = ", "
 """Between the names in the column ``missing``; no name of a measure has it."""
-"""How a run ended: every measure that exists is a number; some is none; there is no result."""
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hosts.driving.co_simulation import DEAR
 from hosts.driving.co_simulation import run as driven
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre_file import read_manoeuvre
+from hosts.driving.senses import DEAR
 from hosts.fmu.fmu import Fmu
 from hosts.run.command import main
 from tests.in_process import run

@@ -11,6 +11,7 @@ import fmpy
 import numpy as np
 import pandas as pd
 import pytest
+from fmpy.fmi1 import FMICallException
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
@@ -126,3 +127,82 @@ def test_elements_that_are_not_set_keep_their_values(fmu: Path) -> None:
 def test_an_array_as_a_whole_is_refused_with_its_elements(fmu: Path) -> None:
     with Fmu(fmu) as one, pytest.raises(HostError, match=r"'B' is an array .* its elements, 'B\[1,1\]' to 'B\[2,3\]'"):
         one.table.settable("B", "--set")
+
+
+def described_as(fmu: Path, folder: Path, change: dict[str, str]) -> Path:
+    """The same FMU with other words in its description."""
+    made = folder / "Changed.fmu"
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(made, "w") as new:
+        for name in old.namelist():
+            content = old.read(name)
+            for words, others in change.items() if name == "modelDescription.xml" else ():
+                assert words.encode() in content
+                content = content.replace(words.encode(), others.encode())
+            new.writestr(name, content)
+    return made
+
+
+def test_texts_of_an_array_are_not_split_and_not_set(fmu: Path, tmp_path: Path) -> None:
+    """FMPy knows the first start value alone; to set one element would set the others to what is not known."""
+    array = (
+        '<String name="label" valueReference="8" causality="parameter" variability="fixed"><Dimension start="2"/>'
+        '<Start value="two words"/><Start value="other"/></String></ModelVariables>'
+    )
+    with Fmu(described_as(fmu, tmp_path, {"</ModelVariables>": array})) as one:
+        assert [one.variables[f"label[{k}]"].start for k in (1, 2)] == ["two words", None]
+        with pytest.raises(HostError, match=r"'label\[2\]' is one of 2 elements of an array of type String; such"):
+            one.initialise({"label[2]": "mine"})
+        one.initialise({"u[2]": 5.0})
+        with pytest.raises(HostError, match=r"'label\[1\]' is one of 2 elements"):
+            one.setter(["u[1]", "label[1]"])([7.0, "mine"])  # type: ignore[list-item]
+        assert one.getter(["u[1]", "u[2]"])() == [1.0, 5.0], "nothing is half set"
+
+
+def test_a_refused_value_does_not_stay(fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with Fmu(fmu) as one:
+        one.initialise({})
+        read = one.getter(["u[1]", "u[2]"])
+        take = one._slave.setFloat64
+
+        def refuse(*arguments: object) -> None:
+            raise FMICallException("fmi3SetFloat64", 3)
+
+        monkeypatch.setattr(one._slave, "setFloat64", refuse)
+        with pytest.raises(HostError, match="refused"):
+            one.setter(["u[1]"])([1e9])
+        monkeypatch.setattr(one._slave, "setFloat64", take)
+        one.setter(["u[2]"])([4.0])
+        assert read() == [1.0, 4.0]
+
+
+def test_an_fmu_without_outputs_runs(fmu: Path, tmp_path: Path) -> None:
+    hidden = {'name="y" valueReference="7" causality="output"': 'name="y" valueReference="7" causality="local"',
+              '<Output valueReference="7"/>': ""}  # fmt: skip
+    for more in ((), ("--interval", "0.1")):
+        out = tmp_path / str(len(more))
+        done = run(run_command, described_as(fmu, tmp_path, hidden), "--stop-time", "0.25", "--out", out, *more)
+        assert done.returncode == 0, done.stderr
+        (file,) = out.glob("*.csv")
+        assert pd.read_csv(file)["time"].iloc[-1] == 0.25
+
+
+def test_a_table_at_an_interval_repeats_its_run_or_says_that_it_does_not(fmu: Path, tmp_path: Path) -> None:
+    """Here inputs are held over each step."""
+    tables = {"moves": "0,0\n0.25,2\n", "stays": "0,1\n0.1,1\n0.1,2\n0.25,2\n"}
+    results = {}
+    for name, rows in tables.items():
+        table = tmp_path / f"{name}.csv"
+        table.write_text(f'"time","u[1]"\n{rows}')
+        done = run(run_command, fmu, "-m", table, "--step", H, "--interval", "0.1", "--out", tmp_path / name)
+        assert done.returncode == 0, done.stderr
+        assert "rows every 0.1 s" in done.stdout
+        (results[name],) = (tmp_path / name).glob("*.csv")
+        assert pd.read_csv(results[name])["time"].tolist() == pytest.approx([0.0, 0.1, 0.2, 0.25])
+    again = run(run_command, fmu, "-m", results["moves"], "--out", tmp_path / "again")
+    assert again.returncode == 2
+    assert "was written every 0.1 s, and u[1] moved in between" in again.stderr
+    assert "run without --interval to have a table that repeats" in again.stderr
+    again = run(run_command, fmu, "-m", results["stays"], "--interval", "0.1", "--out", tmp_path / "again")
+    assert again.returncode == 0, again.stderr
+    (repeated,) = (tmp_path / "again").glob("*.csv")
+    assert repeated.read_text().splitlines()[1:] == results["stays"].read_text().splitlines()[1:]

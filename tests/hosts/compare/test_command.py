@@ -142,6 +142,8 @@ class TestCommand:
             (["--fit", "spring.stiffness=a:b"], "'a' is not a number"),
             (["--fit", "bob.x"], "has no parameter 'bob.x'"),
             (["--nuisance", "delay"], "--nuisance goes with --fit"),
+            (["--starts", "3"], "--starts goes with --fit"),
+            (["--fit-step", "0.01"], "--fit-step goes with --fit"),
             (["--fit", "spring.damping", "--nuisance", "lag"], "'lag' is not known"),
             (["--from", "20"], "--from is 20 s; the log's inputs lie between 0 and"),
             (["--skip", "7"], "--skip is 7 s; the log lasts"),

@@ -30,7 +30,11 @@ export class Bar {
     if (sound) this.element.append(this._sound);
     if (places.length) {
       const spots = places.map((name) => [name, name.replaceAll("_", " ")]);
-      this.element.append(select("place", "begin at a place of the world", spots, act.place));
+      const place = select("place", "begin at a place of the world", [["", "places …"], ...spots], (name) => {
+        if (name) act.place(name);
+        place.value = ""; // so that the same one can be chosen again
+      });
+      this.element.append(place);
     }
     for (const { data, text, title, work } of views) this.element.append(button(data, text, work, title));
     this.element.append(button("csv", "Save CSV", act.csv, "inputs and outputs of the run as a table"));

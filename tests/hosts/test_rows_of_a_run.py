@@ -1,0 +1,116 @@
+"""Rows of a run that are further apart than its steps: its end, what they do not tell, and no outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hosts.driving.co_simulation import Result, run
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.fmu import StepRefusedError
+from hosts.run.run_summary import summary
+
+H = 0.01
+
+
+class Integrator:
+    """What the loop needs of an FMU: y, the integral of u, exact for inputs that go straight."""
+
+    def __init__(self, slopes: bool, refused: int = 1000, outputs: Sequence[str] = ("y",)) -> None:
+        self.path, self.messages, self.follows_slopes = Path("integrator.fmu"), list[str](), slopes
+        self.tunable = list[str]()
+        self._names = {"input": ["u"], "output": list(outputs), "parameter": []}
+        self.variables = {n: SimpleNamespace(type="Real", variability="continuous", causality=c, unit="m")
+                          for c, names in self._names.items() for n in names}  # fmt: skip
+        self._u, self._slope, self._y, self._left = 0.0, 0.0, 0.0, refused
+
+    def names(self, causality: str) -> list[str]:
+        return self._names[causality]
+
+    def initialise(self, start: dict[str, Any], start_time: float = 0.0) -> None:
+        self._u = start.get("u", 0.0)
+
+    def start_values(self, names: Sequence[str]) -> np.ndarray:
+        return np.zeros(len(names))
+
+    def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+        return lambda values: setattr(self, "_u", values[0])
+
+    def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+        return lambda values: setattr(self, "_slope", values[0])
+
+    def reader(self, names: Sequence[str]) -> Callable[[np.ndarray], None]:
+        return lambda into: into.fill(self._y)
+
+    def step(self, time: float, step: float) -> None:
+        if self._left == 0:
+            raise StepRefusedError("enough")
+        self._left -= 1
+        self._y += step * (self._u + 0.5 * step * self._slope)
+        self._u, self._slope = self._u + step * self._slope, 0.0
+
+
+def driven(time: Sequence[float], u: Sequence[float], every: int, slopes: bool = True, **more: Any) -> Result:
+    manoeuvre = Manoeuvre("m", np.array(time), {"u": np.array(u)}, time[-1])
+    return run(Integrator(slopes, **more), manoeuvre, H, every=every, last=True)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("slopes", [True, False])
+@pytest.mark.parametrize("refused", [1000, 13, 10])
+def test_the_last_step_has_a_row(slopes: bool, refused: int) -> None:
+    """Also where the stop time is no multiple of the interval, or the FMU refuses a step before it."""
+    asked: dict[str, Any] = {"time": (0.0, 0.17), "u": (1.0, 3.0), "slopes": slopes, "refused": refused}
+    few, each = driven(every=5, **asked), driven(every=1, **asked)
+    end = min(17, refused)
+    rows = [*range(0, end, 5), end]
+    assert few.time.tolist() == [H * k for k in rows]
+    assert few.values.tolist() == each.values[rows].tolist()
+    assert few.failed_steps == (refused < 17)
+    # What an input was at the end of the last good step, before that which was refused began.
+    if refused == 13:
+        assert few.jumps[3] == pytest.approx([1.0 + 2.0 / 17.0 * (13 if slopes else 12)])
+
+
+@pytest.mark.parametrize(
+    ("slopes", "time", "u", "lost"),
+    [
+        (True, (0.0, 0.2), (0.0, 1.0), []),
+        (True, (0.0, 0.1, 0.1, 0.2), (0.0, 1.0, 3.0, 3.0), []),
+        (True, (0.0, 0.08, 0.2), (0.0, 1.0, 1.0), ["u"]),
+        (True, (0.0, 0.08, 0.08, 0.2), (1.0, 1.0, 2.0, 2.0), ["u"]),
+        (True, (0.0, 0.095, 0.2), (0.0, 1.0, 1.0), ["u"]),
+        (False, (0.0, 0.2), (0.0, 1.0), ["u"]),
+        (False, (0.0, 0.2), (1.0, 1.0), []),
+        (False, (0.0, 0.1, 0.1, 0.2), (1.0, 1.0, 2.0, 2.0), []),
+        (False, (0.0, 0.08, 0.08, 0.09, 0.09, 0.2), (1.0, 1.0, 2.0, 2.0, 1.0, 1.0), ["u"]),
+    ],
+)
+def test_what_rows_do_not_tell_of_inputs(slopes: bool, time: tuple[float], u: tuple[float], lost: list[str]) -> None:
+    assert driven(time, u, 5, slopes).lost == lost
+    assert driven(time, u, 1, slopes).lost == []
+
+
+def test_a_summary_of_rows_says_so() -> None:
+    few, each = (driven((0.0, 0.17), (1.0, 3.0), every) for every in (5, 1))
+    assert ("rows every 0.05 s", "largest values and means are of these rows") in summary(few, H)
+    assert not any(what.startswith("rows every") for what, _ in summary(each, H))
+
+
+def test_time_in_the_air_ends_with_the_run() -> None:
+    """0.17 s in rows of 0.05 s."""
+    few = driven((0.0, 0.17), (0.0, 0.0), 5)
+    air = replace(few, names=["u", "wheel_FL.Fz"])
+    assert ("wheels in the air", "FL 170  ms") in summary(air, H)
+
+
+@pytest.mark.parametrize("every", [1, 5])
+def test_there_need_be_no_outputs(every: int) -> None:
+    for names in ((), ("stress.a",)):
+        result = driven((0.0, 0.17), (1.0, 1.0), every, outputs=names)
+        assert result.values[-1].tolist() == [1.0, pytest.approx(0.17)][: 1 + len(names)]
