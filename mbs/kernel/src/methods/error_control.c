@@ -179,7 +179,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
     const double size = fmin(c->h, longest), tried = fitted(size, end - t);
     const ali3_status status = ali3_step_doubling(in, measure, t, tried, &error);
     *h = tried;
-    if (status == ALI3_BAD_ARGUMENT || status == ALI3_BAD_NORMAL || ali3_roads_status(in) != ALI3_OK) return status;
+    if (status == ALI3_BAD_ARGUMENT || ali3_roads_status(in) != ALI3_OK) return status;
     if (status != ALI3_OK) {
       in->report.failures++;
       c->failed++;
