@@ -148,9 +148,9 @@ def test_what_cannot_be_written_or_made_is_said(tmp_path: Path) -> None:
     for change in ({"mirrored": True}, {"signs": "sae"}, {"pressure": 0.1}):
         with pytest.raises(ValueError, match="ISO axes, not mirrored, and at its nominal pressure"):
             write_tyre(tmp_path / "a.tir", replace(tyre, **change))
-    for change in ({"bore": TyreBore(0.1, 1e3, 10.0)}, {"settling": 0.01}):
+    for lost in ({"bore": TyreBore(0.1, 1e3, 10.0)}, {"settling": 0.01}):
         with pytest.raises(ValueError, match=r"bore must be None and settling 0\.006 s"):
-            write_tyre(tmp_path / "a.tir", replace(tyre, **change))
+            write_tyre(tmp_path / "a.tir", replace(tyre, **lost))
     with pytest.raises(ValueError, match="friction factor of the tyre is 0"):
         write_tyre(tmp_path / "a.tir", replace(tyre, friction_factor=0.0))
     assert not list(tmp_path.iterdir())
