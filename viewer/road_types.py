@@ -18,6 +18,8 @@ class Road(Part):
 
     variables: dict[Literal["file", "kerb_x", "kerb_height"], Name] | None = None
     """Parameters of the FMU by what they set; a host applies them before it draws."""
+    number: Whole | None = None
+    """Of the road in its model, where it is not the place in this list."""
     note: Text | None = None
     """A sentence to be shown."""
 

@@ -76,7 +76,7 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
         chosen = chosen_ports(ports)
         made = made.changed({f"ports.{key}": kind for key, kind in chosen.items()})
     if fidelity is not None:
-        only = Fidelity.of(int(fidelity) if fidelity == int(fidelity) else fidelity)  # type: ignore[arg-type]
+        only = Fidelity.of(int(fidelity) if fidelity % 1.0 == 0.0 else fidelity)  # type: ignore[arg-type]
         name = f"{name or made.name}_{only.name.lower()}"
     where = f"{made.folder / _FILE}: the car '{made.name}' cannot be built"
     try:

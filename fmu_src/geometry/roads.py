@@ -22,7 +22,7 @@ def with_parameters(
     Parameters
     ----------
     roads : sequence of mapping
-        Of the drawing; the first are those of the System in its order.
+        Of the drawing; the first are those of the System in its order, or have their numbers.
     system : mbs.System
         Has the parameters.
     known : collection of str
@@ -36,8 +36,8 @@ def with_parameters(
     """
     files = {entry["road"]: entry for entry in system.meta.get("road_files", ())}
     found = []
-    for k, road in enumerate(roads):
-        made = dict(road)
+    for place, road in enumerate(roads):
+        made, k = dict(road), road.get("number", place)
         if made["kind"] == "file" and made.get("path"):
             made["path"] = f"{ROADS}/{Path(made['path']).name}"
         variables = {}

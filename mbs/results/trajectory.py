@@ -196,9 +196,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     def _drawn_roads(self, roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
         """Roads of a scene as this run had them, those of files read."""
         found = [dict(road) for road in roads]
-        for number, road in self.roads.items():
-            if number < len(found) and not isinstance(road, PortRoad):
-                found[number] = {"kind": "file", "path": road} if isinstance(road, str) else scene_part(road)
+        for place, drawn in enumerate(found):
+            road = self.roads.get(drawn.get("number", place))
+            if road is not None and not isinstance(road, PortRoad):
+                found[place] = {"kind": "file", "path": road} if isinstance(road, str) else scene_part(road)
         return drawn_roads(found)
 
     def _repr_html_(self) -> str | None:

@@ -115,7 +115,7 @@ def read_header(file: BinaryIO, name: object) -> Header:
 
 def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[float]) -> str:
     """What is wrong with the numbers of a header, as the kernel judges them; empty if nothing is."""
-    if kind not in list(RoadType):
+    if not RoadType.PLANE <= kind <= RoadType.GRID:
         return f"{kind} is no kind of road"
     if not all(abs(x) <= ROAD_FARTHEST for x in real):
         return "a number in its header is not finite or beyond 1e8"

@@ -50,6 +50,7 @@ def refusal(
         Status.TOO_FAR,
         Status.ROAD_LOST,
         Status.WHEEL_IN_ROAD,
+        Status.BAD_NORMAL,
         Status.BEYOND_TABLE,
     ):
         message += _worst_equations(simulation, report)

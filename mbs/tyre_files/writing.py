@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from math import sqrt
 
 from ali3.files import write_text
 from mbs.elements.magic_tyre import MagicTyre
@@ -22,7 +23,8 @@ def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMME
     file : path
         Usually with the extension .tir.
     tyre : MagicTyre
-        In ISO axes, not mirrored, at its nominal pressure.
+        In ISO axes, not mirrored, at its nominal pressure; its friction factor over its
+        reference friction is multiplied into LMUX and LMUY.
     side : {"LEFT", "RIGHT", "SYMMETRIC"}
         Where it was measured.
     comment : str
@@ -31,12 +33,20 @@ def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMME
     Raises
     ------
     ValueError
-        The tyre is mirrored, of other axes or of another pressure.
+        The tyre is mirrored, of other axes or of another pressure, has a bore torque or a settling of its own, or no
+        friction.
     ReportError
         The file cannot be written.
     """
     if tyre.signs != "iso" or tyre.mirrored or tyre.pressure != 0.0:
         raise ValueError("A tyre is written in ISO axes, not mirrored, and at its nominal pressure.")
+    if tyre.bore is not None or tyre.settling != MagicTyre.settling:
+        raise ValueError(
+            f"A tyre property file has neither the bore torque nor the settling of a tyre; bore must be None and "
+            f"settling {MagicTyre.settling:g} s, not {tyre.settling:g} s."
+        )
+    if not tyre.friction_factor > 0.0:
+        raise ValueError("The friction factor of the tyre is 0; a tyre property file needs a positive LMUX and LMUY.")
     write_text(file, "\n".join(f"$ {line}" for line in comment.splitlines()) + "\n".join(_lines(tyre, side)) + "\n")
 
 
@@ -52,7 +62,8 @@ def _lines(t: MagicTyre, side: str) -> Iterator[str]:
     by_ellipse = "YES" if t.combination == "ellipse" else "NO"
     yield from ("USE_MODE = 4", f"TYRESIDE = '{side}'", f"FE_METHOD = '{by_ellipse}'")
     c = {**MAGIC_COEFFICIENTS, **t.coefficients}
-    for name, factor in (("LMUX", t.lmux), ("LMUY", t.lmuy), ("LKX", t.lkx), ("LKY", t.lky)):
+    grip = t.friction_factor / t.reference_friction
+    for name, factor in (("LMUX", grip * t.lmux), ("LMUY", grip * t.lmuy), ("LKX", t.lkx), ("LKY", t.lky)):
         c[name] *= factor
     yield from _numbers({"LONGVL": c.pop("LONGVL")})
     yield "[DIMENSION]"
@@ -60,6 +71,7 @@ def _lines(t: MagicTyre, side: str) -> Iterator[str]:
     yield "[VERTICAL]"
     spring = {"FNOMIN": t.nominal_load, "VERTICAL_STIFFNESS": t.stiffness, "VERTICAL_DAMPING": t.damping}
     if t.progression:
+        spring["VERTICAL_STIFFNESS"] = sqrt(t.stiffness**2 + 4.0 * t.progression * t.nominal_load)  # at FNOMIN
         spring["Q_FZ1"] = t.stiffness * t.radius / t.nominal_load
         spring["Q_FZ2"] = t.progression * t.radius**2 / t.nominal_load
     yield from _numbers(spring | {"BOTTOM_STIFF": t.bottoming_stiffness})

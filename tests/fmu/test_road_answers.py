@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from tests.fmu.native import compile_host, unpack
+from tests.fmu.test_native_derivatives import slope
 
-OK = 0
+OK, WARNING, DISCARD = range(3)
 ANSWER = [f"road_{name}" for name in ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")]
 LEVEL = dict(zip(ANSWER, (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0), strict=True))
 
@@ -51,6 +52,24 @@ def test_a_normal_that_is_none_holds_the_last_one_with_one_warning(host, sledge)
     assert "the last one, (-0.05, 0, 0.998749), is held" in told[0]
     assert h.get("x") == good.get("x")
     assert h.get("road_normal_x") == -0.05
+
+
+def test_derivatives_that_lead_a_normal_astray_name_the_port(host, sledge) -> None:
+    """Asked again it wishes the end; without the derivative the step passes."""
+    h = host(sledge).start(LEVEL)
+    if h.description.fmiVersion.startswith("3"):
+        pytest.skip("FMI 3.0 for Co-Simulation has no derivatives of inputs here")
+    before = h.get("x")
+    for told in ("was refused, the state", "was refused again, the state"):
+        assert slope(h, "road_normal_z", 1, -50.0) == OK
+        assert h.step(0.0, 0.01) == DISCARD
+        assert told in h.messages[-1]
+        assert "'road_normal_x' and its neighbours became (0, 0, 0." in h.messages[-1]
+        assert "one whose derivatives turn the normal less" in h.messages[-1]
+        assert "Worst" not in h.messages[-1]
+    assert h.get("x") == before
+    assert slope(h, "road_normal_z", 1, 0.0) == OK
+    assert h.step(0.0, 0.01) == OK
 
 
 def test_a_start_with_a_normal_that_is_none_is_level(host, sledge) -> None:

@@ -171,6 +171,29 @@ def rolling_brick() -> mbs.Model:
     return m
 
 
+def test_roads_behind_one_at_ports_keep_their_numbers():
+    from fmu_src.geometry.roads import with_parameters
+    from mbs.elements import ContactPoints, KerbRoad, PlaneRoad, PortRoad
+    from viewer.scene import check_scene
+
+    m = mbs.Model("brick")
+    brick = m.body("brick", mass=1.0, com=(0, 0, 2.0), inertia=(0.1, 0.1, 0.1))
+    roads = [m.road(PortRoad([m.road_answer("answered")])), m.road(PlaneRoad(0.1)), m.road(KerbRoad(3.0, 0.1))]
+    for k, road in enumerate(roads):
+        m.contact_point(f"foot{k}", brick, (0, 0, 1.0), road=road, contact=ContactPoints.for_mass(1.0))
+    m.parameter("lift", 0.1, 0.0, 1.0, "m", targets=[(("road", roads[1]), "height", 1.0, 0.0)])
+    m.floating = True
+    m.parameter("kerb", 3.0, 0.0, 10.0, "m", targets=[(("road", roads[2]), "position", 1.0, 0.0)])
+    system = mbs.compile(m)
+    run = mbs.simulate(system, 0.02, 0.01, parameters={"lift": 0.3})
+    check_scene(run.drawing.scene)
+    plane, kerb = with_parameters(run.drawing.scene["roads"], system, {"kerb"})
+    assert (plane["number"], plane["height"], plane.get("variables")) == (1, 0.1, None)
+    assert (kerb["number"], kerb["kind"], kerb["variables"]) == (2, "profile", {"kerb_x": "kerb"})
+    plane, kerb = run.recording().scene["roads"]
+    assert (plane["height"], kerb["kind"]) == (0.3, "profile")
+
+
 @pytest.mark.parametrize("how", [{"h": 0.01}, {"tolerance": 1e-2}])
 def test_the_road_is_drawn_as_the_run_had_it(how):
     system = mbs.compile(rolling_brick())

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbs.elements import MagicTyre, Tyre
+from mbs.elements import MagicTyre, Tyre, TyreBore
 from mbs.tyre_files import read_tyre
 from mbs.tyre_files.fits import magic_of_tmeasy, tmeasy_of_magic
 from mbs.tyre_files.writing import write_tyre
@@ -117,11 +117,42 @@ def test_a_written_file_is_read_as_the_same_tyre(tmp_path: Path, file: Path) -> 
     assert (tmp_path / "again.tir").read_text(encoding="utf-8").startswith("$ written again\n")
 
 
+def test_a_written_tyre_keeps_grip_and_progression(tmp_path: Path) -> None:
+    """LMUX and LMUY take the friction factor; VERTICAL_STIFFNESS, at FNOMIN, agrees with Q_FZ1 and Q_FZ2."""
+    plain = replace(magic(FILES[0]), progression=2e5)
+    tyre = replace(plain, friction_factor=0.8, reference_friction=1.25)
+    write_tyre(tmp_path / "a.tir", tyre, "LEFT")
+    read = read_tyre(tmp_path / "a.tir")
+    again = read.tyre()
+    assert [note for note in read.notes if "VERTICAL_STIFFNESS" in note] == []
+    assert (again.stiffness, again.progression) == pytest.approx((tyre.stiffness, 2e5), rel=1e-12)
+    for name in ("LMUX", "LMUY"):
+        assert again.coefficients[name] == pytest.approx(0.64 * tyre.coefficients.get(name, 1.0), rel=1e-12)
+    again = replace(again, largest_load=tyre.largest_load)
+    for kappa, tangent in ((0.1, 0.0), (0.0, 0.2)):
+        first, second = (
+            steady(*_rolling(t, kappa, tangent))["longitudinal_force" if kappa else "lateral_force"]
+            for t in (tyre, again)
+        )
+        assert first == pytest.approx(second, rel=1e-9)
+
+
+def _rolling(tyre: MagicTyre, kappa: float, tangent: float) -> tuple[Element, float, float, float, float]:
+    """What `steady` takes, on a road of friction 1."""
+    u, ud = pose(tyre, 3000.0, kappa, 0.0, 0.0, 20.0)
+    return element_of(tyre, 1.0), u[2], 20.0, ud[6], 20.0 * tangent
+
+
 def test_what_cannot_be_written_or_made_is_said(tmp_path: Path) -> None:
     tyre = magic(FILES[0])
     for change in ({"mirrored": True}, {"signs": "sae"}, {"pressure": 0.1}):
         with pytest.raises(ValueError, match="ISO axes, not mirrored, and at its nominal pressure"):
             write_tyre(tmp_path / "a.tir", replace(tyre, **change))
+    for lost in ({"bore": TyreBore(0.1, 1e3, 10.0)}, {"settling": 0.01}):
+        with pytest.raises(ValueError, match=r"bore must be None and settling 0\.006 s"):
+            write_tyre(tmp_path / "a.tir", replace(tyre, **lost))
+    with pytest.raises(ValueError, match="friction factor of the tyre is 0"):
+        write_tyre(tmp_path / "a.tir", replace(tyre, friction_factor=0.0))
     assert not list(tmp_path.iterdir())
     with pytest.raises(ValueError, match=r"pressure of the tyre is 1\.1 times the nominal one"):
         tmeasy_of_magic(replace(tyre, pressure=0.1))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import pytest
 import mbs
 from mbs.elements import ContactPoints, GridRoad, PortRoad
 from mbs.elements.road import ANSWER
+from mbs.kernel.binding import Status
 from mbs.vehicle import load
 from tests.vehicle.test_ports import WHEELS, with_ports
 
@@ -155,6 +157,29 @@ def test_a_normal_that_is_none_is_refused() -> None:
         s.set_input(f"wheel_FL.road_normal_{c}", value)
     s.step(0.002, 10)
     assert s.sensors["wheel_FL.normal_y"] == pytest.approx(-0.1 / np.hypot(0.1, 0.995))
+
+
+@pytest.mark.parametrize("how", [{"h": 0.002}, {"tolerance": 1e-3}])
+def test_a_normal_that_ends_within_a_run_is_refused_there(how: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    """By a table, also with a jump, and by a callable; no equation is at fault."""
+    monkeypatch.setattr("mbs.simulation.refusal._worst_equations", lambda *_: " Worst balance.")
+    times = ([0.0, 0.02, 0.03], [1.0, 1.0, 0.0])
+    jump = ([0.0, 0.02, 0.02, 0.03], [1.0, 1.0, 0.0, 0.0])
+    for signal in (times, jump, lambda t: 1.0 if t < 0.02 else 0.0):
+        with pytest.raises(mbs.SimulationError, match="must be a unit vector that points up") as refused:
+            mbs.simulate(at_ports(), 0.1, inputs={"wheel_FL.road_normal_z": signal}, progress=False, **how)
+        assert refused.value.status == Status.BAD_NORMAL
+        assert "Worst" not in str(refused.value)
+        assert refused.value.time <= 0.0215
+
+
+def test_many_runs_refuse_a_normal_that_ends_within_them() -> None:
+    bad = mbs.Variant(inputs={"wheel_FL.road_normal_z": ([0.0, 0.02, 0.03], [1.0, 1.0, 0.0])})
+    runs = mbs.simulate_many(at_ports(), [bad, mbs.Variant(), bad], 0.1, 0.002, lanes=2, progress=False)
+    assert set(runs.failures) == {0, 2}
+    for failure in runs.failures.values():
+        assert failure.status == Status.BAD_NORMAL
+        assert failure.time == pytest.approx(0.02)
 
 
 def test_no_other_road_fits_and_the_own_one_is_left_out() -> None:

@@ -24,6 +24,12 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
         s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
         "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s Go on from another state.",
         time, step, r->count > 1 ? " again" : "", time, ali3_status_text(status), worst);
+  if (status == ALI3_BAD_NORMAL) /* within the step: at its start the last one is held */
+    return slave_say(s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
+                     "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s A shorter "
+                     "communication step "
+                     "may pass, or one whose derivatives turn the normal less, whatever the step_size.",
+                     time, step, r->count > 1 ? " again" : "", time, ali3_status_text(status), worst);
   if (r->count == 1)
     return slave_say(s, SLAVE_DISCARD,
                      "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s A smaller "

@@ -242,6 +242,7 @@ void slave_watch_ports(slave *s);
 /* wheel_answers.c: normals that are none hold the last ones; answers far from a wheel, and steps that are long for a
  * tyre, are told */
 void slave_hold_normals(slave *s);
+void slave_bad_normal(const slave *s, char *text, size_t size);
 void slave_watch_answers(slave *s);
 
 /* derivatives.c */

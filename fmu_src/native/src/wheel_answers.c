@@ -1,6 +1,7 @@
 /* What other programs answer for a wheel: a normal of the road that is none holds the last one, an answer on a place far
  * from the wheel is told, and so is a tyre whose step is long for its speed. */
 #include <math.h>
+#include <stdio.h>
 
 #include "slave.h"
 
@@ -28,6 +29,24 @@ void slave_hold_normals(slave *s) {
       n[k] = held[k];
       for (size_t order = 0; order < SLAVE_MOST_ORDERS; order++) s->slope[(i + k) * SLAVE_MOST_ORDERS + order] = 0.0;
     }
+  }
+}
+
+/* After ALI3_BAD_NORMAL: the port whose normal derivatives led astray, by the inputs of the inner step in s->direction. */
+void slave_bad_normal(const slave *s, char *text, size_t size) {
+  const slave_table *t = &slave_the_table;
+  text[0] = 0;
+  for (size_t i = 0; i + 2 < t->n_known; i++) {
+    if (t->variable[i].role != SLAVE_NORMAL || t->variable[i].source != SLAVE_INPUT) continue;
+    double n[3];
+    for (size_t k = 0; k < 3; k++) {
+      const slave_variable *v = &t->variable[i + k];
+      n[k] = fmax(v->min, fmin(v->max, s->direction[v->index]));
+    }
+    if (ali3_is_road_normal(n)) continue;
+    snprintf(text, size, " With its derivatives '%s' and its neighbours became (%g, %g, %g).", t->variable[i].name,
+             n[0], n[1], n[2]);
+    return;
   }
 }
 

@@ -14,6 +14,15 @@ static const double NEAR = 1e-9; /* of a step: a part that ends so near to its e
 /* Of a value that is reached and set again, or of a table at one of its times, from either side. */
 static const double ROUND_OFF = 1e-13;
 
+/* Whether inputs (nu) give all roads at ports their normals. */
+static ali3_status normals(ali3_instance *in, const double *input) {
+  const double *const used = in->force_input;
+  in->force_input = input;
+  const ali3_status status = ali3_roads_normals(in);
+  in->force_input = used;
+  return status;
+}
+
 /* Inputs of the function at time t to `to` (nu), held in their ranges. */
 static ali3_status ask(ali3_instance *in, double t, bool after, double *to) {
   const ali3_system *S = in->system;
@@ -21,7 +30,7 @@ static ali3_status ask(ali3_instance *in, double t, bool after, double *to) {
   if (in->input_function(in->input_context, t, after ? 1 : 0, in->input_work) != 0) return ALI3_BAD_ARGUMENT;
   if (!ali3_finite(in->input_work, S->size.nu)) return ALI3_BAD_ARGUMENT;
   for (int32_t i = 0; i < S->size.nu; i++) to[i] = fmax(S->input_min[i], fmin(S->input_max[i], in->input_work[i]));
-  return ALI3_OK;
+  return normals(in, to);
 }
 
 /* For a step of size h from the present time: from the present inputs to `end` (nu), held in their ranges; NULL: they
