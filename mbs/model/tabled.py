@@ -8,7 +8,6 @@ fourth power of the spacing. Beyond the table they go on along their tangent; a 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -59,7 +58,7 @@ class SmoothTable:
         return np.asarray(found if len(self.axes) == 2 else found[0])
 
 
-def smooth_table(axes: Sequence[object], values: object, functions: tuple[int, ...], what: str) -> SmoothTable:
+def smooth_table(axes: object, values: object, functions: tuple[int, ...], what: str) -> SmoothTable:
     """The table of values at points.
 
     Parameters
