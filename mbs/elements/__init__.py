@@ -24,6 +24,7 @@ from mbs.elements.torsion_bar import TorsionBar
 from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.elements.tyre_bore import TyreBore
 from mbs.elements.wind import Wind
+from mbs.elements.wind_drag import WindDrag
 from mbs.kernel.header.enumerations import ElementType
 
 __all__ = [
@@ -59,4 +60,5 @@ __all__ = [
     "TyreBore",
     "TyreCurve",
     "Wind",
+    "WindDrag",
 ]

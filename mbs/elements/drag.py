@@ -8,36 +8,32 @@ from mbs.common.affine import AffineVector
 from mbs.elements.reals import NotNegative, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import size
-from mbs.elements.wind import Wind
 from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)
 class Drag:
-    """Drag F = -rho CdA |v| v / 2, v being the velocity over the air."""
+    """Drag F = -rho CdA |v| v / 2, v being the velocity over air that is still."""
 
     drag_area: NotNegative
     """Drag coefficient times frontal area, m^2."""
     air_density: NotNegative = 1.225
     """kg/m^3."""
 
-    def record(self, name: str, point: AffineVector, wind: Wind | None = None) -> ElementRecord:
+    def record(self, name: str, point: AffineVector) -> ElementRecord:
         """The force element.
 
         Parameters
         ----------
         point : AffineVector
-            Where the force acts, two or three components, in moving air three.
-        wind : Wind, optional
-            How the air moves; by default it is still.
+            Where the force acts, two or three components.
         """
         what = f"the drag '{name}'"
-        size(point, (3,) if wind else (2, 3), f"The point of {what}")
+        size(point, (2, 3), f"The point of {what}")
         return ElementRecord(
             name,
-            ElementType.WIND_DRAG if wind else ElementType.DRAG,
+            ElementType.DRAG,
             point.components,
             *columns(reals_of(self, what, ("air_density", "drag_area"))),
-            wind.integers(what) if wind else (),
             outputs=(Output("force", "N", "size of the drag"),),
         )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.common.affine import AffineVector
+from mbs.common.checks import instance_of
 from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Number, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
@@ -30,12 +31,12 @@ class Lift:
         Parameters
         ----------
         point : AffineVector
-            Where the force acts, two or three components.
+            Where the force acts, two or three components, in wind three.
         forward, up : AffineVector
             Unit vectors of the body, as many components: v is the speed of the point along the first, the force acts
             along the second.
         wind : Wind, optional
-            How the air moves, in space; by default it is still.
+            How the air moves; by default it is still.
         """
         what = f"the lift '{name}'"
         size(point, (2, 3), f"The point of {what}")
@@ -45,11 +46,15 @@ class Lift:
                 raise ModelError(
                     f"The {words} of {what} has {len(axis)} components and its point {len(point)}; they must be alike."
                 )
+        air: tuple[int, ...] = ()
+        if wind is not None:
+            air = instance_of(Wind, wind, f"The wind of {what}", "a Wind or None").integers(what)
+            size(point, (3,), f"The point in wind of {what}")
         return ElementRecord(
             name,
             ElementType.LIFT,
             (*point.components, *forward.components, *up.components),
             *columns(reals_of(self, what, ("air_density", "lift_area"))),
-            wind.integers(what) if wind else (),
+            air,
             outputs=(Output("force", "N", "lift, positive along the upward axis"),),
         )

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.common.affine import AffineVector
-from mbs.common.checks import array, direction, instance_of, not_negative, number, one_of, shown, whole
+from mbs.common.checks import array, direction, instance_of, named, not_negative, number, one_of, shown, text, whole
 from mbs.common.errors import ModelError
 from mbs.elements.body_force import BodyForce
 from mbs.elements.body_torque import BodyTorque
@@ -25,6 +25,7 @@ from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.wind import Wind
+from mbs.elements.wind_drag import WindDrag
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin
@@ -198,7 +199,8 @@ class ForceVocabulary(BodyVocabulary):
             How the air moves; by default it is still.
         """
         self.owned(body, f"The drag '{name}'")
-        return self.add(Drag(drag_area, air_density).record(name, self._end((body, point), f"drag '{name}'"), wind))
+        air = Drag(drag_area, air_density) if wind is None else WindDrag(drag_area, air_density, wind=wind)
+        return self._add_in_air(air.record(name, self._end((body, point), f"drag '{name}'")), "drag")
 
     def lift(
         self,
@@ -239,7 +241,8 @@ class ForceVocabulary(BodyVocabulary):
             owned.vector(direction(axis, self.dimension, f"the {word} axis of {what}"))
             for axis, word in ((forward, "forward"), (up, "upward"))
         )
-        return self.add(Lift(lift_area, air_density).record(name, self._end((body, point), what), front, top, wind))
+        made = Lift(lift_area, air_density).record(name, self._end((body, point), what), front, top, wind)
+        return self._add_in_air(made, "lift")
 
     def road(self, road: Road | RoadFile, *, file: str | None = None) -> int:
         """Add a road.
@@ -306,26 +309,29 @@ class ForceVocabulary(BodyVocabulary):
         int
             The number of the first input.
         """
+        what = f"road answer '{named(name, 'a road answer')}'"
+        grip = not_negative(friction, f"The friction of {what}")
+        text(near, f"The near of {what}")
         up, roles = ("normal_x", "normal_y", "normal_z"), {"x": Role.ANSWER, "normal_x": Role.NORMAL}
-        starts = {"normal_z": 1.0, "friction": not_negative(friction, f"The friction of road answer '{name}'")}
+        starts = {"normal_z": 1.0, "friction": grip}
         limits = {"friction": (0.0, 10.0)} | dict.fromkeys(up, (-1.1, 1.1))
         units, words = dict.fromkeys(("x", "y", "height"), "m"), {"x": "x", "y": "y", "height": "height"}
         first = len(self.inputs)
-        for what in ANSWER:
-            at = "of the point that the answer on the road holds for, earth" if what in "xy" else "of the road there"
-            word = words.get(what, f"{what[-1]} of the unit normal, earth, upwards," if what in up else what)
+        for part in ANSWER:
+            at = "of the point that the answer on the road holds for, earth" if part in "xy" else "of the road there"
+            word = words.get(part, f"{part[-1]} of the unit normal, earth, upwards," if part in up else part)
             new_input(
                 self,
-                f"{name}_{what}",
-                starts.get(what, 0.0),
-                *limits.get(what, (-math.inf, math.inf)),
-                units.get(what, "1"),
+                f"{name}_{part}",
+                starts.get(part, 0.0),
+                *limits.get(part, (-math.inf, math.inf)),
+                units.get(part, "1"),
                 f"{word} {at}",
                 False,
                 True,
-                roles.get(what, Role.NONE),
-                near if what == "x" else "",
-                {"x": 1.0, "y": 1.0, "height": 0.02, "friction": 0.2 * friction}.get(what, 0.02),
+                roles.get(part, Role.NONE),
+                near if part == "x" else "",
+                {"x": 1.0, "y": 1.0, "height": 0.02, "friction": 0.2 * grip}.get(part, 0.02),
             )
         return first
 
@@ -371,6 +377,15 @@ class ForceVocabulary(BodyVocabulary):
         """
         place = array(point, (3,), f"the place of contact point {shown(name)}")
         return self.contact_points(name, body, place[None], road=road, contact=contact)
+
+    def _add_in_air(self, made: ElementRecord, kind: str) -> ElementRecord:
+        """Add an element of the air, whose integers are the inputs of its wind."""
+        if max(made.integer, default=-1) >= len(self.inputs):
+            raise ModelError(
+                f"The wind of {kind} '{made.name}' has the inputs {list(made.integer)}, but the model '{self.name}' "
+                f"has {len(self.inputs)}, counted from 0."
+            )
+        return self.add(made)
 
     def _end(self, end: FixedEnd, what: str) -> AffineVector:
         body, point = body_and_point(end, what)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.common.checks import array, named, positive, shown, vector
+from mbs.common.checks import array, named, number, one_of, positive, shown, vector
 from mbs.common.errors import ModelError
 from mbs.model.bodies import ROTATION, BodyVocabulary
 from mbs.model.body import Body
@@ -40,12 +40,12 @@ class TableVocabulary(BodyVocabulary):
         rate : float
             At the start, m/s or rad/s.
         """
-        if unit not in ("m", "rad"):
-            raise ModelError(f"The unit of travel {shown(name)} is {shown(unit)}; it must be m or rad.")
+        one_of(unit, ("m", "rad"), f"The unit of travel {shown(name)}")
+        start = number(rate, f"The rate of travel {shown(name)}")
         index = self.new_coordinate(self.unique("travel", name), "angle", 0.0)
         self.inertias[index] = 0.0
-        if rate:
-            self.coordinate_rates[index] = float(rate)
+        if start:
+            self.coordinate_rates[index] = start
         return Coordinate(name, index, unit)
 
     def tabled_body(
@@ -104,7 +104,7 @@ class TableVocabulary(BodyVocabulary):
         ):
             raise ModelError(f"The rotations of {what} must be rotation matrices.")
         where = array(places, (*given.shape[:-2], 3), f"the places of {what}")
-        table = smooth_table(axes, pose_functions(base, where, given), 12, what)
+        table = smooth_table(axes, pose_functions(base, where, given), (12,), what)
         self._same_axes(len(table.axes), len(coordinates), what)
         drawn = pose_functions(base, centre, np.eye(3))
         check_drawn(table.value(*[0.0] * len(coordinates)), drawn, what)
@@ -142,8 +142,7 @@ class TableVocabulary(BodyVocabulary):
         """
         what = f"tabled number {shown(name)}"
         coordinates = tuple(self.owned_coordinate(c, f"The {what}") for c in checked_parameters(parameters, what))
-        given = array(values, [None] * len(coordinates), f"the values of {what}")
-        table = smooth_table(axes, given[..., None], 1, what)
+        table = smooth_table(axes, values, (), what)
         self._same_axes(len(table.axes), len(coordinates), what)
         drawn = float(table.value(*[0.0] * len(coordinates))[0])
         index = self.new_coordinate(self.unique("tabled number", name), "tabled", drawn)

@@ -8,7 +8,6 @@ fourth power of the spacing. Beyond the table they go on along their tangent; a 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -59,39 +58,42 @@ class SmoothTable:
         return np.asarray(found if len(self.axes) == 2 else found[0])
 
 
-def smooth_table(axes: Sequence[object], values: object, functions: int, what: str) -> SmoothTable:
+def smooth_table(axes: object, values: object, functions: tuple[int, ...], what: str) -> SmoothTable:
     """The table of values at points.
 
     Parameters
     ----------
     axes : sequence of array_like
         One or two, equally spaced and rising, four points or more each.
-    values : array_like, shape (n0, k) or (n0, n1, k)
+    values : array_like, shape (n0, *functions) or (n0, n1, *functions)
         Functions at the points.
-    functions : int
-        How many there must be, k.
+    functions : tuple of int
+        Nothing for one function, else how many there must be.
 
     Raises
     ------
     ModelError
         Points or values are not so.
     """
+    if not isinstance(axes, (list, tuple)) and not (isinstance(axes, np.ndarray) and axes.ndim == 2):
+        raise ModelError(f"The axes of {what} are {shown(axes)}; they must be one or two sequences of points.")
     if len(axes) not in (1, 2):
         raise ModelError(f"{capital(what)} has {len(axes)} axes; it must have one or two.")
     points = tuple(_axis(axis, what) for axis in axes)
-    found = array(values, (*(len(p) for p in points), functions), f"the table of {what}")
+    found = array(values, (*(len(p) for p in points), *functions), f"the values of the table of {what}")
+    found = found.reshape(*found.shape[: len(points)], -1)
     for k in range(len(points)):
         found = np.moveaxis(_control_points(np.moveaxis(found, k, 0)), 0, k)
     return SmoothTable(points, found if len(points) == 2 else found[:, None, :])
 
 
 def _axis(given: object, what: str) -> Array:
-    points = array(given, (None,), f"an axis of the table of {what}")
+    points = array(given, (None,), f"one of the axes of the table of {what}")
     steps = np.diff(points)
     if len(points) < FEWEST or not np.all(steps > 0.0) or np.ptp(steps) > UNIFORM * steps.max():
         raise ModelError(
-            f"An axis of the table of {what} has {len(points)} points; they must be {FEWEST} or more, rising and "
-            "equally spaced."
+            f"One of the axes of the table of {what} has {len(points)} points; they must be {FEWEST} or more, "
+            "rising and equally spaced."
         )
     return points
 

@@ -11,6 +11,7 @@ import pkgutil
 import re
 import textwrap
 from collections.abc import Iterator
+from dataclasses import is_dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -136,9 +137,10 @@ def test_a_bare_entry_is_seen():
 
 
 def _attributes(kind: type) -> dict[str, str]:
-    """The text under each attribute of a class."""
+    """The text under each attribute of a class, and of those that it inherits."""
+    inherited = _attributes(kind.__base__) if is_dataclass(kind.__base__) else {}
     body = ast.parse(textwrap.dedent(inspect.getsource(kind))).body[0].body  # type: ignore[attr-defined]
-    return {
+    return inherited | {
         field.target.id: text.value.value
         for field, text in pairwise(body)
         if isinstance(field, ast.AnnAssign) and isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant)

@@ -36,6 +36,7 @@ from mbs.elements import (
     TorsionBar,
     Tyre,
     Wind,
+    WindDrag,
 )
 from mbs.vehicle import load
 from tests.wrong_values import as_scalars, problems_of
@@ -97,7 +98,8 @@ USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "PlaneRoad": (PlaneRoad(), Model("roads").road),
     "KerbRoad": (KerbRoad(1.0, 0.1), Model("roads").road),
     "PortRoad": (PortRoad([0]), ANSWERED.road),
-    "Wind": (Wind(0, 1), lambda e: Drag(0.5).record("e", POINT, e)),
+    "Wind": (Wind(0, 1), lambda e: WindDrag(0.5, wind=e).record("e", POINT)),
+    "WindDrag": (WindDrag(0.5, wind=Wind(0, 1)), lambda e: e.record("e", POINT)),
     "GridRoad": (GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((2, 5)), np.ones((2, 5))), Model("roads").road),
 }
 

@@ -28,6 +28,7 @@ from mbs.elements import (
     SpringDamperTable,
     TorsionBar,
     Wind,
+    WindDrag,
 )
 from tests.elements.harness import Element, contacts, signals, vectors
 from tests.elements.tyre_data import tyre_element
@@ -60,7 +61,7 @@ def elements() -> dict[str, Element]:
                 ((-0.2, -9e3), (-0.1, -2e3), (0.1, 2e3)), ((-1.0, -2e3), (0.0, 0.0), (0.5, 500.0)), 0.5
             ).record("s", p)
         ),
-        "drag in wind": Element(Drag(0.8).record("d", p, Wind(0, 1))),
+        "drag in wind": Element(WindDrag(0.8, wind=Wind(0, 1)).record("d", p)),
         "lift in wind": Element(Lift(0.3).record("l", p, a, b, Wind(0, 1))),
         "wrench on a hub": Element(HubWrench((0, 1, 0, 1, 0, 1)).record("w", p, a, chi[0])),
         "lift": Element(Lift(0.3).record("l", p, a, b)),

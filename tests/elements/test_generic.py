@@ -22,6 +22,7 @@ from mbs.elements import (
     SpringDamper,
     SpringDamperTable,
     Wind,
+    WindDrag,
 )
 from tests.elements.harness import Element, frame, signals, tangent_by_differences, vectors
 
@@ -61,7 +62,7 @@ def elements() -> dict[str, Element]:
         "spin torque": Element(SpinTorque(1, 1.5).record("t", f, g, chi[0])),
         "drag in space": Element(Drag(0.8).record("d", p)),
         "lift in space": Element(Lift(0.3).record("l", *vectors(3, 3, 3))),
-        "drag in wind": Element(Drag(0.8).record("d", p, Wind(0, 1))),
+        "drag in wind": Element(WindDrag(0.8, wind=Wind(0, 1)).record("d", p)),
         "lift in wind": Element(Lift(0.3).record("l", *vectors(3, 3, 3), Wind(0, 1))),
         "wrench on a hub": Element(HubWrench((0, 1, 2, 1, 2, 0)).record("w", f, g, chi[0])),
         "lift in the plane": Element(Lift(-3.0).record("l", *vectors(2, 2, 2))),
@@ -251,6 +252,9 @@ def test_a_wrench_on_a_hub_has_the_power_of_force_and_moment() -> None:
         (lambda: BodyTorque((0, 1, 2), "moon").record("twist", vectors(3, 3, 3)), "must be 'earth' or 'body'"),  # type: ignore[arg-type]
         (lambda: GyroscopicSpin(0.0).record("wheel", *vectors(3, 3), signals(1)[0]), "must be greater than zero"),
         (lambda: Drag(-0.1).record("air", vectors(3)[0]), "must not be negative"),
+        (lambda: WindDrag(0.8, wind=None).record("air", vectors(3)[0]), "The wind of the drag 'air' must be a Wind"),  # type: ignore[arg-type]
+        (lambda: WindDrag(0.8, wind=Wind(0, 1)).record("air", vectors(2)[0]), "has 2 components; it must have 3"),
+        (lambda: Lift(0.3).record("wing", *vectors(2, 2, 2), Wind(0, 1)), "has 2 components; it must have 3"),
     ],
 )
 def test_bad_data_are_refused_with_a_sentence(make: object, sentence: str) -> None:

@@ -7,8 +7,8 @@ import re
 import numpy as np
 import pytest
 
-from mbs import Model, compile, simulate
-from mbs.elements import Lift
+from mbs import Model, ModelError, compile, simulate
+from mbs.elements import Lift, Wind
 from tests.elements.harness import Element, frame, vectors
 
 AXES = {"forward": (1.0, 0.0, 0.0), "up": (0.0, 0.0, 1.0)}
@@ -69,3 +69,19 @@ def test_bad_lifts_are_refused() -> None:
     with pytest.raises(ValueError, match="bob"):
         m.lift("wing", bob, (0.0, 0.0, 0.0), lift_area=1.0, **AXES)
     assert m.elements == []
+
+
+@pytest.mark.parametrize("missing", [Wind(0, 2), Wind(2, 1)])
+def test_wind_by_inputs_that_the_model_does_not_have_is_refused(missing: Wind) -> None:
+    m = Model("gust")
+    body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(1.0, 1.0, 1.0))
+    speed, heading = (m.input(name, min=-1.0, max=1.0).index for name in ("speed", "heading"))
+    numbers = [missing.speed, missing.heading]
+    said = re.escape(f"has the inputs {numbers}, but the model 'gust' has 2, counted from 0.")
+    with pytest.raises(ModelError, match=f"The wind of drag 'air' {said}"):
+        m.drag("air", body, (0.0, 0.0, 0.0), drag_area=1.0, wind=missing)
+    with pytest.raises(ModelError, match=f"The wind of lift 'wing' {said}"):
+        m.lift("wing", body, (0.0, 0.0, 0.0), lift_area=1.0, wind=missing, **AXES)
+    m.drag("air", body, (0.0, 0.0, 0.0), drag_area=1.0, wind=Wind(speed, heading))
+    m.lift("wing", body, (0.0, 0.0, 0.0), lift_area=1.0, wind=Wind(speed, heading), **AXES)
+    assert [e.name for e in m.elements] == ["air", "wing"]

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from mbs import Model
-from mbs.elements import ContactPoints, Drag, EndStops, KerbRoad, PlaneRoad
+from mbs.elements import ContactPoints, Drag, EndStops, KerbRoad, PlaneRoad, Wind
 from mbs.flexible import InertiaRelief
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
@@ -44,6 +44,7 @@ class Bench:
             spin_inertia=0.1,
             diametral_inertia=0.05,
         )
+        self.travel = m.travel("travel")
         self.pedal = m.input("pedal", min=-1.0, max=1.0)
         self.guide = m.guide_input("guide", input=self.pedal, frequency=5.0, unit="m")
         self.road = m.road(KerbRoad(1.0, 0.1))
@@ -59,6 +60,7 @@ class Bench:
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 O = (0.0, 0.0, 0.0)
+TRAVEL = np.linspace(-0.1, 0.1, 5)
 JOINED: dict[str, Any] = {"name": "new", "body_1": None, "body_2": None}
 RELIEF = InertiaRelief(np.zeros((2, 3)), np.zeros((2, 3)), np.zeros((2, 3)), np.zeros((2, 3)), np.zeros((6, 3)))
 
@@ -132,6 +134,25 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
         "color": "#c03020",
         "material": "steel",
         "opacity": 0.5,
+    },
+    "travel": lambda b: {"name": "new", "unit": "rad", "rate": 1.0},
+    "tabled_body": lambda b: {
+        "name": "new",
+        "base": b.arm,
+        "parameters": b.travel,
+        "axes": [TRAVEL],
+        "places": np.outer(TRAVEL, Z) + X,
+        "rotations": np.tile(np.eye(3), (5, 1, 1)),
+        "mass": 1.0,
+        "com": X,
+        "inertia": (1.0, 1.0, 1.0),
+    },
+    "tabled_number": lambda b: {
+        "name": "new",
+        "parameters": [b.travel],
+        "axes": [TRAVEL],
+        "values": TRAVEL**2,
+        "unit": "rad",
     },
     "armature": lambda b: {"name": "new", "coordinate": b.angle, "inertia": 1.0, "ratio": 2.0},
     "shaft": lambda b: {"name": "new", "inertia": 1.0},
@@ -217,8 +238,17 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
         "up": Y,
         "lift_area": 1.0,
         "air_density": 1.0,
+        "wind": Wind(b.pedal.index, b.pedal.index),
     },
-    "drag": lambda b: {"name": "new", "body": b.arm, "point": X, "drag_area": 1.0, "air_density": 1.0},
+    "drag": lambda b: {
+        "name": "new",
+        "body": b.arm,
+        "point": X,
+        "drag_area": 1.0,
+        "air_density": 1.0,
+        "wind": Wind(b.pedal.index, b.pedal.index),
+    },
+    "road_answer": lambda b: {"name": "new", "friction": 0.5, "near": "place"},
     "road": lambda b: {"road": PlaneRoad(), "file": "road.file"},
     "contact_points": lambda b: {
         "name": "new",
@@ -291,11 +321,13 @@ def flat(thing: Any) -> Any:
         return thing.tobytes()
     if isinstance(thing, (list, tuple)):
         return [flat(part) for part in thing]
+    if isinstance(thing, set):
+        return thing.copy()
     if isinstance(thing, dict):
         return [(key, flat(value)) for key, value in thing.items()]
     if is_dataclass(thing) and not hasattr(thing, "node_names"):
         return type(thing).__name__, repr(thing)
-    return thing if isinstance(thing, (str, int, float, set, type(None))) else type(thing).__name__
+    return thing if isinstance(thing, (str, int, float, type(None))) else type(thing).__name__
 
 
 def fingerprint(m: Model) -> Any:
@@ -311,7 +343,8 @@ def allowed(function: Any, parameter: inspect.Parameter, label: str, value: Any)
         return "None" in kind
     if label == "True":
         return kind.startswith("bool")
-    if isinstance(value, str) and parameter.name in ("name", "unit", "description", "display_unit", "text", "file"):
+    words = ("name", "unit", "description", "display_unit", "text", "file", "near")
+    if isinstance(value, str) and parameter.name in words:
         return label == "text" or (label == "empty" and parameter.name not in ("name", "text", "file"))
     if label == "empty" and parameter.default == "":
         return True

@@ -1,0 +1,34 @@
+"""Aerodynamic drag in wind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from mbs.common.affine import AffineVector
+from mbs.common.checks import instance_of
+from mbs.elements.drag import Drag
+from mbs.elements.record import ElementRecord
+from mbs.elements.record_checks import size
+from mbs.elements.wind import Wind
+from mbs.kernel.header.enumerations import ElementType
+
+
+@dataclass(frozen=True, kw_only=True)
+class WindDrag(Drag):
+    """Drag of a point in space over air that moves over the ground."""
+
+    wind: Wind
+    """How the air moves."""
+
+    def record(self, name: str, point: AffineVector) -> ElementRecord:
+        """The force element.
+
+        Parameters
+        ----------
+        point : AffineVector
+            Where the force acts, three components.
+        """
+        what = f"the drag '{name}'"
+        size(point, (3,), f"The point in wind of {what}")
+        air = instance_of(Wind, self.wind, f"The wind of {what}", "a Wind").integers(what)
+        return replace(super().record(name, point), type=ElementType.WIND_DRAG, integer=air)
