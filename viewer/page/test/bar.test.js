@@ -3,20 +3,29 @@ import test from "node:test";
 import { Bar } from "../src/live/bar.js";
 
 /** As much of an element as the bar needs. */
-class Element {
+class Part {
+  /** @param {string} name */
   constructor(name) {
-    Object.assign(this, { name, children: [], listeners: {}, marks: {} });
+    this.name = name;
+    /** @type {any[]} */ this.children = [];
+    /** @type {Record<string, () => void>} */ this.listeners = {};
+    /** @type {Record<string, string>} */ this.marks = {};
+    /** @type {string | undefined} */ this.value = undefined;
   }
+  /** @param {any[]} children */
   append(...children) {
     this.children.push(...children);
     if (this.name === "select" && this.value === undefined) this.value = children[0]?.value;
   }
+  /** @param {string} name @param {string} value */
   setAttribute(name, value) {
     this.marks[name] = value;
   }
+  /** @param {string} name */
   hasAttribute(name) {
     return name in this.marks;
   }
+  /** @param {string} name @param {() => void} work */
   addEventListener(name, work) {
     this.listeners[name] = work;
   }
@@ -25,12 +34,13 @@ class Element {
 
 test("the same place can be chosen twice, and the entry without a place goes nowhere", (t) => {
   const before = globalThis.document;
-  globalThis.document = { createElement: (name) => new Element(name) };
+  globalThis.document = /** @type {any} */ ({ createElement: (/** @type {string} */ name) => new Part(name) });
   t.after(() => (globalThis.document = before));
-  const gone = [];
-  const bar = new Bar({ place: (name) => gone.push(name) }, { cameras: [], steps: [], step: 1, views: [], places: ["hill_20", "lake"] });
-  const place = bar.element.children.find(({ marks }) => marks["data-a3"] === "place");
-  const choose = (name) => {
+  /** @type {string[]} */ const gone = [];
+  const bar = new Bar(/** @type {any} */ ({ place: (/** @type {string} */ name) => gone.push(name) }), { cameras: [], steps: [], step: 1, views: [], places: ["hill_20", "lake"] });
+  const parts = /** @type {any[]} */ (/** @type {unknown} */ (bar.element.children));
+  const place = parts.find(({ marks }) => marks["data-a3"] === "place");
+  const choose = (/** @type {string} */ name) => {
     if (place.value === name) return; // a browser tells changes only
     place.value = name;
     place.listeners.change();
@@ -38,5 +48,5 @@ test("the same place can be chosen twice, and the entry without a place goes now
   for (const name of ["hill_20", "hill_20", "", "lake"]) choose(name);
   place.listeners.change();
   assert.deepEqual(gone, ["hill_20", "hill_20", "lake"]);
-  assert.deepEqual(place.children.map(({ children }) => children[0]), ["places …", "hill 20", "lake"]);
+  assert.deepEqual(place.children.map((/** @type {Part} */ { children }) => children[0]), ["places …", "hill 20", "lake"]);
 });
