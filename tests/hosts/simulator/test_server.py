@@ -129,7 +129,7 @@ def test_wishes_and_commands_reach_the_car(car, served):
         page.send(json.dumps({"type": "place", "name": "moon"}))
         assert texts(page, "refused")["text"] == "The world has no place 'moon'; it has start."
     assert car.wanted["steering"] in ((0.3, 1.6), (0.0, 3.0))
-    assert car.orders == [("speed", 0.5), ("restart", PLACES["start"])]
+    assert car.orders[:2] == [("speed", 0.5), ("restart", PLACES["start"])]  # then a pause: the last page has gone
 
 
 def test_events_go_to_every_page_and_the_terminal(car, served):
