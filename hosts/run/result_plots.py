@@ -202,7 +202,7 @@ def _table(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
     for k, (what, value) in enumerate(rows):
         y = 1.0 - (k + 0.5) / n
         axes.text(0.0, y, what, transform=axes.transAxes, va="center", fontsize=9, color="#555555")
-        axes.text(0.42, y, value, transform=axes.transAxes, va="center", fontsize=9, color=BLACK)
+        axes.text(0.45, y, value, transform=axes.transAxes, va="center", fontsize=9, color=BLACK)
 
 
 def _lines(
@@ -226,6 +226,7 @@ def _lines(
             loc="lower right",
             bbox_to_anchor=(1.01, 0.985),
             borderaxespad=0.1,
-            handlelength=1.6,
-            columnspacing=1.0,
+            handlelength=1.1,
+            columnspacing=0.7,
+            handletextpad=0.4,
         )

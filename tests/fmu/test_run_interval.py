@@ -41,8 +41,8 @@ def test_rows_at_an_interval_are_those_of_every_step(kerb_fmus: Path, tmp_path: 
         tables[name], said[name] = file.read_text(encoding="utf-8").splitlines(), done.stdout
     assert tables["few"] == [tables["all"][0], *tables["all"][1::5]]
     assert len(tables["few"]) == 32
-    assert "read at 151 rows, every 10 ms; a longer --interval reads fewer" in said["all"]
-    assert "read at 31 rows, every 50 ms\n" in said["few"]
+    assert "read every 10 ms; --interval reads fewer" in said["all"]
+    assert "read every 50 ms\n" in said["few"]
     assert "failed steps               0 of 150" in said["few"]
 
 
