@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ali3.bars import bar as bar_of
 from ali3.errors import UserError
 from ali3.extras import missing_package
 from ali3.files import check_writable, whole_file
@@ -205,10 +206,9 @@ def _teller(count: int, progress: bool | Progress | None) -> tuple[Callable[[int
     if progress is False:
         return lambda number: None, lambda: None
     try:
-        from tqdm import tqdm
+        bar = bar_of(total=count, desc="film", unit="picture", delay=2.0 if progress is None else 0.0, leave=False)
     except ModuleNotFoundError:
         return lambda number: None, lambda: None
-    bar = tqdm(total=count, desc="film", unit="picture", delay=2.0 if progress is None else 0.0, leave=False)
     return lambda number: bar.update(1) and None, bar.close
 
 

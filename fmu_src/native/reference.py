@@ -117,7 +117,7 @@ def _run(
     times, rows, every = [], [], max(1, steps // _ROWS)
     for k in range(steps + 1):
         if k % every == 0:
-            simulation.step(step, 0)  # none, but the warning of what the steps before did to the balance of energy
+            simulation.step(step, 0)  # makes none; warns where the balance of energy says that those before are wrong
             row = np.array(instance.sensors())
             if ported is not None:
                 ported.follow(instance)

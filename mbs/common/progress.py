@@ -69,7 +69,10 @@ class Callback(Progress):
 
 
 def progress_for(choice: bool | Callable[[float], None] | None) -> Progress:
-    """Bar of a run: None after two seconds on a terminal, True at once, False never; a function receives the share."""
+    """Bar of a run: None after two seconds, as lines where there is no terminal; True a bar at once; False none.
+
+    A function receives the share.
+    """
     if callable(choice):
         return Callback(choice)
     if choice is None:

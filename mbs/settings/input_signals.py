@@ -56,6 +56,16 @@ class InputSignals:
         """Numbers of the inputs that have a signal."""
         return list(self._signals)
 
+    def check(self, index: int, t: float, value: float) -> None:
+        """Look at the value of an input at time `t`, s.
+
+        Raises
+        ------
+        ValueError
+            It is not finite, not whole where it must be, or not within the limits.
+        """
+        self._check(index, np.array([t]), np.array([value]))
+
     def at(self, t: NDArray[np.float64], tolerance: float, after_jump: bool = False) -> NDArray[np.float64]:
         """Values at times `t` (n,), shape (n, number of signals), in the order of `columns`.
 

@@ -9,8 +9,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import astuple
 from typing import Any
 
-import numpy as np
-
 from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import Instance, KernelError, Status
@@ -91,6 +89,7 @@ class Simulation(SteppedSystem):
         self._warned = self._rim_told = False
         self._twin: SteppedSystem | None = None
         self._extents: dict[str, float] = {}
+        self._limits = InputSignals({}, self._meta["inputs"])
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
         self._started = False
         for name, entry in self._road_files.items():
@@ -127,7 +126,7 @@ class Simulation(SteppedSystem):
         """
         index = self._index("inputs", name)
         x = number(value, f"The value of input {name!r}", ValueError)
-        InputSignals({name: x}, self._meta["inputs"]).at(np.array([self.time]), 0.0)
+        self._limits.check(index, self.time, x)
         self.instance.set_input(index, x)
         self._also(lambda twin: twin.set_input(index, x))
 

@@ -4,6 +4,11 @@
 #include "../instance.h"
 #include "real.h"
 
+/* Adds to entry (i, j) of a symmetric block of which the lower triangle counts, by columns of `size`. */
+static inline void ali3_add_lower(double *block, int32_t size, int32_t i, int32_t j, double value) {
+  block[i >= j ? (int64_t)j * size + i : (int64_t)i * size + j] += value;
+}
+
 ali3_status ali3_factorise(ali3_instance *in, real *F);
 void ali3_solve(ali3_instance *in, const real *F, real *b);
 void ali3_mirror(const ali3_instance *in, double *F);

@@ -5,6 +5,7 @@
  * Sums over modes run along columns, so that their order does not depend on the width of vectors. */
 #include <string.h>
 
+#include "../algebra/fronts.h"
 #include "../instance.h"
 #include "../tabled/tabled.h"
 #include "body_arrays.h"
@@ -142,10 +143,6 @@ void ali3_flexible_energy(const ali3_instance *in, const double *q, double *grav
   if (in->system->n_tabled > 0) *gravity += ali3_tabled_gravity(in, q);
 }
 
-static void add(double *block, int32_t size, int32_t i, int32_t j, double value) {
-  block[i >= j ? (int64_t)j * size + i : (int64_t)i * size + j] += value;
-}
-
 /* Lower triangle of wC C + wK K into the body's front. */
 static void add_moduli(const ali3_flexible *f, int32_t size, double wC, double wK, double *block) {
   const int32_t n = f->n, *mode = f->loc + 12;
@@ -171,8 +168,8 @@ void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) {
         const int32_t axis = f.loc[3 + 3 * i + k];
-        add(block, size, axis, f.loc[k], wM * f.S[i]);
-        for (int l = 0; l <= i; l++) add(block, size, axis, f.loc[3 + 3 * l + k], wM * f.J[3 * i + l]);
+        ali3_add_lower(block, size, axis, f.loc[k], wM * f.S[i]);
+        for (int l = 0; l <= i; l++) ali3_add_lower(block, size, axis, f.loc[3 + 3 * l + k], wM * f.J[3 * i + l]);
       }
     for (int i = 0; i < 4; i++)
       for (int k = 0; k < 3; k++) {
@@ -180,7 +177,8 @@ void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double
         const double *restrict hang = i == 0 ? f.P : f.P + (i - 1) * n;
         const double ax = wM * f.A[k], ay = wM * f.A[3 + k], az = wM * f.A[6 + k], g = i == 0 ? 0.0 : wK * f.gravity[k];
         for (int32_t j = 0; j < n; j++)
-          add(block, size, f.loc[3 * i + k], mode[j], (ax * X[j] + ay * X[n + j]) + (az * X[2 * n + j] - g * hang[j]));
+          ali3_add_lower(block, size, f.loc[3 * i + k], mode[j],
+                         (ax * X[j] + ay * X[n + j]) + (az * X[2 * n + j] - g * hang[j]));
       }
     if (wC != 0.0 || wK != 0.0) add_moduli(&f, size, wC, wK, block);
   }

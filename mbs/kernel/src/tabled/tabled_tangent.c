@@ -1,13 +1,10 @@
 /* Tangents of tabled bodies and of elements on them, into fronts. */
 #include <string.h>
 
+#include "../algebra/fronts.h"
 #include "tabled.h"
 
 enum { FIRST_PARAMETER = 12, BY_A = 1, BY_AA = 3 };
-
-static void add(double *block, int32_t size, int32_t i, int32_t j, double value) {
-  block[i >= j ? (int64_t)j * size + i : (int64_t)i * size + j] += value;
-}
 
 /* Second moments of a body as a 4 x 4 matrix of its vectors. */
 static void moments(const double *m, double J[4][4]) {
@@ -33,20 +30,20 @@ static void add_mass(const ali3_tabled *c, const ali3_tabled_work *w, double wM,
       for (int v = 0; v < 4; v++)
         for (int u = 0; u < 4; u++)
           for (int x = 0; x < 3; x++) sum += J[v][u] * w->by[p][3 * v + x] * w->by[o][3 * u + x];
-      add(block, size, at, c->loc[FIRST_PARAMETER + o], wM * sum);
+      ali3_add_lower(block, size, at, c->loc[FIRST_PARAMETER + o], wM * sum);
     }
     for (int K = 0; c->frame[0] >= 0 && K < 4; K++)
       for (int x = 0; x < 3; x++) {
         double sum = 0.0;
         for (int v = 0; v < 4; v++) sum += G[K][v] * w->by[p][3 * v + x];
-        add(block, size, c->loc[3 * K + x], at, wM * sum);
+        ali3_add_lower(block, size, c->loc[3 * K + x], at, wM * sum);
       }
   }
   for (int K = 0; c->frame[0] >= 0 && K < 4; K++)
     for (int L = 0; L <= K; L++) {
       double sum = 0.0;
       for (int v = 0; v < 4; v++) sum += G[K][v] * T[L][v];
-      for (int x = 0; x < 3; x++) add(block, size, c->loc[3 * K + x], c->loc[3 * L + x], wM * sum);
+      for (int x = 0; x < 3; x++) ali3_add_lower(block, size, c->loc[3 * K + x], c->loc[3 * L + x], wM * sum);
     }
 }
 
@@ -61,14 +58,14 @@ static void add_bend(const ali3_tabled *c, const ali3_tabled_work *w, double wK,
       if (c->n != ALI3_TABLED_BODY) sum = w->force[0] * t[0];
       for (int i = 0; c->n == ALI3_TABLED_BODY && i < 12; i++)
         for (int k = 0; k < 3; k++) sum += w->force[i] * w->axes[3 * k + i % 3] * t[3 * (i / 3) + k];
-      add(block, size, at, c->loc[FIRST_PARAMETER + o], -wK * sum);
+      ali3_add_lower(block, size, at, c->loc[FIRST_PARAMETER + o], -wK * sum);
     }
     if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) continue;
     for (int k = 0; k < 3; k++)
       for (int x = 0; x < 3; x++) {
         double sum = 0.0;
         for (int v = 0; v < 4; v++) sum += w->force[3 * v + x] * w->value[BY_A + p][3 * v + k];
-        add(block, size, c->loc[3 + 3 * k + x], at, -wK * sum);
+        ali3_add_lower(block, size, c->loc[3 + 3 * k + x], at, -wK * sum);
       }
   }
 }

@@ -5,7 +5,7 @@ import { decoded } from "../player/decode.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
 import { BACK } from "./engine.js";
-import { Hands } from "./hands.js";
+import { Hands, HANDS_MS } from "./hands.js";
 import { HELP } from "./keyboard.js";
 import { gamepadPanel, inputPanel, parameterPanel, picturePanel } from "./panel.js";
 import { Plots } from "./plots.js";
@@ -20,8 +20,6 @@ const PLOTTED = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
 const PLOT_MS = 120;
 const PANEL_MS = 100;
 const RESTART_MS = 250;
-/** Hands are asked by a clock of their own: a picture that takes long holds no pedal. */
-const HANDS_MS = 16;
 
 /**
  * Fill an element with an FMU that runs.

@@ -2,6 +2,9 @@
 import { Keyboard, RATES } from "./keyboard.js";
 import { Gamepad } from "./gamepad.js";
 
+/** Hands are asked by a clock of their own, ms: a picture that takes long holds no pedal. */
+export const HANDS_MS = 16;
+
 /** Keys and gamepad of a page. */
 export class Hands {
   /**

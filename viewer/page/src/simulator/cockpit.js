@@ -1,7 +1,7 @@
 // Everything that one car's page shows and takes: picture, instruments, controls, hands.
 import { el } from "../common/dom.js";
 import { Effects } from "../effects/driven.js";
-import { Hands } from "../live/hands.js";
+import { Hands, HANDS_MS } from "../live/hands.js";
 import { levers } from "../live/touch.js";
 import { SceneView } from "../scene/scene_view.js";
 import { Cluster } from "./cluster.js";
@@ -21,8 +21,6 @@ import { Wants } from "./wants.js";
 
 /** Least time between two drawings of the small map and of the report on time, s. */
 const [MAP_EVERY, STEPS_EVERY] = [0.1, 0.1];
-/** Hands are asked by a clock of their own, ms: a picture that takes long holds no pedal. */
-const HANDS_MS = 16;
 /** What L makes of the speed. */
 const SLOW = 0.25;
 /** The picture stands higher by this share, since instruments are below. */
