@@ -82,7 +82,7 @@ SHARED: dict[str, Option] = {
     "--jobs": Option("N", "processes at a time", count),
     "--fidelity": Option("N", "how much of the model is computed, where there is a choice", number),
     "--step": Option("H", "communication step, s", number),
-    "--interval": Option("T", "time between rows of the table, a whole multiple of the step, s", number),
+    "--interval": Option("T", "time between rows that are recorded, a whole multiple of the step, s", number),
     "--stop-time": Option("T", "how long a run is, s", number),
     "--from": Option("T", "use what was recorded from this time on, s", number),
     "--to": Option("T", "use what was recorded up to this time, s", number),

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from hosts.common.errors import HostError
 
-FORMAT, VERSION = "ALi3 recording", 1
+FORMAT, VERSION = "ALi3 recording", 2
 
-DESCRIPTION, EVENTS, STATE = "recording.json", "events.jsonl", "start.state"
+DESCRIPTION, EVENTS, STATE, STATES = "recording.json", "events.jsonl", "start.state", "states"
 
 RESTARTS = ("reset", "upright")
 """Kinds of events with which the FMU starts again."""

@@ -25,7 +25,7 @@ class LastDrive:
         Values that were set before it.
     time : ndarray of shape (n + 1,)
         Of the FMU, s: of the start and after each step.
-    count : ndarray of shape (n + 1,)
+    count, epoch : ndarray of shape (n + 1,)
         Of the rows of the recording.
     inputs : ndarray of shape (n + 1, number of inputs)
         At the start, then of each step; one more row where the recording ends with a step that was refused.
@@ -36,6 +36,7 @@ class LastDrive:
     start: dict[str, Value]
     time: NDArray[np.float64]
     count: NDArray[np.int64]
+    epoch: NDArray[np.int64]
     inputs: NDArray[np.float64]
     whole: bool
 
@@ -68,6 +69,7 @@ def last_drive(drive: RecordedDrive) -> LastDrive:
         path[0].start or {},
         np.array([row.time for row in path]),
         np.array([row.count for row in path]),
+        np.array([row.epoch for row in path]),
         np.array([row.inputs for row in path] + ([refused] if refused else [])),
         path[0].epoch != drive.first_epoch or drive.start_state is None,
     )

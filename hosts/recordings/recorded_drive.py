@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ali3.reading import LARGEST_JSON, LARGEST_STATE, json_of, read_bytes, read_json
 from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, VERSION
-from hosts.recordings.tables import Rows, blocks_of, joined
+from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, STATES, VERSION
+from hosts.recordings.tables import Rows, blocks_of, joined, recorded
 
 _KEYS = {"fmu": str, "guid": str, "inputs": int, "step": (int, float), "start": dict, "columns": list, "units": dict}
 
@@ -79,6 +80,41 @@ class RecordedDrive:
         return float(self.meta["step"])
 
     @property
+    def every(self) -> list[int]:
+        """Of each column, how many steps lie between two of its values."""
+        return list(self.meta["every"])
+
+    @property
+    def left_out(self) -> list[str]:
+        """Outputs that are not recorded."""
+        return list(self.meta["left_out"])
+
+    def recorded(self, rows: Rows, epoch_before: int | None = None) -> NDArray[np.bool_]:
+        """Which values of rows are recorded.
+
+        Parameters
+        ----------
+        epoch_before : int, optional
+            Of the row before the first of these; None: there is none.
+
+        Returns
+        -------
+        ndarray of shape (n, len(names))
+        """
+        begins = np.diff(rows.epoch, prepend=-1 if epoch_before is None else epoch_before) != 0
+        return recorded(rows.steps, begins, self.every)
+
+    @property
+    def saved(self) -> set[tuple[int, int]]:
+        """Count and epoch of the rows after which a state was saved."""
+        names = [file.stem.split("-") for file in (self.folder / STATES).glob("*-*.state")]
+        return {(int(name[1]), int(name[0])) for name in names if len(name) == 2 and "".join(name).isdecimal()}
+
+    def state_after(self, count: int, epoch: int) -> bytes:
+        """The state that was saved after a row of `saved`."""
+        return read_bytes(self.folder / STATES / f"{epoch}-{count}.state", LARGEST_STATE, HostError)
+
+    @property
     def start_state(self) -> bytes | None:
         """The state of the FMU at the first row; None: that is a start."""
         file = self.folder / STATE
@@ -109,10 +145,18 @@ class RecordedDrive:
             before = int(epochs[-1]), int(counts[-1])
             yield rows
 
-    def rows(self, every: int = 1) -> Rows:
-        """All rows, or every so many of them."""
-        made, first = [], 0
+    def shown(self) -> Iterator[Rows]:
+        """All rows with outputs, some thousands at a time."""
+        epoch = None
         for rows in self.blocks():
+            outputs = self.recorded(rows, epoch)[:, len(self.inputs) :]
+            epoch = int(rows.epoch[-1])
+            yield rows.chosen(outputs.any(axis=1)) if outputs.shape[1] else rows
+
+    def rows(self, every: int = 1) -> Rows:
+        """All rows with outputs, or every so many of them."""
+        made, first = [], 0
+        for rows in self.shown():
             made.append(rows.chosen(slice(first, None, every)))
             first = (first - len(rows)) % every
         return joined(made, len(self.names))
@@ -165,11 +209,19 @@ def read_recording(folder: Path) -> RecordedDrive:
     meta = read_json(file, HostError, finite=False)  # recordings of before may have NaN
     if not isinstance(meta, dict) or meta.get("format") != FORMAT:
         raise HostError(f"{file} is no recording of the simulator: its format is not {FORMAT!r}.")
-    if meta.get("version") != VERSION:
-        raise HostError(f"{file} is a recording of version {brief(meta.get('version'))}; this program reads {VERSION}.")
+    if meta.get("version") not in (1, VERSION):
+        raise HostError(
+            f"{file} is a recording of version {brief(meta.get('version'))}; this program reads 1 and {VERSION}."
+        )
     for key, kind in _KEYS.items():
         if not isinstance(meta.get(key), kind):  # type: ignore[arg-type]
             raise HostError(f"{file} does not say the {key} of the recording.")
+    meta = {"every": [1] * len(meta["columns"]), "left_out": []} | meta  # version 1 has all at every step
+    every = meta["every"]
+    if not isinstance(every, list) or not all(isinstance(k, int) and k > 0 for k in every):
+        raise HostError(f"{file} does not say by 'every' how many steps lie between two values of a column.")
+    if len(every) != len(meta["columns"]) or not isinstance(meta["left_out"], list):
+        raise HostError(f"{file} does not say by 'every' and 'left_out' what of the columns is recorded.")
     notes = [] if meta.get("closed") else [f"{folder} was not closed: what was driven in its last seconds may be lost."]
     return RecordedDrive(folder, meta, _events(folder / EVENTS), notes)
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 import zipfile
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
 from hosts.fmu.geometry import scene_of
@@ -38,13 +41,13 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     """
     drive = read_recording(folder)
     told = list(drive.notes)
-    count = sum(len(rows) for rows in drive.blocks())
+    count = sum(len(rows) for rows in drive.shown())
     if not count:
         raise HostError(f"{folder} holds no row yet.")
     every = max(1, -(-count * len(drive.names) // _MOST_VALUES))
     rows = drive.rows(every)
     if every > 1:
-        told.append(f"One of every {every} of {count} rows of {folder} is read.")
+        told.append(f"One of every {every} of {count} rows of {folder} with outputs is read.")
     if geometry is not None:
         scene = scene_from(geometry, drive.meta["start"])
     else:
@@ -56,10 +59,33 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
             told.append(f"{fmu} was built again since {name} was recorded; what is drawn is that of the new build.")
     if scene is None:
         told.append(f"{geometry or drive.meta['fmu']} does not say what there is to draw; signals can be plotted.")
-    columns = {column: rows.values[:, k] for k, column in enumerate(drive.names)}
-    recording = Recording(scene, session_time(rows, drive.step), columns, drive.meta["units"], name)
+    time = session_time(rows, drive.step)
+    columns = {column: _filled(time, rows.epoch, rows.values[:, k]) for k, column in enumerate(drive.names)}
+    for part in (scene or {}).get("flexible") or []:
+        if set(part["amplitudes"]) & set(drive.left_out):  # drawn rigid, and without the colours of stresses
+            rigid = [*part["amplitudes"], *([part["computed"]] if "computed" in part else [])]
+            columns |= dict.fromkeys(rigid, np.zeros(len(time)))
+    recording = Recording(scene, time, columns, drive.meta["units"], name)
+    if drive.left_out:
+        recording.notes.append(
+            f"{len(drive.left_out)} outputs are not recorded, such as {drive.left_out[0]}; --interval records all, and "
+            f"'ali3 run {drive.meta['model']}.fmu --manoeuvre {folder}' computes them again."
+        )
     kinds = [event["kind"] for event in drive.events]
     jumps = [f"{kind} {kinds.count(kind)} times" for kind in ("reset", "rewind", "upright") if kind in kinds]
     if jumps:
         recording.notes.append(f"The time is that of the driver; the car was {', '.join(jumps)}.")
     return recording, told
+
+
+def _filled(time: NDArray[np.float64], epoch: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A column that goes straight between its recorded values, within each epoch."""
+    known = np.isfinite(values)
+    if known.all() or not known.any():
+        return values
+    made = values.copy()
+    for part in np.split(np.arange(len(time)), np.flatnonzero(np.diff(epoch)) + 1):
+        there = part[known[part]]
+        if len(there):
+            made[part] = np.interp(time[part], time[there], values[there])
+    return made

@@ -1,7 +1,8 @@
 """Records what goes into a car's FMU and what comes out, so that it can be repeated bit for bit.
 
 A recording is a folder: `recording.json` says what was driven, `inputs_outputs.parquet` (or `.csv`) has a row for every
-step, `events.jsonl` a line for every event, and `start.state` the state of the FMU where the recording begins with one.
+step, `events.jsonl` a line for every event, `start.state` the state of the FMU where the recording begins with one, and
+`states` those that later steps are found from.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ from numpy.typing import ArrayLike
 from ali3.extras import missing_package
 from ali3.files import make_folder, whole_file, write_text
 from hosts.common.numbers import Value
-from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, VERSION, check_new
-from hosts.recordings.tables import Rows
+from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, STATES, VERSION, check_new
+from hosts.recordings.tables import Rows, recorded
 from hosts.recordings.written_tables import CsvTable, ParquetTable, Table
 
 _MOST_ROWS = 2000  # in memory before they are written
@@ -106,6 +107,8 @@ class Recorder:
         Of `recording_meta`.
     table : {"parquet", "csv"}, optional
         By default Parquet where pyarrow is installed.
+    every : mapping of str to int, optional
+        Names that are recorded, and how many steps lie between two of their values; by default all, at every step.
 
     Attributes
     ----------
@@ -127,6 +130,7 @@ class Recorder:
         units: Mapping[str, str],
         meta: Mapping[str, Any],
         table: str | None = None,
+        every: Mapping[str, int] | None = None,
     ) -> None:
         self.told: list[str] = []
         check_new(folder)
@@ -136,12 +140,18 @@ class Recorder:
             self.told.append(f"The recording is written as CSV, which takes three times the room: {words}")
             table = "csv"
         self.folder = folder
-        self._names = list(names)
+        steps_of = dict.fromkeys(names, 1) if every is None else every
+        self._names = [name for name in names if name in steps_of]
+        self._places = [k for k, name in enumerate(names) if name in steps_of]
+        self._every = [steps_of[name] for name in self._names]
+        self._epoch: int | None = None
         self._meta = {
             "format": FORMAT,
             "version": VERSION,
             **meta,
             "columns": self._names,
+            "every": self._every,
+            "left_out": [name for name in names if name not in steps_of],
             "units": {name: units.get(name, "1") for name in self._names},
         }
         self._table: Table = (CsvTable if table == "csv" else ParquetTable)(folder, self._names, units)
@@ -169,7 +179,8 @@ class Recorder:
         epoch : int
             Its first row is that of a start, reset, rewind or upright, and no step.
         values : array of shape (len(names),)
-            Inputs of the step that ends there, outputs after it. It is kept, and must not change.
+            Inputs of the step that ends there, outputs after it, also those that are not recorded. It is kept, and must
+            not change.
         """
         self._held.append((time, count, epoch, values))
         if len(self._held) >= _MOST_ROWS or clock.monotonic() - self._wrote > _MOST_WAIT:
@@ -192,17 +203,19 @@ class Recorder:
         self._events.write(json.dumps(record, ensure_ascii=False, default=_plain) + "\n")
         self._events.flush()
 
-    def state(self, count: int, content: bytes) -> None:
-        """Record the state that the first row begins with, where that is no start.
+    def state(self, content: bytes, count: int | None = None, epoch: int = 0) -> None:
+        """Record a state.
 
         Parameters
         ----------
-        count : int
-            Of that row.
         content : bytes
             Of `Fmu.state_bytes`.
+        count, epoch : int, optional
+            Of the row after which it was saved; without `count` it is what the first row begins with in place of a
+            start.
         """
-        with whole_file(self.folder / STATE) as made:
+        file = self.folder / STATE if count is None else self.folder / STATES / f"{epoch}-{count}.state"
+        with whole_file(file) as made:
             made.write_bytes(content)
 
     def flush(self) -> None:
@@ -213,7 +226,11 @@ class Recorder:
         time, count, epoch, values = zip(*self._held, strict=True)
         self._held = []
         steps, epochs = np.array(count, np.int64), np.array(epoch, np.int64)
-        rows = Rows(np.array(time, float), steps, epochs, np.array(values, float))
+        table = np.array(values, float)[:, self._places]
+        begins = epochs != np.r_[-1 if self._epoch is None else self._epoch, epochs[:-1]]
+        table[~recorded(steps, begins, self._every)] = np.nan
+        self._epoch = int(epochs[-1])
+        rows = Rows(np.array(time, float), steps, epochs, table)
         self._table.write(rows)
         self._written += len(rows)
 

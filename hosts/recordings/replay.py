@@ -15,6 +15,7 @@ from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.fmu.instance import State
 from hosts.recordings.format import REFUSED
+from hosts.recordings.last_drive import LastDrive
 from hosts.recordings.recorded_drive import RecordedDrive, RowKey
 from hosts.recordings.tables import Rows
 
@@ -124,6 +125,20 @@ class Repeater:
                     self._keep(key)
             yield self._get()
 
+    def along(self, last: LastDrive, stop: int) -> Iterator[int]:
+        """Go to a row of the last drive, from the last saved state before it; give the number of each row passed."""
+        drive = self.drive
+        self.fmu.initialise(last.start, float(last.time[0]))
+        keys = list(zip(last.count.tolist(), last.epoch.tolist(), strict=True))
+        begin = next((k for k in range(stop, 0, -1) if keys[k] in drive.saved), 0)
+        state = drive.state_after(*keys[begin]) if begin else None if last.whole else drive.start_state
+        if state is not None:
+            self.fmu.restore_bytes(state)
+        for k in range(begin, stop):
+            self._set(last.inputs[k + 1].tolist())
+            self.fmu.step(float(last.time[k]), drive.step)
+            yield k
+
     def refuses(self, inputs: list[float]) -> bool:
         """Whether the FMU refuses the next step with these inputs."""
         self._set(inputs)
@@ -198,8 +213,11 @@ def replay(
     count, time = 0, 0.0
     with Repeater(drive, fmu) as repeater:
         made.notes = repeater.notes
+        epoch = None
         for rows in drive.unbroken():
             steps = repeater.follow(rows)
+            known = drive.recorded(rows, epoch)[:, len(drive.inputs) :]
+            epoch = int(rows.epoch[-1])
             recorded = rows.values[:, len(drive.inputs) :]
             for k in range(len(rows)):
                 try:
@@ -211,7 +229,7 @@ def replay(
                     return made
                 count, time = int(rows.steps[k]), float(rows.time[k])
                 made.rows += 1
-                other = _other_bits(recorded[k], repeated)
+                other = _other_bits(np.where(known[k], recorded[k], repeated), repeated)
                 made.different += bool(len(other))
                 for j in other:
                     if outputs[j] not in seen:
@@ -233,5 +251,6 @@ def _last_refusal(drive: RecordedDrive, repeater: Repeater, made: Replayed, coun
 
 
 def _other_bits(a: NDArray[np.float64], b: NDArray[np.float64]) -> list[int]:
-    """Places where two rows of doubles differ in a bit; NaN is a number as any other."""
-    return [int(k) for k in np.flatnonzero(a.view(np.int64) != b.view(np.int64))]
+    """Places where two rows of doubles differ in a bit; all NaN are alike."""
+    other = (a.view(np.int64) != b.view(np.int64)) & ~(np.isnan(a) & np.isnan(b))
+    return [int(k) for k in np.flatnonzero(other)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -25,8 +26,8 @@ def show_recording(folder: Path) -> int:
     meta = drive.meta
     told = {
         "FMU": f"{meta['fmu']} (GUID {meta['guid']})",
-        "rows": f"{rows} in steps of {drive.step:g} s, {len(drive.inputs)} inputs and "
-        f"{len(drive.names) - len(drive.inputs)} outputs",
+        "rows": f"{rows} in steps of {drive.step:g} s with {len(drive.inputs)} inputs",
+        "outputs": _outputs(drive),
         "time": f"{first:g} s to {last:g} s of the FMU, {starts} times reset, rewound or set upright",
         "start": ", ".join(f"{name}={value}" for name, value in meta["start"].items()) or "as the FMU has it",
         "world": meta.get("world") or "that of the FMU",
@@ -72,6 +73,14 @@ def save_manoeuvre(folder: Path, file: Path, part: tuple[float | None, float | N
         files = to_manoeuvre(drive, file, *part, None if fmu is None else fmu_file(fmu), progress)
     print(f"written: {', '.join(map(str, files))}")
     return 0
+
+
+def _outputs(drive: RecordedDrive) -> str:
+    """How many outputs are recorded how often."""
+    every = Counter(drive.every[len(drive.inputs) :])
+    often = [f"{number} every {1e3 * k * drive.step:g} ms" for k, number in sorted(every.items())]
+    saved = [f"{len(drive.left_out)} not recorded"] * bool(drive.left_out)
+    return ", ".join(often + saved) + f"; {len(drive.saved)} states between"
 
 
 def _drive(folder: Path) -> RecordedDrive:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ali3.files import reason
 from ali3.tables import TextTable
@@ -35,7 +35,7 @@ class Rows(NamedTuple):
     epoch : ndarray of shape (n,)
         Whole; one more at every reset, rewind, upright.
     values : ndarray of shape (n, m)
-        Inputs of the step that ends there, then outputs after it.
+        Inputs of the step that ends there, then outputs after it; what was not recorded is not a number.
     """
 
     time: NDArray[np.float64]
@@ -49,6 +49,26 @@ class Rows(NamedTuple):
     def chosen(self, which: Any) -> Rows:
         """Some of the rows, by an index or a mask."""
         return Rows(*(column[which] for column in self))
+
+
+def recorded(steps: ArrayLike, begins: ArrayLike, every: ArrayLike) -> NDArray[np.bool_]:
+    """Which values of rows are recorded.
+
+    Parameters
+    ----------
+    steps : array of shape (n,)
+        Steps computed up to each row.
+    begins : array of shape (n,)
+        Whether an epoch begins with the row; all its values are recorded then.
+    every : array of shape (m,)
+        Of each column, every so many steps a value is recorded.
+
+    Returns
+    -------
+    ndarray of shape (n, m)
+    """
+    due = np.asarray(steps)[:, np.newaxis] % np.asarray(every) == 0
+    return due | np.asarray(begins, dtype=bool)[:, np.newaxis]
 
 
 def joined(blocks: Sequence[Rows], columns: int) -> Rows:
@@ -103,7 +123,8 @@ def _csv_blocks(file: Path) -> Iterator[Rows]:
     if table.width < len(KEYS):
         raise HostError(f"{file} has {table.width} columns; a recording has {', '.join(KEYS)} and signals.")
     rows = table.rows()
-    while block := [table.numbers(row, finite=False) for row in islice(rows, _BLOCK)]:
+    full = (row._replace(cells=[cell or "nan" for cell in row.cells]) for row in rows)
+    while block := [table.numbers(row, finite=False) for row in islice(full, _BLOCK)]:
         yield _of_lines(block)
 
 

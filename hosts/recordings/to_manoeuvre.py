@@ -10,7 +10,7 @@ import numpy as np
 from hosts.common.errors import HostError
 from hosts.driving.write_manoeuvre import write_table
 from hosts.fmu.fmu import StepRefusedError
-from hosts.recordings.last_drive import last_drive, manoeuvre_of
+from hosts.recordings.last_drive import LastDrive, last_drive, manoeuvre_of
 from hosts.recordings.recorded_drive import RecordedDrive
 from hosts.recordings.replay import Repeater
 
@@ -61,23 +61,18 @@ def to_manoeuvre(
         )
     state = None if last.whole else drive.start_state
     if first > 0:
-        state = _state_at(drive, int(last.count[first]), fmu, progress)
+        state = _state_at(drive, last, first, fmu, progress)
     return write_table(manoeuvre_of(drive, last, first, stop, state), out)
 
 
-def _state_at(drive: RecordedDrive, count: int, fmu: Path | None, progress: Callable[[int], None]) -> bytes:
-    """The state after the last row with this count that leads to the end."""
-    state: bytes | None = None
-    done = 0
+def _state_at(
+    drive: RecordedDrive, last: LastDrive, row: int, fmu: Path | None, progress: Callable[[int], None]
+) -> bytes:
+    """The state after a row of the last drive."""
     with Repeater(drive, fmu) as repeater:
         try:
-            for rows in drive.unbroken():
-                for k, _ in enumerate(repeater.follow(rows)):
-                    if int(rows.steps[k]) == count:
-                        state = repeater.fmu.state_bytes()
-                done += len(rows)
-                progress(done)
+            for k in repeater.along(last, row):
+                progress(k + 1)
         except StepRefusedError as error:
             raise HostError(f"{drive.folder} cannot be repeated up to there: {error}") from None
-    assert state is not None
-    return state
+        return repeater.fmu.state_bytes()

@@ -89,10 +89,13 @@ class Car:
         settings = self._settings
         if settings.record is None:
             return None
+        from hosts.recordings.recorded_columns import recorded_columns
         from hosts.recordings.recording import Recorder, recording_meta
 
+        outputs = self.names[len(self.inputs) :]
+        every = recorded_columns(settings.fmu, self.inputs, outputs, settings.step, settings.interval)
         meta = recording_meta(settings.fmu, settings.step, start, seed=settings.seed, world=settings.world)
-        return Recorder(settings.record, self.names, self.units, meta)
+        return Recorder(settings.record, self.names, self.units, meta, every=every)
 
     @property
     def ended(self) -> str:

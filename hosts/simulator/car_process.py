@@ -27,13 +27,14 @@ from hosts.simulator.driven_fmu import DrivenFmu, Told
 from hosts.simulator.notices import Notices
 from hosts.simulator.pace import Pace
 from hosts.simulator.priority import ask_for_priority
-from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, STOP, SharedValues, Sizes
+from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, STATE_HEAD, STOP, SharedValues, Sizes
 from hosts.simulator.step_times import TimesRecord
 
 COMMANDS = ("run", "pause", "step", "speed", "reset", "rewind", "upright", "restart")
 _IDLE, _IDLE_UNPACED = 0.004, 0.0005
 _WORST = 0.5
 _GRACE = 1.5
+_STATE_EVERY = 20.0  # s of simulated time between states of a recording
 
 
 @dataclass(frozen=True)
@@ -125,6 +126,7 @@ class Loop:
         self._running = self._refused = self._runs_on = self._active = False
         self._to_do = 0
         self._wants = 0
+        self._state_due = self._state_every = max(1, round(_STATE_EVERY / order.step))
         self._worst, self._worst_before, self._worst_since = 0.0, 0.0, clock.now()
         self._mark = clock.now()
         self._publish(row=True)
@@ -252,6 +254,11 @@ class Loop:
         row[0], row[1], row[2] = car.count, car.time, car.epoch
         row[3:] = car.values
         shared.rows.finish()
+        if car.count >= self._state_due:
+            self._state_due = car.count + self._state_every
+            state = car.state_bytes()
+            if state:  # where there is no room, a later one serves
+                shared.states.put(STATE_HEAD.pack(car.count, car.epoch) + state)
 
     def _tell(self, told: Told) -> None:
         car = self._car

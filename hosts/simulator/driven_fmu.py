@@ -132,6 +132,13 @@ class DrivenFmu:
         if self._past is not None:
             self._past.add(self.inputs.values, self._mark())
 
+    def state_bytes(self) -> bytes:
+        """The state after the last step, for a file; empty where the FMU cannot write it."""
+        try:
+            return self._fmu.state_bytes()
+        except HostError:
+            return b""
+
     @property
     def refused_inputs(self) -> list[float]:
         """Inputs of the last step that was refused."""

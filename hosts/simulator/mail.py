@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ali3.errors import UserError
 from hosts.simulator.moments import Event
-from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, ROW, SharedValues
+from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, ROW, STATE_HEAD, SharedValues
 
 _PERIOD = 0.03
 _MOST_EVENTS = 10_000  # that nobody asked for
@@ -27,6 +27,7 @@ class Records(Protocol):
 
     def row(self, count: int, time: float, epoch: int, values: ArrayLike) -> None: ...
     def event(self, time: float, kind: str, text: str, *, epoch: int, **details: Any) -> None: ...
+    def state(self, content: bytes, count: int | None = None, epoch: int = 0) -> None: ...
     def close(self) -> None: ...
 
 
@@ -101,6 +102,8 @@ class Mail:
         try:
             for row in shared.rows.take():
                 recorder.row(int(row[0]), float(row[1]), int(row[2]), row[head:])
+            for message in shared.states.take():
+                recorder.state(message[STATE_HEAD.size :], *STATE_HEAD.unpack_from(message))
             for r in records:
                 recorder.event(r["time"], r["kind"], r["text"], epoch=r["epoch"], **r["details"])
         except (OSError, UserError) as error:

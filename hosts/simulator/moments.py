@@ -29,6 +29,8 @@ class CarSettings:
         False: as fast as it goes.
     record : Path, optional
         Folder of the recording.
+    interval : float, optional
+        Between recorded outputs, s; by default see `hosts.recordings.recorded_columns`.
     priority : bool
         Whether to ask for real-time priority; what was got is an event.
     world : str, optional
@@ -42,6 +44,7 @@ class CarSettings:
     step: float = 0.002
     paced: bool = True
     record: Path | None = None
+    interval: float | None = None
     priority: bool = True
     world: str | None = None
     seed: int | None = None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from dataclasses import dataclass
 from multiprocessing.shared_memory import SharedMemory
+from struct import Struct
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +20,11 @@ MOMENT = (
 """Values of a moment before those of the columns."""
 ROW = ("count", "time", "epoch")
 """Values of a row of a recording before those of the columns."""
+STATE_HEAD = Struct("<qq")
+"""Count and epoch of the row after which a state was saved."""
 STOP, RECORDING, LOST_ROWS, LOST_MESSAGES = range(4)
 """Places among the flags: asks the car's process to end; somebody takes the rows; what found no room."""
-_FLAGS, _COMMANDS, _MESSAGE_BYTES = 8, 256, 1 << 18
+_FLAGS, _COMMANDS, _MESSAGE_BYTES, _STATE_BYTES = 8, 256, 1 << 18, 1 << 20
 _TRIES = 4
 _ORDER = threading.Lock()
 
@@ -194,30 +197,31 @@ class SharedValues:
         To the car: number of the command, value, number of the last wish before it.
     rows : Ring
         From the car: `ROW`, then the columns.
-    messages : ByteRing
-        From the car.
+    messages, states : ByteRing
+        From the car; states of a recording begin with `STATE_HEAD`.
     times : ndarray
         From the car, see `hosts.simulator.step_times`.
     """
 
     def __init__(self, sizes: Sizes, name: str | None = None) -> None:
         moment, wants, row = len(MOMENT) + sizes.columns, 3 * sizes.inputs, len(ROW) + sizes.columns
-        counters = 10
+        counters = 12
         doubles = 2 * moment + 2 * wants + 3 * _COMMANDS + row * sizes.rows + TIMES_SIZE
-        size = 8 * (_FLAGS + counters + doubles) + _MESSAGE_BYTES
+        size = 8 * (_FLAGS + counters + doubles) + _MESSAGE_BYTES + _STATE_BYTES
         with kept_from_children():  # shared memory has a process of Python's beside it
             self._memory = SharedMemory(name) if name else SharedMemory(create=True, size=size)
         self.name = self._memory.name
         assert self._memory.buf is not None
         self._free, self._owner = self._memory.buf, name is None
         self.flags = np.frombuffer(self._take(8 * _FLAGS), np.int64)
-        pairs = np.frombuffer(self._take(8 * counters), np.int64).reshape(5, 2)
+        pairs = np.frombuffer(self._take(8 * counters), np.int64).reshape(6, 2)
         self.moments = TwoSlots(pairs[0], self._doubles(2, moment))
         self.wants = TwoSlots(pairs[1], self._doubles(2, wants))
         self.commands = Ring(pairs[2], self._doubles(_COMMANDS, 3))
         self.rows = Ring(pairs[3], self._doubles(sizes.rows, row))
         self.times = self._doubles(1, TIMES_SIZE)[0]
         self.messages = ByteRing(pairs[4], np.frombuffer(self._take(_MESSAGE_BYTES), np.uint8))
+        self.states = ByteRing(pairs[5], np.frombuffer(self._take(_STATE_BYTES), np.uint8))
         del self._free
 
     def _doubles(self, rows: int, columns: int) -> NDArray[np.float64]:
@@ -229,7 +233,7 @@ class SharedValues:
 
     def close(self) -> None:
         """Give the memory back; the views are no longer to be used."""
-        del self.flags, self.moments, self.wants, self.commands, self.rows, self.times, self.messages
+        del self.flags, self.moments, self.wants, self.commands, self.rows, self.times, self.messages, self.states
         try:
             self._memory.close()
         finally:

@@ -78,7 +78,7 @@ class Stretch:
         units = {name: self._fmu.variables[name].unit or "1" for name in self._names}
         meta = recording_meta(self._fmu.path, self._step, self._start, seed=seed)
         with Recorder(folder, self._names, units, meta) as recorder:
-            recorder.state(0, self._parts[0].state)
+            recorder.state(self._parts[0].state)
             for count, row in enumerate(rows):
                 recorder.row(count, row.time, 0, row.values)
             if refused is not None:

@@ -33,6 +33,7 @@ WAYS = {
         **ALIASES,
         **PARAMETERS,
         "--record": "hosts.recordings.recording",
+        "columns of --record": "hosts.recordings.recorded_columns",
         "--recording": "hosts.recordings.show",
         "--headless": "hosts.simulator.headless",
         "wheels and gamepads": "hosts.simulator.devices",

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import fmpy
@@ -22,10 +23,14 @@ from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.driving.co_simulation import Result
 from hosts.fmu.fmu import Fmu
+from hosts.recordings.last_drive import last_drive
 from hosts.recordings.load_manoeuvre import load_manoeuvre
+from hosts.recordings.recorded_columns import recorded_columns
 from hosts.recordings.recorded_drive import RecordedDrive, read_recording
+from hosts.recordings.recorded_view import recorded_view
 from hosts.recordings.recording import Recorder, recording_meta
-from hosts.recordings.replay import replay
+from hosts.recordings.replay import Repeater, replay
+from hosts.recordings.tables import joined
 from hosts.recordings.to_manoeuvre import to_manoeuvre
 from hosts.simulator.command import main
 from hosts.view.view_sources import RunWishes, recordings_of
@@ -48,12 +53,20 @@ def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 class Drive:
     """A sledge that is driven and recorded as the simulator does it, with restarts and rewinds."""
 
-    def __init__(self, path: Path, folder: Path, table: str | None, start: dict[str, Any]) -> None:
+    def __init__(
+        self,
+        path: Path,
+        folder: Path,
+        table: str | None,
+        start: dict[str, Any],
+        every: dict[str, int] | None = None,
+    ) -> None:
         self.fmu, self.start = Fmu(path), start
         inputs, outputs = self.fmu.names("input"), self.fmu.names("output")
         names = inputs + outputs
         units = {n: self.fmu.variables[n].unit or "1" for n in names}
-        self.recorder = Recorder(folder, names, units, recording_meta(path, STEP, start, seed=5, world="plane"), table)
+        meta = recording_meta(path, STEP, start, seed=5, world="plane")
+        self.recorder = Recorder(folder, names, units, meta, table, every)
         self.set, self.get = self.fmu.setter(inputs), self.fmu.getter(outputs)
         self.held = self.fmu.start_values(inputs).tolist()
         self.count = self.epoch = 0
@@ -105,9 +118,9 @@ class Drive:
         self.recorder.close()
 
 
-def whole_drive(path: Path, folder: Path, table: str | None = None) -> Path:
+def whole_drive(path: Path, folder: Path, table: str | None = None, every: dict[str, int] | None = None) -> Path:
     """Start, rewind, reset, two rewinds to one state, upright elsewhere."""
-    drive = Drive(path, folder, table, {"initial.speed": 6.0})
+    drive = Drive(path, folder, table, {"initial.speed": 6.0}, every)
     drive.steps(30)
     saved = drive.save()
     drive.steps(20)
@@ -193,7 +206,7 @@ def test_a_recording_that_begins_with_a_state(fmus: dict[str, Path], tmp_path: P
     meta = recording_meta(fmus["sledge"], STEP, {"initial.speed": 3.0})
     drive.recorder.close()
     drive.recorder = Recorder(tmp_path / "second", drive.recorder._names, {}, meta)
-    drive.recorder.state(drive.count, drive.fmu.state_bytes())
+    drive.recorder.state(drive.fmu.state_bytes())
     drive.row()
     drive.steps(40)
     drive.close()
@@ -203,6 +216,61 @@ def test_a_recording_that_begins_with_a_state(fmus: dict[str, Path], tmp_path: P
     assert_driven_again(fmus["sledge"], out, tmp_path / "second", 40)
     (tmp_path / "second" / "start.state").unlink()
     assert replay(read_recording(tmp_path / "second")).different > 0
+
+
+@pytest.mark.parametrize("table", ["parquet", "csv"])
+def test_outputs_are_recorded_seldom_and_states_between(fmus: dict[str, Path], tmp_path: Path, table: str) -> None:
+    """What is there is repeated bit for bit, what is wrong is found, and a part is found from the last state."""
+    whole = read_recording(whole_drive(fmus["sledge"], tmp_path / "all", table))
+    outputs = whole.names[3:]
+    every = dict.fromkeys(whole.inputs, 1) | {outputs[0]: 4} | dict.fromkeys(outputs[2:], 10)
+    folder = whole_drive(fmus["sledge"], tmp_path / "drive", table, every)
+    drive = read_recording(folder)
+    assert drive.left_out == [outputs[1]]
+    assert (made := replay(drive)).different == 0
+    assert made.rows == 183
+    everything, some = joined(list(whole.blocks()), 0), joined(list(drive.blocks()), 0)
+    begins = np.diff(everything.epoch, prepend=-1) != 0
+    for k, name in enumerate(drive.names):
+        there = (everything.steps % every[name] == 0) | begins
+        assert np.array_equal(np.isfinite(some.values[:, k]), there), name
+        assert np.array_equal(some.values[there, k], everything.values[there, whole.names.index(name)]), name
+    assert len(drive.rows()) == np.sum((everything.steps % 4 == 0) | (everything.steps % 10 == 0) | begins)
+
+    part = tmp_path / "part.csv"
+    to_manoeuvre(drive, part, 0.36, 0.5)
+    bits = (tmp_path / "part.state").read_bytes()
+    last = last_drive(drive)
+    saved = [int(np.searchsorted(last.time, time)) for time in (0.25, 0.6)]
+    with Repeater(drive) as repeater:
+        for _ in repeater.along(last, saved[1]):
+            pass
+        key = int(last.count[saved[1]]), int(last.epoch[saved[1]])
+        (folder / "states").mkdir()
+        (folder / "states" / f"{key[1]}-{key[0]}.state").write_bytes(b"of later, and damaged")
+    with Repeater(drive) as repeater:
+        for _ in repeater.along(last, saved[0]):
+            pass
+        key = int(last.count[saved[0]]), int(last.epoch[saved[0]])
+        (folder / "states" / f"{key[1]}-{key[0]}.state").write_bytes(repeater.fmu.state_bytes())
+    with Repeater(drive) as repeater:
+        row = int(np.searchsorted(last.time, 0.36 - 1e-9))
+        assert list(repeater.along(last, row)) == list(range(saved[0], row))
+        assert repeater.fmu.state_bytes() == bits
+    with pytest.raises(HostError, match="refused a saved state"):
+        to_manoeuvre(drive, part, 0.7)
+
+
+def test_what_of_a_car_is_recorded(fmus: dict[str, Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Inputs at every step, what the scene draws often, amplitudes not at all; or all of them by an interval."""
+    scene = {"frames": {"a": {"position": ["x", "y", "z"]}}, "flexible": [{"amplitudes": ["q1"]}]}
+    monkeypatch.setattr("hosts.recordings.recorded_columns.scene_of", lambda fmu: scene)
+    given = fmus["sledge"], ["u"], ["x", "y", "speed", "q1"], 0.002
+    assert recorded_columns(*given) == {"u": 1, "x": 12, "y": 12, "speed": 50}
+    assert recorded_columns(*given, 0.01) == {"u": 1, "x": 5, "y": 5, "speed": 5, "q1": 5}
+    assert recorded_columns(*given[:3], 0.2) == {"u": 1, "x": 1, "y": 1, "speed": 1}
+    with pytest.raises(HostError, match=r"The interval is 0.003 s, no whole multiple of the step of 0.002 s"):
+        recorded_columns(*given, 0.003)
 
 
 def assert_driven_again(fmu: Path, manoeuvre: Path, folder: Path, steps: int) -> None:
@@ -376,10 +444,12 @@ def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Pa
         return str(error.value)
 
     assert "its format is not 'ALi3 recording'" in refused(format="x")
-    assert "version 2; this program reads 1" in refused(version=2)
+    assert "version 3; this program reads 1 and 2" in refused(version=3)
     assert "does not say the columns" in refused(columns=None)
+    assert "does not say by 'every' how many steps lie between two values" in refused(every=[0, 1])
+    assert "does not say by 'every' and 'left_out' what of the columns is recorded" in refused(every=[1])
     values = len(meta["columns"])
-    assert f"a row has {values} values; recording.json names 1 columns" in refused(columns=["steering"])
+    assert f"a row has {values} values; recording.json names 1 columns" in refused(columns=["steering"], every=[1])
     assert "was recorded from gone.fmu, which is not there any more; name the FMU" in refused(fmu="gone.fmu")
     assert "lacks variables of the recording" in refused(columns=["x", *meta["columns"][1:]])
     (folder / "recording.json").write_text("{")
@@ -426,7 +496,13 @@ def test_the_command_shows_repeats_and_makes_a_manoeuvre(
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     assert main(["--recording", str(folder)]) == 0
     shown = capfd.readouterr().out
-    for text in ("183 in steps of 0.01 s, 3 inputs", "initial.speed=6.0", "plane", "seed", "upright at 0.16 s: again"):
+    for text in (
+        "183 in steps of 0.01 s with 3 inputs",
+        "initial.speed=6.0",
+        "plane",
+        "seed",
+        "upright at 0.16 s: again",
+    ):
         assert text in shown
     out = tmp_path / "m.csv"
     assert main(["--recording", str(folder), "--save-manoeuvre", str(out), "--from", "0.3"]) == 0
@@ -472,6 +548,41 @@ def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], 
         recordings_of([folder], None, wishes)
     (recording,), _ = recordings_of([folder], fmus["sledge"], wishes)
     assert recording.scene is not None
+
+
+def test_a_view_draws_straight_between_outputs_and_flexible_parts_rigid(
+    fmus: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = read_recording(whole_drive(fmus["sledge"], tmp_path / "all"))
+    drawn, other, amplitude = whole.names[3:6]
+    every = dict.fromkeys(whole.inputs, 1) | {drawn: 2, other: 6}
+    folder = whole_drive(fmus["sledge"], tmp_path / "drive", None, every)
+    scene = {"flexible": [{"amplitudes": [amplitude], "computed": "computed"}]}
+    monkeypatch.setattr("hosts.recordings.recorded_view.scene_of", lambda fmu, start: scene)
+    made: dict[str, Any] = {}
+
+    def recording(scene: Any, t: Any, columns: Any, units: Any, name: str) -> SimpleNamespace:
+        made.update(t=t, columns=columns)
+        return SimpleNamespace(notes=[])
+
+    monkeypatch.setattr("hosts.recordings.recorded_view.Recording", recording)
+    shown, _ = recorded_view(folder, "drive")
+    rows, all_rows = read_recording(folder).rows(), joined(list(whole.blocks()), 0)
+    values = rows.values[:, list(every).index(other)]
+    for k in range(int(rows.epoch[-1]) + 1):
+        part = rows.epoch == k
+        known = part & np.isfinite(values)
+        straight = np.interp(made["t"][part], made["t"][known], values[known])
+        assert np.array_equal(made["columns"][other][part], straight)
+    keys = list(zip(all_rows.steps, all_rows.epoch, strict=True))
+    there = [keys.index(key) for key in zip(rows.steps, rows.epoch, strict=True)]
+    column = rows.values[:, list(every).index(drawn)]
+    known = np.isfinite(column)
+    assert np.array_equal(column[known], all_rows.values[there, whole.names.index(drawn)][known])
+    assert np.array_equal(made["columns"][drawn][known], column[known])
+    assert not made["columns"][amplitude].any()
+    assert not made["columns"]["computed"].any()
+    assert f"such as {whole.names[5]}; --interval records all" in shown.notes[0]
 
 
 @pytest.fixture(autouse=True)

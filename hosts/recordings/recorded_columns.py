@@ -1,0 +1,44 @@
+"""What of a drive is recorded, so that an hour of a car has at most 200 MB; the rest is found by driving it again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from hosts.driving.run_checks import steps_of
+from hosts.fmu.geometry import scene_of
+from viewer.scene_columns import all_columns
+
+DRAWN, OTHERS = 0.025, 0.1
+"""Between two values of outputs that are drawn, and of others, s; steps that are longer count."""
+
+
+def recorded_columns(
+    fmu: Path, inputs: Sequence[str], outputs: Sequence[str], step: float, interval: float | None = None
+) -> dict[str, int]:
+    """Columns of a recording, and how many steps lie between two of their values.
+
+    Inputs are recorded at every step, so that a drive can be repeated; outputs that the scene of the FMU draws every
+    25 ms, others every 0.1 s. The amplitudes of flexible parts are left out, some dozens of columns that only the
+    colours of stresses need.
+
+    Parameters
+    ----------
+    step : float
+        Communication step, s.
+    interval : float, optional
+        Of all outputs, s, a whole multiple of the step; amplitudes are then recorded too.
+
+    Raises
+    ------
+    HostError
+        The interval is no whole multiple of the step.
+    """
+    every = dict.fromkeys(inputs, 1)
+    if interval is not None:
+        return every | dict.fromkeys(outputs, steps_of(interval, step, "The interval"))
+    scene = scene_of(fmu) or {}
+    drawn = set(all_columns(scene)) if scene else set()
+    amplitudes = {name for part in scene.get("flexible") or [] for name in part["amplitudes"]}
+    often, seldom = (max(1, round(span / step)) for span in (DRAWN, OTHERS))
+    return every | {name: often if name in drawn else seldom for name in outputs if name not in amplitudes}
