@@ -1,6 +1,7 @@
 // The tyres of a scene and their numbers: where they touch, how they slip, what they stand on; pure numbers.
 import { surfaceOf } from "../looks/heights.js";
 import { cross, finite, subtract, unit } from "../scene/math.js";
+import { tyresOf } from "../scene/tyres.js";
 
 /** Slips at which a car tyre transmits the most, along and across (TMeasy: max_slip of the cars of this package). */
 export const LIMITS = { slip: 0.139, lateral: 0.15 };
@@ -29,14 +30,9 @@ export class Wheels {
   constructor(scene, options = {}) {
     this.limits = { ...LIMITS, ...options.limits };
     this.surface = options.surface ?? surfaceOf(scene);
-    const shapes = (scene.shapes ?? []).filter(({ kind }) => kind === "wheel");
-    this.list = (scene.arrows ?? [])
-      .filter(({ tyre }) => tyre !== undefined)
-      .map(({ tyre }) => {
-        const prefix = tyre.forces[0].replace(/\.[^.]*$/, "");
-        const shape = shapes.find(({ frame }) => frame.replace(/\W|_/g, "") === prefix.replace(/\W|_/g, "")) ?? shapes[0];
-        return { tyre, prefix, frame: shape?.frame, width: shape?.width ?? 0.18, radius: shape?.radius ?? 0.3 };
-      });
+    this.list = tyresOf(scene).map(({ tyre, prefix, shape }) => {
+      return { tyre, prefix, frame: shape?.frame, width: shape?.width ?? 0.18, radius: shape?.radius ?? 0.3 };
+    });
     /** One sentence where a scene has no tyres, else empty. */
     this.problem = this.list.length > 0 ? "" : "The scene has no tyres, so there are no marks and no dust.";
   }

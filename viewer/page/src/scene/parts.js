@@ -9,6 +9,7 @@ import { turn, shaded } from "../shapes/place.js";
 import { niceAbove } from "./forces.js";
 import { Frames } from "./frames.js";
 import { subtract } from "./math.js";
+import { roadUnder, tyresOf } from "./tyres.js";
 
 /** Radius of the thinnest tube of a flexible body that is seen, beside the size of the drawing. */
 const THINNEST = 0.003;
@@ -35,6 +36,7 @@ export class Parts {
     this.flexible = (scene.flexible ?? []).map((body) => this.#bend(body, options));
     /** Times that displacements are drawn, whether stress is coloured, and the stress at the end of the colours. */
     this.bending = { factor: 1, coloured: true, most: Math.max(0, ...this.flexible.map(({ bending }) => bending.range)) };
+    this.tyres = options.ghost ? [] : this.#tyres();
     this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []));
     this.group.add(this.arrows.group);
     for (const carrier of this.carriers.values()) join(carrier);
@@ -49,9 +51,17 @@ export class Parts {
     }
     if (!ghost) shaded(made.object);
     this.owned.push(...(made.owned ?? []));
+    made.shape = shape;
     made.object.name = shape.name ?? shape.body ?? "";
     (made.frame !== undefined ? this.#carrier(made.frame) : this.group).add(made.object);
     this.shapes.push(made);
+  }
+
+  /** Wheels that a tyre is known of, and can be flattened. */
+  #tyres() {
+    return tyresOf(this.scene)
+      .map(({ tyre, shape }) => ({ tyre, frame: shape?.frame, stand: this.shapes.find((made) => made.shape === shape)?.stand }))
+      .filter(({ stand }) => stand !== undefined);
   }
 
   #bend(body, { ghost = false }) {
@@ -85,6 +95,9 @@ export class Parts {
       if (absent) this.tell(absent);
       this.moved = Math.max(this.moved, body.bending.largestMove() / (this.bending.factor || 1));
       if (body.most > this.bending.most && !(body.bending.range > 0)) this.bending.most = niceAbove(body.most);
+    }
+    for (const { tyre, frame, stand } of this.tyres) {
+      stand(lookup === null ? null : roadUnder(tyre, lookup, this.frames.pose(frame)));
     }
     this.arrows.update(lookup, this.frames, this.tell);
   }

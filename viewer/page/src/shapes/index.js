@@ -22,7 +22,8 @@ const MAKERS = { box, cylinder, damper, mesh, plate, sphere, spring, steering_wh
 /**
  * @param {Data} shape one of a scene
  * @param {Context} context
- * @returns {{object: import("three").Object3D, frame?: string, update?: Function, owned?: Data[], frames: string[]} | null}
+ * @returns {{object: import("three").Object3D, frame?: string, update?: Function, owned?: Data[], frames: string[], shape?: Data,
+ *   stand?: (plane: number[] | null) => unknown} | null} stand: flattens a tyre on a plane in the axes of the frame;
  *   null for a kind that this page does not know
  */
 export function makeShape(shape, context) {

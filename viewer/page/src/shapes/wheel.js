@@ -19,6 +19,23 @@ function rubber(part, lengths, materials) {
   return material;
 }
 
+/**
+ * A tyre that is flat on the road: what would lie below a plane is drawn in it.
+ * @param {THREE.Material} material
+ * @returns {THREE.Vector4} the plane in the axes of the mesh: normal, and its distance from the origin along the normal
+ */
+function flattened(material) {
+  const plane = new THREE.Vector4(0, 0, 0, -1);
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.road = { value: plane };
+    shader.vertexShader = `uniform vec4 road;\n${shader.vertexShader}`.replace(
+      "#include <begin_vertex>",
+      "#include <begin_vertex>\ntransformed -= min(dot(transformed, road.xyz) - road.w, 0.0) * road.xyz;",
+    );
+  };
+  return plane;
+}
+
 /** Side of the car that a wheel stands on, along its axis: 1, -1, or 0 in the middle. */
 function outward(shape, axis, { frames, scene }) {
   const body = frames.pose(scene.focus || "ground");
@@ -40,5 +57,15 @@ export function wheel(shape, context) {
   const y = unit(axis) ?? [0, 1, 0];
   const x = Math.abs(y[0]) < 0.9 ? unit(subtract([1, 0, 0], scale(y, y[0]))) : across(y);
   turn(object, fromColumns(x, y, cross(x, y)));
-  return { object, frame: shape.frame, owned: [tyre, tyre.map].filter(Boolean) };
+  const road = flattened(tyre);
+  object.updateMatrix();
+  const [turned, moved] = [new THREE.Matrix3().setFromMatrix4(object.matrix).transpose(), object.position];
+  /** @param {number[] | null} plane in the axes of the frame: normal, distance from its origin; null: a round tyre */
+  const stand = (plane) => {
+    if (plane === null) return road.set(0, 0, 0, -1);
+    const normal = new THREE.Vector3().fromArray(plane);
+    const distance = plane[3] - normal.dot(moved);
+    return road.set(...normal.applyMatrix3(turned).toArray(), distance);
+  };
+  return { object, frame: shape.frame, owned: [tyre, tyre.map].filter(Boolean), stand };
 }
