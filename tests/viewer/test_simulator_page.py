@@ -394,4 +394,14 @@ class TestOnePage:
         assert len(bars) == len(bins)
         assert bars.count(bars[-1]) == 1  # the one beyond the deadline has a colour of its own
         assert "0.06 · 0.2 · 0.9 · 4 ms" in shared.text("report")
+        words, tops = shared.ask("""() => {
+          const all = name => [...document.querySelectorAll(`[data-a3="histogram"] ${name}`)];
+          const number = (part, name) => Number(part.getAttribute(name));
+          return [all("text").map(t => [t.textContent, number(t, "x"), number(t, "y")]), all("rect").map(r => number(r, "y"))];
+        }""")
+        marks = {text: y - 3 for text, x, y in words if x < 40}
+        assert {"1", "10", "100", "1k", "steps"} == set(marks)
+        for (_, count), top in zip(bins, tops, strict=True):  # both axes by powers of ten
+            assert top == pytest.approx(marks["1"] + np.log10(count) / 3 * (marks["1k"] - marks["1"]), abs=0.01)
+        assert {"100 µs", "1 ms", "cost of a step; the step of 2 ms is dashed"} <= {text for text, *_ in words}
         shared.page.keyboard.press("g")

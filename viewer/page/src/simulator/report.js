@@ -1,7 +1,7 @@
 // The times of all steps of the run: a histogram and its figures.
 import { button, el, short, svg } from "../common/dom.js";
 
-const [WIDTH, HEIGHT, FOOT] = [300, 120, 16];
+const [WIDTH, HEIGHT, LEFT, FOOT] = [300, 150, 40, 26];
 /** Bars of a decade. */
 const FINE = 12;
 
@@ -27,24 +27,43 @@ export function histogram(bins, deadline) {
   if (!bars.size) return drawing;
   const places = [...bars.keys(), Math.log10(deadline)];
   const [low, high] = [Math.min(...places) - 1 / FINE, Math.max(...places) + 1.5 / FINE];
-  const at = (seconds) => (WIDTH * (Math.log10(seconds) - low)) / (high - low);
+  const at = (seconds) => LEFT + ((WIDTH - LEFT) * (Math.log10(seconds) - low)) / (high - low);
   const most = Math.log10(Math.max(...bars.values())) + 0.3;
-  for (const [place, count] of bars) {
-    const size = ((Math.log10(count) + 0.3) / most) * (HEIGHT - FOOT - 4);
+  const [ground, tall] = [HEIGHT - FOOT, HEIGHT - FOOT - 4];
+  const level = (count) => ground - ((Math.log10(count) + 0.3) / most) * tall;
+  for (let power = 0; power <= most - 0.3; power++) {
+    const y = level(10 ** power);
+    drawing.append(line(LEFT, WIDTH, y, y, { "stroke-opacity": 0.25 }), label(LEFT - 3, y + 3, count(10 ** power), "end"));
+  }
+  for (const [place, number] of bars) {
     const fill = 10 ** place >= deadline ? "#e8412d" : "#4d9de0";
-    const width = (0.9 * WIDTH) / FINE / (high - low);
-    drawing.append(svg("rect", { x: at(10 ** place), y: HEIGHT - FOOT - size, width, height: size, fill }));
+    const width = (0.9 * (WIDTH - LEFT)) / FINE / (high - low);
+    drawing.append(svg("rect", { x: at(10 ** place), y: level(number), width, height: ground - level(number), fill }));
   }
   for (let power = Math.ceil(low); power <= high; power++) {
-    drawing.append(label(at(10 ** power), `${power >= -3 ? short(1e3 * 10 ** power) : short(1e6 * 10 ** power)} ${power >= -3 ? "ms" : "µs"}`));
+    const x = at(10 ** power);
+    const words = power >= -3 ? `${short(1e3 * 10 ** power)} ms` : `${short(1e6 * 10 ** power)} µs`;
+    drawing.append(line(x, x, ground, ground + 3), label(x, ground + 12, words));
   }
   const x = at(deadline);
-  drawing.append(svg("line", { x1: x, x2: x, y1: 0, y2: HEIGHT - FOOT, stroke: "#e8412d", "stroke-dasharray": "3 2" }));
+  drawing.append(line(LEFT, WIDTH, ground, ground), line(LEFT, LEFT, 0, ground));
+  drawing.append(line(x, x, 0, ground, { stroke: "#e8412d", "stroke-dasharray": "3 2" }));
+  drawing.append(label((LEFT + WIDTH) / 2, HEIGHT - 3, `cost of a step; the step of ${milli(deadline)} ms is dashed`));
+  const steps = label(8, ground / 2, "steps");
+  steps.setAttribute("transform", `rotate(-90 8 ${ground / 2})`);
+  drawing.append(steps);
   return drawing;
 }
 
-function label(x, text) {
-  const made = svg("text", { x, y: HEIGHT - 4, "font-size": 9, "text-anchor": "middle", fill: "currentColor" });
+/** A power of ten in few characters. @param {number} value */
+const count = (value) => (value < 1000 ? String(value) : value < 1e6 ? `${value / 1000}k` : `${value / 1e6}M`);
+
+function line(x1, x2, y1, y2, more = {}) {
+  return svg("line", { x1, x2, y1, y2, stroke: "currentColor", ...more });
+}
+
+function label(x, y, text, anchor = "middle") {
+  const made = svg("text", { x, y, "font-size": 9, "text-anchor": anchor, fill: "currentColor" });
   made.textContent = text;
   return made;
 }
