@@ -397,7 +397,8 @@ class TestOnePage:
         words, tops = shared.ask("""() => {
           const all = name => [...document.querySelectorAll(`[data-a3="histogram"] ${name}`)];
           const number = (part, name) => Number(part.getAttribute(name));
-          return [all("text").map(t => [t.textContent, number(t, "x"), number(t, "y")]), all("rect").map(r => number(r, "y"))];
+          const texts = all("text").map(t => [t.textContent, number(t, "x"), number(t, "y")]);
+          return [texts, all("rect").map(r => number(r, "y"))];
         }""")
         marks = {text: y - 3 for text, x, y in words if x < 40}
         assert {"1", "10", "100", "1k", "steps"} == set(marks)
