@@ -292,14 +292,30 @@ def test_a_picture_fits_its_element_again_when_that_changes_without_being_asked(
 
 
 def test_asphalt_lies_on_the_earth_and_not_under_the_camera(drawn):
-    """Its layers repeat after 1.1, 7.3, 61 and 20 m, all together after 979 660 m; in between the road has moved."""
+    """Its layers repeat after 1.1, 7.3, 61 and 10 m, all together after 489 830 m; in between the road has moved."""
     shown = scene(shapes=[ball()], focus="body", roads=[{"kind": "flat", "height": -0.3}])
     drawn.show(shown, at(0, 0, 0))
     here = drawn.picture()
-    drawn.update(at(979_660.0, 0, 0))
+    drawn.update(at(489_830.0, 0, 0))
     assert np.abs(drawn.picture() - here).mean() < 0.2
-    drawn.update(at(979_660.4, 0, 0))
+    drawn.update(at(489_830.4, 0, 0))
     assert np.abs(drawn.picture() - here).mean() > 1.0
+
+
+def test_lines_are_painted_every_ten_metres(drawn):
+    shown = scene(shapes=[ball()], focus="body", extent=12.0, roads=[{"kind": "flat", "height": -0.3}])
+    drawn.show(shown, at(4.0, 3.0, 0), camera="top")
+    picture = drawn.picture().sum(axis=2)
+
+    def brightest(x, y):
+        column, row = (round(value) for value in drawn.project((x, y, -0.3)))
+        return picture[row - 1 : row + 2, column - 1 : column + 2].max()
+
+    for along in (1.3, 2.7, 4.4, 6.1):
+        assert brightest(10.0, along) > 1.2 * brightest(8.0, along)
+        assert brightest(0.0, along) > 1.2 * brightest(2.0, along)
+        assert brightest(along, 0.0) > 1.2 * brightest(along, 1.5)
+    assert brightest(5.0, 2.0) < 1.2 * brightest(6.0, 2.0)
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ import { prelit } from "./draft/prelit.js";
 import { SKYLIGHT } from "./skylight.js";
 
 /** Metres after which each layer of the pattern repeats: grain, patches, tones, painted lines. */
-export const PERIODS = [1.1, 7.3, 61, 20];
+export const PERIODS = [1.1, 7.3, 61, 10];
 
 const PARAMETERS = /* glsl */ `
 uniform vec3 aX, aY;
@@ -28,7 +28,7 @@ vec3 stone = vec3(0.118, 0.119, 0.12) * (0.3 + 1.05 * grain + 0.45 * (patches - 
 stone = aGrass * (0.35 + 0.75 * grain * patches + 1.1 * (tone - 0.3));
 #endif
 if (aPaint > 0.0) {
-  vec2 line = abs(mod(plane + aOffset[3], ${PERIODS[3].toFixed(1)}) - ${(PERIODS[3] / 2).toFixed(1)});
+  vec2 line = abs(mod(plane + aOffset[3] + ${(PERIODS[3] / 2).toFixed(1)}, ${PERIODS[3].toFixed(1)}) - ${(PERIODS[3] / 2).toFixed(1)});
   vec2 soft = max(fwidth(plane), 1e-5);
   vec2 on = 1.0 - smoothstep(0.06 - 0.5 * soft, 0.06 + 0.5 * soft + 1e-4, line);
   on *= min(vec2(1.0), 0.12 / soft);
