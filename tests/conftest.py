@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import functools
 import os
+import re
 import shutil
 import signal
 from collections.abc import Callable
@@ -65,19 +66,29 @@ def made_once(shared: Path) -> Callable[[str, Callable[[Path], None]], Path]:
 
 
 @pytest.fixture(scope="session")
-def prototype_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Path:
+def scene_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[..., Path]:
+    """Builds the FMU of a scene for this platform once for all processes, also those that are forked for one test."""
+
+    def make(scene: str, kind: str = "native") -> Path:
+        from fmpy import platform
+
+        from fmu_src.build.build import build_fmu
+        from fmu_src.build.scene_registry import load_scene
+
+        def fill(folder: Path) -> None:
+            name, system = load_scene(scene)
+            build_fmu(system, name, folder, [platform], kind=kind)
+
+        (path,) = made_once(f"{re.sub(r'[^a-z0-9]+', '_', scene[-40:])}_{kind}", fill).glob("*.fmu")
+        return path
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def prototype_fmu(scene_fmu: Callable[..., Path]) -> Path:
     """The FMU of the rigid prototype for this platform."""
-    from fmpy import platform
-
-    from fmu_src.build.build import build_fmu
-    from fmu_src.build.scene_registry import load_scene
-
-    def fill(folder: Path) -> None:
-        name, system = load_scene("prototype_car")
-        build_fmu(system, name, folder, [platform])
-
-    (path,) = made_once("prototype_fmu", fill).glob("*.fmu")
-    return path
+    return scene_fmu("prototype_car")
 
 
 @pytest.fixture(autouse=True)

@@ -17,8 +17,8 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
-from fmu_src.build.build import KINDS, FmuBuilder, build_fmu
-from fmu_src.build.scene_registry import load_fidelities, load_scene
+from fmu_src.build.build import KINDS, FmuBuilder
+from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.native.platforms import able_platforms
 
 SCENES = Path(__file__).parent / "scenes.py"
@@ -70,16 +70,12 @@ def need() -> Callable[[str], None]:
 
 
 @pytest.fixture(scope="session")
-def build(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None]) -> Callable[..., Path]:
+def build(scene_fmu: Callable[..., Path], need: Callable[[str], None]) -> Callable[..., Path]:
     """Builds the FMU of a function of `scenes.py` once."""
-    made: dict[tuple[str, str], Path] = {}
 
     def make(scene: str, kind: str = "native") -> Path:
         need(kind)
-        if (scene, kind) not in made:
-            name, system = load_scene(f"{SCENES}:{scene}")
-            made[scene, kind] = build_fmu(system, name, tmp_path_factory.mktemp(scene), [PLATFORM], kind=kind)
-        return made[scene, kind]
+        return scene_fmu(f"{SCENES}:{scene}", kind)
 
     return make
 

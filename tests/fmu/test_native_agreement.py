@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 
 import mbs
-from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from mbs.simulation.state import Pose
 from tests.fmu import scenes
@@ -25,15 +24,13 @@ SAG_ROUNDED = 1e-4  # m, the message has three digits
 # Time, steering, throttle, brake: a launch, a lane change, a stop.
 MANOEUVRE = [(0.0, 0.0, 0.5, 0.0), (0.5, 0.3, 0.2, 0.0), (1.0, -0.3, 0.2, 0.0), (1.5, 0.0, 0.0, 0.6)]
 END = 2.0
+KINDS = ("native", "python", "fmi3")
 
 
 @pytest.fixture(scope="session")
-def cars(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None]) -> tuple[mbs.System, dict[str, Path]]:
+def cars(scene_fmu: Callable[..., Path], need: Callable[[str], None]) -> tuple[mbs.System, dict[str, Path]]:
     need("python")
-    name, system = load_scene("prototype_car")
-    folder = tmp_path_factory.mktemp("cars")
-    kinds = ("native", "python", "fmi3")
-    return system, {kind: build_fmu(system, name, folder, [fmpy.platform], kind=kind) for kind in kinds}
+    return load_scene("prototype_car")[1], {kind: scene_fmu("prototype_car", kind) for kind in KINDS}
 
 
 def controls(time: float) -> tuple[float, float, float]:

@@ -152,7 +152,7 @@ def test_a_state_goes_on_under_another_system(all_platforms: Path, tmp_path: Pat
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="FMPy compiles by CMake")
-@pytest.mark.parametrize("kind", ["native", "fmi3"])
+@pytest.mark.parametrize("kind", ["native", pytest.param("fmi3", marks=pytest.mark.proof)])
 def test_fmpy_compiles_the_sources(build: Callable[..., Path], tmp_path: Path, kind: str) -> None:
     fmu = build("crane", kind)
     folder = native.unpack(fmu, tmp_path / "fmu")
@@ -208,7 +208,7 @@ def flexible_stress(
     return stress_run(kerb_fmus / "native.fmu", folder, shared / "objects", "system_3.ali3", "bending_moment.SG1")
 
 
-@pytest.mark.slow
+@pytest.mark.proof  # the same C as above; what is of flexible bodies alone the sanitized kernel runs
 @pytest.mark.parametrize(("what", "count"), FLEXIBLE_STRESS, ids=[w for w, _ in FLEXIBLE_STRESS])
 def test_stress_of_flexible_bodies(flexible_stress: Callable[[str, int], str], what: str, count: int) -> None:
     assert flexible_stress(what, count)

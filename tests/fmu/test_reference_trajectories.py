@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import importlib.util
 import subprocess
 from collections.abc import Callable, Mapping
@@ -89,14 +88,17 @@ def errors(found: Columns, reference: Columns, length: float) -> dict[str, float
 
 
 @pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+def built(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[..., Path]:
     """A car as an FMU of a kind, on its own road or that of the manoeuvre of this name, built once."""
 
     def build(kind: str, road: str, car: str = manoeuvres.PROTOTYPE) -> Path:
-        system, folder = manoeuvres.system_of(road or "drop", car), tmp_path_factory.mktemp(kind)
-        return build_fmu(system, f"{car}_car", folder, [fmpy.platform], kind=kind)
+        def fill(folder: Path) -> None:
+            build_fmu(manoeuvres.system_of(road or "drop", car), f"{car}_car", folder, [fmpy.platform], kind=kind)
 
-    return functools.cache(build)
+        (path,) = made_once(f"driven_{car}_{kind}_{road}", fill).glob("*.fmu")
+        return path
+
+    return build
 
 
 @pytest.fixture
@@ -148,9 +150,9 @@ def beyond(name: str, found: Mapping[str, float], bounds: tuple[float, float]) -
 
 
 def of_kinds(first: str, *others: str) -> pytest.MarkDecorator:
-    """By kind of FMU; one kind is seen by all tests, the others by slow ones."""
-    slow = [pytest.param(kind, marks=pytest.mark.slow) for kind in others]
-    return pytest.mark.parametrize("car", [first, *slow], indirect=True)
+    """By kind of FMU; the others, which have the bits of the first (`test_native_agreement.py`), in the proof run."""
+    proof = [pytest.param(kind, marks=pytest.mark.proof) for kind in others]
+    return pytest.mark.parametrize("car", [first, *proof], indirect=True)
 
 
 @of_kinds("native", "python")

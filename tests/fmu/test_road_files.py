@@ -29,19 +29,20 @@ FRICTION = 1.2705
 
 
 @pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None]) -> Callable[[str], Path]:
-    made: dict[str, Path] = {}
-    systems = {}
+def built(
+    made_once: Callable[[str, Callable[[Path], None]], Path], need: Callable[[str], None]
+) -> Callable[[str], Path]:
+    """The car in two fidelities as an FMU of a kind."""
 
     def make(kind: str) -> Path:
-        need(kind)
-        if not systems:
+        def fill(folder: Path) -> None:
             offered = prototype_car.fidelities()
-            systems.update({k: mbs.compile(offered[k]()) for k in (Fidelity.RIGID, Fidelity.QUASI_STATIC)})
-        if kind not in made:
-            folder = tmp_path_factory.mktemp("car")
-            made[kind] = build_fmu(systems, "prototype_car", folder, [fmpy.platform], kind=kind)
-        return made[kind]
+            systems = {k: mbs.compile(offered[k]()) for k in (Fidelity.RIGID, Fidelity.QUASI_STATIC)}
+            build_fmu(systems, "prototype_car", folder, [fmpy.platform], kind=kind)
+
+        need(kind)
+        (path,) = made_once(f"car_with_roads_{kind}", fill).glob("*.fmu")
+        return path
 
     return make
 

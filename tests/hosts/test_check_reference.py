@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -25,12 +26,20 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_fmu(mbs.compile(tuned()), "tuned", tmp_path_factory.mktemp("fmu"), [fmpy.platform])
 
 
-@pytest.fixture
-def result(fmu: Path, tmp_path: Path) -> Path:
+@pytest.fixture(scope="module")
+def ran(fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run with a jump and a tunable parameter that changes, and its record."""
-    table = tmp_path / "given.csv"
+    folder = tmp_path_factory.mktemp("ran")
+    table = folder / "given.csv"
     table.write_text('"time","pull","spring.damping"\n0,0,1\n0.4,30,1\n0.4,-20,5\n1,0,2\n')
-    assert run(run_main, fmu, "-m", table, "--step", 0.01, "--out", tmp_path).returncode == 0
+    assert run(run_main, fmu, "-m", table, "--step", 0.01, "--out", folder).returncode == 0
+    return folder
+
+
+@pytest.fixture
+def result(ran: Path, tmp_path: Path) -> Path:
+    """A copy of the run that the test may change."""
+    shutil.copytree(ran, tmp_path, dirs_exist_ok=True)
     return tmp_path / "tuned_given.csv"
 
 

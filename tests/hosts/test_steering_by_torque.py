@@ -62,11 +62,12 @@ def test_the_torque_drives_a_slalom(driven: dict[str, np.ndarray]) -> None:
 
 
 def test_another_host_and_the_engine_do_the_same(fmu: Path, system: System, driven: dict[str, np.ndarray]) -> None:
-    t = STEP * np.arange(len(driven["torque"]))
-    signals = np.array(list(zip(t, driven["torque"], strict=True)), dtype=[("time", float), ("steering_torque", float)])
+    steps = 250
+    t, torques = STEP * np.arange(steps), driven["torque"][:steps]
+    signals = np.array(list(zip(t, torques, strict=True)), dtype=[("time", float), ("steering_torque", float)])
     result = fmpy.simulate_fmu(
         str(fmu),
-        stop_time=END,
+        stop_time=steps * STEP,
         step_size=STEP,
         output_interval=STEP,
         start_values=START,
@@ -76,14 +77,15 @@ def test_another_host_and_the_engine_do_the_same(fmu: Path, system: System, driv
     simulation = Simulation(system, pose=Pose(speed=15.0), parameters={"steering.by_torque": 1})
     h = STEP / round(STEP / 0.002)
     ys = [0.0]
-    for torque in driven["torque"]:
+    for torque in torques:
         simulation.set_input("steering_torque", torque)
         for _ in range(round(STEP / 0.002)):
             simulation.step(h)
         ys.append(simulation.sensors["chassis.y"])
     for name in OUTPUTS:
-        np.testing.assert_allclose(result[name], driven[name], rtol=0, atol=1e-9 * max(1.0, np.ptp(driven[name])))
-    np.testing.assert_allclose(ys, driven["chassis.y"], rtol=0, atol=1e-9)
+        expected = driven[name][: steps + 1]
+        np.testing.assert_allclose(result[name], expected, rtol=0, atol=1e-9 * max(1.0, np.ptp(expected)))
+    np.testing.assert_allclose(ys, driven["chassis.y"][: steps + 1], rtol=0, atol=1e-9)
 
 
 def test_the_way_of_steering_is_a_fixed_whole_number(fmu: Path) -> None:

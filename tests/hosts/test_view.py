@@ -4,6 +4,8 @@ that cannot be shown.
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
 import re
 import shutil
@@ -69,10 +71,20 @@ def pendulum(work: Path, built: Path) -> Path:
     return with_resources(built, work / "dist" / "MotorPendulum.fmu", json.dumps(SCENE))
 
 
+@pytest.fixture(scope="module")
+def ran(built: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a run of 1 s, as it is written beside `dist`."""
+    folder = tmp_path_factory.mktemp("ran")
+    (folder / "dist").mkdir()
+    with_resources(built, folder / "dist" / "MotorPendulum.fmu", json.dumps(SCENE))
+    with contextlib.chdir(folder), contextlib.redirect_stdout(io.StringIO()):
+        assert run_fmu(["dist/MotorPendulum.fmu", "--stop-time", "1", "--out", "out"]) == 0
+    return folder / "out"
+
+
 @pytest.fixture
-def result(pendulum: Path, capsys: pytest.CaptureFixture[str]) -> Path:
-    assert run_fmu(["dist/MotorPendulum.fmu", "--stop-time", "1", "--out", "out"]) == 0
-    capsys.readouterr()
+def result(pendulum: Path, ran: Path, work: Path) -> Path:
+    shutil.copytree(ran, work / "out")
     return Path("out/MotorPendulum.csv")
 
 

@@ -24,8 +24,12 @@ GOOD = {"max_iterations": 30, "tolerance_r": 1e-10, "tolerance_phi": 1e-11}
 SEED = 11
 
 
-def started(model: Model, method: str, steps: int = 6, **settings: float) -> Instance:
-    instance = Instance(LoadedSystem(compile(model).to_bytes()))
+def loaded(model: Model | LoadedSystem) -> LoadedSystem:
+    return LoadedSystem(compile(model).to_bytes()) if isinstance(model, Model) else model
+
+
+def started(model: Model | LoadedSystem, method: str, steps: int = 6, **settings: float) -> Instance:
+    instance = Instance(loaded(model))
     instance.initialise()
     choose(instance, method, **settings)
     instance.run(H, steps)
@@ -36,18 +40,19 @@ def choose(instance: Instance, method: str, **settings: float) -> None:
     instance.set_settings(**({"project": 1} | METHODS[method] | settings))
 
 
-def twin(model: Model, state: bytes) -> Instance:
-    instance = Instance(LoadedSystem(compile(model).to_bytes()))
+def twin(model: Model | LoadedSystem, state: bytes) -> Instance:
+    instance = Instance(loaded(model))
     instance.restore(state)
     return instance
 
 
 @pytest.mark.parametrize("after", METHODS)
 def test_a_state_s_bytes_depend_on_no_earlier_step_of_another_method(after: str) -> None:
+    system = loaded(double_four_bar.build())
     for before in METHODS:
-        instance = started(double_four_bar.build(), before)
+        instance = started(system, before)
         choose(instance, after)
-        other = twin(double_four_bar.build(), instance.save())
+        other = twin(system, instance.save())
         for _ in range(3):
             instance.step(H)
             other.step(H)

@@ -11,6 +11,7 @@ name. An empty `+` takes it away. What is changed must compile without a warning
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -61,8 +62,18 @@ class Mutant:
 def files_named(name: str, root: Path = ROOT) -> list[Path]:
     """Sources whose path ends with the name."""
     parts = Path(name).parts
-    candidates = (path for folder in SOURCES for path in sorted((root / folder).rglob(parts[-1])))
-    return [path for path in candidates if path.suffix in SUFFIXES and path.parts[-len(parts) :] == parts]
+    return [path for path in _sources(root).get(parts[-1], ()) if path.parts[-len(parts) :] == parts]
+
+
+@functools.cache
+def _sources(root: Path) -> dict[str, list[Path]]:
+    """All sources by the last part of their path: mutants change what is in them, not which there are."""
+    found: dict[str, list[Path]] = {}
+    for folder in SOURCES:
+        for path in sorted((root / folder).rglob("*.*")):
+            if path.suffix in SUFFIXES:
+                found.setdefault(path.name, []).append(path)
+    return found
 
 
 def read_table(path: Path) -> list[Mutant]:

@@ -64,7 +64,7 @@ def test_the_printed_crank_slider_turns_as_far_as_it_should(tolerance: float) ->
         ("double_four_bar", None, 1e-5),
         ("slider_crank", "ali3p", 1e-3),
         ("slider_crank", None, 1e-4),
-        ("spatial_slider_crank", "radau_5", 1e-4),
+        pytest.param("spatial_slider_crank", "radau_5", 1e-4, marks=pytest.mark.slow),
         ("spatial_slider_crank", None, 1e-6),
         ("pendulum", "runge_kutta_8", 1e-8),
         ("pendulum", "ali3p", 1e-4),

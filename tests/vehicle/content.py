@@ -21,6 +21,11 @@ def leaves(data, path=()):
         yield ".".join(path), data
 
 
+def tables_of(name):
+    """Key path of every table of a car's file."""
+    return list(tables(load(name)._data))
+
+
 def tables(data, path=()):
     """Key path of every table."""
     for key, value in data.items():
@@ -33,6 +38,18 @@ def numbers(name):
     """Key path and value of every number in a car's file."""
     found = leaves(load(name)._data)
     return {path: float(v) for path, v in found if isinstance(v, (int, float)) and path != "schema"}
+
+
+def new_with(name, paths, names):
+    """Key paths of a car, by a function of its name, that none of the names before it has: a suspension by its kind."""
+    *before, _ = names[: names.index(name) + 1]
+    known = {_place(other, path) for other in before for path in paths(other)}
+    return [path for path in paths(name) if _place(name, path) not in known]
+
+
+def _place(name, path):
+    axle, _, rest = path.partition(".")
+    return path, load(name)._data[axle]["suspension"]["kind"] if rest.startswith("suspension") else ""
 
 
 def sentences(message, what):

@@ -398,7 +398,7 @@ def mechanisms(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return made
 
 
-@pytest.mark.slow
+@pytest.mark.proof  # the car and `reach` have the same pages
 def test_the_double_four_bar_is_drawn_where_its_outputs_are(
     mechanisms: dict[str, Path], chromium: Any, tmp_path: Path
 ) -> None:
@@ -418,7 +418,7 @@ def test_the_double_four_bar_is_drawn_where_its_outputs_are(
     opened.close()
 
 
-@pytest.mark.slow
+@pytest.mark.proof  # the car and `reach` have the same pages
 def test_the_puma_is_moved_by_its_torques(mechanisms: dict[str, Path], chromium: Any, tmp_path: Path) -> None:
     fmu = mechanisms["puma"]
     opened = Page(chromium, written([fmu], tmp_path, "--paused", "--set", "step_size=0.002", "--step", "0.002"))

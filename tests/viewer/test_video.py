@@ -53,7 +53,7 @@ def slider(picture):
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("_drawn")
-@pytest.mark.parametrize("suffix", [".mp4", ".webp", ".gif"])
+@pytest.mark.parametrize("suffix", [".mp4", pytest.param(".webp", marks=pytest.mark.proof), ".gif"])
 def test_a_film_shows_the_motion(tmp_path, suffix):
     path = tmp_path / f"crank{suffix}"
     told = []

@@ -45,7 +45,7 @@ def stripes() -> dict[str, Any]:
     return made | {"surface": made["surface"] | surface}
 
 
-@pytest.mark.parametrize("quality", ["low", pytest.param("high", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("quality", ["low", pytest.param("high", marks=pytest.mark.proof)])
 def test_each_surface_has_its_colour_and_what_is_wet_mirrors_the_sky(drawn, quality):
     drawn.show(world(roads=[stripes()], extent=62.0), at(0, 0, 0), camera="top", quality=quality)
     picture = drawn.picture()
@@ -104,7 +104,7 @@ def test_there_are_no_cracks_between_patches(drawn):
         assert horizon < 80, f"magenta at row {horizon}"
 
 
-@pytest.mark.parametrize("quality", ["low", pytest.param("high", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("quality", ["low", pytest.param("high", marks=pytest.mark.proof)])
 def test_lines_are_seen_all_of_their_way(drawn, quality):
     """A white line on dark ground from 6 to 60 m ahead, from near the ground: none of it is in the ground."""
     line = {"kind": "line", "points": [[a, -2.0, 0.0] for a in (0.0, 40.0, 90.0)], "width": 0.6, "colour": "white"}

@@ -185,7 +185,9 @@ def test_the_scheduler_is_killed(slow_study: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("number", "name"), [("SIGINT", "Ctrl-C"), ("SIGHUP", "SIGHUP")])
+@pytest.mark.parametrize(
+    ("number", "name"), [("SIGINT", "Ctrl-C"), pytest.param("SIGHUP", "SIGHUP", marks=pytest.mark.proof)]
+)
 def test_ctrl_c_keeps_what_has_come(number: str, name: str, slow_study: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     process = command(slow_study, "--out", out, "--jobs", 2)

@@ -12,10 +12,13 @@ from mbs.worlds.world import WORLDS
 
 
 @pytest.fixture(scope="session")
-def proving_ground(tmp_path_factory):
+def proving_ground(made_once):
     """Path of its road file, and its record."""
-    out = tmp_path_factory.mktemp("proving_ground")
     assert WORLDS.is_dir()
-    assert main(["--world", "proving_ground", "--out", str(out)]) == 0
+
+    def fill(folder):
+        assert main(["--world", "proving_ground", "--out", str(folder)]) == 0
+
+    out = made_once("proving_ground", fill)
     record = json.loads((out / "proving_ground.json").read_text(encoding="utf-8"))
     return SimpleNamespace(road=out / "proving_ground.road", record=record, json=out / "proving_ground.json")

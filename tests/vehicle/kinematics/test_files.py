@@ -31,14 +31,14 @@ def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("made")
     with contextlib.redirect_stdout(io.StringIO()) as printed:
         written = ["--out", str(folder), "--json", str(folder / "k.json")]
-        code = main(["car", "hatchback", "--kinematics", "--points", "9", *written])
+        code = main(["car", "hatchback", "--kinematics", "--points", "5", *written])
     assert code == 0
     return folder, printed.getvalue()
 
 
 @pytest.fixture(scope="module")
 def found():
-    return kinematics(load("hatchback"), points=9)
+    return kinematics(load("hatchback"), points=5)
 
 
 def test_two_readers_find_the_same_numbers(made, found):
