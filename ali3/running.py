@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ali3.errors import UserError
-from ali3.extras import missing_module
 from ali3.files import reason
 from ali3.signals import Stopped, stopped_by_signals
 from ali3.words import shortened
@@ -63,6 +62,8 @@ def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | 
         See `run_command`.
     """
     if isinstance(error, ModuleNotFoundError):
+        from ali3.extras import missing_module
+
         return missing_module(error)
     if isinstance(error, MemoryError) or (isinstance(error, ImportError) and "map segment" in str(error)):
         return "There is not enough memory for this; close other programs, or raise the limit (ulimit -v)."

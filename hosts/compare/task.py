@@ -99,7 +99,7 @@ def prepare(options: argparse.Namespace) -> Task:
         log = log_for(fmu, raw, log_aliases, aliases.why_missing)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
-        settings = settings_of(opened.table, wishes(options), {}, "")
+        settings = settings_of(opened.table, wishes(options))
         by_theirs = {n: aliases.names([n])[0] for n in settings.start}
         given = {by_theirs[n]: v for n, v in settings.start.items()}
         followed = _add_steering(fmu, log, inputs, outputs, notes, aliases, given)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.pilot import ACTS
 from hosts.fmu.fmu import Fmu
-from hosts.fmu.settings import START_OF, Settings, settings_of
+from hosts.fmu.settings import START_OF, Settings
 
 
 def set_in(fmu: Fmu, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | None = None) -> tuple[Manoeuvre, Settings]:
@@ -31,11 +30,9 @@ def set_in(fmu: Fmu, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | Non
     HostError
         A name, value, kind or unit is wrong.
     """
-    settings = settings_of(fmu.table, wishes, manoeuvre.start, f"{START_OF}{manoeuvre.name}")
-    if fidelity is not None:
-        if "fidelity" in dict(wishes.values):
-            raise HostError("The fidelity is given by --fidelity and by --set; give it once.")
-        settings.add_numbers({"fidelity": fidelity}, "--fidelity")
+    settings = Settings(fmu.table)
+    settings.add_numbers(manoeuvre.start, f"{START_OF}{manoeuvre.name}")
+    settings.add_wishes(wishes, fidelity)
     settings.overwritten(manoeuvre.inputs, f"it is a column of the manoeuvre {manoeuvre.name}")
     if manoeuvre.driver:
         settings.overwritten(ACTS, f"the driver of the manoeuvre {manoeuvre.name} acts on it")

@@ -87,6 +87,22 @@ class Settings:
         else:
             self._note(source, f"{len(found)} values, {len(found) - same} of them other than in the FMU")
 
+    def add_wishes(self, wishes: Wishes, fidelity: float | None = None) -> None:
+        """What the command line sets; see `add_numbers`.
+
+        Parameters
+        ----------
+        fidelity : float, optional
+            Of the option ``--fidelity``.
+        """
+        for file in wishes.sets:
+            self.add_set(file)
+        self.add_texts(wishes.values, "--set")
+        if fidelity is not None:
+            if "fidelity" in dict(wishes.values):
+                raise HostError("The fidelity is given by --fidelity and by --set; give it once.")
+            self.add_numbers({"fidelity": fidelity}, "--fidelity")
+
     def overwritten(self, names: Iterable[str], by: str) -> None:
         """Tell which settings have no effect, since something sets these inputs and parameters from the start on.
 
@@ -138,21 +154,8 @@ class Settings:
         return Setting(variable, variable.check(value, source), source)
 
 
-def settings_of(
-    variables: Variables, wishes: Wishes, start: Mapping[str, Value] | None = None, source: str = ""
-) -> Settings:
-    """All that the user sets.
-
-    Parameters
-    ----------
-    variables : Variables
-        Of the FMU.
-    wishes : Wishes
-        Of the command line.
-    start : mapping of str to float, int, bool or str, optional
-        What comes before it.
-    source : str
-        How messages call that.
+def settings_of(variables: Variables, wishes: Wishes) -> Settings:
+    """What the command line sets in an FMU.
 
     Raises
     ------
@@ -160,8 +163,5 @@ def settings_of(
         A name, value, kind or unit is wrong.
     """
     settings = Settings(variables)
-    settings.add_numbers(start or {}, source)
-    for file in wishes.sets:
-        settings.add_set(file)
-    settings.add_texts(wishes.values, "--set")
+    settings.add_wishes(wishes)
     return settings

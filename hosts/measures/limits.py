@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ali3.near_names import did_you_mean
 from ali3.reading import read_toml
-from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
 from hosts.common.units import conversion
 from hosts.measures.measure import Limit
@@ -62,6 +61,8 @@ def read_limits(file: Path) -> dict[str, LimitEntry]:
     try:
         return _LimitsFile.model_validate(record).limits
     except ValidationError as error:
+        from ali3.typed_sentences import Sentences
+
         raise HostError(f"{file}: {Sentences(_LimitsFile, record).of(error)[0]}") from None
 
 
@@ -93,6 +94,18 @@ def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], sou
         high = math.inf if entry.max is None else factor * entry.max
         found[column] = Limit(source.name, low, high)
     return found
+
+
+def limits_record(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], source: Path) -> dict[str, Any]:
+    """Limits by the columns of measures for JSON, with None where there is no limit; see `limits_of`."""
+
+    def end(value: float) -> float | None:
+        return value if math.isfinite(value) else None
+
+    return {
+        column: {"min": end(limit.lowest), "max": end(limit.highest), "unit": columns[column]}
+        for column, limit in limits_of(entries, columns, source).items()
+    }
 
 
 def column_of(name: str, columns: Mapping[str, str], where: str) -> str:

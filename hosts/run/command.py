@@ -80,6 +80,7 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
     from hosts.recordings.load_manoeuvre import manoeuvre_of
+    from hosts.run.course_result import gate_edges, passed
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
     from hosts.run.run_summary import energy_balance, summary
@@ -104,13 +105,11 @@ def _run(options: argparse.Namespace) -> int:
         step = communication_step(fmu, manoeuvre, options.step)
         every = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
         result = run_with_bar(fmu, manoeuvre, step, driver, every)
-    course = driver.course if driver is not None else None
-    outline = (driver.settings.vehicle_length, driver.settings.vehicle_width) if driver is not None else (0.0, 0.0)
-    rows = summary(result, step, course, outline)
+    rows = summary(result, step, passed(result, driver) if driver is not None else ())
     write_csv(result, table)
     write_record(fmu, manoeuvre, step, settings, result, record, driver)
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
-    plot_page(result, picture, title, rows, course)
+    plot_page(result, picture, title, rows, None if driver is None else gate_edges(driver))
     return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
 
 

@@ -12,19 +12,20 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
 
 from ali3.chart_style import BLACK, BLUE, COLOURS, GREEN, ORANGE, RED, SKY, STYLE
 from ali3.charts import save_picture
 from hosts.driving.co_simulation import Result
-from hosts.driving.course import Course
 from hosts.run.run_summary import WHEELS
 
 _MAX_PANELS = 9
 _STANDING = 0.5
+_NO_GATES = np.zeros((0, 4))
 
 
 def plot_page(
-    result: Result, file: Path, title: str, rows: Sequence[tuple[str, str]], course: Course | None = None
+    result: Result, file: Path, title: str, rows: Sequence[tuple[str, str]], gates: NDArray[np.float64] | None = None
 ) -> None:
     """Draw the page.
 
@@ -34,12 +35,12 @@ def plot_page(
         PNG to be written.
     rows : sequence of (str, str)
         Summary shown beside the plots.
-    course : Course, optional
-        Gates drawn into the path.
+    gates : ndarray of shape (gates, 4), optional
+        Drawn into the path; first and last x, right and left y of each, m.
     """
     with plt.rc_context(STYLE):
         is_car = all(n in result for n in ("chassis.x", "chassis.y", "speed", "wheel_FL.Fz"))
-        figure = _car_page(result, rows, course) if is_car else _plain_page(result, rows)
+        figure = _car_page(result, rows, _NO_GATES if gates is None else gates) if is_car else _plain_page(result, rows)
         figure.suptitle(title, x=0.012, y=0.988, ha="left", va="top", fontsize=15, fontweight="bold")
         save_picture(figure, file)
 
@@ -88,7 +89,7 @@ _CAR_PANELS = (
 )
 
 
-def _car_page(result: Result, rows: Sequence[tuple[str, str]], course: Course | None) -> Figure:
+def _car_page(result: Result, rows: Sequence[tuple[str, str]], gates: NDArray[np.float64]) -> Figure:
     hidden = () if _has_stresses(result) else ("bending_moment.", "stress.")
     panels = [p for p in _CAR_PANELS if any(n in result and not n.startswith(hidden) for _, n, _ in p.lines)]
     lines = -(-len(panels) // 3)
@@ -97,7 +98,7 @@ def _car_page(result: Result, rows: Sequence[tuple[str, str]], course: Course | 
     engine: Any = figure.get_layout_engine()
     engine.set(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)
     grid = figure.add_gridspec(lines + 1, 3, height_ratios=(1.2, *[1.0] * lines))
-    _path(figure.add_subplot(grid[0, :2]), result, course)
+    _path(figure.add_subplot(grid[0, :2]), result, gates)
     _table(figure.add_subplot(grid[0, 2]), rows)
     first: Axes | None = None
     for k, panel in enumerate(panels):
@@ -153,22 +154,13 @@ def _plain_page(result: Result, rows: Sequence[tuple[str, str]]) -> Figure:
     return figure
 
 
-def _path(axes: Axes, result: Result, course: Course | None) -> None:
+def _path(axes: Axes, result: Result, gates: NDArray[np.float64]) -> None:
     x, y = result["chassis.x"], result["chassis.y"]
-    if course is not None:
-        for gate in course.gates:
-            axes.add_patch(
-                Rectangle(
-                    (gate.x_start, gate.y_right),
-                    gate.x_end - gate.x_start,
-                    gate.y_left - gate.y_right,
-                    facecolor="#f6e7c1",
-                    edgecolor="none",
-                )
-            )
-            cones = np.linspace(gate.x_start, gate.x_end, 6)
-            for edge in (gate.y_right, gate.y_left):
-                axes.plot(cones, np.full(6, edge), "^", color=ORANGE, markersize=5, zorder=3)
+    for first, last, right, left in gates:
+        axes.add_patch(Rectangle((first, right), last - first, left - right, facecolor="#f6e7c1", edgecolor="none"))
+        cones = np.linspace(first, last, 6)
+        for edge in (right, left):
+            axes.plot(cones, np.full(6, edge), "^", color=ORANGE, markersize=5, zorder=3)
     axes.plot(x, y, color=BLUE, linewidth=2.2, zorder=4)
     seconds = np.arange(0.0, result.time[-1] + 1e-9, max(1.0, np.ceil(result.time[-1] / 20.0)))
     marks = np.clip(np.searchsorted(result.time, seconds), 0, len(x) - 1)
@@ -176,8 +168,8 @@ def _path(axes: Axes, result: Result, course: Course | None) -> None:
     axes.annotate("start", (x[0], y[0]), textcoords="offset points", xytext=(0, 8), ha="center", color=BLUE)
     # A long course with small turns would be a needle on equal scales.
     width, height = max(float(np.ptp(x)), 4.0), float(np.ptp(y))
-    gates_y = [v for g in course.gates for v in (g.y_right, g.y_left)] if course is not None else []
-    low, high = min([float(y.min()), *gates_y]), max([float(y.max()), *gates_y])
+    reached = np.append(gates[:, 2:], y)
+    low, high = float(reached.min()), float(reached.max())
     stretched = height > 0.02 * width and high - low < 0.12 * width
     middle = 0.5 * float(x.min() + x.max())
     if not stretched:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from hosts.driving.co_simulation import Result
-from hosts.driving.course import Course
 from hosts.driving.senses import DEAR
 
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -25,19 +26,15 @@ _ADDED = "energy.added"  # of a car with elements that a user has added
 _ERROR = "solver.energy_error"
 
 
-def summary(
-    result: Result, step: float, course: Course | None = None, outline: tuple[float, float] = (0.0, 0.0)
-) -> list[tuple[str, str]]:
+def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ()) -> list[tuple[str, str]]:
     """Rows of the summary table; those whose variables the FMU lacks are left out.
 
     Parameters
     ----------
     step : float
         Communication step, s.
-    course : Course, optional
-        Gates to be passed.
-    outline : tuple of float
-        Length and width of the vehicle, m, for the gates.
+    course : sequence of (str, str)
+        Rows of `hosts.run.course_result.passed`, where a driver followed a course.
 
     Returns
     -------
@@ -77,9 +74,7 @@ def summary(
         lasting = 1e3 * np.diff(result.time)
         lift = "  ".join(f"{w} {lasting[f[1:] < _LIFT_FORCE].sum():.0f}" for w, f in loads.items())
         rows.append(("wheels in the air", f"{lift}  ms"))
-    if course is not None and "chassis.x" in result and "chassis.y" in result and "chassis.yaw" in result:
-        out = course.corners_outside(result["chassis.x"], result["chassis.y"], result["chassis.yaw"], *outline)
-        rows.append((course.name, f"passed, {-out:.2f} m to spare" if out <= 0.0 else f"missed by {out:.2f} m"))
+    rows += course
     moved = [name for name in result.late if np.ptp(result[name]) > 0.0]
     if moved:
         rows.append(("inputs held over a step", f"{', '.join(moved)}: {500.0 * step:.3g} ms late on average"))

@@ -10,7 +10,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.extras import missing_package
 from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, given_of
 from ali3.running import GOOD, NOT_GOOD, run_command
@@ -110,6 +109,8 @@ def _check(options: argparse.Namespace) -> None:
     """Options that do not go together, and packages that are missing."""
     for package in ("fmpy",) if options.headless else ("fmpy", "websockets"):
         if importlib.util.find_spec(package) is None:
+            from ali3.extras import missing_package
+
             raise HostError(missing_package(package))
     if not 0.0 < options.step <= 1.0:
         raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")

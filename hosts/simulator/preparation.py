@@ -21,7 +21,7 @@ from hosts.fmu.description_record import description_record
 from hosts.fmu.fmu import described
 from hosts.fmu.fmu_file import FoundFmu, find_fmu
 from hosts.fmu.geometry import scene_of
-from hosts.fmu.settings import Settings
+from hosts.fmu.settings import START_OF, Settings
 from hosts.fmu.variables import Variables
 from hosts.recordings.format import DESCRIPTION, check_new
 from hosts.simulator.drivable import not_drivable
@@ -207,12 +207,6 @@ def _settings(asked: Asked, aliases: Aliases, variables: Variables, world: World
     settings.add_numbers(start, f"the world {world.name}")
     if asked.manoeuvre is not None:
         manoeuvre = with_names_of(asked.manoeuvre, variables.names)
-        settings.add_numbers(manoeuvre.start, f"start of {manoeuvre.name}")
-    for file in asked.wishes.sets:
-        settings.add_set(file)
-    settings.add_texts(asked.wishes.values, "--set")
-    if asked.fidelity is not None:
-        if "fidelity" in dict(asked.wishes.values):
-            raise HostError("The fidelity is given by --fidelity and by --set; give it once.")
-        settings.add_numbers({"fidelity": asked.fidelity}, "--fidelity")
+        settings.add_numbers(manoeuvre.start, f"{START_OF}{manoeuvre.name}")
+    settings.add_wishes(asked.wishes, asked.fidelity)
     return settings

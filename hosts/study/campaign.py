@@ -8,7 +8,7 @@ import time as clock
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +18,16 @@ from ali3.errors import FileError
 from ali3.files import whole_file
 from ali3.locks import locked
 from hosts.common.errors import HostError
+from hosts.measures.limits import limits_record
 from hosts.study.folder import begin_study, check_same, free_space, read_record, write_record
-from hosts.study.limits import limits_record
 from hosts.study.parts import PartWriter, forget_failed, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.trial import Trial, bytes_of, try_out, with_columns
+
+if TYPE_CHECKING:
+    from hosts.study.signals import SignalWriter
 
 _MARGIN = 50e6  # bytes of the disk that are left to others
 _CHUNK_BYTES = 20e6  # of signals that come from a worker at once
@@ -236,10 +239,11 @@ def _make(
     from hosts.study.cluster import bring, connected, take_away
     from hosts.study.execution import Execution, SchedulerLostError
     from hosts.study.missing import ChunkSize, missing_runs
-    from hosts.study.signals import SignalWriter, make_store
 
-    signals = None
+    signals: SignalWriter | None = None
     if plan.work.signals:
+        from hosts.study.signals import SignalWriter, make_store
+
         for job in plan.work.jobs:
             if job.manoeuvre is not None:
                 make_store(folder, job, record)

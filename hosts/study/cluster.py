@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import os
 import shutil
-import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -23,9 +22,7 @@ from hosts.common.errors import HostError
 from hosts.study.plan import Plan
 from hosts.study.worker import StudyPlugin, why_wrong
 
-_PATIENCE = 20.0  # s for an answer of a scheduler
 _DEATHS = 1  # of workers by a chunk, until its runs are made in processes of their own
-_ENCRYPTED = ("tls://", "wss://")
 
 
 @contextmanager
@@ -46,7 +43,9 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
         Nobody answers there.
     """
     if scheduler is not None:
-        with _client(scheduler) as client:
+        from hosts.study.scheduler import client_of
+
+        with client_of(scheduler) as client:
             yield client
         return
     folder = _work_folder()
@@ -55,38 +54,6 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
             yield client
     finally:
         shutil.rmtree(folder, ignore_errors=True)
-
-
-def _client(address: str) -> Client:
-    _check_encryption(address)
-    try:
-        return Client(address, timeout=_PATIENCE, set_as_default=False)
-    except (OSError, ValueError) as error:
-        words = " ".join(str(error).split())
-        raise HostError(f"No scheduler of Dask answers at {address}: {words[:200]}") from None
-
-
-def _check_encryption(address: str) -> None:
-    """Refuse an address that does not go with the certificates of Dask's configuration; say where there are none."""
-    settings = Security()
-    if address.startswith(_ENCRYPTED):
-        try:
-            context = settings.get_connection_args("client")["ssl_context"]
-        except (OSError, ValueError) as error:
-            raise HostError(f"The certificates in the configuration of Dask cannot be used: {error}.") from None
-        if context is None:
-            raise HostError(
-                f"The scheduler {address} needs certificates, and the configuration of Dask has none: "
-                "distributed.comm.tls.ca-file, .client.cert and .client.key."
-            )
-    elif settings.require_encryption:
-        raise HostError(f"The configuration of Dask demands encryption; {address} has none, tls://... has.")
-    else:
-        print(
-            f"note: The scheduler {address} is used without TLS: whoever reaches it or its workers can run programs as "
-            "their user. The page on studies of the documentation says how certificates are set.",
-            file=sys.stderr,
-        )
 
 
 def _work_folder() -> Path:

@@ -65,31 +65,22 @@ def _study(options: argparse.Namespace, prog: str) -> int:
     ended = run_study(options.study, options.out, options.scheduler, options.jobs, options.dry_run, options.again)
     if ended is None:
         return 0
-    kept = _limits(ended.folder)
+    kept = _keeps_limits(ended.folder)
     if not options.no_report:
         _report(ended.folder)
     return 0 if ended.good and kept else NOT_GOOD
 
 
-def _limits(folder: Path) -> bool:
-    """Print and write which share of the runs keeps the limits of the study; whether all do."""
-    from hosts.study.limits import share_notes, share_rows, shares, write_shares
-    from hosts.study.store import read_study, study_record
+def _keeps_limits(folder: Path) -> bool:
+    from hosts.study.folder import read_record
 
-    if not study_record(folder).get("limits"):
-        for name in ("limits.csv", "limits.json"):  # of limits that are not asked for any more
-            (folder / name).unlink(missing_ok=True)
-        return True
-    frame = read_study(folder)
-    found = shares(frame)
-    rows = [("limits", "", "within", "share", "95 %"), *share_rows(found, frame.attrs)]
-    widths = [max(len(row[k]) for row in rows) for k in range(5)]
-    for row in rows:
-        print("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip())
-    for note in share_notes(found, frame.attrs):
-        print(note)
-    print(f"written: {' and '.join(map(str, write_shares(found, folder)))}")
-    return all(share.outside == 0 for share in found)
+    if (read_record(folder) or {}).get("limits"):
+        from hosts.study.limits_told import tell_limits
+
+        return tell_limits(folder)
+    for name in ("limits.csv", "limits.json"):  # of limits that are not asked for any more
+        (folder / name).unlink(missing_ok=True)
+    return True
 
 
 def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:

@@ -12,7 +12,6 @@ import numpy as np
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_file import SUFFIXES
 from hosts.driving.manoeuvres import manoeuvre_names
@@ -69,7 +68,10 @@ def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: Fmu | Alias
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
     try:
         check_columns(fmu, manoeuvre)
-        driver_of(fmu, manoeuvre)
+        if manoeuvre.driver:
+            from hosts.driving.driver import driver_of
+
+            driver_of(fmu, manoeuvre)
         step = communication_step(fmu, manoeuvre, study.step)
     except HostError as error:
         raise HostError(f"{where}: {error}") from None

@@ -15,7 +15,6 @@ from scipy.stats import binomtest
 
 from ali3.files import whole_file, write_text
 from hosts.common.display_units import shown_in
-from hosts.measures.limits import LimitEntry, limits_of
 from hosts.measures.measure import Limit
 from hosts.study.work import DONE, FAILED, MISSING
 
@@ -70,14 +69,6 @@ class Share:
         """Part of the runs that count, 0 to 1; NaN where none does."""
         count = self.within + self.outside
         return self.within / count if count else math.nan
-
-
-def limits_record(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], file: Path) -> dict[str, Any]:
-    """Limits by the columns of measures, in the units of these, for JSON; see `hosts.measures.limits.limits_of`."""
-    return {
-        column: {"min": _number(limit.lowest), "max": _number(limit.highest), "unit": columns[column]}
-        for column, limit in limits_of(entries, columns, file).items()
-    }
 
 
 def shares(frame: pd.DataFrame) -> list[Share]:

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,13 +16,15 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import Result, run
 from hosts.driving.derived_columns import derive_columns
-from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.fmu.aliased_fmu import seen_through
 from hosts.fmu.fmu import Fmu
 from hosts.measures.measure import Measure
 from hosts.study.job import Job
 from hosts.study.work import DONE, FAILED, INCOMPLETE, Outcome, Work
+
+if TYPE_CHECKING:
+    from hosts.driving.driver import Driver
 
 _MOST_NOTES = 3
 _MOST_MESSAGES = 5
@@ -83,7 +85,12 @@ class Bench:
         fmu, work = self._fresh(), self._work
         seen = seen_through(fmu, work.aliases)
         manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
-        result = run(seen, manoeuvre, job.step, driver_of(seen, manoeuvre))
+        driver: Driver | None = None
+        if manoeuvre.driver:
+            from hosts.driving.driver import driver_of
+
+            driver = driver_of(seen, manoeuvre)
+        result = run(seen, manoeuvre, job.step, driver)
         derive_columns(result, work.aliases)
         outcome = _of_result(result, job)
         if job.every:

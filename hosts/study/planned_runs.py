@@ -15,7 +15,7 @@ from hosts.fmu.variables import Variable
 from hosts.study.job import Job
 from hosts.study.jobs import jobs_of
 from hosts.study.parameters import parameter_of
-from hosts.study.points import Points, sampled_points, table_points
+from hosts.study.points import Points, sampled_points
 from hosts.study.study_file import StudyFile, read_study_file
 
 
@@ -93,6 +93,8 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: Fmu | AliasedFmu) ->
     for name, value in study.start.items():
         variable_of(name, f"{file}: start").check(value, f"{file}: start")
     if study.sampling.method == "table":
+        from hosts.study.table_points import table_points
+
         assert study.sampling.file is not None
         table = table_points(file.parent / study.sampling.file, variable_of, study.parameters)
         names = list(table.block(0, 0))

@@ -9,7 +9,6 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ali3.reading import LARGEST_TOML, read_bytes, toml_of
-from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
 from hosts.measures.limits import LimitEntry, Number
 
@@ -157,6 +156,8 @@ def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
     try:
         return StudyFile.model_validate(record), content
     except ValidationError as error:
+        from ali3.typed_sentences import Sentences
+
         raise HostError(f"{file}: {Sentences(StudyFile, record, place=_place).of(error)[0]}") from None
 
 

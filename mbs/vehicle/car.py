@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from ali3.typed_sentences import Sentences
 from ali3.words import one_line
 from mbs.common.errors import ModelError
 from mbs.elements.road import Road
@@ -30,7 +29,6 @@ from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.frame_joints import JointFinder
 from mbs.vehicle.chassis.frame_mass import check_mass
 from mbs.vehicle.chassis.ground_contact import ground_contact
-from mbs.vehicle.chassis.stress_scene import flexible_part
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import settled
 from mbs.vehicle.checks.working import working_ranges
@@ -56,7 +54,6 @@ from mbs.vehicle.shapes.car_shapes import car_shapes, tabled_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering.steered import Steered
-from mbs.vehicle.tabled_axle import tabled_axle
 from mbs.vehicle.tyre_by_file import MagicFormula
 
 MOST_FAULTS = 8
@@ -204,6 +201,8 @@ class Car(CarContent):
     @cached_property
     def flexible_parts(self) -> list[dict[str, Any]]:
         """The list `flexible` of the scene of the car: its frame, deformed and coloured by stress."""
+        from mbs.vehicle.chassis.stress_scene import flexible_part
+
         return flexible_part(self.flexible_frame, self.model(fidelity=Fidelity.DYNAMIC), self.vehicle.reference_point)
 
     def _builder(self, road: Road | RoadFile | None) -> CarBuilder:
@@ -240,6 +239,8 @@ class Car(CarContent):
                 f"{self.steering.key('kind')} is '{self.steering.kind}', whose rack is a body: the suspensions have no "
                 f"tables, fidelity {Fidelity.TABLE.value}, with it. Take 'rack_by_angle' or fidelity 0."
             )
+        from mbs.vehicle.tabled_axle import tabled_axle
+
         yield steered, tabled_axle(b, self, "front", steered.travel(), self.brakes.build)
         yield steered, tabled_axle(b, self, "rear", None, self.brakes.build)
 
@@ -331,6 +332,8 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
     try:
         car = Car.model_validate(data)
     except ValidationError as error:
+        from ali3.typed_sentences import Sentences
+
         raise CarFileError(_told(what, Sentences(Car, data, FORMS, NAME_WORDS).of(error))) from None
     car.locate("")
     car._folder = folder

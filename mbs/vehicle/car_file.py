@@ -10,7 +10,6 @@ from ali3.reading import read_toml
 from mbs.common.checks import shown
 from mbs.vehicle.car import Car, car_from
 from mbs.vehicle.errors import CarFileError, CarWarning
-from mbs.vehicle.linkages.free_travel import notes_without_stops
 
 FILE = "car.toml"
 CARS = Path(__file__).parent / "cars"
@@ -50,8 +49,11 @@ def load(car: str | Path) -> Car:
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
     path = file_of(car)
     found = car_from(read_toml(path, CarFileError), path.parent, str(path), warn=True)
-    for sentence in notes_without_stops(found):
-        warnings.warn(f"{path}: {sentence}", CarWarning, stacklevel=2)
+    if found.front.stops is None or found.rear.stops is None:
+        from mbs.vehicle.linkages.free_travel import notes_without_stops
+
+        for sentence in notes_without_stops(found):
+            warnings.warn(f"{path}: {sentence}", CarWarning, stacklevel=2)
     return found
 
 

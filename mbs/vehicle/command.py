@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.errors import UserError
-from ali3.extras import command_needs
 from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
@@ -49,6 +48,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
 
 
 def _kinematics(options: argparse.Namespace) -> int:
+    from ali3.extras import command_needs
     from mbs.common.errors import ModelError
 
     command_needs("hosts")

@@ -22,12 +22,29 @@ TABLES = {
 DRIVER = {"a manoeuvre's driver": "hosts.driving.driver"}
 NEW_ROAD = {"--road": "hosts.common.road"}
 ALIASES = {"--aliases": "hosts.fmu.aliases.file", "from = FORMULA": "hosts.fmu.aliases.formulas"}
+EVERY = {"a package is missing": "ali3.extras"}
+TYPED = {"a fault in a file": "ali3.typed_sentences"}
 WAYS = {
-    "build": {"--kernel": "mbs.kernel.build"},
-    "car": {"--kinematics": "mbs.vehicle.kinematics.report"},
-    "run": {**CAR, **RECORDING, **PARAMETERS, **TABLES, **DRIVER, **NEW_ROAD, "--kerb": "hosts.run.kerb"},
-    "view": {"RESULT": "hosts.view.show", "--live": "hosts.view.live", **PARAMETERS},
+    "build": {**EVERY, "--kernel": "mbs.kernel.build"},
+    "car": {
+        **EVERY,
+        **TYPED,
+        "FOLDER": "mbs.vehicle.copy_car",
+        "--kinematics": "mbs.vehicle.kinematics.report",
+        "tyre.kind magic_formula": "mbs.tyre_files",
+        "frame.kind nastran": "mbs.flexible.read_nastran",
+        "frame.kind calculix": "mbs.flexible.read_calculix",
+        "frame.kind matrices": "mbs.flexible.external_model",
+        "a mesh": "viewer.mesh_file",
+        "a road file": "mbs.roads.description",
+        "fidelity by tables": "mbs.vehicle.tabled_axle",
+        "stresses that are drawn": "mbs.vehicle.chassis.stress_scene",
+        "an axle without stops": "mbs.vehicle.linkages.free_travel",
+    },
+    "run": {**EVERY, **CAR, **RECORDING, **PARAMETERS, **TABLES, **DRIVER, **NEW_ROAD, "--kerb": "hosts.run.kerb"},
+    "view": {**EVERY, "RESULT": "hosts.view.show", "--live": "hosts.view.live", **PARAMETERS},
     "simulator": {
+        **EVERY,
         **CAR,
         **RECORDING,
         **ALIASES,
@@ -39,6 +56,7 @@ WAYS = {
         "wheels and gamepads": "hosts.simulator.devices",
     },
     "check": {
+        **EVERY,
         **CAR,
         **RECORDING,
         **PARAMETERS,
@@ -46,22 +64,29 @@ WAYS = {
         "--show-parameters": "hosts.check.parameters",
         "--soak": "hosts.soak.soak",
     },
-    "catalogue": {**CAR, **ALIASES},
-    "compare": {**CAR, **ALIASES},
+    "catalogue": {**EVERY, **CAR, **ALIASES},
+    "compare": {**EVERY, **CAR, **ALIASES},
     "study": {
+        **EVERY,
         **CAR,
         **RECORDING,
         **ALIASES,
         **TABLES,
+        **DRIVER,
+        **TYPED,
+        "[limits]": "hosts.study.limits_told",
+        "[signals]": "hosts.study.signals",
+        "method = table": "hosts.study.table_points",
+        "--scheduler": "hosts.study.scheduler",
         "test = NAME": "hosts.study.catalogue_tests",
         "--target": "hosts.study.target",
         "FILE.py:FUNCTION": "hosts.study.measures.user_function",
         "--run": "hosts.study.repeat",
         "--report": "hosts.study.analysis.report",
     },
-    "road": {"INPUT": "mbs.worlds.road", "--world": "mbs.worlds.world"},
+    "road": {**EVERY, "INPUT": "mbs.worlds.road", "--world": "mbs.worlds.world"},
 }
-"""What some commands do besides, or instead: the module of it, which others need not read."""
+"""What commands do besides, or instead, where an option, a file or a fault asks for it: the module of it."""
 
 
 def lines_of(module: str) -> int:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from hosts.study.points import TablePoints, digest
+from hosts.study.points import digest
+from hosts.study.table_points import TablePoints
 
 
 @pytest.mark.parametrize("row", [0, 500, 999])
