@@ -42,7 +42,10 @@ FINER = 4.0
 """How much finer the second run is at least: two of the same tolerance show no error."""
 AGAIN, MOST_AT_ONCE = 0.5, 1e-3
 """What a further run aims at in parts of the tolerance, and by how much it may be finer than the last."""
-MOST_RUNS, LEAST = 4, 1e-13
+FAR, ONCE = 0.1, 1.0 / 3.0
+"""Distance of two runs beyond which it says nothing of the finer one; largest guess by a single pair of runs that is
+accepted where errors grow, in parts of the tolerance: two coarse runs may be off alike."""
+MOST_RUNS, LEAST = 5, 1e-13
 DEFAULT_TOLERANCE = 1e-3
 """Of runs in equal steps that are chosen."""
 RECORDED = 200  # intervals where none is said
@@ -61,9 +64,10 @@ def to_tolerance(
     """Sensor values at `times` (n,), the first of them the start, with an error of positions of about the tolerance,
     and where it ended.
 
-    A coarse run and a finer one give the error of the latter: errors fall about as what their steps err. Where it is
-    larger than it should be, since the motion lets errors grow, a third and a fourth run are made with what is then
-    known of that growth; a third also where a loop left its assembly mode, which the motion may do or a step.
+    A coarse run and a finer one give the error of the latter: errors fall about as what their steps err, unless the two
+    runs are far apart. Where it is larger than it should be, since the motion lets errors grow, up to three more runs
+    are made with what is then known of that growth; one also where a loop left its assembly mode, which the motion may
+    do or a step.
     """
     first = start()
     t0, t_end = float(times[0]), float(times[-1])
@@ -95,16 +99,20 @@ def to_tolerance(
             break  # a finer run than the last is beyond round-off
         run = made
         runs, wall = runs + 1, wall + run.wall
-        error = run.distance(before) * _fall(run, before)
+        apart = run.distance(before)
+        guess = apart * _fall(run, before)
+        error = apart if apart > FAR else guess
         if error == 0.0 and longest == 1.0:
             # the longest steps were fine enough both times, so the runs are the same and show no error
             before, longest = run, SHORTER
             continue
         unsure = number == 1 and run.simulation.branch_change  # two runs may have jumped alike
-        if (error <= tolerance and not unsure) or aim <= LEAST:
+        grows = number == 1 and apart > before.fields.error_sum
+        if (error <= (ONCE if grows else 1.0) * tolerance and not unsure) or aim <= LEAST:
             break
         before = run
-        aim = max(LEAST, aim * min(0.1 if unsure else 1.0, max(MOST_AT_ONCE, AGAIN * tolerance / error)))
+        finer = min(0.1 if unsure else 1.0 / FINER, AGAIN * tolerance / max(guess, tolerance))
+        aim = max(LEAST, aim * max(MOST_AT_ONCE, finer))
     assert run is not None
     c = run.fields
     control = Control(

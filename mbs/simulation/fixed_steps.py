@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from mbs.common.progress import progress_for
 from mbs.results import accuracy
@@ -37,8 +38,12 @@ def fixed_step_run(
     made: list[SteppedSystem] = []
     found: Accuracy | None = None
 
-    def march_from_start(step: float, every: int, progress: Callable[[float], None], look: bool) -> repeat.Run:
+    def march_from_start(
+        step: float, every: int, progress: Callable[[float], None], look: bool, iterations: int = 0
+    ) -> repeat.Run:
         simulation = start(step)
+        if iterations:
+            simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
         made.append(simulation)
         return march(simulation, t_end, step, inputs, every, progress, look, wanted)
 

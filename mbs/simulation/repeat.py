@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -10,13 +11,14 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
-from mbs.results.accuracy import Accuracy
+from mbs.results.accuracy import Accuracy, Glance
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
+FEWEST = 10  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 
 
@@ -29,8 +31,8 @@ class Repeats:
     run : tuple of Trajectory and list of ndarray
         The first run, and its coordinates where they are compared in place of sensors.
     march : callable
-        Makes a run of a step, s, the steps from one sample to the next, what takes its progress from 0 to 1, and
-        whether coordinates are kept.
+        Makes a run of a step, s, the steps from one sample to the next, what takes its progress from 0 to 1, whether
+        coordinates are kept, and most Newton iterations of a step (0: as the settings say).
     h : float
         Step of the first run, s.
     every : int
@@ -48,11 +50,13 @@ class Repeats:
         Step of the last repeat, s.
     left_alone : bool
         Whether only the first run changed the assembly mode of a loop.
+    groups : dict of str to list of str
+        Names of what is compared, by unit.
     """
 
     system: System
     run: Run
-    march: Callable[[float, int, Callable[[float], None], bool], Run]
+    march: Callable[[float, int, Callable[[float], None], bool, int], Run]
     h: float
     every: int
     update: Callable[[float], None]
@@ -60,23 +64,25 @@ class Repeats:
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
-        self._groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
+        self.groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
 
-    def coarser(self) -> Accuracy | None:
-        """By a run with twice the step; None where that is longer than the run, does not end, or ends elsewhere."""
-        coordinates, even = bool(self.run[1]), self.every % 2 == 0
-        if (coordinates and not even) or self.run[0].t[-1] - self.run[0].t[0] < 1.5 * self.h:
+    def coarser(self, glance: Glance) -> Accuracy | None:
+        """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere."""
+        coordinates, together = bool(self.run[1]), math.gcd(self.every, glance.times)
+        thin, h = glance.times // together, glance.times * self.h
+        long_enough = self.run[0].t[-1] - self.run[0].t[0] >= h - 0.5 * self.h
+        enough = glance.times == 2 or (len(self.run[0].t) - 1) // thin >= FEWEST
+        if (coordinates and thin > 1) or not (long_enough and enough):
             return None
-        every = self.every // 2 if even else self.every
         try:
-            twin = self._again(2.0 * self.h, every, 0.5)
+            twin = self._again(h, self.every // together, 1.0 / glance.times, glance.iterations)
         except SimulationError:
             return None
-        run = self.run if even else (self.run[0].thinned(2), [])
+        run = self.run if thin == 1 else (self.run[0].thinned(thin), [])
         shared = min(len(run[0].t), len(twin[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(twin[1]) != len(run[1])):
             return None
-        return self._compared(run, twin, 2.0 * self.h, 0.5)
+        return self._compared(run, twin, h, 1.0 / glance.times)
 
     def finer(self, parts: int) -> Accuracy:
         """By a run whose steps are shorter by so many times.
@@ -93,13 +99,17 @@ class Repeats:
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""
-        return accuracy.error_text(known, self._ranges, self._groups)
+        return accuracy.error_text(known, self._ranges, self.groups)
 
-    def _again(self, h: float, every: int, cost: float) -> Run:
+    def _again(self, h: float, every: int, cost: float, iterations: int = 0) -> Run:
         before, self.tried = 1.0 + self.cost, h
         self.cost += cost
         whole = 1.0 + self.cost
-        return self.march(h, every, lambda done: self.update((before + cost * done) / whole), bool(self.run[1]))
+
+        def update(done: float) -> None:
+            self.update((before + cost * done) / whole)
+
+        return self.march(h, every, update, bool(self.run[1]), iterations)
 
     def _compared(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
         """The error of the first run; `ratio` is its step over the other's, below 1 where the other is coarser."""
@@ -111,11 +121,11 @@ class Repeats:
         if seen:
             angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
             names = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
-            self._groups = {accuracy.COORDINATES: list(names)}
+            self.groups = {accuracy.COORDINATES: list(names)}
             tables = [{n: np.array(s)[:, i] for n, i in names.items()} for s in (seen, seen_again)]
-            units, sensors, ranges = accuracy.differences(tables[0], tables[1], self._groups, self.extents)
+            units, sensors, ranges = accuracy.differences(tables[0], tables[1], self.groups, self.extents)
         else:
-            units, sensors, ranges = accuracy.differences(run, again, self._groups, self.extents)
+            units, sensors, ranges = accuracy.differences(run, again, self.groups, self.extents)
         self._ranges = ranges
         reports = (run.report, again.report) if ratio > 1.0 else (again.report, run.report)
         order = float(METHOD_TABLE[run.settings.method].order)
@@ -135,8 +145,8 @@ class Repeats:
 def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
-    A run that is not plainly smooth is compared with one of twice the step, which costs half as much. Where they differ
-    it is repeated with half the step, and where that leaves the verdict near its limit, with a quarter. With
+    A run that is not plainly smooth is compared with ones of four times and twice the step. Where they differ it is
+    repeated with half the step, and where that leaves the verdict near its limit, with a quarter. With
     `Repeats.extents` only half the step is tried.
 
     Parameters
@@ -158,9 +168,13 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     if len(run[0].t) < 2 or not (always or doubt):
         return known
     if not (always or once) and doubt == accuracy.SCREEN:
-        screened = repeats.coarser()
-        if screened is not None and accuracy.is_fine(screened, method):
-            return screened
+        for glance in accuracy.glances(run[0].settings, repeats.groups):
+            screened = repeats.coarser(glance)
+            apart = math.inf if screened is None else accuracy.difference_from(screened, method, glance)
+            if screened is not None and apart <= glance.difference:
+                return screened
+            if screened is not None and apart > accuracy.HOPELESS:
+                break
     parts = accuracy.divisor(report.steps, report.halvings)
     try:
         known = repeats.finer(parts)
@@ -176,7 +190,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
             text = f"The error of the run is not known: in a repeat with steps of {repeats.tried:g} s {error}"
         return replace(known, repeat_cost=repeats.cost, message=text)
     branch = run[0].branch_change if repeats.left_alone else ""
-    if known.error is None or known.error <= accuracy.WRONG_ERROR:
+    if known.error is None or known.error <= accuracy.WARNED_ERROR:
         return replace(known, branch=branch)
     said = [repeats.text(known)]
     if accuracy.balance_says(report, method, driven):

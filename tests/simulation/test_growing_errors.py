@@ -1,0 +1,43 @@
+"""Runs to a tolerance of motions in which errors grow: two runs that are far apart, or off alike, say nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import mbs
+from benchmarks.methods import random_mechanisms
+
+TOLERANCE = 1e-2
+
+
+def chain(seed: int, number: int) -> tuple[mbs.System, float]:
+    """Three bars hung on each other, a case of `benchmarks.honesty --random`, and its duration, s."""
+    rng = np.random.default_rng([seed, number])
+    rng.random()  # which decides between mechanism and car
+    kind, drawing = random_mechanisms.drawing(rng)
+    assert kind == "chain"
+    return mbs.compile(random_mechanisms.model_of(drawing)), drawing.span
+
+
+@pytest.mark.parametrize(
+    ("seed", "number"),
+    [
+        pytest.param(2, 204, id="two coarse runs are off alike"),  # 11 tolerances off, guessed as 0.6
+        pytest.param(5, 12, id="two runs are too far apart"),  # 48 tolerances off, guessed as 0.9
+    ],
+)
+def test_the_error_of_a_chain_is_within_ten_tolerances(seed: int, number: int) -> None:
+    system, span = chain(seed, number)
+    times = np.linspace(0.0, span, 51)
+    run, true, other = (
+        mbs.simulate(system, span, times=times, tolerance=tolerance, method=method, progress=False)
+        for method, tolerance in ((None, TOLERANCE), ("runge_kutta_8", 1e-9), ("radau_5", 1e-7))
+    )
+    assert run.control is not None
+    places = [name for name in run.units if name.startswith("tip")]
+    sure = max(np.abs(true[n] - other[n]).max() for n in places) / run.control.length
+    assert sure < 0.01 * TOLERANCE
+    error = max(np.abs(run[n] - true[n]).max() for n in places) / run.control.length
+    assert error < 10.0 * TOLERANCE
+    assert run.control.kept
