@@ -55,7 +55,7 @@ def at_hubs(time: float, now: Mapping[str, float]) -> Given:
     for k, w in enumerate(WHEELS):
         height, rate = now.get(f"wheel_{w}.earth_z", 0.3), now.get(f"wheel_{w}.earth_vz", 0.0)
         load = max(0.0, 3800.0 + 2e5 * (0.3 - height) - 3e3 * rate)
-        hub = {"Fx": 20.0 * k, "Fy": 100.0 * math.sin(2.0 * time), "Fz": load, "Mx": 3.0, "My": 1.0, "Mz": 2.0 * k}
+        hub = {"Fx": 20.0 * k, "Fy": 400.0 * math.sin(2.0 * time), "Fz": load, "Mx": 3.0, "My": 1.0, "Mz": 2.0 * k}
         given |= {f"wheel_{w}.hub_{name}": value for name, value in hub.items()}
     return given
 
