@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -14,7 +15,7 @@ from ali3.files import reason
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu import instance
-from hosts.fmu.scalars import Place
+from hosts.fmu.scalars import Place, element_names, scalars
 
 
 @dataclass(frozen=True)
@@ -48,13 +49,19 @@ class Subject:
         Communication steps per run.
     step : float
         Communication step, s.
+    by_elements : ModelDescription
+        The description with elements of arrays as variables of their own.
+    places : mapping of str to Place
+        Where the value of each of these stands.
     start : mapping of str to float, int, bool or str
-        What is set in each instance before it starts.
+        What is set in each instance before it starts; elements of arrays by their names.
     """
 
     path: Path
     folder: Path
     description: ModelDescription
+    by_elements: ModelDescription
+    places: Mapping[str, Place]
     steps: int
     step: float
     start: Mapping[str, Value] = field(default_factory=dict)
@@ -72,19 +79,15 @@ class Subject:
 
     @property
     def inputs(self) -> list[ScalarVariable]:
-        """Inputs that are real numbers without dimensions."""
-        return [
-            v
-            for v in self.description.modelVariables
-            if v.causality == "input" and v.type in _REAL and not v.dimensions
-        ]
+        """Inputs that are real numbers, those of arrays by their elements."""
+        return [v for v in self.by_elements.modelVariables if v.causality == "input" and v.type == "Real"]
 
 
 _REAL = ("Real", "Float64")
 _WHOLE = ("Integer", "Int32")
 
 
-def _count(variable: ScalarVariable) -> int:
+def count_of(variable: ScalarVariable) -> int:
     return math.prod(variable.shape or ())
 
 
@@ -97,7 +100,7 @@ class Instance(instance.Instance):
         self.subject = subject
         self.messages: list[str] = []
         super().__init__(
-            subject.description,
+            subject.by_elements,
             subject.folder,
             name,
             lambda status, category, text: self.messages.append(text),
@@ -107,9 +110,7 @@ class Instance(instance.Instance):
 
     def start(self, start_time: float = 0.0, stop_time: float | None = None) -> Instance:
         """Set what is to be set and leave initialisation."""
-        variables = {v.name: v for v in self.subject.description.modelVariables}
-        start = {Place(variables[n].valueReference, variables[n].type): x for n, x in self.subject.start.items()}
-        self.initialise(start, start_time, stop_time)
+        self.initialise({self.subject.places[n]: x for n, x in self.subject.start.items()}, start_time, stop_time)
         return self
 
     def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
@@ -120,14 +121,14 @@ class Instance(instance.Instance):
         for members, two, three in ((real, "getReal", "getFloat64"), (whole, "getInteger", "getInt32")):
             references = [v.valueReference for v in members]
             if references and self.three:
-                values += getattr(self.slave, three)(references, sum(map(_count, members)))
+                values += getattr(self.slave, three)(references, sum(map(count_of, members)))
             elif references:
                 values += getattr(self.slave, two)(references)
         return values
 
     def set_input(self, variable: ScalarVariable, value: float) -> None:
-        """Set one real input."""
-        self.set({Place(variable.valueReference, variable.type): value})
+        """Set one of `Subject.inputs`."""
+        self.set({self.subject.places[variable.name]: value})
 
     def run(self, steps: int, begin: int = 0) -> list[list[float]]:
         """Outputs after each step."""
@@ -161,4 +162,7 @@ def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value
         raise HostError(f"{path} is no co-simulation FMU of FMI 2.0 or 3.0.")
     experiment = description.defaultExperiment
     step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
-    return Subject(path, folder, description, steps, step, start)
+    by_elements = copy.copy(description)
+    arrays = any(v.dimensions for v in description.modelVariables)
+    by_elements.modelVariables, places = scalars(description, element_names(path) if arrays else {})
+    return Subject(path, folder, description, by_elements, places, steps, step, start)

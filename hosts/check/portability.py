@@ -7,7 +7,7 @@ from collections import Counter
 from ctypes import byref, c_bool, c_double, c_int, c_void_p
 from xml.etree import ElementTree
 
-from hosts.check.instance import Finding, Instance, Subject
+from hosts.check.instance import Finding, Instance, Subject, count_of
 
 # Names whose last part says that the value is a whole number.
 _COUNTS = ("iterations", "factorizations", "halvings", "status", "gear", "fidelity")
@@ -113,22 +113,26 @@ def dependencies(subject: Subject) -> Finding:
         u.variable.name: None if u.dependencies is None else {v.name for v in u.dependencies}
         for u in subject.description.outputs
     }
-    outputs = [v for v in subject.outputs if v.type in ("Real", "Float64") and not v.dimensions]
+    outputs = [v for v in subject.outputs if v.type in ("Real", "Float64")]
+    names_of_slopes = [v.name for v in outputs for _ in range(count_of(v))]
+    whole = {v.valueReference: v.name for v in subject.description.modelVariables}
     instance = Instance(subject).start()
     instance.run(max(2, subject.steps // 2))
     for known in subject.inputs:
-        arguments = ([v.valueReference for v in outputs], [known.valueReference], [1.0])
+        place = subject.places[known.name]
+        seed = [float(k == place.item) for k in range(place.size)]
+        arguments = ([v.valueReference for v in outputs], [place.reference], seed)
         try:
             if subject.three:
-                slopes = instance.slave.getDirectionalDerivative(*arguments, len(outputs))
+                slopes = instance.slave.getDirectionalDerivative(*arguments, len(names_of_slopes))
             else:
                 slopes = instance.slave.getDirectionalDerivative(*arguments)
         except Exception as error:
             return Finding("dependencies", "note", f"no derivative by {known.name}: {error}")
-        for v, slope in zip(outputs, slopes, strict=True):
-            names = declared.get(v.name)
-            if slope != 0.0 and names is not None and known.name not in names:
-                words = f"{v.name} has a derivative by {known.name}, on which it is said not to depend"
+        for name, slope in zip(names_of_slopes, slopes, strict=True):
+            names = declared.get(name)
+            if slope != 0.0 and names is not None and whole[place.reference] not in names:
+                words = f"{name} has a derivative by {known.name}, on which it is said not to depend"
                 return Finding("dependencies", "bad", words)
     return Finding("dependencies", "good", "outputs have derivatives only by inputs they are said to depend on")
 

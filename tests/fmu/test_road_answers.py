@@ -57,8 +57,6 @@ def test_a_normal_that_is_none_holds_the_last_one_with_one_warning(host, sledge)
 def test_derivatives_that_lead_a_normal_astray_name_the_port(host, sledge) -> None:
     """Asked again it wishes the end; without the derivative the step passes."""
     h = host(sledge).start(LEVEL)
-    if h.description.fmiVersion.startswith("3"):
-        pytest.skip("FMI 3.0 for Co-Simulation has no derivatives of inputs here")
     before = h.get("x")
     for told in ("was refused, the state", "was refused again, the state"):
         assert slope(h, "road_normal_z", 1, -50.0) == OK
@@ -138,8 +136,6 @@ def test_derivatives_by_answers_are_those_of_differences(host, sledge) -> None:
         h.step(0.01 * k, 0.01)
     references = {v.name: v.valueReference for v in h.description.modelVariables}
     wanted = [references[n] for n in ("z", "x", "vx", "road_ahead_x")]
-    if h.description.fmiVersion.startswith("3"):
-        pytest.skip("FMPy has the same call under another name there")
     found = h.slave.getDirectionalDerivative(wanted, [references["road_height"]], [1.0])
     assert 0.0 < found[0] < 1.0
     assert found[3] == pytest.approx(found[1] + 0.01 * found[2], abs=1e-12)

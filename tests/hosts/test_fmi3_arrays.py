@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from fmu_src.native.sources import HERE as FMI_HEADERS
+from hosts.check.command import main as check
+from hosts.check.instance import Instance, open_subject
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu
 from hosts.run.command import main as run_command
@@ -206,3 +208,24 @@ def test_a_table_at_an_interval_repeats_its_run_or_says_that_it_does_not(fmu: Pa
     assert again.returncode == 0, again.stderr
     (repeated,) = (tmp_path / "again").glob("*.csv")
     assert repeated.read_text().splitlines()[1:] == results["stays"].read_text().splitlines()[1:]
+
+
+def test_checks_drive_elements_of_inputs(fmu: Path, tmp_path: Path) -> None:
+    """Values before the start, strong inputs, NaN and derivatives reach each element."""
+    hidden = '<Output valueReference="7" dependencies=""/>'
+    silent = described_as(fmu, tmp_path, {'<Output valueReference="7"/>': hidden})
+    lines = {}
+    for path in (fmu, silent):
+        done = run(check, path, "--steps", 5, "--set", "A[2,1]=-9", "--set", "u[2]=4")
+        assert "set  A[2,1]                  -4 -> -9 (--set)" in done.stdout
+        lines[path] = {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in done.stdout.splitlines()}
+    assert lines[fmu]["runs"] == "ok 5 steps of 0.01 s, 2 outputs move"
+    assert "NaN for an input" in lines[fmu]["refusals"]
+    assert lines[fmu]["refused steps"] == "BAD a refused step at 0 s can be asked for without end"
+    assert lines[fmu]["dependencies"].startswith("ok outputs have derivatives only by inputs")
+    assert lines[silent]["dependencies"] == "BAD y has a derivative by u[1], on which it is said not to depend"
+    subject = open_subject(fmu, tmp_path / "open", 5, {"A[2,1]": -9.0, "u[2]": 4.0})
+    assert [v.name for v in subject.inputs] == ["u[1]", "u[2]", "u[3]"]
+    found = np.array(Instance(subject).start().run(5))
+    expected = motion(np.tile([1.0, 4.0, 3.0], (5, 1)), np.array([[0.0, 1.0], [-9.0, -0.4]]))[1:]
+    assert np.abs(found - expected).max() < 1e-8

@@ -1,5 +1,6 @@
 /* A linear model whose matrices, inputs and switches are arrays of FMI 3.0: x' = A x + B (u where on), y = gain x. Each
- * setter wants whole arrays, as the standard says, and so refuses any other count of values. */
+ * setter wants whole arrays, as the standard says, and so refuses any other count of values. A step with an input of
+ * 100 or more is discarded. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +9,7 @@
 enum { N = 2, M = 3, PARTS = 1000 };
 
 typedef struct {
-  double time, u[M], A[N * N], B[N * M], x[N];
+  double time, length, u[M], A[N * N], B[N * M], x[N];
   int32_t gain[N];
   bool on[M];
 } model;
@@ -99,12 +100,8 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetBoolean)(fmi3Instance s, const fmi3Value
   return fmi3OK;
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3DoStep)(fmi3Instance instance, fmi3Float64 time, fmi3Float64 length,
-                                             fmi3Boolean no_return, fmi3Boolean *event, fmi3Boolean *ends,
-                                             fmi3Boolean *early, fmi3Float64 *last) {
-  model *s = instance;
+static void advance(model *s, double length) {
   const double h = length / PARTS;
-  (void)no_return;
   for (int k = 0; k < PARTS; k++) { /* the midpoint rule */
     double xd[N], mid[N];
     rates(s, s->x, xd);
@@ -112,8 +109,34 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3DoStep)(fmi3Instance instance, fmi3Float64 
     rates(s, mid, xd);
     for (int i = 0; i < N; i++) s->x[i] += h * xd[i];
   }
-  s->time = *last = time + length;
+}
+
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3DoStep)(fmi3Instance instance, fmi3Float64 time, fmi3Float64 length,
+                                             fmi3Boolean no_return, fmi3Boolean *event, fmi3Boolean *ends,
+                                             fmi3Boolean *early, fmi3Float64 *last) {
+  model *s = instance;
+  (void)no_return;
+  *last = time;
   *event = *ends = *early = false;
+  for (int j = 0; j < M; j++)
+    if (s->u[j] >= 100.0) return fmi3Discard;
+  advance(s, length);
+  s->length = length;
+  s->time = *last = time + length;
+  return fmi3OK;
+}
+
+/* Of y by u over the last step: as the model is linear, what that step makes of rest under the seed. */
+FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetDirectionalDerivative)(fmi3Instance instance, const fmi3ValueReference *of,
+                                                               size_t count, const fmi3ValueReference *by, size_t known,
+                                                               const fmi3Float64 *seed, size_t seeds,
+                                                               fmi3Float64 *found, size_t size) {
+  if (count != 1 || of[0] != 7 || known != 1 || by[0] != 1 || seeds != M || size != N) return fmi3Error;
+  model s = *(const model *)instance;
+  memset(s.x, 0, sizeof s.x);
+  memcpy(s.u, seed, sizeof s.u);
+  advance(&s, s.length);
+  for (int i = 0; i < N; i++) found[i] = s.gain[i] * s.x[i];
   return fmi3OK;
 }
 
@@ -154,7 +177,6 @@ NONE(fmi3GetBoolean)
 NONE(fmi3GetClock)
 NONE(fmi3GetContinuousStateDerivatives)
 NONE(fmi3GetContinuousStates)
-NONE(fmi3GetDirectionalDerivative)
 NONE(fmi3GetEventIndicators)
 NONE(fmi3GetFloat32)
 NONE(fmi3GetInt16)
