@@ -16,7 +16,7 @@ void ali3_tabled_moments(const double *m, const real *x, real *out) {
   }
 }
 
-static real product(const real *a, const real *b) {
+static real inner(const real *a, const real *b) {
   real sum = {0};
   for (int i = 0; i < 12; i++) sum += a[i] * b[i];
   return sum;
@@ -47,7 +47,7 @@ void ali3_tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3
   for (int p = 0; p < n_par; p++) {
     ali3_tabled_moments(c->mass, w->value[ALI3_BY_A + p], by[p]);
     gather(w->value[0], by[p], in->tabled_parameter[c->along[p]].own);
-    for (int o = 0; o <= p; o++) w->inertia[p + o] = product(w->value[ALI3_BY_A + o], by[p]);
+    for (int o = 0; o <= p; o++) w->inertia[p + o] = inner(w->value[ALI3_BY_A + o], by[p]);
   }
   for (int k = 0; n_par == 2 && k < 3; k++) {
     const int l = (k + 1) % 3;
@@ -73,7 +73,7 @@ void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out) {
       const int32_t column = S->tabled_parameter[p].column;
       const real *turned = in->tabled_parameter[p].turned, rate = x[column];
       for (int i = 0; i < 12; i++) sum[i] += rate * turned[i];
-      out[column] += product(turned, y);
+      out[column] += inner(turned, y);
     }
     for (int i = 0; i < 12; i++) out[base->frame[i]] += sum[i];
   }
@@ -99,11 +99,11 @@ static void add_rates(const ali3_tabled *c, const ali3_tabled_work *w, const rea
   }
   ali3_tabled_moments(c->mass, t, P);
   gather(w->value[0], P, base->force);
-  Q[c->param[0]] += product(w->value[ALI3_BY_A], P);
+  Q[c->param[0]] += inner(w->value[ALI3_BY_A], P);
   if (c->count[1] == 1) return;
   const real twist = 2.0 * (turning[0] * w->twist[0] + turning[1] * w->twist[1] + turning[2] * w->twist[2]);
   Q[c->param[0]] -= b * twist;
-  Q[c->param[1]] += product(w->value[ALI3_BY_B], P) + a * twist;
+  Q[c->param[1]] += inner(w->value[ALI3_BY_B], P) + a * twist;
 }
 
 void ali3_tabled_inertia_forces(const ali3_instance *in, const real *qd, real *Q) {
