@@ -1,7 +1,7 @@
 """Cars a core: ``python -m benchmarks.throughput [--json FILE]``.
 
-Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms: one after the other, in lanes of each
-width that the processor has, and in the widest lanes on all cores. Each way makes a part of the same steps in turn, so
+Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms, with links and by tables (fidelity 10): one
+after the other, in lanes of each width that the processor has, and in the widest lanes on all cores. Each way makes a part of the same steps in turn, so
 that ratios hold on a busy machine; seconds are those in which its threads had a core.
 """
 
@@ -22,13 +22,19 @@ from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from hosts.driving.manoeuvre import Manoeuvre
-from mbs import Settings, Simulation, System
+from mbs import Settings, Simulation, System, compile
 from mbs.kernel.binding import KernelError
 from mbs.kernel.binding.many import Many, widest_lanes
+from mbs.scenes import prototype_car
 from mbs.settings.input_signals import InputSignals
 from mbs.simulation.prepared_system import prepared
 
-SCENES = (("slalom", "slalom", 0.005), ("lane change", "double_lane_change_replay", 0.01))
+SCENES = (
+    ("slalom", "slalom", 0.005, 0),
+    ("lane change", "double_lane_change_replay", 0.01, 0),
+    ("slalom, tables", "slalom", 0.005, 10),
+    ("lane change, tables", "double_lane_change_replay", 0.01, 10),
+)
 CARS = 16  # two full groups of the widest lanes
 PARTS, SECONDS = 20, 4.0  # parts of a run, length of it, s
 THOUSAND = 1000
@@ -59,9 +65,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return run_command(work, (KernelError,))
 
 
-def measure(scene: str, name: str, h: float, seconds: float = SECONDS) -> list[dict[str, Any]]:
+def measure(scene: str, name: str, h: float, fidelity: int, seconds: float = SECONDS) -> list[dict[str, Any]]:
     """Rows of one scene: us of a core for a step of a car, and the ratio to cars one after the other."""
-    manoeuvre, system = manoeuvres.load(name), manoeuvres.system_of(name)
+    manoeuvre, system = manoeuvres.load(name), compile(prototype_car.build(fidelity=fidelity))
     loaded, steps = prepared(system)[0], int(seconds / h / PARTS)
     widths = [w for w in (2, 4, 8) if w <= widest_lanes()]
     cores = os.cpu_count() or 1

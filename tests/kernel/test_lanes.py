@@ -77,6 +77,19 @@ def test_cars_have_the_bits_of_single_runs(width: int) -> None:
     assert statuses > {Status.OK}
 
 
+@pytest.mark.parametrize("width", WIDTHS)
+def test_cars_by_table_have_the_bits_of_single_runs(width: int) -> None:
+    """Each lane is in cells of its own of the tables; what is summed over the bodies of the chassis is of each lane."""
+    for first in range(0, len(CARS), width):
+        names = list(CARS)[first : first + width]
+        single, together = ([car(name, Settings(), fidelity=10) for name in names] for _ in range(2))
+        for name, s in [*zip(names, single, strict=True), *zip(names, together, strict=True)]:
+            attach(name, s)
+        many = Many(prepared(single[0].system)[0], width)
+        for _ in range(2):
+            assert compare(many, single, together, 0.01, 30) == (0, {Status.OK})
+
+
 def test_lanes_have_roads_of_their_own(tmp_path: Path) -> None:
     """From files: a grid, which each lane asks alone, beside planes and a kerb, in any number of lanes."""
     heights = 0.02 * np.sin(np.arange(60.0 * 40.0)).reshape(60, 40)

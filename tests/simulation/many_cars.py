@@ -41,19 +41,20 @@ CARS: dict[str, Variant] = {
 
 
 @cache
-def system() -> System:
-    """The rigid car."""
-    return compile(prototype_car.build())
+def system(fidelity: int = 0) -> System:
+    """The rigid car, or another one of the prototype's."""
+    return compile(prototype_car.build(fidelity=fidelity))
 
 
-def car(name: str, settings: Settings) -> Simulation:
+def car(name: str, settings: Settings, fidelity: int = 0) -> Simulation:
     """One of the cars at its start."""
     variant = CARS[name]
-    meta = prepared(system())[1]["inputs"]
+    compiled = system(fidelity) if fidelity else system()
+    meta = prepared(compiled)[1]["inputs"]
     signals = InputSignals(variant.inputs, meta)
     first = signals.at(np.zeros(1), 1e-9, after_jump=True)[0].tolist()
     inputs = {meta[i]["name"]: value for i, value in zip(signals.columns(), first, strict=True)}
-    return Simulation(system(), settings=settings, inputs=inputs, parameters=variant.parameters, pose=variant.pose)
+    return Simulation(compiled, settings=settings, inputs=inputs, parameters=variant.parameters, pose=variant.pose)
 
 
 def attach(name: str, simulation: Simulation) -> None:

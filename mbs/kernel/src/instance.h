@@ -11,6 +11,8 @@ typedef struct { /* nnz_mass, front_size, nq each */
 
 typedef struct ali3_road ali3_road;           /* elements/road.h */
 typedef struct ali3_tabled_work ali3_tabled_work; /* tabled/tabled.h */
+typedef struct ali3_tabled_base_work ali3_tabled_base_work;
+typedef struct ali3_tabled_parameter_work ali3_tabled_parameter_work;
 typedef struct ali3_tree_work ali3_tree_work; /* tree/tree.h: their work space */
 
 /* One state; the vectors lie in one block of `n` doubles so that a copy is one memcpy. */
@@ -96,6 +98,9 @@ struct ali3_instance {
   double *shifted; /* nq */
   double *flex, *flex_work; /* flexible bodies: at the last q prepared; scratch */
   ali3_tabled_work *tabled; /* at the last q prepared */
+  ali3_tabled_base_work *tabled_base;
+  ali3_tabled_parameter_work *tabled_parameter;
+  double *tabled_square; /* of one group of elements */
   double *extended[3], *extended_force; /* q, qd, qdd with the dependents behind them; forces on dependents */
   double wC, wK; /* weights of the last forces */
   /* of radau.c, empty where there are element states or filtered guides: stages of the rows, of Phi_q, of where the

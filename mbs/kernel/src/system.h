@@ -93,7 +93,9 @@ typedef struct {
 
 typedef struct ali3_element_type ali3_element_type; /* elements/element.h */
 typedef struct ali3_tabled ali3_tabled;     /* tabled/tabled.h */
-typedef struct ali3_tabled_element ali3_tabled_element;
+typedef struct ali3_tabled_base ali3_tabled_base;
+typedef struct ali3_tabled_parameter ali3_tabled_parameter;
+typedef struct ali3_tabled_group ali3_tabled_group;
 typedef struct ali3_tree ali3_tree;           /* tree/tree.h: the part of a System for relative coordinates */
 
 struct ali3_system {
@@ -112,6 +114,7 @@ struct ali3_system {
   double flex_rate; /* largest K_jj/M_jj of a mode, 1/s^2 */
   int32_t n_flexible, max_modes; /* flexible bodies, most modes of one */
   int32_t n_tabled, n_dependent; /* tabled bodies and numbers, their coordinates */
+  int32_t n_tabled_base, n_tabled_parameter, n_tabled_group, tabled_square; /* the last: numbers that a group needs */
   bool senses_rows; /* a sensor reads multipliers or violations */
   /* derived at load, in one block */
   void *derived;
@@ -140,8 +143,12 @@ struct ali3_system {
   int32_t *active_signal;      /* signals that elements use */
   int32_t *flex_square;        /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
   ali3_tabled *tabled;
-  ali3_tabled_element *tabled_element;
-  int32_t *el_tabled;         /* ne: which tabled element, -1: none */
+  ali3_tabled_base *tabled_base;
+  ali3_tabled_parameter *tabled_parameter;
+  ali3_tabled_group *tabled_group;
+  int32_t *tabled_order; /* elements on tabled items, group by group */
+  int32_t *tabled_signal; /* per signal of an element: which one of its group */
+  int32_t *el_tabled;    /* ne: its group, -1: none */
   int32_t *el_entry_dependent; /* per entry: the dependent within its item, -1: a coordinate */
   ali3_tree *tree;             /* NULL: the System has none */
   int32_t n_input_work; /* n_work where inputs may change what elements store, else 0 */

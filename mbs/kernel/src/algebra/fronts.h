@@ -5,7 +5,7 @@
 #include "real.h"
 
 /* Adds to entry (i, j) of a symmetric block of which the lower triangle counts, by columns of `size`. */
-static inline void ali3_add_lower(double *block, int32_t size, int32_t i, int32_t j, double value) {
+static inline void ali3_add_lower(real *block, int32_t size, int32_t i, int32_t j, real value) {
   block[i >= j ? (int64_t)j * size + i : (int64_t)i * size + j] += value;
 }
 

@@ -77,7 +77,7 @@ bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t
 static void look(ali3_instance *in, const double *q, const double *qd) {
   if (in->system->n_tabled > 0) {
     ali3_tabled_prepare(in, q);
-    ali3_tabled_extend(in, q, qd, NULL);
+    ali3_tabled_extend(in, q, qd, NULL, false);
     q = in->extended[0], qd = in->extended[1];
   }
   ali3_active_signals(in, q, qd);

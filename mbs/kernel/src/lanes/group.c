@@ -8,9 +8,11 @@
 #include "../state/vectors.h"
 #include "../state/workspace.h"
 #include "../system/pool.h"
+#include "../tabled/tabled.h"
 #include "lanes.h"
 
 enum { LINE = 64 }; /* bytes: the widest vector */
+enum { BASE_NUMBERS = sizeof(ali3_tabled_base_work) / sizeof(double) };
 
 /* n numbers of each lane, from a multiple of LINE on. */
 static void *items(const ali3_lane_group *g, ali3_pool *pool, size_t n) {
@@ -45,7 +47,8 @@ static void place_step(ali3_lane_group *g, ali3_pool *pool) {
     *of_coordinates[k] = items(g, pool, (size_t)z->nq);
   for (size_t k = 0; k < sizeof of_rows / sizeof *of_rows; k++) *of_rows[k] = items(g, pool, (size_t)z->nc);
   g->guide_mean = items(g, pool, (size_t)z->ng);
-  g->discarded = ali3_pool_array(pool, ali3_vector_count(g->system));
+  g->discarded =
+      ali3_pool_array(pool, ali3_vector_count(g->system) + (size_t)g->system->n_tabled_base * BASE_NUMBERS);
 }
 
 static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
@@ -65,6 +68,17 @@ static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
   g->ways = items(g, pool, (size_t)S->n_work_force);
   g->power = items(g, pool, (size_t)S->n_work);
   g->idle = items(g, pool, (size_t)z->ne);
+}
+
+static void place_tabled(ali3_lane_group *g, ali3_pool *pool) {
+  const ali3_system *S = g->system;
+  const size_t extended = S->n_tabled > 0 ? (size_t)(S->size.nq + S->n_dependent) : 0;
+  g->tabled = items(g, pool, (size_t)S->n_tabled * (sizeof *g->tabled / sizeof(double)));
+  g->tabled_base = items(g, pool, (size_t)S->n_tabled_base * BASE_NUMBERS);
+  g->tabled_parameter = items(g, pool, (size_t)S->n_tabled_parameter * (sizeof *g->tabled_parameter / sizeof(double)));
+  g->tabled_square = items(g, pool, (size_t)S->tabled_square);
+  for (int k = 0; k < 3; k++) g->extended[k] = items(g, pool, extended);
+  g->extended_force = items(g, pool, (size_t)S->n_dependent);
 }
 
 static bool has_law(const ali3_element_type *type) {
@@ -113,6 +127,7 @@ static void place(ali3_lane_group *g, ali3_pool *pool) {
   place_vectors(g, &g->next, false, pool);
   place_step(g, pool);
   place_tangents(g, pool);
+  place_tabled(g, pool);
   place_elements(g, pool);
   place_counts(g, pool);
 }
@@ -267,6 +282,8 @@ void ali3_group_to(const ali3_lane_group *g) {
   TAKE(g, in, in->next.lam, g->newton_lam, S->size.nc);
   TAKE(g, in, in->D, g->D, nq);
   TAKE(g, in, in->x, g->mean_a, nq);
+  if (S->n_tabled_base > 0) /* for the energy of their weight */
+    TAKE(g, in, (double *)in->tabled_base, (const double *)g->tabled_base, S->n_tabled_base * BASE_NUMBERS);
   for (int32_t e = 0; e < S->size.ne; e++) {
     const int32_t state = S->el_state_ptr[e], n_state = S->el_state_ptr[e + 1] - state;
     const int32_t out = S->el_out_ptr[e], n_out = S->el_out_ptr[e + 1] - out;

@@ -46,6 +46,10 @@ typedef struct ali3_lane_group {
   real *J, *J_tangent, *F, *local;
   real *F_new; /* of lanes that get a new tangent while others keep theirs */
   real *u, *ud, *S, *SB;
+  ali3_tabled_work *tabled; /* as those of an instance, with numbers of all lanes */
+  ali3_tabled_base_work *tabled_base;
+  ali3_tabled_parameter_work *tabled_parameter;
+  real *tabled_square, *extended[3], *extended_force;
   real *f; /* forces of elements on their signals */
   real *ways, *power; /* of elements whose work is watched, see ../state/work.c */
   ali3_mask *idle;

@@ -30,7 +30,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_switch_rows(in, Phi, J) ((void)(J))
 #define ali3_switch_values(in, v) ((void)(v))
 #define ALI3_SWITCH_ROWS_H
-#define ali3_mass_times ali3_constant_mass_times
+#define ali3_mass_times ALI3_LANED(mass_times)
 #define ali3_constant_mass_times ALI3_LANED(constant_mass_times)
 #define ali3_factorise ALI3_LANED(factorise)
 #define ali3_solve ALI3_LANED(solve)
@@ -57,6 +57,16 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_energy_size ALI3_LANED(energy_size)
 #define ali3_lagrange ALI3_LANED(lagrange)
 #define ali3_work_ways ALI3_LANED(work_ways)
+#define ali3_tabled_prepare ALI3_LANED(tabled_prepare)
+#define ali3_tabled_extend ALI3_LANED(tabled_extend)
+#define ali3_tabled_way ALI3_LANED(tabled_way)
+#define ali3_tabled_forces ALI3_LANED(tabled_forces)
+#define ali3_tabled_moments ALI3_LANED(tabled_moments)
+#define ali3_tabled_add_inertia ALI3_LANED(tabled_add_inertia)
+#define ali3_tabled_mass_times ALI3_LANED(tabled_mass_times)
+#define ali3_tabled_inertia_forces ALI3_LANED(tabled_inertia_forces)
+#define ali3_tabled_tangent ALI3_LANED(tabled_tangent)
+#define ali3_tabled_elements_tangent ALI3_LANED(tabled_elements_tangent)
 #define ali3_history_smooth ALI3_LANED(history_smooth)
 #define ali3_extrapolate ALI3_LANED(extrapolate)
 
@@ -70,6 +80,15 @@ static inline real ALI3_LANED(cosine)(real x) {
 #include "../rows/constraints.c"
 #include "../rows/velocity_rows.c"
 #include "../state/work_ways.c"
+#include "../tabled/tabled.c"
+#include "../tabled/tabled_inertia.c"
+#include "../tabled/tabled_tangent.c"
+
+void ali3_mass_times(const ali3_instance *in, const real *x, real *out) {
+  ali3_constant_mass_times(in, x, out);
+  if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out);
+}
+
 #include "lane_step.h"
 
 #if defined(__clang__) && defined(ALI3_INSTRUCTIONS)

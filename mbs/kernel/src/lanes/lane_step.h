@@ -61,23 +61,34 @@ static void elements(ali3_lane_group *in, truth lanes, bool tangent) {
 
 static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
-  ali3_active_signals(in, in->next.q, in->next.qd);
+  const int32_t nq = S->size.nq;
+  const real *q = in->next.q, *qd = in->next.qd;
+  if (S->n_tabled > 0) {
+    ali3_tabled_prepare(in, q);
+    ali3_tabled_extend(in, q, qd, NULL, false);
+    memset(in->extended_force, 0, (size_t)S->n_dependent * sizeof *in->extended_force);
+    q = in->extended[0], qd = in->extended[1];
+  }
+  ali3_active_signals(in, q, qd);
   elements(in, lanes, tangent);
   const int32_t *ptr = S->sig_ptr, *col = S->sig_col, *el_sig = S->el_sig;
   const double *val = S->sig_val;
   real *Q = in->Q;
   const real *f = in->f;
-  memcpy(Q, in->gravity_force, (size_t)S->size.nq * sizeof *Q);
+  memcpy(Q, in->gravity_force, (size_t)nq * sizeof *Q);
   for (int32_t e = 0; e < S->size.ne; e++) {
     const truth idle = in->idle[e];
     if (!ali3_any(ali3_not(idle))) continue;
     for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
       const int32_t signal = el_sig[i];
       const real force = f[i];
-      for (int32_t k = ptr[signal]; k < ptr[signal + 1]; k++)
-        Q[col[k]] = ali3_add_unless(idle, Q[col[k]], val[k] * force);
+      for (int32_t k = ptr[signal]; k < ptr[signal + 1]; k++) {
+        real *to = col[k] < nq ? Q + col[k] : in->extended_force + (col[k] - nq);
+        *to = ali3_add_unless(idle, *to, val[k] * force);
+      }
     }
   }
+  if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, Q);
 }
 
 static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
@@ -137,6 +148,10 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
   ali3_rows_square(in, in->J, in->rule.c * in->alpha, F);
   if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, in->rule.c, F);
   ali3_elements_tangent(in, F);
+  if (S->n_tabled > 0) {
+    ali3_tabled_tangent(in, 1.0, in->rule.c, F);
+    ali3_tabled_elements_tangent(in, F);
+  }
   ali3_factorise(in, F);
   for (int32_t i = 0; i < S->size.nnz_rows; i++)
     in->J_tangent[i] = first ? in->J[i] : ali3_where(lanes, in->J[i], in->J_tangent[i]);

@@ -211,7 +211,7 @@ ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *k
   }
   if (S->n_tabled > 0) {
     ali3_tabled_prepare(in, now->q);
-    ali3_tabled_extend(in, now->q, now->qd, now->qdd);
+    ali3_tabled_extend(in, now->q, now->qd, now->qdd, true);
   }
   for (int32_t i = 0; i < S->size.ns; i++) {
     const int32_t type = S->sen_type[i], *v = S->sen_int + S->sen_int_ptr[i];

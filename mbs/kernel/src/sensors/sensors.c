@@ -243,7 +243,7 @@ void ali3_sensors_evaluate(const ali3_instance *in, double *out) {
   const ali3_system *S = in->system;
   if (S->n_tabled > 0) {
     ali3_tabled_prepare(in, in->now.q);
-    ali3_tabled_extend(in, in->now.q, in->now.qd, in->now.qdd);
+    ali3_tabled_extend(in, in->now.q, in->now.qd, in->now.qdd, true);
   }
   for (int32_t i = 0; i < S->size.ns; i++)
     out[i] = value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], S->sen_real + S->sen_real_ptr[i]);

@@ -24,7 +24,7 @@ ali3_element_args ali3_start_arguments(const ali3_instance *in, const ali3_road 
   };
   if (S->n_tabled > 0) {
     ali3_tabled_prepare(in, q);
-    ali3_tabled_extend(in, q, q, NULL);
+    ali3_tabled_extend(in, q, q, NULL, true);
     q = in->extended[0];
   }
   for (int32_t i = 0; i < a.nsig; i++) {

@@ -1,18 +1,14 @@
 /* Ways of the signals whose elements' work a sensor asks for. */
-#if !defined(ALI3_WIDTH)
 #include "../tabled/tabled.h"
-#endif
 #include "work.h"
 
 void ali3_work_ways(const ali3_instance *in, real *ways) {
   const ali3_system *S = in->system;
   const real *D = in->D;
-#if !defined(ALI3_WIDTH)
   if (S->n_tabled > 0) {
     ali3_tabled_way(in, D);
     D = in->extended[0];
   }
-#endif
   for (int32_t k = 0; k < S->n_work; k++) {
     const int32_t *signal = S->el_sig + S->el_sig_ptr[S->work_element[k]];
     for (int32_t i = S->work_ptr[k]; i < S->work_ptr[k + 1]; i++, signal++) {

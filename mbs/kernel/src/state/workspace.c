@@ -122,6 +122,9 @@ static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->flex_work = ali3_pool_array(p, 3 * (size_t)s->max_modes);
   const size_t extended = s->n_tabled > 0 ? (size_t)(z->nq + s->n_dependent) : 0;
   in->tabled = ali3_pool_items(p, (size_t)s->n_tabled, sizeof *in->tabled);
+  in->tabled_base = ali3_pool_items(p, (size_t)s->n_tabled_base, sizeof *in->tabled_base);
+  in->tabled_parameter = ali3_pool_items(p, (size_t)s->n_tabled_parameter, sizeof *in->tabled_parameter);
+  in->tabled_square = ali3_pool_array(p, (size_t)s->tabled_square);
   for (int k = 0; k < 3; k++) in->extended[k] = ali3_pool_array(p, extended);
   in->extended_force = ali3_pool_array(p, (size_t)s->n_dependent);
   in->y_work = ali3_pool_array(p, (size_t)z->ny);

@@ -19,9 +19,20 @@ void ali3_tabled_place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   if (s->n_tabled == 0) return;
   for (int32_t e = 0; e < s->size.ne; e++) n_element += ali3_on_tabled(s, e);
   s->tabled = ali3_pool_items(p, (size_t)s->n_tabled, sizeof *s->tabled);
-  s->tabled_element = ali3_pool_items(p, n_element, sizeof *s->tabled_element);
+  s->tabled_base = ali3_pool_items(p, (size_t)s->n_tabled, sizeof *s->tabled_base);
+  s->tabled_parameter = ali3_pool_items(p, 2 * (size_t)s->n_tabled, sizeof *s->tabled_parameter);
+  s->tabled_group = ali3_pool_items(p, n_element, sizeof *s->tabled_group);
+  s->tabled_order = ali3_pool_items(p, n_element, sizeof *s->tabled_order);
+  s->tabled_signal = ali3_pool_items(p, (size_t)s->n_el_sig, sizeof *s->tabled_signal);
   s->el_tabled = ali3_pool_items(p, (size_t)s->size.ne, sizeof *s->el_tabled);
   s->el_entry_dependent = ali3_pool_items(p, n_entry, sizeof *s->el_entry_dependent);
+}
+
+/* Where a list has a value; -1: nowhere. */
+static int32_t place_of(const int32_t *list, int32_t n, int32_t value) {
+  for (int32_t i = 0; i < n; i++)
+    if (list[i] == value) return i;
+  return -1;
 }
 
 /* Coordinate k of an item: of its base, then its parameters; -1: it has none. */
@@ -72,62 +83,156 @@ static int32_t owner(const ali3_system *s, int32_t dependent) {
   return i;
 }
 
-static ali3_status derive_element(ali3_system *s, int32_t e, ali3_tabled_element *of, ali3_message m) {
-  const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
-  int32_t at = s->el_entry_ptr[e], found[ALI3_TABLED_ITEMS][ALI3_TABLED_COLUMNS], n = 0, plain = at;
-  if (s->el_sig_ptr[e + 1] - s->el_sig_ptr[e] > ALI3_TABLED_SIGNALS)
-    return ali3_bad(m, "element %d on a tabled body has too many signals", (int)e);
-  for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++)
-    for (int32_t k = s->sig_ptr[s->el_sig[i]]; k < s->sig_ptr[s->el_sig[i] + 1]; k++, at++, loc++) {
+/* Vectors of items that signals of elements have. */
+static void derive_seen(ali3_system *s) {
+  for (int32_t a = 0; a < s->n_active; a++)
+    for (int32_t k = s->sig_ptr[s->active_signal[a]]; k < s->sig_ptr[s->active_signal[a] + 1]; k++) {
       const int32_t d = s->sig_col[k] - s->size.nq;
-      s->el_entry_dependent[at] = -1;
-      if (s->el_front[e] < 0) continue;
-      if (d < 0) {
-        if (n == ALI3_TABLED_MOST) return ali3_bad(m, "element %d has too many coordinates", (int)e);
-        of->loc[n++] = s->el_entry_local[at] = *loc;
+      if (d < 0) continue;
+      ali3_tabled *c = s->tabled + owner(s, d);
+      const int32_t vector = (d - c->first) / 3;
+      int32_t n = 0;
+      while (n < c->n_seen && c->seen[n] != vector) n++;
+      if (n == c->n_seen) c->seen[c->n_seen++] = vector;
+    }
+}
+
+/* The parameter of a base that has coordinate `column` at `loc` in its front. */
+static int32_t parameter_of(ali3_system *s, ali3_tabled_base *base, int32_t column, int32_t loc) {
+  int32_t p = base->first;
+  while (p < base->end && s->tabled_parameter[p].column != column) p++;
+  if (p == base->end) s->tabled_parameter[base->end++] = (ali3_tabled_parameter){.column = column, .loc = loc};
+  return p;
+}
+
+/* Bodies by their bases. */
+static void derive_bases(ali3_system *s) {
+  for (int32_t i = 0; i < s->n_tabled; i++) s->tabled[i].base = -1;
+  for (int32_t i = 0; i < s->n_tabled; i++) {
+    const ali3_tabled *c = s->tabled + i;
+    if (c->n != ALI3_TABLED_BODY || c->base >= 0) continue;
+    ali3_tabled_base *base = s->tabled_base + s->n_tabled_base;
+    *base = (ali3_tabled_base){.front = c->front,
+                               .first = s->n_tabled_parameter,
+                               .end = s->n_tabled_parameter,
+                               .frame = c->frame,
+                               .gravity = c->gravity};
+    memcpy(base->loc, c->loc, sizeof base->loc);
+    for (int32_t k = i; k < s->n_tabled; k++) {
+      ali3_tabled *d = s->tabled + k;
+      if (d->n != ALI3_TABLED_BODY || d->base >= 0 || d->front != c->front ||
+          memcmp(d->frame, c->frame, 12 * sizeof *c->frame) != 0 ||
+          memcmp(d->gravity, c->gravity, 3 * sizeof *c->gravity) != 0)
         continue;
-      }
-      const int32_t item = owner(s, d);
-      int32_t which = 0;
-      while (which < of->n_item && of->item[which] != item) which++;
-      if (which == ALI3_TABLED_ITEMS) return ali3_bad(m, "element %d is on too many tabled bodies", (int)e);
-      if (which == of->n_item) {
-        of->item[of->n_item++] = item;
-        if (!find(s, s->tabled + item, s->el_front[e], found[which]))
-          return ali3_bad(m, "a coordinate of table %d is not in the front of element %d", (int)item, (int)e);
-      }
-      s->el_entry_dependent[at] = d - s->tabled[item].first;
-      s->el_entry_local[at] = which;
+      d->base = s->n_tabled_base;
+      for (int p = 0; p < 2 && d->param[p] >= 0; p++) d->along[p] = parameter_of(s, base, d->param[p], d->loc[12 + p]);
     }
-  for (int32_t i = 0; i < of->n_item; i++)
-    for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++) {
-      if (found[i][k] < 0) continue;
-      if (n == ALI3_TABLED_MOST) return ali3_bad(m, "element %d has too many coordinates", (int)e);
-      of->loc[n++] = found[i][k];
+    s->n_tabled_parameter = base->end;
+    s->n_tabled_base++;
+  }
+}
+
+static bool add_once(int32_t *list, int32_t *count, int32_t most, int32_t value) {
+  if (place_of(list, *count, value) >= 0) return true;
+  if (*count == most) return false;
+  list[(*count)++] = value;
+  return true;
+}
+
+/* Items that element e has signals of, and places in its front of all its coordinates. */
+static ali3_status looks_at(const ali3_system *s, int32_t e, ali3_tabled_group *of, ali3_message m) {
+  const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
+  bool room = true;
+  for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
+    room = room && add_once(of->signal, &of->n_signal, ALI3_TABLED_SIGNALS, s->el_sig[i]);
+    for (int32_t k = s->sig_ptr[s->el_sig[i]]; k < s->sig_ptr[s->el_sig[i] + 1]; k++, loc++) {
+      const int32_t d = s->sig_col[k] - s->size.nq;
+      if (d < 0)
+        room = room && add_once(of->loc, &of->m, ALI3_TABLED_MOST, *loc);
+      else
+        room = room && add_once(of->item, &of->n_item, ALI3_TABLED_ITEMS, owner(s, d));
     }
-  qsort(of->loc, (size_t)n, sizeof *of->loc, ascending);
-  for (int32_t i = 0; i < n; i++)
-    if (of->m == 0 || of->loc[i] != of->loc[of->m - 1]) of->loc[of->m++] = of->loc[i];
-  for (int32_t i = 0; i < of->n_item; i++)
+  }
+  for (int32_t n = 0; n < of->n_item; n++) {
+    int32_t found[ALI3_TABLED_COLUMNS];
+    if (!find(s, s->tabled + of->item[n], of->front, found))
+      return ali3_bad(m, "a coordinate of table %d is not in the front of element %d", (int)of->item[n], (int)e);
     for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++)
-      of->slot[i][k] = found[i][k] < 0 ? -1 : ali3_find(of->loc, of->m, found[i][k]);
-  for (int32_t k = plain; k < at; k++)
-    if (s->el_front[e] >= 0 && s->el_entry_dependent[k] < 0)
-      s->el_entry_local[k] = ali3_find(of->loc, of->m, s->el_entry_local[k]);
+      room = room && (found[k] < 0 || add_once(of->loc, &of->m, ALI3_TABLED_MOST, found[k]));
+  }
+  return room ? ALI3_OK : ali3_bad(m, "element %d is on too many tabled bodies and coordinates", (int)e);
+}
+
+/* Whether an element that looks at `of` can be one of the group, whose coordinates and signals then grow. */
+static bool joins(ali3_tabled_group *group, const ali3_tabled_group *of) {
+  ali3_tabled_group both = *group;
+  if (group->front != of->front || group->n_item != of->n_item) return false;
+  if (memcmp(group->item, of->item, (size_t)of->n_item * sizeof *of->item) != 0) return false;
+  for (int32_t i = 0; i < of->m; i++)
+    if (!add_once(both.loc, &both.m, ALI3_TABLED_MOST, of->loc[i])) return false;
+  for (int32_t i = 0; i < of->n_signal; i++)
+    if (!add_once(both.signal, &both.n_signal, ALI3_TABLED_SIGNALS, of->signal[i])) return false;
+  *group = both;
+  return true;
+}
+
+/* What the entries of element e are of: a coordinate of its group, or a dependent of one of its items. */
+static void derive_entries(ali3_system *s, int32_t e, ali3_tabled_group *group) {
+  const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
+  int32_t at = s->el_entry_ptr[e];
+  for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
+    const int32_t signal = s->el_sig[i], place = place_of(group->signal, group->n_signal, signal);
+    s->tabled_signal[i] = place;
+    group->entry[place] = at;
+    group->n_entry[place] = s->sig_ptr[signal + 1] - s->sig_ptr[signal];
+    for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, at++, loc++) {
+      const int32_t d = s->sig_col[k] - s->size.nq;
+      s->el_entry_dependent[at] = d < 0 ? -1 : d - s->tabled[owner(s, d)].first;
+      s->el_entry_local[at] = d < 0 ? ali3_find(group->loc, group->m, *loc)
+                                    : place_of(group->item, group->n_item, owner(s, d));
+    }
+  }
+}
+
+static void derive_group(ali3_system *s, int32_t g) {
+  ali3_tabled_group *group = s->tabled_group + g;
+  int32_t found[ALI3_TABLED_COLUMNS];
+  qsort(group->loc, (size_t)group->m, sizeof *group->loc, ascending);
+  for (int32_t n = 0; n < group->n_item; n++) {
+    find(s, s->tabled + group->item[n], group->front, found);
+    for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++) group->slot[n][k] = place_of(group->loc, group->m, found[k]);
+  }
+  group->first = group->end = g == 0 ? 0 : group[-1].end;
+  for (int32_t e = 0; e < s->size.ne; e++) {
+    if (s->el_tabled[e] != g) continue;
+    s->tabled_order[group->end++] = e;
+    derive_entries(s, e, group);
+  }
+  const int32_t m = ali3_tabled_stride(group), n = group->n_signal, work = n * n + (2 * n + 1) * m;
+  if (work > s->tabled_square) s->tabled_square = work;
+}
+
+static ali3_status derive_groups(ali3_system *s, ali3_message m) {
+  for (int32_t e = 0; e < s->size.ne; e++) {
+    ali3_tabled_group of = {.front = s->el_front[e]};
+    int32_t g = 0;
+    s->el_tabled[e] = -1;
+    if (s->el_front[e] < 0 || !ali3_on_tabled(s, e)) continue;
+    CHECK(looks_at(s, e, &of, m));
+    while (g < s->n_tabled_group && !joins(s->tabled_group + g, &of)) g++;
+    s->el_tabled[e] = g;
+    if (g == s->n_tabled_group) s->tabled_group[s->n_tabled_group++] = of;
+  }
+  for (int32_t g = 0; g < s->n_tabled_group; g++) derive_group(s, g);
   return ALI3_OK;
 }
 
 ali3_status ali3_tabled_derive(ali3_system *s, ali3_message m) {
-  int32_t dependents = 0, n = 0;
+  int32_t dependents = 0;
   int64_t coefficients = 0;
   if (s->n_tabled == 0) return ALI3_OK;
   for (int32_t i = 0; i < s->n_tabled; i++) CHECK(derive_item(s, i, &dependents, &coefficients, m));
-  for (int32_t e = 0; e < s->size.ne; e++) {
-    s->el_tabled[e] = -1;
-    if (!ali3_on_tabled(s, e)) continue;
-    s->tabled_element[n] = (ali3_tabled_element){0};
-    CHECK(derive_element(s, e, s->tabled_element + n, m));
-    s->el_tabled[e] = n++;
-  }
-  return ALI3_OK;
+  derive_seen(s);
+  derive_bases(s);
+  return derive_groups(s, m);
 }

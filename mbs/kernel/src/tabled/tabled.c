@@ -1,220 +1,216 @@
 /* Dependent coordinates of tabled bodies and numbers, and what goes along B = dX/dq and back. */
-#include <string.h>
-
 #include "tabled.h"
 
-enum { BY_A = 1, BY_B, BY_AA, BY_AB, BY_BB }; /* of ali3_tabled_work.value */
+#include <string.h>
 
 static ali3_tabled_work *work_of(const ali3_instance *in, int32_t i) { return in->tabled + i; }
 
-static double parameter(const ali3_tabled *c, int which, const double *x) {
-  return c->param[which] < 0 ? 0.0 : x[c->param[which]];
+static real parameter(const ali3_tabled *c, int which, const real *x) {
+  return c->param[which] < 0 ? ali3_same(0.0) : x[c->param[which]];
 }
 
-/* out (12) = Y t of each of the four vectors. */
-static void turned(const double *restrict Y, const double *restrict t, double *restrict out) {
-  for (int v = 0; v < 4; v++)
-    for (int x = 0; x < 3; x++) out[3 * v + x] = Y[x] * t[3 * v] + Y[3 + x] * t[3 * v + 1] + Y[6 + x] * t[3 * v + 2];
+static const double EARTH[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, STILL[12];
+
+/* r and Y of a base from a vector of coordinates; of the earth `fixed`. */
+static void base_of(const ali3_tabled_base *b, const real *x, const double *fixed, real out[12]) {
+  for (int i = 0; i < 12; i++) out[i] = b->frame[0] < 0 ? ali3_same(fixed[i]) : x[b->frame[i]];
 }
 
-static const double EARTH[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-
-/* r and Y of the base from a vector of coordinates; of the earth `fixed`. */
-static void base(const ali3_tabled *c, const double *x, const double *fixed, double out[12]) {
-  for (int i = 0; i < 12; i++) out[i] = c->frame[0] < 0 ? fixed[i] : x[c->frame[i]];
+static void look_up(const ali3_tabled *c, const real *q, ali3_tabled_work *w) {
+  const real a = parameter(c, 0, q), b = parameter(c, 1, q);
+#ifdef ALI3_WIDTH
+  const int32_t known = c->count[1] > 1 ? ALI3_TABLED_VALUES : ALI3_BY_AA + 1;
+  for (int l = 0; l < ALI3_WIDTH; l++) { /* each lane is in a cell of its own */
+    double value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY];
+    ali3_tabled_table(c, a[l], b[l], value);
+    for (int32_t d = 0; d < known; d++)
+      for (int32_t i = 0; (c->count[1] > 1 || d != ALI3_BY_B) && i < c->n; i++) w->value[d][i][l] = value[d][i];
+  }
+#else
+  ali3_tabled_table(c, a, b, w->value);
+#endif
 }
 
-void ali3_tabled_prepare(const ali3_instance *in, const double *q) {
+void ali3_tabled_prepare(const ali3_instance *in, const real *q) {
   const ali3_system *S = in->system;
+  for (int32_t b = 0; b < S->n_tabled_base; b++) {
+    real frame[12];
+    ali3_tabled_base_work *w = in->tabled_base + b;
+    base_of(S->tabled_base + b, q, EARTH, frame);
+    memcpy(w->axes, frame + 3, sizeof w->axes);
+    memset(w->mass, 0, sizeof w->mass);
+  }
+  memset(in->tabled_parameter, 0, (size_t)S->n_tabled_parameter * sizeof *in->tabled_parameter);
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     ali3_tabled_work *w = work_of(in, i);
-    double frame[12];
-    ali3_tabled_table(c, parameter(c, 0, q), parameter(c, 1, q), w->value);
+    look_up(c, q, w);
     if (c->n != ALI3_TABLED_BODY) {
-      w->by[0][0] = w->value[BY_A][0];
-      w->by[1][0] = w->value[BY_B][0];
+      for (int p = 0; p < (c->count[1] > 1 ? 2 : 1); p++) w->by[p][0] = w->value[ALI3_BY_A + p][0];
       continue;
     }
-    base(c, q, EARTH, frame);
-    memcpy(w->axes, frame + 3, sizeof w->axes);
-    turned(w->axes, w->value[BY_A], w->by[0]);
-    if (c->count[1] > 1) turned(w->axes, w->value[BY_B], w->by[1]);
+    for (int32_t k = 0; k < c->n_seen; k++)
+      for (int p = 0; p < (c->count[1] > 1 ? 2 : 1); p++)
+        ali3_tabled_turn(in->tabled_base[c->base].axes, w->value[ALI3_BY_A + p] + 3 * c->seen[k],
+                         w->by[p] + 3 * c->seen[k]);
+    if (ali3_tabled_heavy(c)) ali3_tabled_add_inertia(in, c, w);
+  }
+  for (int32_t b = 0; b < S->n_tabled_base; b++)
+    for (int32_t p = S->tabled_base[b].first; p < S->tabled_base[b].end; p++)
+      for (int v = 0; v < 4; v++)
+        ali3_tabled_turn(in->tabled_base[b].axes, in->tabled_parameter[p].own + 3 * v,
+                         in->tabled_parameter[p].turned + 3 * v);
+}
+
+/* What rates a, b of the parameters move in functions i to i + n: first (by B qd) and, of rates themselves, second. */
+static void rates(const ali3_tabled *c, const ali3_tabled_work *w, real a, real b, int32_t i, int32_t n, real *first,
+                  real *second) {
+  for (int32_t k = 0; k < n; k++, i++) {
+    first[k] = a * w->value[ALI3_BY_A][i];
+    second[k] = a * a * w->value[ALI3_BY_AA][i];
+    if (c->count[1] == 1) continue;
+    first[k] += b * w->value[ALI3_BY_B][i];
+    second[k] += 2.0 * a * b * w->value[ALI3_BY_AB][i] + b * b * w->value[ALI3_BY_BB][i];
   }
 }
 
-/* out = B x. */
-static void along(const ali3_tabled *c, const ali3_tabled_work *w, const double *x, double *out) {
-  static const double still[12] = {0.0};
-  const double a = parameter(c, 0, x), b = parameter(c, 1, x);
-  double frame[12];
-  if (c->n == ALI3_TABLED_BODY) {
-    base(c, x, still, frame);
-    turned(frame + 3, w->value[0], out);
-    for (int k = 0; k < 3; k++) out[k] += frame[k];
-  } else {
-    out[0] = 0.0;
-  }
-  for (int32_t i = 0; i < c->n; i++) out[i] += a * w->by[0][i];
-  for (int32_t i = 0; c->count[1] > 1 && i < c->n; i++) out[i] += b * w->by[1][i];
+/* Vector v of B x. */
+static void along(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *x,
+                  const real frame[12], int32_t v, real out[3]) {
+  real first[3], second[3], moved[3];
+  rates(c, w, parameter(c, 0, x), parameter(c, 1, x), 3 * v, 3, first, second);
+  ali3_tabled_turn(in->tabled_base[c->base].axes, first, moved);
+  ali3_tabled_turn(frame + 3, w->value[0] + 3 * v, out);
+  for (int k = 0; k < 3; k++) out[k] += moved[k];
+  for (int k = 0; v == 0 && k < 3; k++) out[k] += frame[k];
 }
 
-/* out = Bd qd: what of the second rates of X comes from rates. */
-static void bend(const ali3_tabled *c, const ali3_tabled_work *w, const double *qd, double *out) {
-  static const double still[12] = {0.0};
-  const double a = parameter(c, 0, qd), b = parameter(c, 1, qd);
-  double t[ALI3_TABLED_BODY], first[ALI3_TABLED_BODY], frame[12];
-  for (int32_t i = 0; i < c->n; i++) {
-    t[i] = a * a * w->value[BY_AA][i] + 2.0 * a * b * w->value[BY_AB][i] + b * b * w->value[BY_BB][i];
-    first[i] = 2.0 * (a * w->value[BY_A][i] + b * w->value[BY_B][i]);
-  }
-  if (c->n != ALI3_TABLED_BODY) {
-    out[0] = t[0];
-    return;
-  }
-  base(c, qd, still, frame);
-  turned(w->axes, t, out);
-  turned(frame + 3, first, t);
-  for (int i = 0; i < ALI3_TABLED_BODY; i++) out[i] += t[i];
+/* Vector v of Bd qd: what of the second rates of X comes from rates. */
+static void bend(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *qd,
+                 const real frame[12], int32_t v, real out[3]) {
+  real first[3], second[3], moved[3];
+  rates(c, w, parameter(c, 0, qd), parameter(c, 1, qd), 3 * v, 3, first, second);
+  ali3_tabled_turn(in->tabled_base[c->base].axes, second, out);
+  ali3_tabled_turn(frame + 3, first, moved);
+  for (int k = 0; k < 3; k++) out[k] += 2.0 * moved[k];
 }
 
-/* Q += B' f. */
-static void back(const ali3_tabled *c, const ali3_tabled_work *w, const double *f, double *Q) {
-  double a = 0.0, b = 0.0;
-  for (int32_t i = 0; i < c->n; i++) a += w->by[0][i] * f[i];
-  Q[c->param[0]] += a;
-  if (c->count[1] > 1) {
-    for (int32_t i = 0; i < c->n; i++) b += w->by[1][i] * f[i];
-    Q[c->param[1]] += b;
-  }
-  if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) return;
-  for (int x = 0; x < 3; x++) {
-    Q[c->frame[x]] += f[x];
-    for (int k = 0; k < 3; k++) {
-      double sum = 0.0;
-      for (int v = 0; v < 4; v++) sum += w->value[0][3 * v + k] * f[3 * v + x];
-      Q[c->frame[3 + 3 * k + x]] += sum;
-    }
-  }
+static void extend_number(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *qd,
+                          const real *qdd, int32_t to) {
+  real first, second, unused;
+  in->extended[0][to] = w->value[0][0];
+  rates(c, w, parameter(c, 0, qd), parameter(c, 1, qd), 0, 1, &first, &second);
+  in->extended[1][to] = first;
+  if (qdd == NULL) return;
+  rates(c, w, parameter(c, 0, qdd), parameter(c, 1, qdd), 0, 1, &first, &unused);
+  in->extended[2][to] = first + second;
 }
 
-void ali3_tabled_extend(const ali3_instance *in, const double *q, const double *qd, const double *qdd) {
+void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, const real *qdd, bool all) {
+  static const int32_t every[4] = {0, 1, 2, 3};
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double *from[3] = {q, qd, qdd};
+  const real *from[3] = {q, qd, qdd};
   for (int k = 0; k < 3; k++)
-    if (from[k] != NULL) memcpy(in->extended[k], from[k], (size_t)nq * sizeof(double));
+    if (from[k] != NULL) memcpy(in->extended[k], from[k], (size_t)nq * sizeof(real));
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     const ali3_tabled_work *w = work_of(in, i);
-    const int32_t first = nq + c->first;
-    double frame[12], bent[ALI3_TABLED_BODY];
-    double *X = in->extended[0] + first;
-    if (c->n == ALI3_TABLED_BODY) {
-      base(c, q, EARTH, frame);
-      turned(w->axes, w->value[0], X);
-      for (int k = 0; k < 3; k++) X[k] += frame[k];
-    } else {
-      X[0] = w->value[0][0];
+    const int32_t *vector = all ? every : c->seen, n = all ? 4 : c->n_seen;
+    real place[12], rate[12], second[12];
+    if (c->n != ALI3_TABLED_BODY) {
+      extend_number(in, c, w, qd, qdd, nq + c->first);
+      continue;
     }
-    along(c, w, qd, in->extended[1] + first);
-    if (qdd == NULL) continue;
-    along(c, w, qdd, in->extended[2] + first);
-    bend(c, w, qd, bent);
-    for (int32_t k = 0; k < c->n; k++) in->extended[2][first + k] += bent[k];
+    if (n == 0) continue;
+    const ali3_tabled_base *b = S->tabled_base + c->base;
+    base_of(b, q, EARTH, place);
+    base_of(b, qd, STILL, rate);
+    if (qdd != NULL) base_of(b, qdd, STILL, second);
+    for (int32_t k = 0; k < n; k++) {
+      const int32_t v = vector[k], to = nq + c->first + 3 * v;
+      real bent[3];
+      ali3_tabled_turn(place + 3, w->value[0] + 3 * v, in->extended[0] + to);
+      for (int x = 0; v == 0 && x < 3; x++) in->extended[0][to + x] += place[x];
+      along(in, c, w, qd, rate, v, in->extended[1] + to);
+      if (qdd == NULL) continue;
+      along(in, c, w, qdd, second, v, in->extended[2] + to);
+      bend(in, c, w, qd, rate, v, bent);
+      for (int x = 0; x < 3; x++) in->extended[2][to + x] += bent[x];
+    }
   }
 }
 
-void ali3_tabled_way(const ali3_instance *in, const double *D) {
+void ali3_tabled_way(const ali3_instance *in, const real *D) {
   const ali3_system *S = in->system;
-  memcpy(in->extended[0], D, (size_t)S->size.nq * sizeof(double));
+  memcpy(in->extended[0], D, (size_t)S->size.nq * sizeof(real));
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
-    double bent[ALI3_TABLED_BODY], *way = in->extended[0] + S->size.nq + c->first;
-    along(c, work_of(in, i), D, way);
-    bend(c, work_of(in, i), D, bent);
-    for (int32_t k = 0; k < c->n; k++) way[k] -= 0.5 * bent[k];
+    const ali3_tabled_work *w = work_of(in, i);
+    real *way = in->extended[0] + S->size.nq + c->first, frame[12];
+    if (c->n != ALI3_TABLED_BODY) {
+      real second;
+      rates(c, w, parameter(c, 0, D), parameter(c, 1, D), 0, 1, way, &second);
+      way[0] -= 0.5 * second;
+      continue;
+    }
+    if (c->n_seen == 0) continue;
+    base_of(S->tabled_base + c->base, D, STILL, frame);
+    for (int32_t k = 0; k < c->n_seen; k++) {
+      real bent[3];
+      along(in, c, w, D, frame, c->seen[k], way + 3 * c->seen[k]);
+      bend(in, c, w, D, frame, c->seen[k], bent);
+      for (int x = 0; x < 3; x++) way[3 * c->seen[k] + x] -= 0.5 * bent[x];
+    }
   }
 }
 
-/* out = M_X x of the four vectors of a body; moments: mass, first (3), second xx, yy, zz, yz, zx, xy. */
-static void inertia(const double *m, const double *x, double *out) {
-  for (int k = 0; k < 3; k++) {
-    const double r = x[k], a = x[3 + k], b = x[6 + k], c = x[9 + k];
-    out[k] = m[0] * r + m[1] * a + m[2] * b + m[3] * c;
-    out[3 + k] = m[1] * r + m[4] * a + m[9] * b + m[8] * c;
-    out[6 + k] = m[2] * r + m[9] * a + m[5] * b + m[7] * c;
-    out[9 + k] = m[3] * r + m[8] * a + m[7] * b + m[6] * c;
+/* Q += B' f, of the vectors that are seen. */
+static void back(const ali3_tabled *c, const ali3_tabled_work *w, const real *f, real *Q) {
+  for (int p = 0; p < (c->count[1] > 1 ? 2 : 1); p++) {
+    real sum = {0};
+    if (c->n != ALI3_TABLED_BODY) sum = w->by[p][0] * f[0];
+    for (int32_t k = 0; c->n == ALI3_TABLED_BODY && k < c->n_seen; k++)
+      for (int32_t i = 3 * c->seen[k], end = i + 3; i < end; i++) sum += w->by[p][i] * f[i];
+    Q[c->param[p]] += sum;
+  }
+  if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) return;
+  for (int32_t n = 0; n < c->n_seen; n++) {
+    const int32_t v = 3 * c->seen[n];
+    for (int x = 0; x < 3; x++) {
+      if (v == 0) Q[c->frame[x]] += f[x];
+      for (int k = 0; k < 3; k++) Q[c->frame[3 + 3 * k + x]] += w->value[0][v + k] * f[v + x];
+    }
   }
 }
 
-static bool heavy(const ali3_tabled *c) { return c->n == ALI3_TABLED_BODY && c->mass[0] > 0.0; }
-
-void ali3_tabled_mass_times(const ali3_instance *in, const double *x, double *out) {
+void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q) {
   const ali3_system *S = in->system;
-  for (int32_t i = 0; i < S->n_tabled; i++) {
-    const ali3_tabled *c = S->tabled + i;
-    double X[ALI3_TABLED_BODY], P[ALI3_TABLED_BODY];
-    if (!heavy(c)) continue;
-    along(c, work_of(in, i), x, X);
-    inertia(c->mass, X, P);
-    back(c, work_of(in, i), P, out);
-  }
-}
-
-/* Weight of a body on its four vectors. */
-static void weight(const ali3_tabled *c, double f[ALI3_TABLED_BODY]) {
-  for (int v = 0; v < 4; v++)
-    for (int k = 0; k < 3; k++) f[3 * v + k] = c->mass[v] * c->gravity[k];
-}
-
-void ali3_tabled_forces(ali3_instance *in, const double *qd, double *Q) {
-  const ali3_system *S = in->system;
+  ali3_tabled_inertia_forces(in, qd, Q);
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     ali3_tabled_work *w = work_of(in, i);
-    const double *element = in->extended_force + c->first;
-    double bent[ALI3_TABLED_BODY], P[ALI3_TABLED_BODY];
-    memset(w->force, 0, sizeof w->force);
-    if (heavy(c)) {
-      bend(c, w, qd, bent);
-      inertia(c->mass, bent, P);
-      weight(c, w->force);
-      for (int k = 0; k < ALI3_TABLED_BODY; k++) w->force[k] -= P[k];
-    }
-    for (int32_t k = 0; k < c->n; k++) w->force[k] += element[k];
+    if (c->n_seen == 0) continue;
+    memcpy(w->force, in->extended_force + c->first, (size_t)c->n * sizeof *w->force);
     back(c, w, w->force, Q);
   }
 }
 
-/* Energy of the weight of tabled bodies where they are prepared, J. */
-double ali3_tabled_gravity(const ali3_instance *in, const double *q) {
-  double energy = 0.0;
-  for (int32_t i = 0; i < in->system->n_tabled; i++) {
-    const ali3_tabled *c = in->system->tabled + i;
-    double f[ALI3_TABLED_BODY], X[ALI3_TABLED_BODY], frame[12];
-    if (!heavy(c)) continue;
-    weight(c, f);
-    base(c, q, EARTH, frame);
-    turned(frame + 3, work_of(in, i)->value[0], X);
-    for (int k = 0; k < 3; k++) X[k] += frame[k];
-    for (int k = 0; k < ALI3_TABLED_BODY; k++) energy -= f[k] * X[k];
-  }
-  return energy;
-}
-
+#ifndef ALI3_WIDTH
 void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kinetic, double *gravity) {
   for (int32_t i = 0; i < in->system->n_tabled; i++) {
     const ali3_tabled *c = in->system->tabled + i;
-    double f[ALI3_TABLED_BODY], X[ALI3_TABLED_BODY], P[ALI3_TABLED_BODY], bent[ALI3_TABLED_BODY];
-    if (!heavy(c)) continue;
-    along(c, work_of(in, i), qd, X);
-    bend(c, work_of(in, i), qd, bent);
-    inertia(c->mass, X, P);
-    weight(c, f);
-    for (int k = 0; k < ALI3_TABLED_BODY; k++) {
+    double frame[12], X[12], P[12], bent[12];
+    if (!ali3_tabled_heavy(c)) continue;
+    base_of(in->system->tabled_base + c->base, qd, STILL, frame);
+    for (int32_t v = 0; v < 4; v++) {
+      along(in, c, work_of(in, i), qd, frame, v, X + 3 * v);
+      bend(in, c, work_of(in, i), qd, frame, v, bent + 3 * v);
+    }
+    ali3_tabled_moments(c->mass, X, P);
+    for (int k = 0; k < 12; k++) {
       *kinetic += P[k] * bent[k];
-      *gravity -= f[k] * X[k];
+      *gravity -= c->mass[k / 3] * c->gravity[k % 3] * X[k];
     }
   }
 }
@@ -229,3 +225,4 @@ bool ali3_tabled_left(const ali3_instance *in) {
   }
   return false;
 }
+#endif

@@ -2,13 +2,16 @@
  * A body has four vectors, its place and its axes, X_0 = r + Y p and X_i = Y R_i, where r and the axes Y are those of its
  * base and p, R_i functions of one or two parameters, coordinates too. A number is such a function alone. Elements and
  * sensors see X as coordinates behind those of the System: signals may have columns from nq on. Their forces go back by
- * B' with B = dX/dq, and so does the inertia of a body: M = B' M_X B, Q_v = -B' M_X Bd qd. There are no rows. */
+ * B' with B = dX/dq. There are no rows. Inertia is summed over the bodies of a base (tabled_inertia.c). */
 #ifndef ALI3_TABLED_H
 #define ALI3_TABLED_H
+#include "../algebra/real.h"
 #include "../instance.h"
 
-enum { ALI3_TABLED_BODY = 12, ALI3_TABLED_COLUMNS = 14, ALI3_TABLED_MOMENTS = 10 };
-enum { ALI3_TABLED_SIGNALS = 24, ALI3_TABLED_ITEMS = 4, ALI3_TABLED_MOST = 72 }; /* of one element; coordinates */
+enum { ALI3_TABLED_BODY = 12, ALI3_TABLED_COLUMNS = 14, ALI3_TABLED_MOMENTS = 10, ALI3_TABLED_VALUES = 6 };
+enum { ALI3_TABLED_ITEMS = 4, ALI3_TABLED_MOST = 72, ALI3_TABLED_SIGNALS = 32 }; /* of a group; coordinates */
+enum { ALI3_TABLED_CHUNK = 8 }; /* numbers that are summed side by side */
+enum { ALI3_BY_A = 1, ALI3_BY_B, ALI3_BY_AA, ALI3_BY_AB, ALI3_BY_BB }; /* of ali3_tabled_work.value */
 
 struct ali3_tabled {
   int32_t n;                         /* functions: 12 of a body, 1 of a number */
@@ -16,36 +19,81 @@ struct ali3_tabled {
   int32_t first;                     /* its first dependent */
   int32_t front;                     /* of a body: that has all its coordinates */
   int32_t loc[ALI3_TABLED_COLUMNS]; /* places there of r, Y and the parameters; -1: the earth, no second parameter */
+  int32_t base, along[2];           /* of a body: its base, and its parameters among those of the base */
+  int32_t n_seen, seen[4];          /* vectors that signals of elements have */
   const int32_t *frame, *param;      /* coordinates of r and Y, of the parameters; -1 likewise */
   const double *axis, *coef, *mass, *gravity;
 };
 
-/* An element with signals of dependents. */
-struct ali3_tabled_element {
-  int32_t m, loc[ALI3_TABLED_MOST]; /* coordinates, and their places in its front, ascending */
-  int32_t n_item, item[ALI3_TABLED_ITEMS], slot[ALI3_TABLED_ITEMS][ALI3_TABLED_COLUMNS];
+/* Bodies with the same r, Y and gravity. */
+struct ali3_tabled_base {
+  int32_t front, loc[ALI3_TABLED_BODY]; /* as those of its bodies */
+  int32_t first, end;                   /* its parameters */
+  const int32_t *frame;                 /* frame[0] = -1: the earth */
+  const double *gravity;
 };
 
-struct ali3_tabled_work { /* what ali3_tabled_prepare leaves of an item */
-  double value[6][ALI3_TABLED_BODY]; /* functions, their derivatives by a, b, aa, ab, bb */
-  double by[2][ALI3_TABLED_BODY];    /* dX/da, dX/db */
-  double axes[9];                     /* Y */
-  double force[ALI3_TABLED_BODY];    /* on X, of the last ali3_tabled_forces */
+struct ali3_tabled_parameter {
+  int32_t column, loc; /* the coordinate, its place in the front of the base */
+};
+
+/* Elements of one front with signals of the same dependents. */
+struct ali3_tabled_group {
+  int32_t front, first, end;          /* elements: tabled_order[first .. end) */
+  int32_t m, loc[ALI3_TABLED_MOST]; /* coordinates of all of them, their places in the front, ascending */
+  int32_t n_item, item[ALI3_TABLED_ITEMS], slot[ALI3_TABLED_ITEMS][ALI3_TABLED_COLUMNS]; /* of an item's coordinates */
+  int32_t n_signal, signal[ALI3_TABLED_SIGNALS]; /* of all of them */
+  int32_t entry[ALI3_TABLED_SIGNALS], n_entry[ALI3_TABLED_SIGNALS]; /* of a signal, as one of its elements has them */
+};
+
+/* Of the rows of its matrices. */
+static inline int32_t ali3_tabled_stride(const ali3_tabled_group *of) {
+  return (of->m + ALI3_TABLED_CHUNK - 1) / ALI3_TABLED_CHUNK * ALI3_TABLED_CHUNK;
+}
+
+struct ali3_tabled_work { /* what ali3_tabled_prepare leaves of an item; its members are numbers of each lane */
+  real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]; /* functions, their derivatives by a, b, aa, ab, bb */
+  real by[2][ALI3_TABLED_BODY];                     /* dX/da, dX/db, of vectors that are seen */
+  real inertia[3], twist[3];                        /* T_p J T_q of the parameters aa, ab, bb; of T_a J T_b' (2 3), ... */
+  real force[ALI3_TABLED_BODY];                     /* of elements on X, of the last ali3_tabled_forces */
+};
+
+struct ali3_tabled_base_work {
+  real axes[9];    /* Y */
+  real mass[4][4]; /* sum of T J T' */
+  real force[12];  /* scratch */
+};
+
+struct ali3_tabled_parameter_work {
+  real own[12], turned[12]; /* sum of T J dT'/dp along Y, along the axes of the earth */
 };
 
 /* Whether a coordinate of in->now is beyond its table by more than a spacing: along a tangent a body is none there. */
 bool ali3_tabled_left(const ali3_instance *in);
-void ali3_tabled_table(const ali3_tabled *c, double a, double b, double value[6][ALI3_TABLED_BODY]);
-void ali3_tabled_prepare(const ali3_instance *in, const double *q);
-/* in->extended[0 .. 2]: q, qd, qdd (NULL: left) with the dependents behind them; prepared at q. */
-void ali3_tabled_extend(const ali3_instance *in, const double *q, const double *qd, const double *qdd);
-/* X of a change D of coordinates that ends where was prepared, behind D in in->extended[0]: to second order. */
-void ali3_tabled_way(const ali3_instance *in, const double *D);
-void ali3_tabled_mass_times(const ali3_instance *in, const double *x, double *out);
-void ali3_tabled_forces(ali3_instance *in, const double *qd, double *Q);
+void ali3_tabled_table(const ali3_tabled *c, double a, double b, double value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]);
+void ali3_tabled_prepare(const ali3_instance *in, const real *q);
+/* in->extended[0 .. 2]: q, qd, qdd (NULL: left) with the dependents behind them, all or those that elements see;
+ * prepared at q. */
+void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, const real *qdd, bool all);
+/* X of a change D of coordinates that ends where was prepared, behind D in in->extended[0]: to second order, of vectors
+ * that elements see. */
+void ali3_tabled_way(const ali3_instance *in, const real *D);
+void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q);
+
+static inline bool ali3_tabled_heavy(const ali3_tabled *c) { return c->n == ALI3_TABLED_BODY && c->mass[0] > 0.0; }
+/* out (3) = Y t. */
+static inline void ali3_tabled_turn(const real *restrict Y, const real *restrict t, real *restrict out) {
+  for (int x = 0; x < 3; x++) out[x] = Y[x] * t[0] + Y[3 + x] * t[1] + Y[6 + x] * t[2];
+}
+/* Moments of a body times four vectors; `m`: mass, first (3), second xx, yy, zz, yz, zx, xy. */
+void ali3_tabled_moments(const double *m, const real *x, real *out);
+void ali3_tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3_tabled_work *w);
+void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out);
+/* Adds weight and -B' M_X Bd qd to Q. */
+void ali3_tabled_inertia_forces(const ali3_instance *in, const real *qd, real *Q);
 double ali3_tabled_gravity(const ali3_instance *in, const double *q);
 /* Adds what rates change in both energies beside M qdd and the constant weight. */
 void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kinetic, double *gravity);
-void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, double *F);
-void ali3_tabled_elements_tangent(ali3_instance *in, double *F);
+void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, real *F);
+void ali3_tabled_elements_tangent(ali3_instance *in, real *F);
 #endif

@@ -4,86 +4,81 @@
 #include "../algebra/fronts.h"
 #include "tabled.h"
 
-enum { FIRST_PARAMETER = 12, BY_A = 1, BY_AA = 3 };
+enum { FIRST_PARAMETER = 12, CHUNK = ALI3_TABLED_CHUNK };
 
-/* Second moments of a body as a 4 x 4 matrix of its vectors. */
-static void moments(const double *m, double J[4][4]) {
-  const double all[4][4] = {
-      {m[0], m[1], m[2], m[3]}, {m[1], m[4], m[9], m[8]}, {m[2], m[9], m[5], m[7]}, {m[3], m[8], m[7], m[6]}};
-  memcpy(J, all, sizeof all);
-}
-
-/* wM B' M_X B. With X_v = sum_K T_Kv y_K, y = (r, Y): blocks T J T' of r and Y, T J dX/dp with the parameters. */
-static void add_mass(const ali3_tabled *c, const ali3_tabled_work *w, double wM, int32_t size, double *block) {
-  double J[4][4], T[4][4] = {{1.0}}, G[4][4] = {{0.0}};
-  moments(c->mass, J);
-  for (int k = 0; k < 3; k++)
-    for (int v = 0; v < 4; v++) T[k + 1][v] = w->value[0][3 * v + k];
+/* wM M of all bodies of a base, and what the weight changes in Q: -wK d2(g . X)/dY dp. */
+static void add_base(const ali3_instance *in, int32_t b, double wM, double wK, real *F) {
+  const ali3_system *S = in->system;
+  const ali3_tabled_base *base = S->tabled_base + b;
+  const ali3_tabled_base_work *w = in->tabled_base + b;
+  const int32_t size = S->front_ptr[base->front + 1] - S->front_ptr[base->front];
+  real *block = F + S->front_off[base->front];
+  if (base->frame[0] < 0) return;
   for (int K = 0; K < 4; K++)
-    for (int v = 0; v < 4; v++)
-      for (int u = 0; u < 4; u++) G[K][u] += T[K][v] * J[v][u];
-  const int n_par = c->count[1] > 1 ? 2 : 1;
-  for (int p = 0; p < n_par; p++) {
-    const int32_t at = c->loc[FIRST_PARAMETER + p];
-    for (int o = 0; o <= p; o++) {
-      double sum = 0.0;
-      for (int v = 0; v < 4; v++)
-        for (int u = 0; u < 4; u++)
-          for (int x = 0; x < 3; x++) sum += J[v][u] * w->by[p][3 * v + x] * w->by[o][3 * u + x];
-      ali3_add_lower(block, size, at, c->loc[FIRST_PARAMETER + o], wM * sum);
+    for (int L = 0; L <= K; L++)
+      for (int x = 0; x < 3; x++)
+        ali3_add_lower(block, size, base->loc[3 * K + x], base->loc[3 * L + x], wM * w->mass[K][L]);
+  for (int32_t p = base->first; p < base->end; p++) {
+    const ali3_tabled_parameter_work *of = in->tabled_parameter + p;
+    const int32_t at = S->tabled_parameter[p].loc;
+    for (int i = 0; i < 12; i++) {
+      real value = wM * of->turned[i];
+      if (i >= 3) value -= wK * base->gravity[i % 3] * of->own[i / 3 - 1];
+      ali3_add_lower(block, size, base->loc[i], at, value);
     }
-    for (int K = 0; c->frame[0] >= 0 && K < 4; K++)
-      for (int x = 0; x < 3; x++) {
-        double sum = 0.0;
-        for (int v = 0; v < 4; v++) sum += G[K][v] * w->by[p][3 * v + x];
-        ali3_add_lower(block, size, c->loc[3 * K + x], at, wM * sum);
-      }
   }
-  for (int K = 0; c->frame[0] >= 0 && K < 4; K++)
-    for (int L = 0; L <= K; L++) {
-      double sum = 0.0;
-      for (int v = 0; v < 4; v++) sum += G[K][v] * T[L][v];
-      for (int x = 0; x < 3; x++) ali3_add_lower(block, size, c->loc[3 * K + x], c->loc[3 * L + x], wM * sum);
-    }
 }
 
-/* -wK f d2X/dq2, f the force on X. */
-static void add_bend(const ali3_tabled *c, const ali3_tabled_work *w, double wK, int32_t size, double *block) {
+/* Of one item: wM M between its parameters, -wK f d2X/dq2 with the force of elements and the weight. */
+static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, real *F) {
+  const ali3_system *S = in->system;
+  const ali3_tabled *c = S->tabled + i;
+  const ali3_tabled_work *w = in->tabled + i;
+  const int32_t size = S->front_ptr[c->front + 1] - S->front_ptr[c->front];
   const int n_par = c->count[1] > 1 ? 2 : 1;
+  const bool body = c->n == ALI3_TABLED_BODY, heavy = ali3_tabled_heavy(c);
+  real *block = F + S->front_off[c->front], f[12]; /* along Y */
+  const real *axes = body ? in->tabled_base[c->base].axes : NULL;
+  memset(f, 0, sizeof f);
+  for (int v = 0; body && v < 4; v++)
+    for (int k = 0; heavy && k < 3; k++)
+      f[3 * v + k] = c->mass[v] * (axes[3 * k] * c->gravity[0] + axes[3 * k + 1] * c->gravity[1] +
+                                   axes[3 * k + 2] * c->gravity[2]);
+  for (int32_t n = 0; body && n < c->n_seen; n++) {
+    const real *force = w->force + 3 * c->seen[n];
+    for (int k = 0; k < 3; k++)
+      f[3 * c->seen[n] + k] += axes[3 * k] * force[0] + axes[3 * k + 1] * force[1] + axes[3 * k + 2] * force[2];
+  }
+  if (!body) f[0] = w->force[0];
   for (int p = 0; p < n_par; p++) {
     const int32_t at = c->loc[FIRST_PARAMETER + p];
     for (int o = 0; o <= p; o++) {
-      const double *t = w->value[BY_AA + p + o];
-      double sum = 0.0;
-      if (c->n != ALI3_TABLED_BODY) sum = w->force[0] * t[0];
-      for (int i = 0; c->n == ALI3_TABLED_BODY && i < 12; i++)
-        for (int k = 0; k < 3; k++) sum += w->force[i] * w->axes[3 * k + i % 3] * t[3 * (i / 3) + k];
-      ali3_add_lower(block, size, at, c->loc[FIRST_PARAMETER + o], -wK * sum);
+      const real *bent = w->value[ALI3_BY_AA + p + o];
+      real sum = {0};
+      for (int32_t k = 0; k < c->n; k++) sum += f[k] * bent[k];
+      real value = -wK * sum;
+      if (heavy) value += wM * w->inertia[p + o];
+      ali3_add_lower(block, size, at, c->loc[FIRST_PARAMETER + o], value);
     }
-    if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) continue;
+    if (!body || c->frame[0] < 0 || c->n_seen == 0) continue;
     for (int k = 0; k < 3; k++)
       for (int x = 0; x < 3; x++) {
-        double sum = 0.0;
-        for (int v = 0; v < 4; v++) sum += w->force[3 * v + x] * w->value[BY_A + p][3 * v + k];
+        real sum = {0};
+        for (int32_t n = 0; n < c->n_seen; n++)
+          sum += w->force[3 * c->seen[n] + x] * w->value[ALI3_BY_A + p][3 * c->seen[n] + k];
         ali3_add_lower(block, size, c->loc[3 + 3 * k + x], at, -wK * sum);
       }
   }
 }
 
-void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, double *F) {
-  const ali3_system *S = in->system;
-  for (int32_t i = 0; i < S->n_tabled; i++) {
-    const ali3_tabled *c = S->tabled + i;
-    const int32_t size = S->front_ptr[c->front + 1] - S->front_ptr[c->front];
-    double *block = F + S->front_off[c->front];
-    if (wM != 0.0 && c->n == ALI3_TABLED_BODY && c->mass[0] > 0.0) add_mass(c, in->tabled + i, wM, size, block);
-    if (wK != 0.0) add_bend(c, in->tabled + i, wK, size, block);
-  }
+void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, real *F) {
+  for (int32_t b = 0; b < in->system->n_tabled_base; b++) add_base(in, b, wM, wK, F);
+  for (int32_t i = 0; i < in->system->n_tabled; i++) add_item(in, i, wM, wK, F);
 }
 
-/* Row of B of a signal: its coefficient `value` of dependent d of an item, over the coordinates of the element. */
+/* Row of B of a signal: its coefficient `value` of dependent d of an item, over the coordinates of the group. */
 static void spread(const ali3_tabled *c, const ali3_tabled_work *w, const int32_t *slot, int32_t d, double value,
-                   double *row) {
+                   real *row) {
   row[slot[FIRST_PARAMETER]] += value * w->by[0][d];
   if (c->count[1] > 1) row[slot[FIRST_PARAMETER + 1]] += value * w->by[1][d];
   if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) return;
@@ -92,46 +87,74 @@ static void spread(const ali3_tabled *c, const ali3_tabled_work *w, const int32_
   for (int k = 0; k < 3; k++) row[slot[3 + 3 * k + x]] += value * w->value[0][3 * v + k];
 }
 
-/* B' S B of an element with B made of its tables. */
-static void element_tangent(ali3_instance *in, int32_t e, const ali3_tabled_element *of, double *F) {
+/* B, n x m: the signals of a group by its coordinates, made of its tables. */
+static void rows_of(const ali3_instance *in, const ali3_tabled_group *of, int32_t m, real *B) {
   const ali3_system *S = in->system;
-  const int32_t n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e], m = of->m, front = S->el_front[e];
-  const int32_t size = S->front_ptr[front + 1] - S->front_ptr[front];
-  const double *tangent = in->S + S->el_S_off[e];
-  double *block = F + S->front_off[front];
-  double B[ALI3_TABLED_SIGNALS * ALI3_TABLED_MOST], SB[ALI3_TABLED_SIGNALS * ALI3_TABLED_MOST];
-  memset(B, 0, (size_t)(n * m) * sizeof *B);
-  memset(SB, 0, (size_t)(n * m) * sizeof *SB);
-  for (int32_t k = S->el_entry_ptr[e]; k < S->el_entry_ptr[e + 1]; k++) {
-    const int32_t d = S->el_entry_dependent[k], local = S->el_entry_local[k];
-    double *row = B + S->el_entry_signal[k] * m;
-    if (d < 0)
-      row[local] += S->el_entry_value[k];
-    else
-      spread(S->tabled + of->item[local], in->tabled + of->item[local], of->slot[local], d, S->el_entry_value[k], row);
+  memset(B, 0, (size_t)(of->n_signal * m) * sizeof *B);
+  for (int32_t i = 0; i < of->n_signal; i++)
+    for (int32_t k = of->entry[i], end = k + of->n_entry[i]; k < end; k++) {
+      const int32_t d = S->el_entry_dependent[k], local = S->el_entry_local[k];
+      real *row = B + i * m;
+      if (d < 0)
+        row[local] += S->el_entry_value[k];
+      else
+        spread(S->tabled + of->item[local], in->tabled + of->item[local], of->slot[local], d, S->el_entry_value[k],
+               row);
+    }
+}
+
+/* Sum of the tangents of a group's elements by its signals, n x n; returns whether none has any. */
+static truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, real *sum) {
+  const ali3_system *S = in->system;
+  truth idle = ali3_same(0.0) == 0.0;
+  memset(sum, 0, (size_t)(of->n_signal * of->n_signal) * sizeof *sum);
+  for (int32_t o = of->first; o < of->end; o++) {
+    const int32_t e = S->tabled_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
+    const int32_t *place = S->tabled_signal + S->el_sig_ptr[e];
+    const real *from = in->S + S->el_S_off[e];
+    const truth still = in->idle[e];
+    if (!ali3_any(ali3_not(still))) continue;
+    idle &= still;
+    for (int32_t i = 0; i < n; i++) {
+      real *row = sum + place[i] * of->n_signal;
+      for (int32_t k = 0; k < n; k++) row[place[k]] = ali3_add_unless(still, row[place[k]], from[i * n + k]);
+    }
   }
-  for (int32_t i = 0; i < n; i++)
-    for (int32_t k = 0; k < n; k++) {
-      const double s = tangent[i * n + k];
-      const double *restrict from = B + k * m;
-      double *restrict to = SB + i * m;
-      if (s == 0.0) continue;
-      for (int32_t j = 0; j < m; j++) to[j] += s * from[j];
+  return idle;
+}
+
+/* to (m, from `first` on) = sum of n rows by factors that are `step` apart; zeros are passed over. */
+static void blend(int32_t n, int32_t m, int32_t first, const real *factor, int32_t step, const real *restrict rows,
+                  real *restrict to) {
+  for (int32_t at = first / CHUNK * CHUNK; at < m; at += CHUNK) {
+    real sum[CHUNK];
+    for (int k = 0; k < CHUNK; k++) sum[k] = ali3_same(0.0);
+    for (int32_t i = 0; i < n; i++) {
+      const real f = factor[i * step];
+      if (!ali3_any(f != 0.0)) continue;
+      for (int k = 0; k < CHUNK; k++) sum[k] += f * rows[i * m + at + k];
     }
-  for (int32_t i = 0; i < n; i++) {
-    const double *restrict row = SB + i * m;
-    for (int32_t j = 0; j < m; j++) {
-      const double b = B[i * m + j];
-      double *restrict column = block + (int64_t)of->loc[j] * size;
-      if (b == 0.0) continue;
-      for (int32_t k = j; k < m; k++) column[of->loc[k]] += b * row[k];
-    }
+    for (int k = 0; k < CHUNK; k++) to[at + k] = sum[k];
   }
 }
 
-void ali3_tabled_elements_tangent(ali3_instance *in, double *F) {
+/* B' S B of the elements of a group. */
+static void add_group(ali3_instance *in, const ali3_tabled_group *of, real *F) {
   const ali3_system *S = in->system;
-  for (int32_t e = 0; e < S->size.ne; e++)
-    if (S->el_tabled[e] >= 0 && S->el_front[e] >= 0 && !in->idle[e])
-      element_tangent(in, e, S->tabled_element + S->el_tabled[e], F);
+  const int32_t size = S->front_ptr[of->front + 1] - S->front_ptr[of->front];
+  const int32_t n = of->n_signal, m = ali3_tabled_stride(of);
+  real *block = F + S->front_off[of->front], *sum = in->tabled_square, *B = sum + n * n, *SB = B + n * m, *row = SB + n * m;
+  const truth idle = sum_of(in, of, sum);
+  if (!ali3_any(ali3_not(idle))) return;
+  rows_of(in, of, m, B);
+  for (int32_t i = 0; i < n; i++) blend(n, m, 0, sum + i * n, 1, B, SB + i * m);
+  for (int32_t j = 0; j < of->m; j++) {
+    real *column = block + (int64_t)of->loc[j] * size;
+    blend(n, m, j, B + j, m, SB, row);
+    for (int32_t i = j; i < of->m; i++) column[of->loc[i]] = ali3_add_unless(idle, column[of->loc[i]], row[i]);
+  }
+}
+
+void ali3_tabled_elements_tangent(ali3_instance *in, real *F) {
+  for (int32_t g = 0; g < in->system->n_tabled_group; g++) add_group(in, in->system->tabled_group + g, F);
 }
