@@ -10,20 +10,20 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 43550,
+    "build": 44050,
     "build --kernel": 500,
     "car": 34850,
     "run": 4250,
     "run, all of it": 6500,
     "view": 1150,
     "simulator": 9200,
-    "simulator, all of it": 15600,
+    "simulator, all of it": 15700,
     "check": 5700,
     "catalogue": 8400,
     "compare": 9750,
     "study": 9500,
     "study --run": 8100,
-    "study, all of it": 15750,
+    "study, all of it": 15850,
     "road": 950,
 }
 """Lines; a command that needs fewer takes its number down with it."""

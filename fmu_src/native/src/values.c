@@ -32,7 +32,7 @@ bool slave_outputs(slave *s) {
   for (size_t i = t->n_known; i < t->n_variables; i++) {
     const slave_variable *v = &t->variable[i];
     if (v->source == SLAVE_CONSTANT) break; /* they come last */
-    s->value[i] = v->source == SLAVE_SENSOR   ? s->sensors[v->index]
+    s->value[i] = v->source == SLAVE_SENSOR   ? v->scale * s->sensors[v->index]
                   : v->source == SLAVE_SOLVER ? ali3_solver_value(s->fidelity.kernel, v->index)
                   : v->source == SLAVE_AHEAD  ? ahead(s, v, s->value) /* of sensors, which stand before */
                                               : s->calls.capped_residual;
