@@ -86,7 +86,7 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
   if (!finite && !v->port)
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %g; a finite number is needed, the last value %g%s is kept.",
                      v->name, value, s->value[reference], v->unit);
-  if (v->whole && value != floor(value))
+  if (finite && v->whole && value != floor(value))
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g; it must be a whole number, it keeps %g.", v->name, value,
                      s->value[reference]);
   *clamped = finite ? value : s->value[reference];
