@@ -14,6 +14,7 @@ from enum import Enum
 from os import PathLike
 from pathlib import Path
 
+from ali3.alias_file import Content
 from ali3.files import check_writable
 from ali3.parameter_set import ParameterSet
 from fmu_src.build.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
@@ -21,11 +22,13 @@ from fmu_src.build.parameter_file import parameter_set
 from fmu_src.description.nominal import drive_sizes, with_nominal
 from fmu_src.description.probe import probe
 from fmu_src.geometry.geometry import geometry, geometry_file
+from fmu_src.geometry.other_columns import with_other_columns
 from fmu_src.native.ahead import compiled_ahead
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.native.platforms import able_platforms
-from fmu_src.native.reference import ReferenceRun, reference_runs
+from fmu_src.native.reference import ReferenceRun, reference_runs, with_other_names
+from fmu_src.variables.other_names import Renamed, renamed
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import check_fidelities, variable_table, with_uncomputed
 from mbs.common.checks import instance_of
@@ -71,6 +74,7 @@ def build_fmu(
     author: str = "",
     copyright: str = "",
     licence: str = "",
+    names: Content | None = None,
 ) -> Path:
     """Build the FMU of a System.
 
@@ -94,6 +98,8 @@ def build_fmu(
         The default among several Systems.
     author, copyright, licence : str
         Of the model, for its description; empty: the solver's.
+    names : Content, optional
+        An alias file, as `ali3.alias_file.read_content` reads it: names, and units, of another program.
 
     Returns
     -------
@@ -104,6 +110,8 @@ def build_fmu(
     ------
     ValueError
         An argument is not what it must be; the message says what would be. Nothing is written.
+    ali3.errors.UserError
+        The names cannot be those of the variables.
     ali3.errors.FileError
         The file cannot be written.
     """
@@ -114,7 +122,9 @@ def build_fmu(
     check_writable(file)
     # one library is there soon enough
     with compiled_ahead([(face_name(kind), platform) for platform in chosen] if len(chosen) > 1 else []):
-        builder = FmuBuilder(system, name, fidelity, (author, copyright, licence), functools.partial(_told, say))
+        builder = FmuBuilder(
+            system, name, fidelity, (author, copyright, licence), functools.partial(_told, say), names=names
+        )
         return builder.build(kind, chosen, file)
 
 
@@ -137,6 +147,8 @@ class FmuBuilder:
         Of the model; empty: that of the System.
     origin : mapping of str to bytes, optional
         Files that the model was made from, by their paths in the FMU.
+    names : Content, optional
+        As for `build_fmu`.
     """
 
     def __init__(
@@ -148,6 +160,7 @@ class FmuBuilder:
         told: Telling,
         description: str = "",
         origin: Mapping[str, bytes] | None = None,
+        names: Content | None = None,
     ) -> None:
         offered = systems_by_number(system)
         systems, followers = following(list(offered.values()))
@@ -172,6 +185,10 @@ class FmuBuilder:
         table = with_nominal(table, drive_sizes(systems, table), reach.size)
         version = importlib.metadata.version("ali3")
         scene = geometry(systems[fidelity], table, fmu_name(name), description)
+        self.renamed = Renamed(table, {}) if names is None else renamed(table, names)
+        table = self.renamed.table
+        if scene is not None and names is not None:
+            scene = with_other_columns(scene, self.renamed.named)
         self._contents = NativeContents(
             "", description, version, systems, table, reach, fidelity, followers, *rights, origin or {}
         )
@@ -221,7 +238,8 @@ class FmuBuilder:
         else:
             if not self._runs:
                 with self._told("running the default experiment"):
-                    self._runs = reference_runs(contents.system, contents.follower)
+                    runs = reference_runs(contents.system, contents.follower)
+                self._runs = tuple(with_other_names(run, self.renamed.named) for run in runs)
             pack_native(contents, _FACES[kind], self._runs, platforms, file, self._told, self._libraries)
         return file
 

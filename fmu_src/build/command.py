@@ -19,6 +19,7 @@ from ali3.told_warnings import told_warnings
 if TYPE_CHECKING:
     from ali3.parameter_set import ParameterSet
     from fmu_src.build.progress_line import ProgressLine
+    from fmu_src.variables.other_names import Renamed
     from mbs import System
 
 _KINDS = "native,fmi3,python"
@@ -73,7 +74,13 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         metavar="LIST",
         help="inputs of a --car at which other programs take the place of its parts, as torque,brakes=pressure: torque "
         "(=half_shafts or =hub_motors), brakes (=torque or =pressure), steering (=rack_position or =rack_force), road, "
-        "forces (=earth or =vehicle), wind, tyre",
+        "forces (=earth or =vehicle), wind, tyre, gear",
+    )
+    parser.add_argument(
+        "--names",
+        metavar="NAMES",
+        help="the names and units that another program has for the variables: carmaker, carsim, chrono, osi, "
+        "vehicle_interfaces, or an alias file",
     )
     add_option(parser, "--fidelity", "of a --car, alone in the FMU; default: all that an FMU offers")
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
@@ -151,19 +158,24 @@ def _build(options: argparse.Namespace) -> int:
 
 def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Sequence[str], rest: Sequence[str]) -> int:
     """Build what this machine runs, then the same for the others."""
+    from ali3.alias_file import alias_file, read_content
     from ali3.files import check_writable
     from fmu_src.build.build import FmuBuilder, fmu_name
     from fmu_src.build.progress_line import ProgressLine
     from fmu_src.native.platforms import TARGETS, able_platforms
 
     line = ProgressLine()
+    names = None if options.names is None else read_content(alias_file(options.names))
     name, systems, fidelity, description, origin = _compiled(options, line)
+    if options.names is not None:
+        name = f"{name}_{Path(options.names).stem}"
     files = {kind: options.out / f"{fmu_name(name, kind)}.fmu" for kind in kinds}
     beside = options.out / f"{fmu_name(name)}.ssv"
     for file in (*files.values(), beside):
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
-    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin)
+    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names)
+    _tell_names(builder.renamed, len(builder.renamed.table))
     wanted = [p for p in TARGETS if p in first or p in rest]
     able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}
     for kind in [k for k in kinds if not able[k]]:
@@ -211,6 +223,20 @@ def _compiled(
     if (scene_car := car_of_scene(options.scene)) is not None:
         _tell_grip(grip_of(scene_car))
     return (*compiled, "", {})
+
+
+def _tell_names(found: Renamed, variables: int) -> None:
+    named = found.named.values()
+    if not named:
+        return
+    odd = {v.unit for v in named if v.scale != 1.0}
+    units = f", in {', '.join(sorted(odd))} where they have another unit" if odd else ""
+    print(f"{len(named)} of {variables} variables have other names{units}; the rest keep theirs", flush=True)
+    reasons: dict[str, list[str]] = {}
+    for ours, why in found.left_out.items():
+        reasons.setdefault(why, []).append(ours)
+    for why, ours in reasons.items():
+        print(f"{', '.join(ours)}: no other name; {why}", flush=True)
 
 
 def _tell_grip(grip: Mapping[str, str]) -> None:

@@ -173,15 +173,15 @@ _PLUGS: dict[str, tuple[str, tuple[tuple[str, str, str], ...]]] = {
 
 def _plugs(arrays: Sequence[Array]) -> list[tuple[str, list[tuple[str, str, str]]]]:
     """Names and members of the terminals of ports: variable, name for the partner, kind."""
-    names = {array.name for array in arrays}
+    names = {(array.of.ours if len(array.items) == 1 else "") or array.name: array.name for array in arrays}
     found = []
-    for array in arrays:
-        prefix, dot, last = array.name.rpartition(".")
+    for ours, array in zip(names, arrays, strict=True):
+        prefix, dot, last = ours.rpartition(".")
         if not array.of.port or last not in _PLUGS:
             continue
         called, members = _PLUGS[last]
         there = [(f"{prefix}{dot}{name}", member, kind) for name, member, kind in members]
-        there = [member for member in there if member[0] in names]
+        there = [(names[place], member, kind) for place, member, kind in there if place in names]
         if len(there) > 1:
             found.append((f"{prefix}{dot}{called}", there))
     return found

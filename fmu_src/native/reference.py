@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 from xml.etree import ElementTree
 
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 import mbs
 from fmu_src.description.description import number, to_bytes
+from fmu_src.variables.variables import Variable
 from mbs.kernel.binding import Instance, KernelError, LoadedSystem
 from mbs.simulation.refusal import refusal
 
@@ -134,6 +135,18 @@ def _run(
                 raise refusal(simulation, what, error) from None
     columns = {entry["name"]: column for entry, column in zip(sensors, np.array(rows).T, strict=True)}
     return ReferenceRun(np.array(times), columns, corners, dict(inputs))
+
+
+def with_other_names(run: ReferenceRun, named: Mapping[str, Variable]) -> ReferenceRun:
+    """The run with its columns and inputs as they are called, in their units; `named`: the variables by ours."""
+
+    def called(columns: Mapping[str, Column]) -> dict[str, Column]:
+        return {
+            named[key].name if key in named else key: column * named[key].scale if key in named else column
+            for key, column in columns.items()
+        }
+
+    return replace(run, columns=called(run.columns), inputs=called(run.inputs))
 
 
 def reference_files(name: str, runs: Sequence[ReferenceRun], stop_time: float, step: float) -> dict[str, bytes]:

@@ -64,12 +64,12 @@ def c_table(
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
         f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {str(v.port).lower()}, {v.road}, {bits:#x}, "
         f"{_number((v.works or [None])[0], '-HUGE_VAL')}, {_number((v.works or [None])[-1], 'HUGE_VAL')}, "
-        f"{v.role}, {v.other}}},"
+        f"{v.role}, {v.other}, {_number(v.scale, '1.0')}}},"
         for v, unit, bits in zip(table, units, uncomputed, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
     known = sum(v.causality in ("input", "parameter") for v in table)
-    roll = next((k for k, v in enumerate(table) if v.name == ROLL), len(table))
+    roll = next((k for k, v in enumerate(table) if (v.ours or v.name) == ROLL), len(table))
     return (
         "/* Generated with the FMU from its table of variables. */\n"
         '#include <math.h>\n\n#include "slave.h"\n\n'

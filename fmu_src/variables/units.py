@@ -21,10 +21,16 @@ _SYMBOLS: dict[str, tuple[dict[str, int], float]] = {
     "Ns": ({"kg": 1, "m": 1, "s": -1}, 1.0),
     "deg": ({"rad": 1}, math.pi / 180.0),
     "mm": ({"m": 1}, 1e-3),
+    "km": ({"m": 1}, 1e3),
+    "h": ({"s": 1}, 3600.0),
+    "rpm": ({"rad": 1, "s": -1}, math.pi / 30.0),
+    "g": ({"m": 1, "s": -2}, 9.80665),
+    "MPa": ({"kg": 1, "m": -1, "s": -2}, 1e6),
+    "%": ({}, 0.01),
     "1": ({}, 1.0),
 }
 
-_TOKEN = re.compile(r"([A-Za-z]+|1)\^?([+-]?\d+)?")
+_TOKEN = re.compile(r"([A-Za-z]+|1|%)\^?([+-]?\d+)?")
 
 # Unit -> display units and factors, the usual one first: value in the display unit = factor * value.
 DISPLAY_UNITS: dict[str, dict[str, float]] = {

@@ -95,6 +95,10 @@ class Variable:
         else -1.
     tried : float, optional
         Of an input: how far the trials at build time move it from its start; by default over its range.
+    scale : float
+        Of an input or a sensor: the value is this times that of the System.
+    ours : str
+        Its name in the model, where it has that of another program.
     """
 
     name: str
@@ -117,6 +121,8 @@ class Variable:
     role: int = 0
     other: int = -1
     tried: float | None = None
+    scale: float = 1.0
+    ours: str = ""
 
 
 _CAPPED_RESIDUAL = Variable(
@@ -217,7 +223,7 @@ def variable_table(
     table += [_constant(entry) for entry in meta.get("constants", ())]
     table = _near(meta, table)
     table = [replace(v, name=_NUMBERED.sub("_", v.name)) for v in table]
-    _check(table)
+    check_names(table)
     return _distinct(table)
 
 
@@ -352,7 +358,8 @@ def _display(name: str, unit: str) -> str | None:
     return next(iter(DISPLAY_UNITS[unit])) if unit in DISPLAY_UNITS else None
 
 
-def _check(table: Iterable[Variable]) -> None:
+def check_names(table: Iterable[Variable]) -> None:
+    """Names, units and starts are such as an FMU can have; else `ValueError` with the sentence."""
     seen: set[str] = set()
     for v in table:
         if not _STRUCTURED_NAME.fullmatch(v.name):

@@ -72,6 +72,7 @@ class AutomaticDrive:
         throttle: int,
         gear: int = 1,
         selector: int | None = None,
+        request: int | None = None,
     ) -> ElementRecord:
         """The force element; the frame carries the reaction.
 
@@ -87,6 +88,8 @@ class AutomaticDrive:
             Gear at the start, from 1.
         selector : int, optional
             Number of an input: -1 reverse, 0 neutral, 1 drive; without one the drive is in drive.
+        request : int, optional
+            Number of an input that asks for a forward gear, from 1; 0: as the drive shifts by itself. Needs a selector.
 
         Raises
         ------
@@ -117,6 +120,10 @@ class AutomaticDrive:
             of_selector = {}
         else:
             inputs.append(index(selector, f"The selector of {what}"))
+        if request is not None:
+            if selector is None:
+                raise ValueError(f"T{what[1:]} has a request of gears and no selector; give it one.")
+            inputs.append(index(request, f"The request of {what}"))
         return ElementRecord(
             name,
             ElementType.AUTOMATIC_DRIVE,
@@ -129,6 +136,7 @@ class AutomaticDrive:
                 Output("gear", "1", "gear engaged" + (", -1: reverse, 0: neutral" if of_selector else ""), whole=True),
                 Output("wheel_torque", "N m", "torque on each of the two wheels"),
                 Output("engine_torque", "N m", "torque of the engine"),
+                *(Output(f"{side}_power", "W", f"power on the {side} wheel") for side in ("left", "right")),
             ),
         )
 

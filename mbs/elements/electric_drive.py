@@ -111,5 +111,6 @@ class ElectricDrive:
                 Output("wheel_torque", "N m", "torque on each of the two wheels"),
                 Output("electric_power", "W", "power from the battery, negative in regeneration"),
                 Output("gear", "1", "direction engaged: -1 reverse, 0 neutral, 1 drive", whole=True),
+                *(Output(f"{side}_power", "W", f"power on the {side} wheel") for side in ("left", "right")),
             ),
         )

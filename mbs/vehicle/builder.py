@@ -82,6 +82,8 @@ class CarBuilder:
         description: str,
         role: Role = Role.NONE,
         near: str = "",
+        *,
+        whole: bool = False,
     ) -> Input:
         """An input that another program sets, 0 until then.
 
@@ -91,8 +93,10 @@ class CarBuilder:
             Ends of its range, at which larger values are held, in `unit`.
         role, near : Role, str
             What an FMU watches it for, by which sensor.
+        whole : bool
+            Whether it is a whole number.
         """
-        channel = new_input(self.m, name, 0.0, least, largest, unit, description, False, True, role, near)
+        channel = new_input(self.m, name, 0.0, least, largest, unit, description, whole, True, role, near)
         self.port_inputs.append(channel)
         return channel
 

@@ -124,6 +124,9 @@ class CarContent(Section):
                 "ports.tyre and ports.road are both there; the road under a tyre at a port is that of the program that "
                 "has the tyre, so leave one of them out."
             )
+        if self.ports.gear is not None and (self.ports.torque is not None or self.drive.kind != "automatic"):
+            why = "ports.torque leaves the drive out" if self.ports.torque is not None else "an electric drive has none"
+            yield f"ports.gear asks for a gear of an automatic drive, and {why}; leave it out."
         port = self.ports.steering
         if port is not None and (port == "rack_force") != (self.steering.kind == "column"):
             yield (

@@ -178,6 +178,8 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
         if car.ports.torque is None and w[0].lower() == car.drive.wheels[0]:
             text = "torque of the drive on the wheel about its axis, positive forward"
             m.sense_element(f"wheel_{w}.drive_torque", "drive", "wheel_torque", description=text)
+            side = "left" if w[1] == "L" else "right"
+            m.sense_element(f"wheel_{w}.drive_power", "drive", f"{side}_power")
         if car.ports.torque is not None:
             m.sense_element(f"wheel_{w}.drive_power", f"port drive {w}", "power")
         m.sense_element(f"wheel_{w}.brake_power", f"brake {w}", "power")

@@ -10,7 +10,7 @@ from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import BrakePressure, Frequency, Point
 from mbs.vehicle.section import Section
 
-PORTS = ("torque", "brakes", "steering", "road", "tyre", "forces", "wind")
+PORTS = ("torque", "brakes", "steering", "road", "tyre", "forces", "wind", "gear")
 
 
 class Ports(Section):
@@ -34,6 +34,8 @@ class Ports(Section):
     """Forces and torques on the chassis at `force_points`, along these axes."""
     wind: Literal["speed"] | None = None
     """Speed and heading of air that moves over the ground."""
+    gear: Literal["request"] | None = None
+    """A forward gear that is asked for, beside an `automatic` drive, which shifts by itself where none is."""
     force_points: dict[Name, Point] = Field(default_factory=dict)
     """Where the forces act, as drawn, such as a hitch; left and right are as given; by default the reference point."""
     full_pressure: BrakePressure = 10e6

@@ -15,11 +15,11 @@ from typing import Any
 
 import pytest
 
+from ali3.alias_file import read_content
 from ali3.read_parameter_set import read_parameter_set
 from hosts.compare.log_aliases import Form, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.driving.manoeuvre_file import read_manoeuvre
-from hosts.fmu.aliases.content import read_content
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.recordings.recorded_drive import read_recording
 from hosts.simulator.devices.mapping_files import MappingFiles

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbs.elements import AutomaticDrive
-from tests.elements.harness import Element, frame, tangent_by_differences, vectors
+from tests.elements.harness import Element, Result, frame, tangent_by_differences, vectors
 
 DRIVE = AutomaticDrive(max_torque=110.0, max_power=50e3)
 
@@ -291,3 +291,49 @@ def test_bad_selectors_are_refused() -> None:
         replace(DRIVE, reverse_ratio=0.0).record("D", left[0], right[0], f, g, 0)
     element = selected(1.0, 0.0, 0.0)
     assert "input that does not exist" in (element.check(n_inputs=1) or "")
+
+
+def asked(gear: float, W: float, h: float, steps: int, y: np.ndarray) -> tuple[np.ndarray, list[float], Result]:
+    left, right, f, g = vectors(1, 1, 3, 3)
+    element = Element(DRIVE.record("drive", left[0], right[0], f, g, 0, 1, 1, 2), n_inputs=3)
+    torques = []
+    for _ in range(steps):
+        r = element(*signals_of(W, W), y, h, inputs=[0.6, 1.0, gear], accept=True)
+        y = r.y
+        torques.append(r.out["wheel_torque"])
+    return y, torques, r
+
+
+def test_a_gear_that_is_asked_for_is_engaged_in_the_time_of_a_shift_whatever_the_step() -> None:
+    begin, W = np.array([1.0, 1.0, 1e3, 0.0, 1.0, 1.0]), 12.0
+    third = drive_element(gear=3)(*signals_of(W, W), inputs=[0.6]).out["wheel_torque"]
+    middle = []
+    for h in (0.02, 0.001):
+        y, torques, r = asked(3.0, W, h, round(0.4 / h), begin)
+        assert r.out["gear"] == 3.0
+        assert torques[-1] == pytest.approx(third, rel=1e-12)
+        assert np.all(np.diff(torques) <= 0.0)
+        middle.append(torques[round(0.1 / h) - 1])
+        # it would shift down by itself, and does once nothing is asked for
+        assert asked(3.0, W, h, round(2.0 / h), y)[2].out["gear"] == 3.0
+        assert asked(0.0, 5.0, h, round(3.0 / h), y)[2].out["gear"] == 1.0
+    assert middle[0] == pytest.approx(middle[1], rel=1e-9)
+    assert asked(9.0, W, 0.01, 100, begin)[2].out["gear"] == 3.0, "the tallest there is"
+
+
+def test_powers_on_the_wheels_are_torque_times_what_they_turn_in_the_frame() -> None:
+    rng = np.random.default_rng(3)
+    R, omega = frame(rng), rng.normal(size=3)
+    r = drive_element()(*(signals := signals_of(20.0, 35.0, omega, R)), inputs=[0.7])
+    turned, torque = omega @ R[:, 2], r.out["wheel_torque"]
+    assert r.out["left_power"] == pytest.approx(torque * (20.0 - turned), rel=1e-12)
+    assert r.out["right_power"] == pytest.approx(torque * (35.0 - turned), rel=1e-12)
+    assert r.out["left_power"] + r.out["right_power"] == pytest.approx(r.f @ signals[1], rel=1e-12)
+
+
+def test_a_request_needs_a_selector_and_an_input() -> None:
+    left, right, f, g = vectors(1, 1, 3, 3)
+    with pytest.raises(ValueError, match="The drive 'D' has a request of gears and no selector"):
+        DRIVE.record("D", left[0], right[0], f, g, 0, request=1)
+    element = Element(DRIVE.record("D", left[0], right[0], f, g, 0, 1, 1, 2), n_inputs=3)
+    assert "input that does not exist" in (element.check(n_inputs=2) or "")

@@ -254,12 +254,38 @@ def test_outputs_that_loops_need_agree_with_others() -> None:
     assert now["wheel_RL.My"] == pytest.approx(lever, abs=0.1 * abs(lever) + 1.0)
 
 
+def test_a_gear_that_is_asked_for_is_engaged_and_the_drive_shifts_by_itself_without() -> None:
+    """Its engine turns as fast as the gear makes it, and the powers on the wheels are those of its torque."""
+    plain, ported = simulation(rigid, 15.0), simulation(rigid, 15.0, gear="request")
+    for s in (plain, ported):
+        s.set_input("throttle", 0.3)
+        s.step(STEP, 250)
+    now, same = ported.sensors, plain.sensors
+    assert all(now[name] == value for name, value in same.items()), "to the last bit without a request"
+    assert now["gear"] == 3.0
+    ported.set_input("gear_request", 2.0)
+    ported.step(STEP, 250)
+    now, other = ported.sensors, plain.sensors
+    assert now["gear"] == now["used.gear_request"] == 2.0
+    assert now["engine_speed"] > 1.2 * other["engine_speed"]
+    w = rigid().drive.wheels[0].upper()
+    for side in "LR":
+        power = now[f"wheel_{w}{side}.drive_torque"] * now[f"wheel_{w}{side}.omega"]
+        assert now[f"wheel_{w}{side}.drive_power"] == pytest.approx(power, rel=0.02)
+    inputs, sensors = names(rigid())
+    mine, senses = names(with_ports(rigid(), gear="request"))
+    assert [n for n in mine if n != "gear_request"] == inputs
+    assert [n for n in senses if n in sensors] == sensors
+
+
 def test_ports_that_do_not_fit_are_one_sentence() -> None:
     cases = {
         "torque": lambda: with_ports(rigid(), torque="axles"),
         "full_pressure": lambda: with_ports(rigid(), brakes="pressure", full_pressure=100.0),
         "rack_force": lambda: with_ports(rigid(), steering="rack_force"),
         "rack_position": lambda: with_ports(column_car(), steering="rack_position"),
+        "an electric drive has none": lambda: with_ports(hatchback(), gear="request"),
+        "leaves the drive out": lambda: with_ports(rigid(), gear="request", torque="half_shafts"),
     }
     for word, make in cases.items():
         with pytest.raises(CarFileError, match=word):

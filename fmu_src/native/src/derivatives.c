@@ -58,7 +58,8 @@ slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, c
                        "The rate of '%s' is not known: it depends on forces or accelerations. Positions, angles and "
                        "velocities have rates.",
                        t->variable[reference[i]].name);
-  for (size_t i = 0; i < n; i++) value[i] = s->sensors[t->variable[reference[i]].index];
+  for (size_t i = 0; i < n; i++)
+    value[i] = t->variable[reference[i]].scale * s->sensors[t->variable[reference[i]].index];
   return SLAVE_OK;
 }
 
@@ -99,7 +100,7 @@ static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, c
     if (v->source != SLAVE_INPUT)
       return slave_say(s, SLAVE_ERROR,
                        "'%s' is no input; after initialisation outputs have derivatives by inputs only.", v->name);
-    s->direction[v->index] += seed[i];
+    s->direction[v->index] += seed[i] / v->scale;
   }
   return slave_step_derivative(s, s->direction, left_out, out);
 }

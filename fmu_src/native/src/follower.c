@@ -27,7 +27,7 @@ bool slave_follow(slave *s) {
     return false;
   }
   for (size_t i = t->n_known; i < t->n_variables; i++)
-    if (slave_left_out(s, &t->variable[i])) s->value[i] = s->sensors[t->variable[i].index];
+    if (slave_left_out(s, &t->variable[i])) s->value[i] = t->variable[i].scale * s->sensors[t->variable[i].index];
   s->followed = true;
   return true;
 }

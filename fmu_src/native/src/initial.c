@@ -89,7 +89,7 @@ static ali3_status apply(slave *s) {
   if (status == ALI3_OK) status = apply_limit(s);
   for (size_t i = 0; i < t->n_known && status == ALI3_OK; i++) {
     const slave_variable *v = &t->variable[i];
-    if (v->source == SLAVE_INPUT) status = ali3_set_input(s->fidelity.kernel, v->index, s->value[i]);
+    if (v->source == SLAVE_INPUT) status = ali3_set_input(s->fidelity.kernel, v->index, s->value[i] / v->scale);
     if (v->source == SLAVE_PARAMETER) status = ali3_set_parameter(s->fidelity.kernel, v->index, s->value[i]);
     if (v->source != SLAVE_POSE) continue;
     pose[v->index] = s->value[i];

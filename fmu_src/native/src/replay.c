@@ -54,7 +54,7 @@ static void aim(replay *r, const double *direction) {
   r->minus = -PART;
   for (size_t i = 0; i < t->n_known; i++) {
     const slave_variable *v = &t->variable[i];
-    const double range = v->max - v->min;
+    const double range = (v->max - v->min) / fabs(v->scale);
     if (v->source == SLAVE_INPUT) r->size = fmax(r->size, fabs(direction[v->index]) / (range < 1e300 ? range : 1.0));
   }
   for (size_t i = 0; i < t->n_known && r->size > 0.0; i++) {
@@ -62,8 +62,9 @@ static void aim(replay *r, const double *direction) {
     if (v->source != SLAVE_INPUT) continue;
     const double unit = direction[v->index] / r->size, held = r->held[v->index];
     r->unit[v->index] = unit;
-    if (held + PART * unit > v->max || held + PART * unit < v->min) r->plus = 0.0;
-    if (held - PART * unit > v->max || held - PART * unit < v->min) r->minus = 0.0;
+    const double up = v->scale * (held + PART * unit), down = v->scale * (held - PART * unit);
+    if (up > v->max || up < v->min) r->plus = 0.0;
+    if (down > v->max || down < v->min) r->minus = 0.0;
   }
   if (r->plus == r->minus) r->plus = PART; /* at two ends at once */
 }

@@ -41,6 +41,7 @@ typedef struct {
   int32_t role; /* of an input, SLAVE_NO_ROLE ... */
   int32_t
       other; /* variable: of an answer the x of the wheel it is for, of a hub its velocity, ahead: the rate; or -1 */
+  double scale; /* of inputs and sensors: the value is this times that of the System */
 } slave_variable;
 
 typedef struct {

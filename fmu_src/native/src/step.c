@@ -42,7 +42,7 @@ static ali3_status apply_pending(slave *s) {
     const slave_variable *v = &t->variable[i];
     if (!s->pending[i]) continue;
     if (v->source == SLAVE_INPUT)
-      status = ali3_set_input(s->fidelity.kernel, v->index, s->value[i]);
+      status = ali3_set_input(s->fidelity.kernel, v->index, s->value[i] / v->scale);
     else
       status = ali3_set_parameter(s->fidelity.kernel, v->index, s->value[i]);
   }
@@ -57,7 +57,7 @@ void slave_add_slopes(const double *slope, double elapsed, double *input) {
     double *u = &input[t->variable[i].index], power = 1.0;
     for (int k = 0; k < SLAVE_MOST_ORDERS; k++) {
       power *= elapsed / (k + 1);
-      *u += slope[i * SLAVE_MOST_ORDERS + (size_t)k] * power;
+      *u += slope[i * SLAVE_MOST_ORDERS + (size_t)k] * power / t->variable[i].scale;
     }
   }
 }
@@ -66,7 +66,7 @@ void slave_add_slopes(const double *slope, double elapsed, double *input) {
 static void follow_slopes(const slave *s, double elapsed, double *input) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < t->n_known; i++)
-    if (t->variable[i].source == SLAVE_INPUT) input[t->variable[i].index] = s->value[i];
+    if (t->variable[i].source == SLAVE_INPUT) input[t->variable[i].index] = s->value[i] / t->variable[i].scale;
   slave_add_slopes(s->slope, elapsed, input);
 }
 
@@ -107,7 +107,8 @@ static void forget_slopes(slave *s) {
   if (!s->made.sloped) return;
   memset(s->slope, 0, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
   for (size_t i = 0; i < t->n_known; i++)
-    if (t->variable[i].source == SLAVE_INPUT) ali3_set_input(s->fidelity.kernel, t->variable[i].index, s->value[i]);
+    if (t->variable[i].source == SLAVE_INPUT)
+      ali3_set_input(s->fidelity.kernel, t->variable[i].index, s->value[i] / t->variable[i].scale);
 }
 
 /* Whether a step can be asked for here at all; said if not. */

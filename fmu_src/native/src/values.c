@@ -32,7 +32,7 @@ bool slave_outputs(slave *s) {
   for (size_t i = t->n_known; i < t->n_variables; i++) {
     const slave_variable *v = &t->variable[i];
     if (v->source == SLAVE_CONSTANT) break; /* they come last */
-    s->value[i] = v->source == SLAVE_SENSOR   ? s->sensors[v->index]
+    s->value[i] = v->source == SLAVE_SENSOR   ? v->scale * s->sensors[v->index]
                   : v->source == SLAVE_SOLVER ? ali3_solver_value(s->fidelity.kernel, v->index)
                   : v->source == SLAVE_AHEAD  ? ahead(s, v, s->value) /* of sensors, which stand before */
                                               : s->calls.capped_residual;
@@ -86,7 +86,7 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
   if (!finite && !v->port)
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %g; a finite number is needed, the last value %g%s is kept.",
                      v->name, value, s->value[reference], v->unit);
-  if (v->whole && value != floor(value))
+  if (finite && v->whole && value != floor(value))
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g; it must be a whole number, it keeps %g.", v->name, value,
                      s->value[reference]);
   *clamped = finite ? value : s->value[reference];

@@ -84,7 +84,9 @@ slave_status slave_watch(slave *s) {
 
 void slave_watch_outputs(slave *s) {
   const slave_table *t = &slave_the_table;
-  if (s->overturned_said || t->roll >= t->n_variables || !(fabs(s->value[t->roll]) > QUARTER_TURN)) return;
+  if (s->overturned_said || t->roll >= t->n_variables ||
+      !(fabs(s->value[t->roll] / t->variable[t->roll].scale) > QUARTER_TURN))
+    return;
   s->overturned_said = true;
   slave_say(
       s, SLAVE_WARNING,

@@ -6,11 +6,12 @@ from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 
+from ali3.alias_file import SHIPPED, Content, Entry, alias_file, number, read_content
+from ali3.errors import UserError
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.aliases.checks import check_unit, declared, factor_of_unit, is_si
-from hosts.fmu.aliases.content import SHIPPED, Content, Entry, number, read_content, shipped_names
 from hosts.fmu.aliases.derived import Derived, in_order
 from hosts.fmu.aliases.parse_derived import parse_derived
 from hosts.fmu.variables import Variable, Variables
@@ -34,14 +35,10 @@ def find_aliases(name: str | Path, variables: Variables) -> Aliases:
     HostError
         See `read_aliases`.
     """
-    path = Path(name)
-    if not path.is_file() and str(name) in shipped_names():
-        path = SHIPPED / f"{name}.toml"
-    if not path.exists():
-        raise HostError(
-            f"The alias file {name} cannot be read: there is none, nor one of that name in the package, which has "
-            f"{', '.join(shipped_names())}."
-        )
+    try:
+        path = alias_file(name)
+    except UserError as error:
+        raise HostError(str(error)) from None
     return read_aliases(path, variables)
 
 
@@ -62,7 +59,10 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
     HostError
         With the file, the key and what would be right.
     """
-    content = read_content(file)
+    try:
+        content = read_content(file)
+    except UserError as error:
+        raise HostError(str(error)) from None
     names = set(variables.names if isinstance(variables, Variables) else variables)
     known = variables if isinstance(variables, Variables) else None
     constants = _constants(content, known)
@@ -151,10 +151,13 @@ def _alias(entry: Entry, constants: dict[str, float], known: Variables | None) -
         if factor not in constants:
             raise HostError(f"{where}: factor is '{factor}'; it must be a number, or a constant of the file.")
         factor = constants[factor]
-    factor = number(factor, f"{where}: factor")
+    try:
+        factor = number(factor, f"{where}: factor")
+        offset = number(value.get("offset", 0.0), f"{where}: offset")
+    except UserError as error:
+        raise HostError(str(error)) from None
     if factor == 0.0:
         raise HostError(f"{where}: factor is 0; it must be another number.")
-    offset = number(value.get("offset", 0.0), f"{where}: offset")
     unit = value.get("unit")
     variable = None if known is None else known[value["name"]]
     if unit is not None:

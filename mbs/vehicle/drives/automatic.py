@@ -123,7 +123,11 @@ class Automatic(Section):
         left, right = (spins[self.wheels[0].upper() + side].coordinate for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
         inputs = b.inputs["throttle"].index, 1, b.inputs["selector"].index
-        element = b.m.add(drive.record("drive", left, right, z, x, *inputs))
+        request = None
+        if b.ports.gear is not None:
+            text = "forward gear that is asked for; 0: as the drive shifts by itself"
+            request = b.port("gear_request", 0.0, float(len(self.ratios)), "1", text, whole=True).index
+        element = b.m.add(drive.record("drive", left, right, z, x, *inputs, request))
         for name in ("max_torque", "max_power"):
             b.tie(self, name, element, name)
         for k, ratio in enumerate(self.ratios):

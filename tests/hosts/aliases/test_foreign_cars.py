@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from fmpy import read_model_description
 
+from ali3.alias_file import shipped_names
 from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.aliases.content import shipped_names
 from hosts.fmu.aliases.file import find_aliases
 from hosts.fmu.fmu import described
 from hosts.fmu.variables import Variables
@@ -99,7 +99,7 @@ def test_a_wheel_has_them():
     builder = pytest.importorskip("hatchling.builders.wheel").WheelBuilder
     root = Path(__file__).parents[3]
     packed = {file.distribution_path.replace("\\", "/") for file in builder(str(root)).recurse_included_files()}
-    assert {f"hosts/fmu/alias_files/{style}.toml" for style in STYLES} <= packed
+    assert {f"ali3/alias_files/{style}.toml" for style in STYLES} <= packed
     assert "ali3/report.css" in packed
 
 

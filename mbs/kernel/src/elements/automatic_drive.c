@@ -4,9 +4,11 @@
  * frame.
  * Reals: see the enum, then one total ratio per gear, tallest last. Integers: throttle input (0..1), number of gears.
  * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step. Outputs: engine
- * speed rad/s, gear, torque per wheel N m, engine torque N m.
+ * speed rad/s, gear, torque per wheel N m, engine torque N m, power on the left and right wheel W.
  * With a selector its input is a third integer, ratio of reverse, engage speed and engage time are three more reals, and
  * the states of selector.h follow. Reverse is one gear, with the torque of a first gear of its ratio turned round.
+ * A fourth integer is an input that asks for a forward gear, 0: as the drive shifts by itself. A shift that is asked for
+ * begins with the step that has the request, once the last one is over.
  *
  * There is no engine inertia: with turbine speed wt = ratio * W and stall speed ws (idle .. stall with the throttle)
  * the engine turns at sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over
@@ -47,8 +49,15 @@ enum { TURNS = 1, CONVERTS = 2, BY_POWER = 4, LIMITED = 8, CUT_OFF = 16, GEARS =
 
 static int gear_of(double slot, int gears) { return slot >= gears ? gears : slot >= 1.0 ? (int)slot : 1; }
 
-static double wheel_rate(const ali3_element_args *a) {
-  return 0.5 * (a->ud[0] + a->ud[1]) - 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
+static double frame_rate(const ali3_element_args *a) {
+  return 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
+}
+
+static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
+
+/* The gear that is asked for, 0 for none. */
+static int asked_gear(const ali3_element_args *a) {
+  return a->nint > 3 ? (int)ali3_clamp(a->input[a->integer[3]], 0.0, a->integer[1]) : 0;
 }
 
 static double throttle_of(const ali3_element_args *a) { return ali3_clamp(a->input[a->integer[0]], 0.0, 1.0); }
@@ -133,6 +142,7 @@ static void evaluate(ali3_element_args *a) {
   a->out[1] = direction > 0 ? gear : direction;
   a->out[2] = 0.5 * total;
   a->out[3] = engine;
+  for (int i = 0; i < 2; i++) a->out[4 + i] = 0.5 * total * (a->ud[i] - frame_rate(a));
 }
 
 /* Wheel rates of the shift up and down from a gear. */
@@ -161,8 +171,17 @@ static void accept(ali3_element_args *a) {
     engaged = ali3_selector_accept(a->y_new + STATES, selector_input(a), now, of_selector(a)[ENGAGE_SPEED], start);
     if (engaged && !start) gear = 1;
   }
+  const int asked = asked_gear(a);
   if (start || engaged) {
     fitting_gear(a, gear, now);
+    if (asked > 0) a->y_new[0] = a->y_new[1] = asked;
+    return;
+  }
+  if (asked > 0) {
+    if (asked == gear || a->y_new[2] < p[RAMP]) return;
+    a->y_new[1] = gear;
+    a->y_new[0] = asked;
+    a->y_new[2] = a->h;
     return;
   }
   if (a->y_new[2] < p[DWELL]) return;
@@ -185,10 +204,11 @@ static void accept(ali3_element_args *a) {
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
   (void)nsig, (void)n_roads;
-  if (nint != 2 && nint != 3) return "an automatic drive has two integers, three with a selector";
+  if (nint < 2 || nint > 4) return "an automatic drive has two integers, with a selector three, with a request four";
   const int32_t more = nint > 2 ? OF_SELECTOR : 0;
-  for (int i = 0; i < nint; i += 2)
-    if (integer[i] < 0 || integer[i] >= n_inputs) return "an automatic drive names an input that does not exist";
+  for (int i = 0; i < nint; i++)
+    if (i != 1 && (integer[i] < 0 || integer[i] >= n_inputs))
+      return "an automatic drive names an input that does not exist";
   if (integer[1] < 1 || integer[1] != nreal - RATIOS - more)
     return "an automatic drive needs one ratio per gear, at least one";
   for (int i = 0; i < nreal; i++)
@@ -213,6 +233,6 @@ const ali3_element_type ali3_automatic_drive = {
     .nint = -1,
     .nstate = -1,
     .states = states,
-    .nout = 4,
+    .nout = 6,
     .check = check,
 };

@@ -4,7 +4,7 @@
  * frame.
  * Reals: see the enum. Integers: throttle input (0..1), and a selector input (-1, 0, 1) or none. States: none, with a
  * selector those of selector.h. Outputs: motor speed rad/s and torque N m, torque per wheel N m, electric power W
- * (negative: into the battery), direction engaged.
+ * (negative: into the battery), direction engaged, power on the left and right wheel W.
  *
  * In the direction engaged the torque is the throttle's part of min(max torque, max power / speed), which fades beyond
  * the limit speed, less the other part of the regeneration torque, which follows the sign of the speed and fades to
@@ -76,9 +76,11 @@ static torque geared(double efficiency, torque m, double speed) {
                   m.piece | (drives || x < BARELY ? DRIVES : 0u)};
 }
 
-static double wheel_rate(const ali3_element_args *a) {
-  return 0.5 * (a->ud[0] + a->ud[1]) - 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
+static double frame_rate(const ali3_element_args *a) {
+  return 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
 }
+
+static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
 
 static double selector_of(const ali3_element_args *a) { return a->input[a->integer[1]]; }
 
@@ -107,6 +109,7 @@ static void evaluate(ali3_element_args *a) {
   a->out[2] = 0.5 * total;
   a->out[3] = power > 0.0 ? power / p[EFFICIENCY] : power * p[EFFICIENCY];
   a->out[4] = direction;
+  for (int i = 0; i < 2; i++) a->out[5 + i] = 0.5 * total * (a->ud[i] - frame_rate(a));
 }
 
 static void accept(ali3_element_args *a) {
@@ -140,6 +143,6 @@ const ali3_element_type ali3_electric_drive = {
     .nint = -1,
     .nstate = -1,
     .states = states,
-    .nout = 5,
+    .nout = 7,
     .check = check,
 };

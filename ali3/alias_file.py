@@ -1,4 +1,4 @@
-"""What stands in an alias file and in those that it extends."""
+"""What stands in an alias file, names that another program has for our variables, and in those that it extends."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ali3.errors import UserError
 from ali3.reading import read_toml
-from hosts.common.errors import HostError
 
 CONSTANTS = "constants"
 """The table of an alias file that says what the FMU does not tell of its car, such as ``vehicle.wheelbase``."""
@@ -20,7 +20,7 @@ EXTENDS = "extends"
 PARTIAL = "partial"
 """The key that says that names which the FMU lacks are left out; else they are errors."""
 
-SHIPPED = Path(__file__).parents[1] / "alias_files"
+SHIPPED = Path(__file__).parent / "alias_files"
 _MOST_FILES = 10
 
 
@@ -68,20 +68,20 @@ class Content:
 
 
 def read_content(file: Path, depth: int = 0) -> Content:
-    """Read a file and those that it extends; `HostError` with the file and the key."""
-    table = read_toml(file, HostError, f"The alias file {file}")
+    """Read a file and those that it extends; `UserError` with the file and the key."""
+    table = read_toml(file, UserError, f"The alias file {file}")
     made = Content(str(file))
     base = table.pop(EXTENDS, None)
     if base is not None:
         if not isinstance(base, str):
-            raise HostError(f"{file}: {EXTENDS} is {base!r}; it must be the name of an alias file.")
+            raise UserError(f"{file}: {EXTENDS} is {base!r}; it must be the name of an alias file.")
         if depth >= _MOST_FILES:
-            raise HostError(f"{file}: more than {_MOST_FILES} files extend one another; is there a ring among them?")
+            raise UserError(f"{file}: more than {_MOST_FILES} files extend one another; is there a ring among them?")
         below = read_content(_found(base, file), depth + 1)
         made = Content(str(file), dict(below.entries), dict(below.constants), dict(below.needs))
     partial = table.pop(PARTIAL, False)
     if not isinstance(partial, bool):
-        raise HostError(f"{file}: {PARTIAL} is {partial!r}; it must be true or false.")
+        raise UserError(f"{file}: {PARTIAL} is {partial!r}; it must be true or false.")
     made.constants |= _numbers(table.pop(CONSTANTS, {}), file)
     made.needs |= _texts(table.pop(NEEDS, {}), file)
     label = file.name if file.parent == SHIPPED else str(file)
@@ -95,10 +95,29 @@ def shipped_names() -> list[str]:
     return sorted(p.stem for p in SHIPPED.glob("*.toml"))
 
 
+def alias_file(name: str | Path) -> Path:
+    """The file of a name that comes with the package, or another; one of that name here comes first.
+
+    Raises
+    ------
+    UserError
+        There is neither.
+    """
+    path = Path(name)
+    if not path.is_file() and str(name) in shipped_names():
+        path = SHIPPED / f"{name}.toml"
+    if not path.exists():
+        raise UserError(
+            f"The alias file {name} cannot be read: there is none, nor one of that name in the package, which has "
+            f"{', '.join(shipped_names())}."
+        )
+    return path
+
+
 def number(value: Any, where: str) -> float:
-    """A finite number; else `HostError`."""
+    """A finite number; else `UserError`."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise HostError(f"{where} is {value!r}; it must be a finite number.")
+        raise UserError(f"{where} is {value!r}; it must be a finite number.")
     return float(value)
 
 
@@ -108,7 +127,7 @@ def _found(base: str, file: Path) -> Path:
         return path
     if base in shipped_names():
         return SHIPPED / f"{base}.toml"
-    raise HostError(
+    raise UserError(
         f"{file}: {EXTENDS} is '{base}': there is neither a file {path} nor one of that name in the package, which "
         f"has {', '.join(shipped_names())}."
     )
@@ -116,13 +135,13 @@ def _found(base: str, file: Path) -> Path:
 
 def _numbers(table: Any, file: Path) -> dict[str, float]:
     if not isinstance(table, dict):
-        raise HostError(f"{file}: [{CONSTANTS}] must be a table of numbers.")
+        raise UserError(f"{file}: [{CONSTANTS}] must be a table of numbers.")
     return {name: number(value, f"{file}: {CONSTANTS}.{name}") for name, value in table.items()}
 
 
 def _texts(table: Any, file: Path) -> Mapping[str, str]:
     if not isinstance(table, dict) or not all(isinstance(text, str) for text in table.values()):
-        raise HostError(f"{file}: [{NEEDS}] must be a table of texts.")
+        raise UserError(f"{file}: [{NEEDS}] must be a table of texts.")
     return table
 
 
@@ -131,7 +150,7 @@ def _entry(value: Any, where: str) -> dict[str, Any]:
         return {"name": value}
     if isinstance(value, dict) and isinstance(value.get("from"), str):
         if len(value) > 1:
-            raise HostError(f"{where}: beside from nothing else can stand; it has {', '.join(value)}.")
+            raise UserError(f"{where}: beside from nothing else can stand; it has {', '.join(value)}.")
         return value
     if isinstance(value, dict) and isinstance(value.get("name"), str):
         return value
@@ -140,7 +159,7 @@ def _entry(value: Any, where: str) -> dict[str, Any]:
         if isinstance(value, dict)
         else ""
     )
-    raise HostError(
+    raise UserError(
         f"{where} must be a name of the FMU, or {{ name = ..., factor = ..., offset = ..., unit = ... }}, or "
         f"{{ from = ... }}{hint}."
     )

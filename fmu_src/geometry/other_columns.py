@@ -1,0 +1,57 @@
+"""The scene of an FMU whose variables have the names and units of another program."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from fmu_src.variables.variables import Variable
+from viewer.scene_columns import columns_of
+from viewer.scene_parts import frames_of
+
+_COLUMNS = ("position", "quaternion", "amplitudes", "angle", "way", "value", "computed", "vector", "tyre", "variables")
+
+
+def with_other_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
+    """The scene with its columns as they are called.
+
+    Parameters
+    ----------
+    scene : mapping
+        As `fmu_src.geometry.geometry.geometry` gives it.
+    named : mapping of str to Variable
+        Variables that have another name, by ours. A scene is in SI units: what reads one that has another is left out,
+        frames with a word in ``missing``.
+
+    Returns
+    -------
+    dict
+    """
+    odd = {ours for ours, v in named.items() if v.scale != 1.0}
+    frames, missing = dict(scene["frames"]), list(scene["missing"])
+    lost = {name for name, frame in frames.items() if odd.intersection(columns_of(frame))}
+    while more := {n for n, frame in frames.items() if n not in lost and lost.intersection(frames_of(frame))}:
+        lost |= more
+    for name in sorted(lost):
+        units = ", ".join(f"{named[c].name} in {named[c].unit}" for c in columns_of(frames[name]) if c in odd)
+        missing.append({"name": name, "why": f"a scene is in SI units, and the FMU has {units or 'what it stands on'}"})
+    made = {key: _called(part, named) for key, part in frames.items() if key not in lost}
+    kept = {
+        key: [p for p in scene[key] if not (odd.intersection(columns_of(p)) or lost.intersection(frames_of(p)))]
+        for key in ("shapes", "arrows", "flexible")
+    } | {"roads": scene["roads"]}
+    called = {key: [_called(part, named) for part in parts] for key, parts in kept.items()}
+    focus = "" if scene["focus"] in lost else scene["focus"]
+    return {**scene, **called, "frames": made, "missing": missing, "focus": focus}
+
+
+def _called(part: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
+    return {key: _name(value, named) if key in _COLUMNS else value for key, value in part.items()}
+
+
+def _name(value: Any, named: Mapping[str, Variable]) -> Any:
+    if isinstance(value, str):
+        return named[value].name if value in named else value
+    if isinstance(value, Mapping):
+        return {key: _name(part, named) for key, part in value.items()}
+    return [_name(part, named) for part in value] if isinstance(value, (list, tuple)) else value

@@ -1,0 +1,128 @@
+"""Variables under the names, and in the units, of another program."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from ali3.alias_file import Content, Entry, number
+from ali3.errors import UserError
+from fmu_src.variables.units import DISPLAY_UNITS, parse_unit
+from fmu_src.variables.variables import Variable, check_names
+
+_SCALED = ("input", "sensor")
+
+
+@dataclass(frozen=True)
+class Renamed:
+    """A table under other names.
+
+    Parameters
+    ----------
+    table : tuple of Variable
+        In the same order.
+    left_out : mapping of str to str
+        Our names that keep theirs though the file has another, and why.
+    """
+
+    table: tuple[Variable, ...]
+    left_out: Mapping[str, str]
+
+    @property
+    def named(self) -> dict[str, Variable]:
+        """Those that have another name, by ours."""
+        return {v.ours: v for v in self.table if v.ours}
+
+
+def renamed(table: Sequence[Variable], content: Content) -> Renamed:
+    """The variables as an alias file calls them.
+
+    Parameters
+    ----------
+    table : sequence of Variable
+        With our names.
+    content : Content
+        Of the file. What it computes from several variables keeps our name, and so does what needs another zero.
+
+    Raises
+    ------
+    UserError
+        The file names none of the variables, gives a name twice, or one that no variable of an FMU can have.
+    """
+    place = {v.name: k for k, v in enumerate(table)}
+    values = {v.name: v for v in table if v.source == "constant"}
+    # an answer far from its wheel is told by values of both
+    bound = {k for v in table for k in (v.other, v.index if v.source == "ahead" else -1)}
+    made, left_out = list(table), {}
+    for ours, entry in content.entries.items():
+        if ours not in place:
+            continue
+        k = place[ours]
+        theirs = _theirs(table[k], entry, content, values)
+        if isinstance(theirs, Variable) and theirs.scale != 1.0 and (k in bound or theirs.role):
+            theirs = f"it is of a port, which works in {table[k].unit}"
+        if isinstance(theirs, str):
+            left_out[ours] = theirs
+        else:
+            made[k] = theirs
+    result = Renamed(tuple(made), left_out)
+    if not result.named:
+        raise UserError(f"{content.file}: this model has none of the variables that it names, such as 'speed'.")
+    try:
+        check_names(result.table)
+    except ValueError as error:
+        raise UserError(f"{content.file}: {error}") from None
+    return result
+
+
+def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Variable]) -> Variable | str:
+    """The variable as it is called there, or why it is not."""
+    value = entry.value
+    if "from" in value:
+        return "the other program has it only in another form, from which it is computed"
+    if value.get("offset", 0.0) != 0.0:
+        return f"'{value['name']}' has another zero"
+    factor, unit = value.get("factor", 1.0), value.get("unit")
+    if isinstance(factor, str):
+        known = values.get(factor)
+        if known is None and factor not in content.constants:
+            if factor not in content.needs:
+                raise UserError(f"{entry.where}: factor is '{factor}'; it must be a number, or a constant of the file.")
+            return f"it needs '{factor}' ({content.needs[factor]}): give it in a file that extends this one"
+        base = v.unit if known is None or known.start is None else known.unit
+        factor = content.constants.get(factor, known.start if known is not None else None)
+    else:
+        base = v.unit
+    declared = base if unit is None else unit
+    scale = number(factor, f"{entry.where}: factor") / _size(declared, base, entry)
+    if scale == 0.0:
+        raise UserError(f"{entry.where}: factor is 0; it must be another number.")
+    if scale != 1.0 and (v.source not in _SCALED or v.whole):
+        return f"'{value['name']}' is in another unit, which only inputs and outputs that are no whole numbers can have"
+    ends = [None if end is None else scale * end for end in (v.min, v.max)]
+    low, high = ends if scale > 0.0 else reversed(ends)
+    return replace(
+        v,
+        name=value["name"],
+        ours=v.name,
+        scale=scale,
+        unit=declared,
+        start=None if v.start is None else scale * v.start,
+        min=low,
+        max=high,
+        nominal=None if v.nominal is None else 10.0 ** math.floor(math.log10(abs(scale) * v.nominal)),
+        display_unit=v.display_unit if v.display_unit in DISPLAY_UNITS.get(declared, {}) else None,
+        description=f"{v.description} ({v.name} of ALi3)".lstrip(),
+    )
+
+
+def _size(unit: str, base: str, entry: Entry) -> float:
+    """How many of the SI unit of a value are one of a unit."""
+    try:
+        one, other = parse_unit(unit), parse_unit(base)
+    except ValueError as error:
+        raise UserError(f"{entry.where}: {error}") from None
+    if base != "1" and one.exponents != other.exponents:
+        raise UserError(f"{entry.where} is in {base}, and {unit} is of another quantity.")
+    return one.factor

@@ -1,0 +1,167 @@
+"""FMUs under the names and units of other programs: the numbers are those of our names, converted."""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+import subprocess
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+from ali3.alias_file import read_content
+from ali3.errors import UserError
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_scene
+from tests.fmu.native import compile_host, unpack
+
+SCENES = Path(__file__).parent / "scenes.py"
+NAMES = """
+torque = { name = "Motor.Trq", factor = -1e-3, unit = "N.m" }
+"rod.angle" = { name = "Rod[1].Angle", unit = "deg" }
+"rod.x" = { name = "X", unit = "mm" }
+"spring.stiffness" = "C_Spring"
+"rod.ay" = { from = "rate(rod.x)" }
+"""
+DEGREES = 180.0 / math.pi
+
+
+def named(folder: Path, text: str = NAMES, kind: str = "native") -> Path:
+    (folder / "names.toml").write_text(text, encoding="utf-8")
+    name, system = load_scene(f"{SCENES}:crane")
+    return build_fmu(system, name, folder, [fmpy.platform], kind=kind, names=read_content(folder / "names.toml"))
+
+
+@pytest.fixture(scope="module")
+def renamed_crane(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The crane with another sign of the torque, in kN m, degrees and millimetres."""
+    return named(tmp_path_factory.mktemp("named"))
+
+
+def test_values_rates_and_derivatives_are_ours_converted(host, build, renamed_crane) -> None:
+    ours = host(build("crane")).start({"torque": 2.0, "spring.stiffness": 6.0})
+    theirs = host(renamed_crane).start({"Motor.Trq": -2e-3, "C_Spring": 6.0})
+    one, other = ours.references, theirs.references
+    for k in range(20):
+        ours.slave.setRealInputDerivatives([one["torque"]], [1], [30.0])
+        theirs.slave.setRealInputDerivatives([other["Motor.Trq"]], [1], [-30e-3])
+        assert ours.step(0.01 * k, 0.01) == theirs.step(0.01 * k, 0.01) == 0
+    x, angle = ours.get("rod.x"), ours.get("rod.angle")
+    assert abs(angle) > 0.05
+    assert theirs.get("X") == pytest.approx(1e3 * x, rel=1e-12)
+    assert theirs.get("Rod[1].Angle") == pytest.approx(DEGREES * angle, rel=1e-12)
+    assert theirs.get("rod.ay") == pytest.approx(ours.get("rod.ay"), rel=1e-9)
+    rate, there = (
+        h.slave.getRealOutputDerivatives([r], [1])[0]
+        for h, r in ((ours, one["rod.angle"]), (theirs, other["Rod[1].Angle"]))
+    )
+    assert there == pytest.approx(DEGREES * rate, rel=1e-9)
+    slope = ours.slave.getDirectionalDerivative([one["rod.x"]], [one["torque"]], [1.0])[0]
+    there = theirs.slave.getDirectionalDerivative([other["X"]], [other["Motor.Trq"]], [1.0])[0]
+    assert there == pytest.approx(1e3 * slope / -1e-3, rel=1e-6)
+    # the end of the range is the other one
+    assert theirs.set("Motor.Trq", -0.5) == 0
+    assert "'Motor.Trq' was set to -0.5 N.m and is held at -0.03" in theirs.messages[-1]
+    state = theirs.slave.serializeFMUstate(theirs.slave.getFMUstate())
+    theirs.step(0.2, 0.01)
+    after = theirs.get("X")
+    assert theirs.restore(bytes(state)) == 0
+    theirs.step(0.2, 0.01)
+    assert theirs.get("X") == after
+
+
+def test_description_and_results_have_the_other_names_and_units(renamed_crane) -> None:
+    description = fmpy.read_model_description(str(renamed_crane), validate=True)
+    variables = {v.name: v for v in description.modelVariables}
+    assert not {"torque", "rod.angle", "rod.x", "spring.stiffness"} & set(variables)
+    torque = variables["Motor.Trq"]
+    assert (torque.unit, float(torque.min), float(torque.max)) == ("N.m", -0.03, 0.03)
+    assert variables["Rod[1].Angle"].unit == "deg"
+    assert "rod.angle of ALi3" in variables["Rod[1].Angle"].description
+    assert variables["rod.ay"].unit == "m/s2"
+    factor = next(u.baseUnit.factor for u in description.unitDefinitions if u.name == "deg")
+    assert float(factor) == pytest.approx(math.pi / 180.0)
+    with zipfile.ZipFile(renamed_crane) as archive:
+        name = next(n for n in archive.namelist() if n.endswith("_in_turn_out.csv"))
+        head, *rows = archive.read(name).decode().splitlines()
+        given = archive.read(name.replace("_out", "_in")).decode().splitlines()
+        scene = archive.read("resources/geometry.json").decode()
+    columns = dict(
+        zip((c.strip('"') for c in head.split(",")), np.array([r.split(",") for r in rows], float).T, strict=True)
+    )
+    # cos(angle) / 2 m is where the centre of the rod lies
+    assert columns["X"] == pytest.approx(500.0 * np.cos(columns["Rod[1].Angle"] / DEGREES), rel=1e-9)
+    assert given[0] == '"time","Motor.Trq"'
+    assert '"rod.angle"' not in scene
+
+
+def test_fmpy_the_c_host_and_libcosim_get_the_same_bits(host, renamed_crane, tmp_path) -> None:
+    driven = host(renamed_crane).start({"Motor.Trq": -4e-3})
+    driven.run(50, 0.01)
+    places = [driven.references[n] for n in ("X", "Rod[1].Angle")]
+    found = list(driven.slave.getReal(places))
+    unpack(renamed_crane, tmp_path / "fmu")
+    library = next((tmp_path / "fmu" / "binaries" / fmpy.platform).iterdir())
+    start = [compile_host(tmp_path), library, (tmp_path / "fmu" / "resources").as_uri(), driven.description.guid]
+    for place, value in zip(places, found, strict=True):
+        command = [*start, 50, 0.01, place, place, "--set", "Motor.Trq=-4e-3"]
+        text = subprocess.run([*map(str, command)], capture_output=True, text=True, check=True).stdout
+        assert float.fromhex(text.split()[-1]) == value
+    if importlib.util.find_spec("libcosimpy") is None:
+        return
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimManipulator import CosimManipulator
+    from libcosimpy.CosimObserver import CosimObserver
+    from libcosimpy.CosimSlave import CosimLocalSlave
+
+    execution = CosimExecution.from_step_size(10_000_000)
+    index = execution.add_local_slave(CosimLocalSlave(str(renamed_crane), "crane"))
+    observer, manipulator = CosimObserver.create_last_value(), CosimManipulator.create_override()
+    execution.add_observer(observer)
+    execution.add_manipulator(manipulator)
+    manipulator.slave_real_values(index, [driven.references["Motor.Trq"]], [-4e-3])
+    assert execution.step(50)
+    late = host(renamed_crane).start()
+    late.set("Motor.Trq", -4e-3)  # libcosim sets it after initialisation
+    late.run(50, 0.01)
+    assert list(observer.last_real_values(index, places)) == list(late.slave.getReal(places))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('speed = "v"', "this model has none of the variables that it names"),
+        ('torque = "rod.x"', "Two variables are named 'rod.x'"),
+        ('torque = "1st torque"', "'1st torque' cannot be the name of an FMU variable"),
+        ('torque = { name = "T", factor = 0.0 }', "'torque': factor is 0; it must be another number"),
+        ('torque = { name = "T", unit = "furlong" }', "Unit 'furlong' is not understood"),
+        ('torque = { name = "T", unit = "deg" }', "'torque' is in N.m, and deg is of another quantity"),
+        ('torque = { name = "T", factor = "gain" }', "'torque': factor is 'gain'; it must be a number, or a constant"),
+    ],
+)
+def test_names_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:
+    with pytest.raises(UserError, match=words):
+        named(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ('"spring.stiffness" = { name = "C", factor = 1e-3 }', "another unit"),
+        ('torque = { name = "T", offset = 1.0 }', "another zero"),
+        ('"solver.status" = { name = "S", factor = 2.0 }', "another unit"),
+        ('torque = { name = "T", factor = "gain" }\n[needs]\ngain = "a gain, 1"', "it needs 'gain' (a gain, 1)"),
+    ],
+)
+def test_what_has_no_other_name_says_why(tmp_path: Path, text: str, why: str) -> None:
+    from fmu_src.variables.other_names import renamed
+    from fmu_src.variables.variables import variable_table
+
+    (tmp_path / "names.toml").write_text('"rod.x" = "X"\n' + text, encoding="utf-8")
+    system = load_scene(f"{SCENES}:crane")[1]
+    found = renamed(variable_table(system.meta, pose=False, step_size=0.01), read_content(tmp_path / "names.toml"))
+    assert set(found.named) == {"rod.x"}
+    assert why in next(iter(found.left_out.values()))

@@ -1,0 +1,51 @@
+"""``ali3 build --names`` and ``--aliases`` are one another's inverse: a car under other names drives as under ours."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hosts.catalogue.car import TestedCar
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.file import find_aliases
+from hosts.fmu.built_fmu import build_fmu
+from hosts.fmu.fmu import described
+from hosts.fmu.variables import Variables
+
+CAR = ("--car", "prototype", "--fidelity", "0")
+NAMES = (
+    *("chassis.x", "chassis.yaw", "chassis.roll", "chassis.vx", "chassis.vy", "chassis.wz", "chassis.ay", "sideslip"),
+    *("wheel_FL.Fz", "wheel_RR.omega", "wheel_FL.slip", "wheel_FR.steer", "wheel_RL.travel", "engine_speed"),
+)
+THEIRS = {"carmaker": "Car.YawRate", "carsim": "IMP_STEER_SW", "chrono": "ref_frame.rot.e0"}
+Made = Callable[[str, Callable[[Path], None]], Path]
+
+
+def driven(fmu: Path, names: str | None) -> dict[str, np.ndarray]:
+    aliases = Aliases() if names is None else find_aliases(names, Variables(described(fmu)))
+    time = np.linspace(0.0, 3.0, 301)
+    inputs = {
+        "steering": 0.3 * np.sin(2.0 * time),
+        "throttle": 0.1 + 0.0 * time,
+        "brake": 0.2 * np.maximum(time - 2.0, 0.0),
+    }
+    turn = Manoeuvre("turn", time=time, inputs=inputs, start={"initial.speed": 15.0}, stop_time=3.0)
+    record = TestedCar("a car", fmu, aliases, step=0.01).drive(turn)
+    return {name: record[name] for name in NAMES}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("names", THEIRS)
+def test_a_car_under_other_names_is_driven_through_its_alias_file(names: str, made_once: Made) -> None:
+    plain = made_once("rigid_prototype", lambda folder: build_fmu("a car", CAR, folder))
+    other = made_once(f"rigid_{names}", lambda folder: build_fmu("a car", (*CAR, "--names", names), folder))
+    theirs = next(other.glob("*.fmu"))
+    assert THEIRS[names] in Variables(described(theirs)).names
+    one, two = driven(next(plain.glob("*.fmu")), None), driven(theirs, names)
+    assert np.ptp(one["chassis.yaw"]) > 0.3
+    for name in NAMES:
+        assert two[name] == pytest.approx(one[name], rel=1e-7, abs=1e-9 * np.max(np.abs(one[name]))), name
