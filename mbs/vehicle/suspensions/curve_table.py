@@ -52,6 +52,7 @@ NEEDED = (
 LARGEST = {"m": 3.0, "rad": 1.6}
 SAME = 1e-9  # m: two places of a table that are one
 FINEST = 200  # points along a coordinate, of a table with uneven ones
+COARSEST = {TRAVEL: 0.0125, RACK: 0.0065, OTHER: 0.0125}  # m: a table with farther points gets some between them
 
 
 @dataclass(frozen=True)
@@ -154,7 +155,7 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
     """Rows as a table over evenly spaced points."""
     if second is None:
         _check_axis(what, TRAVEL, travel)
-        even = _even(travel)
+        even = _even(travel, COARSEST[TRAVEL])
         return CurveTable(even, np.zeros(1), "", {n: _on(travel, even, v[:, None], 0) for n, v in columns.items()})
     along, across = _points(travel), _points(second)
     for name, points in ((TRAVEL, along), (second_name, across)):
@@ -173,7 +174,7 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
             f"{what} has {len(travel)} rows for {len(along)} values of {TRAVEL} and {len(across)} of {second_name}; "
             f"there must be one for each pair, {rows.size}, or of a rack those where one of both is 0."
         )
-    evens, found = (_even(along), _even(across)), {}
+    evens, found = (_even(along, COARSEST[TRAVEL]), _even(across, COARSEST[second_name])), {}
     for name, values in columns.items():
         grid = values[rows] if not crossed else values[rows[:, [k]]] + values[rows[[i]]] - values[rows[i, k]]
         found[name] = _on(across, evens[1], _on(along, evens[0], grid, 0), 1)
@@ -199,14 +200,19 @@ def _check_axis(what: str, name: str, points: Array) -> None:
         )
 
 
-def _even(points: Array) -> Array:
-    """The points, or evenly spaced ones within them as dense as they are at their densest, with 0 among them."""
+def _even(points: Array, coarsest: float) -> Array:
+    """The points, or evenly spaced ones within them as dense as they are at their densest, with 0 among them.
+
+    Places and rotations are splines through these points, angles of coarse ones are splines before.
+    """
     steps = np.diff(points)
     near = int(np.argmin(np.abs(points)))
     if np.ptp(steps) <= UNIFORM * steps.max() and abs(points[near]) < SAME:
-        return np.asarray(points)
+        parts = math.ceil(steps.max() / coarsest)
+        step = steps.mean() / parts
+        return points if parts == 1 else step * np.arange(-near * parts, (len(points) - 1 - near) * parts + 1)
     span = points[-1] - points[0]
-    step = max(float(steps.min()), span / FINEST, SAME)
+    step = max(min(float(steps.min()), coarsest), span / FINEST, SAME)
     step = -points[0] / max(1, round(-points[0] / step))
     low, high = round(-points[0] / step), math.floor(points[-1] / step + 1e-9)
     while low + high + 1 < FEWEST or high < 1:
