@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 from pydantic import Field
 
+from mbs.common.errors import ModelError
 from mbs.model.carried import Spin
 from mbs.vehicle.alignment import Alignment
 from mbs.vehicle.builder import CarBuilder
@@ -13,11 +15,16 @@ from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.hub_port import hub_port
 from mbs.vehicle.quantities import PartMass, Point, WheelInertia
 from mbs.vehicle.section import Section
+from mbs.vehicle.side import Side
 from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
 from mbs.vehicle.suspensions import Suspension
 from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar
+from mbs.vehicle.suspensions.curve_poses import Hub
+from mbs.vehicle.suspensions.curves import Curves
 from mbs.vehicle.tyre import TMeasy
 from mbs.vehicle.tyre_by_file import MagicFormula
+
+LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the front axle is a rear one
 
 
 class Wheel(Section):
@@ -58,12 +65,64 @@ class Axle(Section):
         """Distance between the centres of the wheels as drawn, m."""
         return 2.0 * self.wheel.centre[1]
 
+    @property
+    def by_curves(self) -> Curves | None:
+        """The table of its suspension, in place of links."""
+        return self.suspension if isinstance(self.suspension, Curves) else None
+
+    def needs_links(self) -> None:
+        """Refuse an axle whose suspension is a table.
+
+        Raises
+        ------
+        ModelError
+            It is.
+        """
+        curves = self.by_curves
+        if curves is not None:
+            raise ModelError(
+                f"{curves.key('kind')} is 'curves': the axle has no links whose curves or compliance could be found; "
+                f"{curves.file} has its curves."
+            )
+
+    def open_curves(self, folder: Path) -> None:
+        """Read the table of its suspension, if it has one; done once by the reader of the car.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car.
+        """
+        if self.by_curves is not None:
+            x, _, z = self.wheel.centre
+            *_, up = self.alignment.axes(Side("front", "left", 1.0))
+            self.by_curves.open(folder, Hub(self.wheel.centre, z / up[2], -1.0 if x < -LEAST_WHEELBASE else 1.0))
+
     def faults(self) -> Iterator[str]:
-        """The anti-roll bar hangs on a part that is there."""
+        """The anti-roll bar hangs on a part that is there; a table reaches to the stops."""
+        if self.by_curves is not None:
+            yield from self._faults_of_curves(self.by_curves)
+            return
         parts = list(type(self.suspension.bodies).model_fields)
         bar = self.anti_roll_bar
         if bar is not None and bar.part not in parts:
             yield f"{bar.key('part')} is '{bar.part}'; the suspension has {', '.join(parts)}."
+
+    def _faults_of_curves(self, curves: Curves) -> Iterator[str]:
+        if self.anti_roll_bar is not None:
+            yield f"{self.key('anti_roll_bar')} hangs on links; of an axle by its curves give {curves.key('bar')}."
+        if self.stops is None:
+            return
+        least, largest = curves.compressions
+        for name, reached, gap, travel in (
+            ("bump", largest, self.stops.bump_gap, self.stops.bump_travel),
+            ("rebound", -least, self.stops.rebound_gap, self.stops.rebound_travel),
+        ):
+            if reached < gap + travel:
+                yield (
+                    f"{curves.key('file')} ({curves.file}) ends at {reached:.3g} m of the spring in {name}; it must reach "
+                    f"to the end of its stop at {gap + travel:g} m."
+                )
 
     def build(
         self, b: CarBuilder, axle: str, tie_rod: TieRodEnd, brake: Callable[[CarBuilder, Corner, Spin, float], None]

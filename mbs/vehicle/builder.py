@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from mbs.model import Model
+from mbs.model.coordinate import Coordinate
 from mbs.model.inputs import new_input
 from mbs.model.parameters import Owner
 from mbs.model.records import Input, Role
@@ -51,6 +52,8 @@ class CarBuilder:
         Those of the ports so far.
     chassis : Mount
         What the rest of the car is fixed to; set once the chassis is there.
+    rack : Coordinate or None
+        Travel of the rack, m, of a front axle by its curves.
     """
 
     m: Model
@@ -60,6 +63,7 @@ class CarBuilder:
     port_inputs: list[Input] = field(default_factory=list)
     wheel_roads: Mapping[str, int] = field(default_factory=dict)
     port_senses: list[Callable[[], object]] = field(default_factory=list)
+    rack: Coordinate | None = None
     _chassis: Mount | None = None
     _tied: dict[str, _Tied] = field(default_factory=dict)
 

@@ -228,6 +228,8 @@ class Car(CarContent):
             The steering and the spins of the wheels of each axle.
         """
         steered = self.steering.build(b, self.rack_way)
+        if self.front.by_curves is not None and steered.travel is not None:
+            b.rack = steered.travel()
         yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
 
@@ -241,8 +243,12 @@ class Car(CarContent):
             )
         from mbs.vehicle.tabled_axle import tabled_axle
 
-        yield steered, tabled_axle(b, self, "front", steered.travel(), self.brakes.build)
-        yield steered, tabled_axle(b, self, "rear", None, self.brakes.build)
+        b.rack = steered.travel()
+        for name, axle in (("front", self.front), ("rear", self.rear)):
+            if axle.by_curves is None:
+                yield steered, tabled_axle(b, self, name, b.rack if name == "front" else None, self.brakes.build)
+            else:
+                yield steered, axle.build(b, name, steered.tie_rod, self.brakes.build)
 
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
         """The models an FMU offers by its parameter `fidelity`.
@@ -342,6 +348,7 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
         for axle in (car.front, car.rear):
             if isinstance(axle.tyre, MagicFormula):
                 axle.tyre.open(folder)
+            axle.open_curves(folder)
     except CarFileError as error:
         raise CarFileError(_told(what, [str(error)])) from None
     faults = car_faults(car)

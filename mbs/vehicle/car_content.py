@@ -26,6 +26,9 @@ from mbs.vehicle.road import RoadSection
 from mbs.vehicle.section import Section, sections_of
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.steering import Steering
+from mbs.vehicle.steering.rack_section import RackSection
+from mbs.vehicle.suspensions.curve_table import RACK
+from mbs.vehicle.suspensions.curves import Curves
 from mbs.vehicle.suspensions.twist_beam import TwistBeam
 
 
@@ -119,6 +122,7 @@ class CarContent(Section):
         if isinstance(self.front.suspension, TwistBeam):
             kind = self.front.suspension.kind
             yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
+        yield from self._faults_of_curves()
         if self.ports.tyre is not None and self.ports.road is not None:
             yield (
                 "ports.tyre and ports.road are both there; the road under a tyre at a port is that of the program that "
@@ -133,6 +137,29 @@ class CarContent(Section):
                 f"ports.steering is '{port}' and steering.kind '{self.steering.kind}'; a rack_by_angle has the port "
                 "rack_position, a column rack_force."
             )
+
+    def _faults_of_curves(self) -> Iterator[str]:
+        """What axles by their curves ask of the rest of the car."""
+        front, rear = self.front.by_curves, self.rear.by_curves
+        if front is not None and front.table.second_name != RACK:
+            yield f"{front.key('file')} ({front.file}) has no column {RACK}; the front axle steers."
+        elif front is not None and isinstance(self.steering, RackSection):
+            low, high = front.table.second[0], front.table.second[-1]
+            travel = self.steering.rack_travel
+            if not low <= -travel <= travel <= high:
+                yield (
+                    f"{front.key('file')} ({front.file}) has {RACK} from {low:g} to {high:g} m; it must reach to "
+                    f"{self.steering.key('rack_travel')}, {travel:g} m, on both sides."
+                )
+        if rear is not None and rear.table.second_name == RACK:
+            yield f"{rear.key('file')} ({rear.file}) has the column {RACK}; the rear axle does not steer."
+        if front is not None and not self.steering.on_flexible_chassis:
+            yield (
+                f"{self.steering.key('kind')} is '{self.steering.kind}', whose rack is a body; an axle by its curves "
+                "needs 'rack_by_angle'."
+            )
+        if (front or rear) and self.chassis.frame is not None:
+            yield f"{self.chassis.key('frame')} hangs on links; with an axle by its curves the chassis is rigid."
 
     def values(self) -> dict[str, float]:
         """Numbers that a finished FMU of the car has as parameters, by key path."""
@@ -162,7 +189,7 @@ class CarContent(Section):
     def rack_ends(self) -> Coordinates:
         """Inner end of the left tie rod of the front axle, m."""
         suspension = self.front.suspension
-        assert not isinstance(suspension, TwistBeam), "refused with the file"
+        assert not isinstance(suspension, (TwistBeam, Curves)), "refused with the file, or without links"
         return suspension.steering_arm_inner
 
     @property
@@ -170,6 +197,8 @@ class CarContent(Section):
         """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
         suspension = self.front.suspension
         assert not isinstance(suspension, TwistBeam), "refused with the file"
+        if isinstance(suspension, Curves):
+            return 1.0 if suspension.steers_left else -1.0
         return 1.0 if suspension.steering_arm[0] > self.front.wheel.centre[0] else -1.0
 
     @property

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
 
+from mbs.common.affine import Affine, AffineVector
 from mbs.elements.record import ElementRecord
 from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.elements.spring_damper_table import SpringDamperTable
@@ -173,15 +174,14 @@ class Stops(Section):
     loss: HysteresisLoss
     """chi."""
 
-    def between(self, lower: Point, upper: Point) -> EndStops:
-        """Stops of the spring drawn between two points.
+    def around(self, drawn: float) -> EndStops:
+        """Stops of a spring.
 
         Parameters
         ----------
-        lower, upper : tuple of float
-            Ends of the spring as drawn, m.
+        drawn : float
+            Length as drawn, m.
         """
-        drawn = math.dist(lower, upper)
         return EndStops(
             drawn - self.bump_gap,
             self.stiffness,
@@ -245,6 +245,32 @@ def spring_beside_damper(
     _between(b, f"damper {wheel}", *damper, None, springs.damper, None)
 
 
+def spring_of_length(
+    b: CarBuilder,
+    wheel: str,
+    spring: tuple[Affine, float],
+    damper: tuple[Affine, float] | None,
+    springs: AxleSprings,
+) -> None:
+    """Add the spring of a wheel with damper and stops by their lengths in place of their ends.
+
+    Parameters
+    ----------
+    spring : (Affine, float)
+        Length and the same as drawn, m.
+    damper : (Affine, float) or None
+        Of a damper beside it.
+    """
+    own = springs.damper if damper is None else None
+    _on_line(b, f"spring {wheel}", *_standing(*spring), springs.spring, own, springs.stops)
+    if damper is not None:
+        _on_line(b, f"damper {wheel}", *_standing(*damper), None, springs.damper, None)
+
+
+def _standing(length: Affine, drawn: float) -> tuple[AffineVector, float]:
+    return AffineVector((Affine(), Affine(), length)), drawn
+
+
 def _between(
     b: CarBuilder,
     name: str,
@@ -254,11 +280,24 @@ def _between(
     damper: Damper | None,
     stops: Stops | None,
 ) -> ElementRecord:
+    difference = upper[0].point(upper[1]) - lower[0].point(lower[1])
+    return _on_line(b, name, difference, math.dist(lower[1], upper[1]), spring, damper, stops)
+
+
+def _on_line(
+    b: CarBuilder,
+    name: str,
+    difference: AffineVector,
+    drawn: float,
+    spring: Spring | None,
+    damper: Damper | None,
+    stops: Stops | None,
+) -> ElementRecord:
+    """Along a line from one end to the other, of a length as drawn."""
     stiffness, damping = 0.0 if spring is None else spring.law, 0.0 if damper is None else damper.law
     factors = 1.0 if spring is None else spring.factor, 1.0 if damper is None else damper.factor
-    ends = None if stops is None else stops.between(lower[1], upper[1])
-    length = math.dist(lower[1], upper[1]) if spring is None else spring.free_length
-    difference = upper[0].point(upper[1]) - lower[0].point(lower[1])
+    ends = None if stops is None else stops.around(drawn)
+    length = drawn if spring is None else spring.free_length
     law: SpringDamper | SpringDamperTable
     if isinstance(stiffness, float) and isinstance(damping, float):
         law = SpringDamper(stiffness, damping, length, ends, *factors)

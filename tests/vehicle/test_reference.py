@@ -46,8 +46,8 @@ def test_ranges_span_less_than_a_factor_of_1000():
             wrong.append(f"{name} has a range too wide: {q.low:g} to {q.high:g}")
         if q.low == 0.0:
             wrong.append(f"{name}: what may be 0 has zero=True")
-        # coordinates, inertia, lift, rows, angles
-        if q.low < 0.0 and q.unit not in ("m", "m/s", "m2", "N", "kg.m2", "deg", "rad"):
+        # coordinates, inertia, lift, rows, angles, compliances
+        if q.low < 0.0 and q.unit not in ("m", "m/s", "m2", "N", "kg.m2", "deg", "rad", "rad/N"):
             wrong.append(f"{name} in {q.unit} may be negative")
     assert not wrong, "\n".join(wrong)
 

@@ -14,6 +14,7 @@ REACH = 1.2  # m: no point of a suspension is farther from the centre of its whe
 CARRIER = 0.45  # m: no point on what carries the wheel is farther
 ASIDE, ABOVE = 0.03, 0.03  # m: least y and z of a point of a suspension
 MARGIN = 0.15  # m: a part's centre of mass lies among the points of the suspension, or that near to them
+OF_CURVES = 0.6  # m: the same where links have no points
 HEIGHT = 2.5  # m: of a car
 OUTSIDE = 0.2  # m: of a point beyond the outline
 SMALL, SMALL_X = 0.001, 0.004  # m: nobody means it; of a point of the body along x, where all are metres apart
@@ -123,14 +124,15 @@ def _suspension(axle: Axle) -> Iterator[str]:
 def _parts(axle: Axle) -> Iterator[str]:
     """Centres of mass lie among the points."""
     around = [*drawn_points(axle).values(), axle.wheel.centre]
+    margin = MARGIN if axle.by_curves is None else OF_CURVES
     for part in parts_of(axle):
         for k, axis in enumerate("xyz"):
-            low, high = min(p[k] for p in around) - MARGIN, max(p[k] for p in around) + MARGIN
+            low, high = min(p[k] for p in around) - margin, max(p[k] for p in around) + margin
             low = max(low, (-9.0, ASIDE, ABOVE)[k])
             if not low <= part.com[k] <= high:
                 yield (
                     f"{part.key('com')} has {axis} = {part.com[k]:g} m; the points of its axle are between "
-                    f"{low + MARGIN:g} and {high - MARGIN:g} m."
+                    f"{low + margin:g} and {high - margin:g} m."
                 )
 
 

@@ -41,6 +41,8 @@ def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
     for axle, wheels in ((car.front, "front"), (car.rear, "rear")):
         if isinstance(axle.tyre, MagicFormula):
             yield from axle.tyre.notes
+        if axle.by_curves is not None:
+            yield from axle.by_curves.notes
         load, nominal = rest.load[wheels], axle.tyre.nominal_load
         if not LOADS[0] <= load / nominal <= LOADS[1]:
             yield (

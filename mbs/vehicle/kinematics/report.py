@@ -30,6 +30,8 @@ def report(options: argparse.Namespace) -> int:
     from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
     from mbs.vehicle.kinematics.page import page
     from mbs.vehicle.kinematics.table import rows, text
+    from mbs.vehicle.linkages.curve_grid import write_curve_table
+    from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 
     travel = TRAVEL if options.travel is None else options.travel
     low, high = checked_travel(tuple(1e-3 * v for v in travel))
@@ -43,7 +45,7 @@ def report(options: argparse.Namespace) -> int:
     asked = options.fidelity
     fidelity = fidelity_of(car, int(asked) if asked is not None and asked == asked // 1 else asked)
     folder = options.out or Path("out", "kinematics", car.name)
-    names = [f"{axle}_{motion}.csv" for axle in ("front", "rear") for motion in MOTIONS]
+    names = [f"{axle}_{motion}.csv" for axle in ("front", "rear") for motion in (*MOTIONS, "table")]
     for file in (folder / "kinematics.html", *(folder / n for n in names), *([options.json] if options.json else [])):
         check_writable(file)
     with progress_for(None) as bar:
@@ -54,10 +56,18 @@ def report(options: argparse.Namespace) -> int:
         print(f"note: {note}", file=sys.stderr)
     for curve in found.curves.values():
         write_curve(curve, folder / curve_file(curve))
+    tables = []
+    for axle, rack in (("front", car.steering.rack_travel), ("rear", 0.0)):
+        try:
+            write_curve_table(Linkage(car, axle), rack, folder / f"{axle}_table.csv")
+            tables.append(f"{axle}_table.csv")
+        except NotReachedError as error:
+            print(f"note: no {axle}_table.csv, as the links end before their stops: {error}.", file=sys.stderr)
     write_text(folder / "kinematics.html", page(found, gives))
     if options.json:
         write_text(options.json, json.dumps(_content(found, gives), indent=1) + "\n")
     print(f"\n{folder / 'kinematics.html'} and {len(found.curves)} CSV files beside it", flush=True)
+    print(f'{", ".join(tables)}: where the wheels stand, as kind = "curves" reads it', flush=True)
     return 1 if any(curve.notes for curve in found.curves.values()) else 0
 
 

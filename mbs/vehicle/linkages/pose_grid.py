@@ -75,20 +75,12 @@ def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
     NotReachedError
         The links end before the stops.
     """
-    stops = linkage.data.stops
-    low, high = (
-        (FREE, FREE)
-        if stops is None
-        else (
-            stops.rebound_gap + stops.rebound_travel + MARGIN,
-            stops.bump_gap + stops.bump_travel + MARGIN,
-        )
-    )
-    compression = _points(-low, high, SPACING[0])
-    coupled = _coupled(linkage)
+    low, high = compression_range(linkage)
+    compression = even_points(-low, high, SPACING[0])
+    coupled = is_coupled(linkage)
     steered = linkage.has_rod and rack_travel > 0.0
     reach = rack_travel + MARGIN
-    rack = _points(-reach, reach, SPACING[1]) if steered else np.zeros(1)
+    rack = even_points(-reach, reach, SPACING[1]) if steered else np.zeros(1)
     shape = (len(compression), len(compression) if coupled else len(rack))
     q = np.zeros((*shape, len(linkage.drawn.q)))
     along = _march(linkage, linkage.drawn.q, [((a, a), 0.0) for a in compression])
@@ -100,7 +92,15 @@ def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
     return PoseGrid(linkage, compression, rack, coupled, q)
 
 
-def _points(low: float, high: float, spacing: float) -> Array:
+def compression_range(linkage: Linkage) -> tuple[float, float]:
+    """Largest extension and compression of a spring that a table must have, m: a little beyond its stops."""
+    stops = linkage.data.stops
+    if stops is None:
+        return FREE, FREE
+    return stops.rebound_gap + stops.rebound_travel + MARGIN, stops.bump_gap + stops.bump_travel + MARGIN
+
+
+def even_points(low: float, high: float, spacing: float) -> Array:
     """Equally spaced from `low` to `high` or a little farther, with zero among them."""
     below = int(np.ceil(-low / spacing))
     step = -low / below
@@ -157,7 +157,7 @@ def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float],
     )
 
 
-def _coupled(linkage: Linkage) -> bool:
+def is_coupled(linkage: Linkage) -> bool:
     """Whether the compression of the right spring moves the left wheel."""
     C, _ = linkage.centre(0)
     alone = at_springs(linkage, linkage.drawn.q, (0.0, 0.01), 0.0)

@@ -41,6 +41,9 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> Non
     spins : mapping of str to Spin
         Its wheels by name.
     """
+    if car.front.by_curves is not None or car.rear.by_curves is not None:
+        tabled_shapes(b, car, spins)
+        return
     b.m.default_shapes = False
     looks = Looks(b, car, spins, rack_of(b, car))
     for name, axle in (("front", car.front), ("rear", car.rear)):

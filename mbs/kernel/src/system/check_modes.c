@@ -14,6 +14,7 @@ static ali3_status check_loop(const ali3_system *s, int64_t loop, ali3_message m
     return ali3_bad(m, "loop %lld has %d items of triads and %d of modes", (long long)loop, (int)n, (int)cells);
   for (int32_t k = first; k < first + n; k += ITEMS) {
     CHECK(ali3_check_indices(m, "mode_triad", s->mode_triad + k, SIGNALS, 0, s->size.nsig));
+    for (int32_t i = 0; i < SIGNALS; i++) CHECK(ali3_check_independent(s, s->mode_triad[k + i], "an assembly mode", m));
     CHECK(ali3_check_indices(m, "mode_triad", s->mode_triad + k + KIND, 1, 0, 4));
     CHECK(ali3_check_indices(m, "mode_triad", s->mode_triad + k + RING, 1, 0, n / ITEMS));
   }

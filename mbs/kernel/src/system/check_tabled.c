@@ -41,8 +41,8 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
       return ali3_bad(m, "the mass of table %lld is negative", (long long)i);
   }
   s->n_tabled = (int32_t)n;
-  if (n > 0 && (s->n_tree_parent > 0 || s->n_mode_triad > 0 || s->n_flex_front > 0))
-    return ali3_bad(m, "tabled bodies stand beside a tree, assembly modes or flexible bodies");
+  if (n > 0 && (s->n_tree_parent > 0 || s->n_flex_front > 0))
+    return ali3_bad(m, "tabled bodies stand beside a tree or flexible bodies");
   return ALI3_OK;
 }
 

@@ -1,0 +1,122 @@
+"""Tables of an axle by its curves, made of its links: what `kind = "curves"` reads."""
+
+from __future__ import annotations
+
+import csv
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from ali3.files import whole_file
+from mbs.vehicle.linkages.linkage import Array, Linkage, NotReachedError
+from mbs.vehicle.linkages.pose_grid import MARGIN, SPACING, compression_range, even_points, is_coupled
+from mbs.vehicle.suspensions.curve_poses import axes_of
+from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER, RACK, TRAVEL
+
+
+def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
+    """Columns of the table of the left wheel, as far as its stops and the rack go.
+
+    Parameters
+    ----------
+    rack_travel : float
+        To each side, m; 0 where the axle is not steered.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (n,)
+        By name, SI units.
+
+    Raises
+    ------
+    NotReachedError
+        The links end before the stops.
+    """
+    coupled = is_coupled(linkage)
+    travel = _travels(linkage, coupled)
+    name, second = "", np.zeros(1)
+    if coupled:
+        name, second = OTHER, travel
+    elif linkage.has_rod and rack_travel > 0.0:
+        name, second = RACK, even_points(-rack_travel - MARGIN, rack_travel + MARGIN, SPACING[1])
+    rows: list[dict[str, float]] = []
+    for t in travel:
+        for u in second:
+            place = (np.array([t, u]), 0.0) if coupled else (np.array([t, t]), float(u))
+            q = _reached(linkage, *place)
+            rows.append({TRAVEL: float(t), **({name: float(u)} if name else {}), **_measures(linkage, q)})
+    return {column: np.array([row[column] for row in rows]) + 0.0 for column in rows[0]}
+
+
+def write_curve_table(linkage: Linkage, rack_travel: float, file: str | PathLike[str]) -> None:
+    """Write the table of an axle as CSV, SI units in the headings.
+
+    Parameters
+    ----------
+    rack_travel : float
+        As of `curve_rows`.
+    file : path
+        To be written; one that exists is replaced when the new one is whole.
+    """
+    columns = curve_rows(linkage, rack_travel)
+    with whole_file(Path(file)) as made, made.open("w", newline="", encoding="utf-8") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow([f"{name} [{COLUMNS[name]}]" for name in columns])
+        writer.writerows(np.column_stack(list(columns.values())).tolist())
+
+
+def _travels(linkage: Linkage, coupled: bool) -> Array:
+    """Travels of a wheel whose springs go to their stops and a little beyond, whatever the other wheel does."""
+    extended, compressed = compression_range(linkage)
+    ends = []
+    for way, most in ((-1.0, extended), (1.0, compressed)):
+        t = 0.0
+        others = (1.0, -1.0) if coupled else (1.0,)
+        while min(way * _compression(linkage, _reached(linkage, np.array([t, o * t]), 0.0)) for o in others) < most:
+            t += way * 0.5 * SPACING[0]
+        ends.append(t)
+    return even_points(*ends, SPACING[0])
+
+
+def _compression(linkage: Linkage, q: Array) -> float:
+    D, d = linkage.linear(linkage.springs[0])
+    return float(np.linalg.norm(D @ linkage.drawn.q + d) - np.linalg.norm(D @ q + d))
+
+
+def _reached(linkage: Linkage, travel: Array, rack: float) -> Array:
+    """Coordinates at a place, by steps from the drawing as small as it takes."""
+    for parts in (1, 4, 16, 64):
+        at = linkage.drawn
+        try:
+            for k in range(parts):
+                share = (k + 1) / parts
+                at = linkage.solve(at.q, share * travel, share * rack)
+        except NotReachedError:
+            continue
+        return at.q
+    return linkage.solve(linkage.drawn.q, travel, rack).q
+
+
+def _measures(linkage: Linkage, q: Array) -> dict[str, float]:
+    C, c = linkage.centre(0)
+    (x, y, _), triad = C @ q + c, [A @ q + a for A, a in linkage.triad(0)]
+    axis = triad[1]
+    steer, inclination = np.arctan2(-axis[0], axis[1]), np.arcsin(axis[2])
+    level = axes_of(steer, inclination)
+    found = {
+        "wheel_centre_x": float(x),
+        "wheel_centre_y": float(y),
+        "toe_angle": -float(steer),
+        "camber_angle": -float(inclination),
+        "carrier_pitch_angle": -float(np.arctan2(triad[0] @ level[:, 2], triad[0] @ level[:, 0])),
+    }
+    for name, lines in (("spring_length", linkage.springs), ("damper_length", linkage.dampers)):
+        D, d = linkage.linear(lines[0])
+        found[name] = float(np.linalg.norm(D @ q + d))
+    if linkage.dampers[0] == linkage.springs[0]:
+        del found["damper_length"]  # one with the spring
+    if linkage.levers:
+        row, constant = linkage.full(linkage.levers[0])
+        found["anti_roll_bar_angle"] = float(row @ q + constant)
+    return found

@@ -1,0 +1,152 @@
+"""Places and rotations of a wheel carrier from the columns of its table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.vehicle.side import Point, Side
+from mbs.vehicle.suspensions.curve_table import OTHER, RACK, CurveTable
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Hub:
+    """A wheel as drawn.
+
+    Attributes
+    ----------
+    centre : (float, float, float)
+        Of the left wheel, m.
+    radius : float
+        From the centre to the ground, m.
+    ahead : float
+        1 of a front wheel, -1 of a rear one, which lengthens the wheelbase as it goes back.
+    """
+
+    centre: Point
+    radius: float
+    ahead: float
+
+
+@dataclass(frozen=True)
+class WheelCurves:
+    """What a table says of one wheel.
+
+    Attributes
+    ----------
+    second : ndarray, shape (k,)
+        Points of the second variable for this wheel.
+    centres : ndarray, shape (n, k, 3)
+        Of the wheel, m.
+    rotations : ndarray, shape (n, k, 3, 3)
+        Of the carrier from the drawing.
+    lengths : dict of str to ndarray, shape (n, k)
+        Lengths of spring and damper, m, and the angle of the lever, rad, where the table has them.
+    """
+
+    second: Array
+    centres: Array
+    rotations: Array
+    lengths: dict[str, Array]
+
+
+def axes_of(steer: Array, inclination: Array) -> Array:
+    """Unit vectors of wheels: forward and level, their axis to the left, up in their plane, as columns (..., 3, 3).
+
+    Parameters
+    ----------
+    steer, inclination : ndarray
+        rad, positive to the left and with the top to the right.
+    """
+    nought = np.zeros_like(steer)
+    forward = np.stack([np.cos(steer), np.sin(steer), nought], axis=-1)
+    axis = np.stack(
+        [-np.sin(steer) * np.cos(inclination), np.cos(steer) * np.cos(inclination), np.sin(inclination)], axis=-1
+    )
+    return np.stack([forward, axis, np.cross(forward, axis)], axis=-1)
+
+
+def pitched(pitch: Array) -> Array:
+    """Turn of a carrier about its wheel's axis in those axes, positive with the top forward, shape (..., 3, 3)."""
+    found = np.zeros((*pitch.shape, 3, 3))
+    found[..., 1, 1] = 1.0
+    found[..., 0, 0] = found[..., 2, 2] = np.cos(pitch)
+    found[..., 0, 2], found[..., 2, 0] = np.sin(pitch), -np.sin(pitch)
+    return found
+
+
+def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
+    """The motion of a wheel; that of the right one mirrors the left where the table has no columns of its own for it.
+
+    Angles count from those of the table at the drawing, as places do: what is drawn stays as drawn.
+
+    Parameters
+    ----------
+    side : Side
+        Left or right.
+    hub : Hub
+        The left wheel as drawn.
+    """
+    own = table.both and side.name == "right"
+    sign = -1.0 if own else 1.0
+    centres, rotations = _motion(table, "right" if own else "left", sign, hub)
+    lengths = {
+        name: values
+        for name in ("spring_length", "damper_length", "anti_roll_bar_angle")
+        if (values := table.of(name, "right" if own else "left")) is not None
+    }
+    if side.name == "left" or own:
+        return WheelCurves(table.second, centres, rotations, lengths)
+    mirror = np.array([1.0, -1.0, 1.0])
+    centres, rotations = centres * mirror, mirror[:, None] * rotations * mirror
+    if table.second_name != RACK:
+        return WheelCurves(table.second, centres, rotations, lengths)
+    return WheelCurves(
+        -table.second[::-1], centres[:, ::-1], rotations[:, ::-1], {n: v[:, ::-1] for n, v in lengths.items()}
+    )
+
+
+def _motion(table: CurveTable, name: str, sign: float, hub: Hub) -> tuple[Array, Array]:
+    """Centres of a wheel and rotations of its carrier over the table."""
+
+    def of(column: str) -> Array | None:
+        return table.of(column, name)
+
+    def angle(outwards: str, absolute: str) -> Array:
+        found = of(outwards)
+        if found is not None:
+            return -sign * found
+        found = of(absolute)
+        assert found is not None, "checked by the reader"
+        return found
+
+    i = int(np.argmin(np.abs(table.travel)))
+    k = int(np.argmin(np.abs(table.second)))
+    steer, inclination = angle("toe_angle", "steer_angle"), angle("camber_angle", "inclination_angle")
+    pitch = of("carrier_pitch_angle")
+    if pitch is None:  # the steering axis is fixed to the carrier: caster changes as the carrier pitches
+        caster = of("caster_angle")
+        assert caster is not None, "checked by the reader"
+        pitch = -np.broadcast_to(caster[:, k : k + 1], caster.shape)
+    axes = axes_of(steer, inclination) @ pitched(pitch - pitch[i, k])
+    rotations = axes @ axes[i, k].T
+    up = axes_of(steer, inclination)[..., 2]
+    contact = -hub.radius * (up - up[i, k])  # of the contact centre less that of the wheel's
+    drawn = np.array([hub.centre[0], sign * hub.centre[1], hub.centre[2]])
+    centres = np.zeros((*steer.shape, 3))
+    centres[..., 2] = np.broadcast_to(table.travel[:, None], steer.shape)
+    for column, c, change, scale in ((0, "x", "wheelbase_change", hub.ahead), (1, "y", "track_change", 0.5 * sign)):
+        for given, factor, below in (
+            (f"wheel_centre_{c}", 1.0, 0.0),
+            (f"contact_centre_{c}", 1.0, 1.0),
+            (change, scale, 1.0),
+        ):
+            values = of(given)
+            if values is not None:
+                centres[..., column] = factor * (values - values[i, k]) - below * contact[..., column]
+                break
+    return drawn + centres, rotations

@@ -1,0 +1,227 @@
+"""The table of an axle by its curves: a CSV file with units in its headings, as rigs and multibody programs give it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from ali3.tables import TextTable
+from mbs.model.tabled import FEWEST, UNIFORM
+from mbs.vehicle.errors import CarFileError
+from mbs.vehicle.files import beside
+
+Array = NDArray[np.float64]
+
+UNITS = {"m": ("m", 1.0), "mm": ("m", 1e-3), "rad": ("rad", 1.0), "deg": ("rad", math.pi / 180.0)}
+TRAVEL, RACK, OTHER = "wheel_travel", "rack_travel", "other_wheel_travel"
+COLUMNS = {
+    TRAVEL: "m",
+    RACK: "m",
+    OTHER: "m",
+    "wheel_centre_x": "m",
+    "wheel_centre_y": "m",
+    "contact_centre_x": "m",
+    "contact_centre_y": "m",
+    "wheelbase_change": "m",
+    "track_change": "m",
+    "toe_angle": "rad",
+    "steer_angle": "rad",
+    "camber_angle": "rad",
+    "inclination_angle": "rad",
+    "carrier_pitch_angle": "rad",
+    "caster_angle": "rad",
+    "spring_length": "m",
+    "damper_length": "m",
+    "anti_roll_bar_angle": "rad",
+}
+"""What a table may have, with the unit that is computed in."""
+NEEDED = (
+    ("wheel_centre_x", "contact_centre_x", "wheelbase_change"),
+    ("wheel_centre_y", "contact_centre_y", "track_change"),
+    ("toe_angle", "steer_angle"),
+    ("camber_angle", "inclination_angle"),
+    ("carrier_pitch_angle", "caster_angle"),
+)
+"""Of each line there must be one; the first that is there is used."""
+LARGEST = {"m": 3.0, "rad": 1.6}
+SAME = 1e-9  # m: two places of a table that are one
+FINEST = 200  # points along a coordinate, of a table with uneven ones
+COARSEST = {TRAVEL: 0.0125, RACK: 0.0065, OTHER: 0.0125}  # m: a table with farther points gets some between them
+
+
+@dataclass(frozen=True)
+class CurveTable:
+    """A table of one wheel as it stands in the file, or of both.
+
+    Attributes
+    ----------
+    travel : ndarray, shape (n,)
+        Of the wheel centre, m, positive in bump; evenly spaced, with 0 among the points.
+    second : ndarray, shape (k,)
+        Travel of the rack, positive to the left, or of the other wheel, m, likewise; one point where there is none.
+    second_name : str
+        `RACK`, `OTHER` or nothing.
+    columns : dict of str to ndarray, shape (n, k)
+        By name, SI units.
+    left_out : tuple of str
+        Columns of the file that are not used.
+    """
+
+    travel: Array
+    second: Array
+    second_name: str
+    columns: dict[str, Array]
+    left_out: tuple[str, ...] = ()
+
+    def of(self, name: str, side: str) -> Array | None:
+        """A column of a wheel: with the side behind its name, or without, which is of the left wheel."""
+        found = self.columns.get(f"{name}_{side}")
+        return self.columns.get(name) if found is None and side == "left" else found
+
+    @property
+    def both(self) -> bool:
+        """Whether the right wheel has columns of its own."""
+        return any(name.endswith("_right") for name in self.columns)
+
+
+def read_curves(folder: Path, name: str, key: str) -> CurveTable:
+    """Read the table of an axle.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the car.
+    name : str
+        Of the file.
+    key : str
+        Key path of the name, for messages.
+
+    Raises
+    ------
+    CarFileError
+        There is no such file, or it is no such table; the message says what is missing.
+    """
+    what = f"{key} ({name})"
+    table = TextTable(beside(folder, name, key), CarFileError, what, units=True)
+    given = dict(zip(table.names, table.values(finite=False, least=0).T, strict=True))
+    used = [n for n in given if n.removesuffix("_left").removesuffix("_right") in COLUMNS]
+    columns = {n: _in_si(what, n, table.units.get(n, ""), given[n]) for n in used}
+    if f"{TRAVEL}_left" in columns and TRAVEL not in columns:
+        columns[TRAVEL] = columns.pop(f"{TRAVEL}_left")
+        columns.pop(f"{TRAVEL}_right", None)
+    seconds = [n for n in (RACK, OTHER) if n in columns]
+    if TRAVEL not in columns:
+        raise CarFileError(f"{what} has no column {TRAVEL}; its columns are {', '.join(given)}.")
+    if len(seconds) > 1:
+        raise CarFileError(f"{what} has the columns {RACK} and {OTHER}; there must be one of them or none.")
+    sides = ("left", "right") if any(n.endswith("_right") for n in columns) else ("left",)
+    for names in NEEDED:
+        for side in sides:
+            if not any(n in columns or f"{n}_{side}" in columns for n in names):
+                raise CarFileError(
+                    f"{what} has no column {' or '.join(names)}{f' of the {side} wheel' if len(sides) > 1 else ''}; "
+                    f"its columns are {', '.join(given)}."
+                )
+    second_name = seconds[0] if seconds else ""
+    made = _grid(what, columns.pop(TRAVEL), columns.pop(second_name, None), second_name, columns)
+    return replace(made, left_out=tuple(n for n in given if n not in used))
+
+
+def _in_si(what: str, name: str, unit: str, values: Array) -> Array:
+    base = name.removesuffix("_left").removesuffix("_right")
+    known = [u for u, (si, _) in UNITS.items() if si == COLUMNS[base]]
+    if unit not in known:
+        raise CarFileError(
+            f"{what} has the heading '{f'{name} [{unit}]' if unit else name}'; it must be '{name} [UNIT]' with "
+            f"{' or '.join(known)}."
+        )
+    found = values * UNITS[unit][1]
+    far = float(np.max(np.abs(found), initial=0.0))
+    if not far <= LARGEST[COLUMNS[base]]:
+        raise CarFileError(
+            f"{what}, column {name} reaches {far:g} {COLUMNS[base]}; it must be within "
+            f"{LARGEST[COLUMNS[base]]:g} {COLUMNS[base]}."
+        )
+    return np.asarray(found)
+
+
+def _grid(what: str, travel: Array, second: Array | None, second_name: str, columns: Mapping[str, Array]) -> CurveTable:
+    """Rows as a table over evenly spaced points."""
+    if second is None:
+        _check_axis(what, TRAVEL, travel)
+        even = _even(travel, COARSEST[TRAVEL])
+        return CurveTable(even, np.zeros(1), "", {n: _on(travel, even, v[:, None], 0) for n, v in columns.items()})
+    along, across = _points(travel), _points(second)
+    for name, points in ((TRAVEL, along), (second_name, across)):
+        _check_axis(what, name, points)
+    place = np.abs(along[:, None] - travel).argmin(axis=0), np.abs(across[:, None] - second).argmin(axis=0)
+    rows = np.full((len(along), len(across)), -1)
+    rows[place] = np.arange(len(travel))
+    if np.count_nonzero(rows >= 0) != len(travel):
+        raise CarFileError(f"{what} has a pair of {TRAVEL} and {second_name} twice; there must be one row for each.")
+    i, k = int(np.argmin(np.abs(along))), int(np.argmin(np.abs(across)))
+    cross = np.zeros(rows.shape, bool)
+    cross[i], cross[:, k] = abs(along[i]) < SAME, abs(across[k]) < SAME
+    crossed = second_name == RACK and np.array_equal(rows >= 0, cross)
+    if not crossed and np.any(rows < 0):
+        raise CarFileError(
+            f"{what} has {len(travel)} rows for {len(along)} values of {TRAVEL} and {len(across)} of {second_name}; "
+            f"there must be one for each pair, {rows.size}, or of a rack those where one of both is 0."
+        )
+    evens, found = (_even(along, COARSEST[TRAVEL]), _even(across, COARSEST[second_name])), {}
+    for name, values in columns.items():
+        grid = values[rows] if not crossed else values[rows[:, [k]]] + values[rows[[i]]] - values[rows[i, k]]
+        found[name] = _on(across, evens[1], _on(along, evens[0], grid, 0), 1)
+    return CurveTable(*evens, second_name, found)
+
+
+def _points(values: Array) -> Array:
+    """Different values, rising."""
+    found = np.unique(values)
+    return np.asarray(found[np.concatenate([[True], np.diff(found) > SAME])])
+
+
+def _check_axis(what: str, name: str, points: Array) -> None:
+    steps = np.diff(points)
+    if len(points) < FEWEST:
+        raise CarFileError(f"{what} has {len(points)} values of {name}; there must be {FEWEST} or more.")
+    if not np.all(steps > SAME):
+        k = int(np.argmin(steps > SAME))
+        raise CarFileError(f"{what} has a {name} of {points[k + 1]:g} m after {points[k]:g} m; it must rise.")
+    if not points[0] < 0.0 < points[-1]:
+        raise CarFileError(
+            f"{what} has {name} from {points[0]:g} to {points[-1]:g} m; 0, the drawing, must lie between them."
+        )
+
+
+def _even(points: Array, coarsest: float) -> Array:
+    """The points, or evenly spaced ones within them as dense as they are at their densest, with 0 among them.
+
+    Places and rotations are splines through these points, angles of coarse ones are splines before.
+    """
+    steps = np.diff(points)
+    near = int(np.argmin(np.abs(points)))
+    if np.ptp(steps) <= UNIFORM * steps.max() and abs(points[near]) < SAME:
+        parts = math.ceil(steps.max() / coarsest)
+        step = steps.mean() / parts
+        return points if parts == 1 else step * np.arange(-near * parts, (len(points) - 1 - near) * parts + 1)
+    span = points[-1] - points[0]
+    step = max(min(float(steps.min()), coarsest), span / FINEST, SAME)
+    step = -points[0] / max(1, round(-points[0] / step))
+    low, high = round(-points[0] / step), math.floor(points[-1] / step + 1e-9)
+    while low + high + 1 < FEWEST or high < 1:
+        step *= 0.5
+        low, high = 2 * low, math.floor(points[-1] / step + 1e-9)
+    return np.asarray(step * np.arange(-low, high + 1), float)
+
+
+def _on(points: Array, even: Array, values: Array, axis: int) -> Array:
+    if len(points) == len(even) and np.max(np.abs(points - even)) < SAME:
+        return values
+    return np.asarray(CubicSpline(points, values, axis=axis)(even))

@@ -1,0 +1,230 @@
+"""An axle by its curves: where its wheels stand over travel and rack is a table, in place of links."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import PrivateAttr
+from scipy.interpolate import CubicSpline
+
+from mbs.common.affine import Affine
+from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+from mbs.model.coordinate import Coordinate
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.part import Part
+from mbs.vehicle.quantities import Factor, Length, TorsionalStiffness
+from mbs.vehicle.section import Section
+from mbs.vehicle.side import Side, sides
+from mbs.vehicle.springs import AxleSprings, spring_of_length
+from mbs.vehicle.suspensions.anti_roll_bar import LINK
+from mbs.vehicle.suspensions.curve_compliance import Compliance
+from mbs.vehicle.suspensions.curve_poses import Hub, WheelCurves, wheel_curves
+from mbs.vehicle.suspensions.curve_table import OTHER, RACK, Array, CurveTable, read_curves
+
+
+class CurvesBodies(Section):
+    """Parts of the left side."""
+
+    carrier: Part
+    """All that moves with the wheel without turning about its axis: hub carrier, brake, shares of links and springs."""
+
+
+class CurveBar(Section):
+    """Anti-roll bar between both wheels."""
+
+    stiffness: TorsionalStiffness
+    """Torque of the bar per angle between both levers."""
+    factor: Factor = 1.0
+    """Factor on the torque of the bar."""
+    lever: Length | None = None
+    """Travel of the wheel per angle of its lever; without it the table must have anti_roll_bar_angle."""
+
+
+class Curves(Section):
+    """Suspension by a table of where its wheels stand, in place of links.
+
+    Columns, with units (m, mm, rad or deg) in the headings: `wheel_travel`, positive in bump; of an axle that steers
+    `rack_travel`, positive to the left, of one whose wheels move each other `other_wheel_travel`; `wheel_centre_x` and
+    `wheel_centre_y`, or those of the contact centre, or `wheelbase_change` and `track_change` of both wheels;
+    `toe_angle` or `steer_angle`; `camber_angle` or `inclination_angle`; `carrier_pitch_angle`, the turn of the carrier
+    about the wheel's axis, positive with the top forward, or `caster_angle`; if there are any `spring_length`,
+    `damper_length`, `anti_roll_bar_angle`. One row for each pair of travels, or of a rack those where one is 0. They
+    are those of the left wheel, which the right one mirrors, or of both with `_left` and `_right` behind the names.
+    All counts from the row of no travel, the drawing, whose toe and camber stand in `alignment`.
+    """
+
+    kind: Literal["curves"]
+    """Names this template."""
+    file: str
+    """Name of the table (CSV)."""
+    spring_length: Length = 0.4
+    """Length of spring and damper as drawn where the table has none; they then change as the wheel travels."""
+    bodies: CurvesBodies
+    """Masses and inertias."""
+    bar: CurveBar | None = None
+    """Anti-roll bar."""
+    compliance: Compliance | None = None
+    """Compliance of links and bushes in steer."""
+
+    near_wheel: ClassVar[tuple[str, ...]] = ()
+    """Points on what carries the wheel: it has none."""
+    points: ClassVar[None] = None
+    """It has no hard points."""
+
+    _table: CurveTable | None = PrivateAttr(None)
+    _hub: Hub | None = PrivateAttr(None)
+
+    def open(self, folder: Path, hub: Hub) -> None:
+        """Read the table; done once by the reader of the car.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the car.
+        hub : Hub
+            The left wheel as drawn.
+
+        Raises
+        ------
+        CarFileError
+            There is no such file, or it is no such table.
+        """
+        self._table, self._hub = read_curves(folder, self.file, self.key("file")), hub
+
+    @property
+    def table(self) -> CurveTable:
+        """The table of the file."""
+        assert self._table is not None, "the file is opened with the car"
+        return self._table
+
+    @property
+    def hub(self) -> Hub:
+        """The left wheel as drawn."""
+        assert self._hub is not None, "the file is opened with the car"
+        return self._hub
+
+    @property
+    def notes(self) -> Iterator[str]:
+        """What of the file is not used."""
+        if self.table.left_out:
+            yield f"{self.key('file')} ({self.file}): not used are the columns {', '.join(self.table.left_out)}."
+
+    @property
+    def steers_left(self) -> bool:
+        """Whether the wheels turn to the left as the rack moves to the left."""
+        turned = self.of(Side("front", "left", 1.0)).rotations[:, :, 1, 0]  # of the wheel's forward axis to the left
+        i = int(np.argmin(np.abs(self.table.travel)))
+        return bool(turned[i, -1] > turned[i, 0])
+
+    @property
+    def compressions(self) -> tuple[float, float]:
+        """Least and largest compression of the left spring in the table, from the drawing, m."""
+        lengths = self.of(Side("front", "left", 1.0)).lengths.get("spring_length")
+        if lengths is None:
+            return float(self.table.travel[0]), float(self.table.travel[-1])
+        i, k = (int(np.argmin(np.abs(axis))) for axis in (self.table.travel, self.table.second))
+        least, largest = lengths[i, k] - lengths[[0, -1]]
+        return float(np.max(least)), float(np.min(largest))
+
+    def of(self, side: Side) -> WheelCurves:
+        """The motion of a wheel."""
+        return wheel_curves(self.table, side, self.hub)
+
+    def faults(self) -> Iterator[str]:
+        """The bar has levers; the table has what its name asks for."""
+        found = self.of(Side("front", "left", 1.0)).lengths
+        if self.bar is not None and (self.bar.lever is None) == ("anti_roll_bar_angle" not in found):
+            both = "is there too" if self.bar.lever is not None else "is not there"
+            yield (
+                f"{self.bar.key('lever')} is {'missing' if self.bar.lever is None else f'{self.bar.lever:g} m'}, and the "
+                f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {both}; there must be one of them."
+            )
+        if self.compliance is not None:
+            yield from self.compliance.fits(self.table.second_name)
+
+    def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
+        """Add the left side, then the right one, then what joins them.
+
+        Parameters
+        ----------
+        axle : str
+            "front" or "rear".
+        springs : AxleSprings
+            Springs, dampers and stops of the axle.
+        tie_rod : TieRodEnd
+            Of no use here: the rack is a coordinate.
+        """
+        travels = {side.name: b.m.travel(f"wheel travel {side.wheel}") for side in sides(axle)}
+        levers = []
+        for side in sides(axle):
+            own, w = travels[side.name], side.wheel
+            curves = self.of(side)
+            over, curves = self._over(b, side, curves, travels)
+            axes = [self.table.travel, *([curves.second] if len(over) == 2 else [])]
+            part = self.bodies.carrier
+            com = np.array(side.point(part.com))
+            centre = np.array(side.point(self.hub.centre))
+            carrier = b.m.tabled_body(
+                f"carrier {w}",
+                base=b.chassis.frame,
+                parameters=over,
+                axes=axes,
+                places=_flat(curves.centres + curves.rotations @ (com - centre), over),
+                rotations=_flat(curves.rotations, over),
+                mass=part.mass,
+                com=com,
+                inertia=part.inertia,
+            )
+
+            def number(column: str, name: str, unit: str = "m") -> tuple[Affine, float] | None:
+                values = curves.lengths.get(column)  # noqa: B023
+                if values is None:
+                    return None
+                found = b.m.tabled_number(name, parameters=over, axes=axes, values=_flat(values, over), unit=unit)  # noqa: B023
+                return found.affine, float(found.table.value(*[0.0] * len(over))[0])  # noqa: B023
+
+            plain = own.affine * -1.0 + self.spring_length, self.spring_length
+            spring = number("spring_length", f"length of spring {w}") or plain
+            spring_of_length(b, w, spring, number("damper_length", f"length of damper {w}"), springs)
+            lever = number("anti_roll_bar_angle", f"{LINK}{w}", "rad")
+            if self.bar is not None:
+                levers.append(lever[0] if self.bar.lever is None and lever else own.affine * (1.0 / self.bar.lever))
+            yield Corner(side, carrier, {"carrier": carrier})
+        if self.bar is not None:
+            law = ScalarSpringDamper(self.bar.stiffness, stiffness_factor=self.bar.factor)
+            bar = b.m.add(law.record(f"anti-roll bar {axle}", levers[0] - levers[1]))
+            b.tie(self.bar, "stiffness", bar, "stiffness")
+            b.tie(self.bar, "factor", bar, "stiffness_factor")
+
+    def _over(
+        self, b: CarBuilder, side: Side, curves: WheelCurves, travels: Mapping[str, Coordinate]
+    ) -> tuple[list[Coordinate], WheelCurves]:
+        """What the tables of a wheel are functions of, and its curves over it."""
+        own = travels[side.name]
+        if self.table.second_name == RACK:
+            assert b.rack is not None, "the front axle steers"
+            rack = b.rack
+            if self.compliance is not None:
+                rack = self.compliance.rack_end(b, side, rack, self._steer_per_rack(curves))
+            return [own, rack], curves
+        if self.table.second_name == OTHER:
+            return [own, travels["right" if side.name == "left" else "left"]], curves
+        if self.compliance is not None:
+            turn = self.compliance.turn(b, side)
+            return [own, turn], self.compliance.turned(curves, side)
+        return [own], curves
+
+    def _steer_per_rack(self, curves: WheelCurves) -> float:
+        """Of a wheel at the drawing, rad/m."""
+        i = int(np.argmin(np.abs(self.table.travel)))
+        rotations = curves.rotations[i]
+        return float(CubicSpline(curves.second, np.arctan2(rotations[:, 1, 0], rotations[:, 0, 0]))(0.0, 1))
+
+
+def _flat(values: Array, over: Sequence[Coordinate]) -> Array:
+    """Values over one or two coordinates."""
+    return values if len(over) == 2 else values[:, 0]

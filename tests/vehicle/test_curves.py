@@ -1,0 +1,254 @@
+"""Axles by their curves: against the links their tables come from, closed forms, and tables that are none."""
+
+from __future__ import annotations
+
+import csv
+import shutil
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from mbs import Pose, Simulation, System, compile, simulate
+from mbs.common.errors import ModelError
+from mbs.vehicle import Car, CarFileError, CarWarning
+from mbs.vehicle.car import car_from
+from mbs.vehicle.kinematics.car_kinematics import kinematics
+from mbs.vehicle.kinematics.compliance import compliance
+from mbs.vehicle.side import Side
+from mbs.vehicle.suspensions.curve_table import read_curves
+from tests.vehicle.curved_car import curved_content, light_armed
+
+WHEELS = ("FL", "FR", "RL", "RR")
+CARS = ("saloon", "hatchback", "prototype")
+SWERVE = {
+    "steering": (np.array([0.0, 0.2, 0.5, 0.8, 1.1, 1.5]), np.array([0.0, 0.0, 0.4, -0.4, 0.0, 0.0])),
+    "brake": (np.array([0.0, 0.8, 1.1, 1.5]), np.array([0.0, 0.0, 0.3, 0.3])),
+}
+
+
+@cache
+def linked(name: str) -> Car:
+    return light_armed(name)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("curved")
+
+
+@pytest.fixture(scope="module")
+def content(folder: Path) -> dict[str, dict[str, Any]]:
+    """Contents of car files, with their tables in folders of their names."""
+    found = {}
+    for name in CARS:
+        (folder / name).mkdir()
+        found[name] = curved_content(linked(name), folder / name)
+    return found
+
+
+def drive(system: System, seconds: float = 1.5) -> Any:
+    return simulate(system, seconds, 0.005, inputs=SWERVE, pose=Pose(speed=15.0))
+
+
+@pytest.mark.parametrize(("name", "angle"), [("saloon", 1e-5), ("hatchback", 1e-4), ("prototype", 1e-5)])
+def test_it_drives_as_the_links_that_its_tables_come_from(name: str, angle: float, content: dict, folder: Path) -> None:
+    """A swerve with the brakes on; the cross-beam of the hatchback is a bar whose lever does not turn."""
+    car = car_from(content[name], folder / name, name)
+    system = compile(car.model())
+    assert system.meta["report"]["degrees_of_freedom"] == 14
+    links, curves = drive(compile(linked(name).model())), drive(system)
+    gap = np.hypot(*(curves[f"chassis.{c}"] - links[f"chassis.{c}"] for c in "xy"))
+    assert gap.max() < 1e-4 * links["chassis.x"][-1]
+    for wheel in WHEELS:
+        change = np.ptp(links[f"wheel_{wheel}.Fz"])
+        assert np.abs(curves[f"wheel_{wheel}.Fz"] - links[f"wheel_{wheel}.Fz"]).max() < 1e-3 * change
+        for name_of in ("steer", "inclination"):
+            assert np.abs(curves[f"wheel_{wheel}.{name_of}"] - links[f"wheel_{wheel}.{name_of}"]).max() < angle
+        force = np.ptp(links[f"spring_{wheel}.force"])
+        assert np.abs(curves[f"spring_{wheel}.force"] - links[f"spring_{wheel}.force"]).max() < 1e-3 * force
+    rack = np.abs(links["steering_rack_force"]).max()
+    assert np.abs(curves["steering_rack_force"] - links["steering_rack_force"]).max() < 1e-3 * rack
+
+
+def test_one_axle_may_have_links_and_the_fidelity_of_tables_takes_both(content: dict, folder: Path) -> None:
+    mixed = content["saloon"] | {"rear": linked("saloon")._data["rear"]}
+    mixed["chassis"] = linked("saloon")._data["chassis"]
+    car = car_from(mixed, folder / "saloon", "mixed", at_rest=False)
+    for fidelity in ("rigid", "table"):
+        force = Simulation(compile(car.model(fidelity=fidelity))).sensors["wheel_RL.Fz"]
+        assert force == pytest.approx(2437.0, abs=5.0)
+
+
+def test_compliance_is_what_the_forces_in_the_contact_ask_for(content: dict, folder: Path) -> None:
+    """u = c_x F_x + c_y F_y + c_m M_z of a wheel that does not steer, of both wheels of a turning car."""
+    c_m, c_y, c_x = 8e-5, -3e-6, 2e-6
+    data = content["saloon"]
+    rear = {"per_moment": c_m, "per_lateral_force": c_y, "per_longitudinal_force": c_x}
+    data = _with(data, "rear", compliance=rear)
+    data = _with(data, "front", compliance={"per_moment": c_m})
+    car = car_from(data, folder / "saloon", "compliant")
+    simulation = Simulation(compile(car.model()), pose=Pose(speed=20.0))
+    for name, value in (("steering", 0.1), ("throttle", 0.3)):
+        simulation.set_input(name, value)
+    for _ in range(600):
+        simulation.step(0.005)
+    at = dict(zip(simulation.system.meta["coordinates"], simulation.state.q, strict=False))
+    out = simulation.sensors
+    for side, sign in (("L", 1.0), ("R", -1.0)):
+        Fx, Fy, Mz = (out[f"wheel_R{side}.{name}"] for name in ("Fx", "Fy", "Mz"))
+        turn = at[f"compliance steer R{side}"]
+        assert abs(turn) > 2e-3
+        moved = car.rear.wheel.mass + car.rear.suspension.bodies.carrier.mass  # takes a part of the force to turn
+        load = out[f"wheel_R{side}.Fz"] - moved * 9.81  # acts sideways in a chassis that leans
+        Fy += load * np.sin(out["chassis.roll"]) - moved * out["chassis.ay"]
+        assert turn == pytest.approx(sign * c_x * Fx + c_y * Fy + c_m * Mz, rel=0.03)
+    ends = sum(at[f"rack end F{side}"] - at["rack travel"] for side in "LR")
+    stiffness = car.front.by_curves._steer_per_rack(car.front.by_curves.of(Side("front", "left", 1.0))) ** 2 / c_m
+    assert out["steering_rack_force"] == pytest.approx(stiffness * ends, rel=1e-3)
+
+
+def rows_of(file: Path) -> tuple[list[str], np.ndarray]:
+    with file.open(encoding="utf-8") as text:
+        heading, *rows = csv.reader(text)
+    return heading, np.array(rows, float)
+
+
+def written(folder: Path, heading: list[str], rows: np.ndarray) -> None:
+    with (folder / "rear.csv").open("w", newline="", encoding="utf-8") as text:
+        csv.writer(text).writerows([heading, *rows.tolist()])
+
+
+def _with(data: dict, axle: str, **more: Any) -> dict:
+    return data | {axle: data[axle] | {"suspension": data[axle]["suspension"] | more}}
+
+
+@pytest.fixture
+def copied(content: dict, folder: Path, tmp_path: Path) -> Path:
+    for file in (folder / "saloon").iterdir():
+        shutil.copy(file, tmp_path)
+    return tmp_path
+
+
+def test_columns_in_other_units_names_and_of_both_wheels_are_the_same_car(content: dict, copied: Path) -> None:
+    """Contact centres for wheel centres, caster for pitch, mm and deg, and a right side that mirrors the left."""
+    car = car_from(content["saloon"], copied, "first")
+    heading, rows = rows_of(copied / "rear.csv")
+    columns = dict(zip([name.split(" ")[0] for name in heading], rows.T, strict=True))
+    _, axis, up = car.rear.alignment.axes(Side("rear", "left", 1.0))
+    toe, camber = columns["toe_angle"], columns["camber_angle"]
+    leaning = np.stack([np.sin(camber) * np.sin(toe), np.sin(camber) * np.cos(toe), np.cos(camber)], axis=-1)
+    contact = np.stack([columns["wheel_centre_x"], columns["wheel_centre_y"]], axis=-1)
+    contact = contact - car.rear.wheel.centre[2] / up[2] * leaning[:, :2]
+    i = int(np.argmin(np.abs(columns["wheel_travel"])))
+    deg = np.degrees
+    made = {
+        "wheel_travel [mm]": 1e3 * columns["wheel_travel"],
+        "wheelbase_change [mm]": -1e3 * (contact[:, 0] - contact[i, 0]),
+        "contact_centre_y_left [mm]": 1e3 * contact[:, 1],
+        "contact_centre_y_right [mm]": -1e3 * contact[:, 1],
+        "steer_angle_left [deg]": -deg(toe),
+        "steer_angle_right [deg]": deg(toe),
+        "camber_angle [deg]": deg(camber),
+        "camber_angle_right [deg]": deg(camber),
+        "caster_angle_left [deg]": 5.0 - deg(columns["carrier_pitch_angle"]),
+        "caster_angle_right [deg]": 5.0 - deg(columns["carrier_pitch_angle"]),
+        "spring_length_left [mm]": 1e3 * columns["spring_length"],
+        "spring_length_right [mm]": 1e3 * columns["spring_length"],
+        "anti_roll_bar_angle_left [rad]": columns["anti_roll_bar_angle"],
+        "anti_roll_bar_angle_right [rad]": columns["anti_roll_bar_angle"],
+        "remark [1]": np.zeros(len(toe)),
+    }
+    made["wheelbase_change_right [mm]"] = made["wheelbase_change [mm]"]
+    written(copied, list(made), np.array(list(made.values())).T)
+    chassis = content["saloon"]["chassis"] | {"products": [0.0, 0.0, 0.0]}
+    with pytest.warns(CarWarning, match="not used are the columns remark"):
+        second = car_from(content["saloon"] | {"chassis": chassis}, copied, "second", warn=True)
+    for side in (Side("rear", "left", 1.0), Side("rear", "right", -1.0)):
+        one, other = (c.rear.by_curves.of(side) for c in (car, second))
+        np.testing.assert_allclose(other.centres, one.centres, atol=1e-12)
+        np.testing.assert_allclose(other.rotations, one.rotations, atol=1e-12)
+
+
+def test_uneven_points_are_a_smooth_curve_and_two_sweeps_of_a_rack_are_added(content: dict, copied: Path) -> None:
+    before = car_from(content["saloon"], copied, "first")
+    heading, rows = rows_of(copied / "rear.csv")
+    written(copied, heading, np.delete(rows, [3, 8, 15], axis=0))
+    uneven = car_from(content["saloon"], copied, "second").rear.by_curves
+    one, other = (c.of(Side("rear", "left", 1.0)) for c in (before.rear.by_curves, uneven))
+    for values, found in ((one.centres, other.centres), (one.rotations, other.rotations)):
+        smooth = CubicSpline(before.rear.by_curves.table.travel, values)(uneven.table.travel)
+        np.testing.assert_allclose(found, smooth, atol=2e-6)
+    heading, rows = rows_of(copied / "front.csv")
+    cross = rows[(np.abs(rows[:, 0]) < 1e-9) | (np.abs(rows[:, 1]) < 1e-9)]
+    written(copied, heading, cross)
+    (copied / "rear.csv").rename(copied / "front.csv")
+    shutil.copy(copied / "front.csv", copied / "rear.csv")
+    front = read_curves(copied, "front.csv", "key")
+    full = before.front.by_curves.table
+    i, k = (int(np.argmin(np.abs(axis))) for axis in (full.travel, full.second))
+    toe, whole = front.columns["toe_angle"], full.columns["toe_angle"]
+    np.testing.assert_allclose(toe, whole[:, [k]] + whole[[i]] - whole[i, k], atol=1e-15)
+
+
+def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None:
+    heading, rows = rows_of(copied / "rear.csv")
+    toe = heading.index("toe_angle [rad]")
+
+    def refused(match: str, head: list[str] = heading, values: np.ndarray = rows) -> None:
+        written(copied, head, values)
+        with pytest.raises(CarFileError, match=match):
+            car_from(content["saloon"], copied, "x")
+
+    others = [k for k in range(len(heading)) if k != toe]
+    refused(
+        r"rear\.csv\) has no column toe_angle or steer_angle; its columns are",
+        [heading[k] for k in others],
+        rows[:, others],
+    )
+    refused(r"has no column wheel_travel", [heading[0].replace("wheel", "weel"), *heading[1:]])
+    refused(
+        r"heading 'toe_angle \[N\]'; it must be 'toe_angle \[UNIT\]' with rad or deg",
+        [name.replace("toe_angle [rad]", "toe_angle [N]") for name in heading],
+    )
+    refused(r"has 3 values of wheel_travel; there must be 4 or more", values=rows[:3])
+    refused(r"has a wheel_travel of .* after .*; it must rise", values=rows[::-1])
+    refused(r"0, the drawing, must lie between them", values=rows[-5:])
+    refused(r"ends at .* m of the spring in bump; it must reach to the end of its stop", values=rows[:-4])
+    wide = rows.copy()
+    wide[2, toe] = 100.0
+    refused(r"column toe_angle reaches 100 rad; it must be within 1\.6 rad", values=wide)
+    written(copied, heading, rows)
+    with pytest.raises(CarFileError, match=r"nothing\.csv'; there is no such file"):
+        car_from(_with(content["saloon"], "rear", file="nothing.csv"), copied, "x")
+    with pytest.raises(CarFileError, match="has no column rack_travel; the front axle steers"):
+        car_from(_with(content["saloon"], "front", file="rear.csv"), copied, "x")
+    heading, rows = rows_of(copied / "front.csv")
+    refused("has the column rack_travel; the rear axle does not steer", heading, rows)
+    refused(r"rows for .*; there must be one for each pair", heading, rows[:-1])
+    refused("twice; there must be one row for each", heading, np.vstack([rows, rows[:1]]))
+
+
+def test_a_wheel_beyond_its_table_ends_the_run_with_its_name_and_range(content: dict, copied: Path) -> None:
+    heading, rows = rows_of(copied / "rear.csv")
+    short = _with(content["saloon"], "rear", file="rear.csv")
+    short["rear"].pop("stops")
+    written(copied, heading, rows[np.abs(rows[:, 0]) < 0.045])
+    car = car_from(short, copied, "x")
+    with pytest.raises(RuntimeError, match=r"'wheel travel R[LR]' is .*; its table goes from -0\.03"):
+        simulate(compile(car.model()), 2.0, 0.005, pose=Pose(z=0.6))
+
+
+def test_links_are_asked_for_where_there_are_none(content: dict, folder: Path) -> None:
+    car = car_from(content["saloon"], folder / "saloon", "x")
+    with pytest.raises(ModelError, match=r"front\.suspension\.kind is 'curves'.*front\.csv has its curves"):
+        kinematics(car)
+    with pytest.raises(ModelError, match=r"front\.suspension\.kind is 'curves'"):
+        compliance(car)
+    bar = {"stiffness": 100.0, "part": "carrier", "points": linked("saloon")._data["front"]["anti_roll_bar"]["points"]}
+    data = content["saloon"] | {"front": content["saloon"]["front"] | {"anti_roll_bar": bar}}
+    with pytest.raises(CarFileError, match="hangs on links; of an axle by its curves give"):
+        car_from(data, folder / "saloon", "x")
