@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from ali3.extras import missing_module
 from ali3.reading import check_file
-from ali3.words import one_line, shortened
+from ali3.words import one_line
 from mbs.elements.road import GridRoad
+from mbs.kernel.header.limits import ROAD_HIGHEST
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.sampled_road import SampledRoad, Values, between, compared, points_of_box
 from mbs.roads.steep_faces import RoadWarning
@@ -30,8 +31,9 @@ _LEVEL = 1e-9  # rad: a straight reference line with a smaller heading lies alon
 def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) -> SampledRoad:
     """A grid over the whole of a road in an OpenCRG file.
 
-    The modifiers of the file hold, and where it has none those of the standard: heights that are missing at the border
-    are those beside them, and the reference line begins at the origin along x. Beyond the border its heights go on.
+    The modifiers of the file hold, and where it has none those of the standard: heights that are missing are those
+    beside them in their cross section, and the reference line begins at the origin along x. Beyond the border its
+    heights go on.
 
     Parameters
     ----------
@@ -59,6 +61,7 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
         along = crg.is_straight and abs(crg.phi_start) < _LEVEL
         spacing = (crg.u_inc, apart) if along else (min(crg.u_inc, apart),) * 2
     x, y = points_of_box(edges.min(axis=0), edges.max(axis=0), spacing, source)
+    spacing = float(x[1] - x[0]), float(y[1] - y[0])
     heights = np.concatenate([_heights(crg, *places)[0] for places in _places(x, y)]).reshape(len(x), len(y))
     grid = GridRoad((float(x[0]), float(y[0])), spacing, heights)
     return compared(grid, _known(crg, *between(grid)), source)
@@ -99,11 +102,15 @@ def _read(source: str) -> pyopencrg.CrgRoad:
     except ModuleNotFoundError as error:
         raise RoadFileError(f"{source} cannot be read. {missing_module(error, 'roads')}") from None
     except Exception as error:  # what a reader raises on a damaged file has no common kind
-        words = one_line(str(error)).removeprefix(f"{source}: ").partition("To open it anyway")[0]
-        raise RoadFileError(f"{source} cannot be read as OpenCRG: {shortened(words.strip()).rstrip('.')}.") from None
+        words = _words(error).removeprefix(f"{source}: ").partition(" To open it anyway")[0].rstrip(".")
+        raise RoadFileError(f"{source} cannot be read as OpenCRG: {words}.") from None
     for what in odd:
-        warnings.warn(f"{source}: {one_line(str(what.message))}", RoadWarning, stacklevel=4)
+        warnings.warn(f"{source}: {_words(what.message)}", RoadWarning, stacklevel=4)
     return crg
+
+
+def _words(said: object) -> str:
+    return one_line(" ".join(str(said).replace("\n  - ", " ").split()))
 
 
 def _checked(crg: pyopencrg.CrgRoad, source: str) -> None:
@@ -111,9 +118,15 @@ def _checked(crg: pyopencrg.CrgRoad, source: str) -> None:
     numbers = np.concatenate([np.ravel(a) for a in (crg.u, crg.v, crg.x, crg.y)])
     if min(crg.shape) < 2 or not np.all(np.abs(numbers) < 1e7):
         raise RoadFileError(f"{source} is no road: its points, {crg.nu} x {crg.nv}, do not lie within 10 000 km.")
+    if np.any(high := np.abs(crg.surface_z()) > ROAD_HIGHEST):
+        i, j = np.argwhere(high)[0].tolist()
+        raise RoadFileError(
+            f"{source} has a height of {crg.surface_z()[i, j]:.3g} m at u = {crg.u[i]:g} m, v = {crg.v[j]:g} m; it "
+            f"must lie between {-ROAD_HIGHEST:g} and {ROAD_HIGHEST:g} m."
+        )
     if np.any(bad := ~np.isfinite(crg.surface_z())):
         i, j = np.argwhere(bad)[0].tolist()
         raise RoadFileError(
             f"{source} has no height at u = {crg.u[i]:g} m, v = {crg.v[j]:g} m, one of {int(bad.sum())} such points "
-            f"inside of the road; fill them, or let the modifier GRID_NAN_MODE do it at the border."
+            f"of the road; fill them, or let the modifier GRID_NAN_MODE of the file do it."
         )

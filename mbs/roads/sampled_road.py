@@ -56,15 +56,15 @@ class SampledRoad(GridRoad):
 def points_of_box(
     low: Values, high: Values, spacing: tuple[float, float], source: str, more: str = ""
 ) -> tuple[Values, Values]:
-    """Coordinates x (nx,) and y (ny,) of a grid that covers a box.
+    """Coordinates x (nx,) and y (ny,) of a grid from border to border of a box, not farther apart than the spacing.
 
     Raises
     ------
     RoadFileError
         The grid has too many points, with a spacing that would do; `more` is said besides.
     """
-    sides = np.maximum(high - low, 1e-9)
-    counts = np.ceil(sides / spacing - 1e-6) + 1.0
+    sides = high - low
+    counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0
     if not counts.prod() <= MOST_POINTS:
         wider = max(spacing) * float(np.sqrt(counts.prod() / MOST_POINTS)) * 1.05
         raise RoadFileError(
@@ -72,7 +72,7 @@ def points_of_box(
             f"is a grid of {counts.prod():.3g} points; {MOST_POINTS} are read at most. A spacing of {wider:.2g} m by "
             f"{wider:.2g} m fits.{more}"
         )
-    x, y = (low[k] + spacing[k] * np.arange(max(int(counts[k]), 2)) for k in range(2))
+    x, y = (low[k] + sides[k] / (counts[k] - 1.0) * np.arange(int(counts[k])) for k in range(2))
     return x, y
 
 
@@ -103,7 +103,7 @@ def compared(road: GridRoad, known: Iterable[tuple[Values, Values]], source: str
     rms = float(np.sqrt(squares / max(count, 1)))
     made = SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
     if largest > TOLD:
-        step = " by ".join(f"{h:g}" for h in road.spacing)
+        step = " by ".join(f"{h:.4g}" for h in road.spacing)
         warnings.warn(
             f"The grid with points {step} m apart {made.sentence}; a smaller spacing follows it more closely.",
             RoadWarning,
