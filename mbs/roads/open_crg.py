@@ -38,6 +38,7 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
     Parameters
     ----------
     path : path
+        ``.crg``, in any of the forms of the standard.
     spacing : (float, float), optional
         Of the grid, m; by default that of the file where the road is straight along x, else the smaller of its two.
 

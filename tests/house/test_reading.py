@@ -18,7 +18,7 @@ MOST = {
     "view": 1150,
     "simulator": 9200,
     "simulator, all of it": 15600,
-    "check": 5700,
+    "check": 5900,
     "catalogue": 8400,
     "compare": 9750,
     "study": 9500,
