@@ -81,6 +81,8 @@ READERS = (
     Reader("study", "ali3 compare car.fmu {} --out compared", ("result.csv",), TABLE),
     Reader("study", "ali3 study {} --dry-run", ("study.toml",), TABLE),
     Reader("roads", "ali3 road {} picture.road --range 0 1 --spacing 1 1", ("picture.png",)),
+    Reader("roads", "ali3 road {} line.road", ("line.crg",)),
+    Reader("roads", "ali3 road {} plate.road", ("plate.stl", "plate.obj", "plate.ply", "plate.off", "plate.glb")),
     Reader(
         "pictures",
         "from viewer.mesh_file import read_mesh; read_mesh('{}')",

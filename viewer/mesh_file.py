@@ -73,12 +73,41 @@ def read_mesh(
     FileError
         The file cannot be read.
     """
+    points, triangles = _merged(read_corners(path, scale).reshape(-1, 3))
+    if not len(triangles):
+        raise MeshError(f"{path} is no mesh: none of its triangles has an area.")
+    if len(triangles) > most_triangles:
+        points, triangles = _thinned(path, points, triangles, most_triangles)
+    _doubt_size(path, float(np.linalg.norm(np.ptp(points, axis=0))), extent)
+    return points.astype(np.float32), triangles.astype(np.uint32)
+
+
+def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = "pictures") -> NDArray[np.float64]:
+    """Corners of the triangles of a mesh, as its file has them.
+
+    Parameters
+    ----------
+    path, scale :
+        As of `read_mesh`.
+    extra : str
+        Of the installation, named where the package that reads is missing.
+
+    Returns
+    -------
+    ndarray, shape (n, 3, 3)
+        Corners of n triangles, m.
+
+    Raises
+    ------
+    MeshError, FileError
+        As of `read_mesh`.
+    """
     file = Path(path)
     factor = _checked_scale(path, scale)
     if file.suffix.lower() not in SUFFIXES:
         raise MeshError(f"{path} is of a kind that is not read as a mesh; {', '.join(SUFFIXES)} are.")
     check_file(file, _LARGEST)
-    mesh = _load(file)
+    mesh = _load(file, extra)
     points = np.asarray(mesh.vertices, dtype=float) * factor
     triangles = np.asarray(mesh.faces, dtype=np.int64)
     if not len(triangles):
@@ -92,13 +121,7 @@ def read_mesh(
         raise MeshError(
             f"{path} is no mesh: {bad} of its {len(triangles)} triangles have coordinates that are no number."
         )
-    points, triangles = _merged(used.reshape(-1, 3))
-    if not len(triangles):
-        raise MeshError(f"{path} is no mesh: none of its triangles has an area.")
-    if len(triangles) > most_triangles:
-        points, triangles = _thinned(path, points, triangles, most_triangles)
-    _doubt_size(path, float(np.linalg.norm(np.ptp(points, axis=0))), extent)
-    return points.astype(np.float32), triangles.astype(np.uint32)
+    return used
 
 
 def _checked_scale(path: str | os.PathLike[str], scale: object) -> float:
@@ -107,7 +130,7 @@ def _checked_scale(path: str | os.PathLike[str], scale: object) -> float:
     return float(scale)
 
 
-def _load(file: Path) -> trimesh.Trimesh:
+def _load(file: Path, extra: str) -> trimesh.Trimesh:
     options = {"skip_materials": True} if file.suffix.lower() == ".obj" else {}
     try:
         import trimesh
@@ -115,7 +138,7 @@ def _load(file: Path) -> trimesh.Trimesh:
         # `process` would remove what is not finite without a word.
         return trimesh.load_mesh(str(file), process=False, **options)
     except ModuleNotFoundError as error:
-        raise MeshError(f"{file} cannot be read as a mesh. {missing_module(error, 'pictures')}") from None
+        raise MeshError(f"{file} cannot be read as a mesh. {missing_module(error, extra)}") from None
     except Exception as error:  # what a reader of many formats raises on a damaged file has no common kind
         words = str(error).strip().splitlines()
         raise MeshError(f"{file} cannot be read as a mesh: {words[0].rstrip('.') if words else repr(error)}.") from None

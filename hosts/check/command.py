@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import argparse
 import sys
+import time
 import zipfile
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from ali3.extras import command_needs
 from ali3.isolated import Isolated, Lost
@@ -21,6 +22,7 @@ from ali3.options import Parser, add_option, assignment, count, given_of
 from ali3.running import run_command
 from ali3.words import shortened
 from hosts.check.all_checks import check
+from hosts.check.junit import Case, write_junit
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes, add_fmu, add_setting_options, wishes
@@ -57,6 +59,9 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     parser.add_argument(
         "--steps", type=_steps, metavar="N", help=f"communication steps per run of a check; default: {_STEPS}"
     )
+    parser.add_argument(
+        "--junit", type=Path, metavar="FILE", help="write the verdict there too, of the check or of --reference"
+    )
     add_setting_options(parser)
     table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, in place of the check")
     add_option(table, "--show-parameters")
@@ -72,7 +77,9 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "Columns of the table that are inputs drive the FMU, straight between the rows; those that are outputs are "
         "compared. A result of 'ali3 run' is such a table.",
     )
-    reference.add_argument("--reference", type=Path, metavar="CSV", help="compare results with this table")
+    reference.add_argument(
+        "--reference", type=Path, metavar="CSV|DIR", help="compare results with this table, or all tables of a folder"
+    )
     add_option(reference, "--manoeuvre", "the columns of the table")
     reference.add_argument(
         "--bound",
@@ -125,6 +132,8 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         raise HostError(f"{others[0]} does not go with {others[-1]}.")
     if options.steps is not None and others:
         raise HostError("--steps is of the check alone.")
+    if options.junit is not None and (table or options.soak):
+        raise HostError(f"--junit does not go with {others[0]}.")
     if options.soak:
         command_needs("simulator")
         from hosts.soak.soak import soak
@@ -135,16 +144,32 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         from hosts.check.parameters import parameters
 
         return parameters(fmu, wishes(options), options.save_parameters, options.diff, options.show_parameters)
-    if reference:
-        from hosts.check.reference import check_reference
+    cases: list[Case] = []
+    try:
+        if reference:
+            return _against(fmu, options, cases)
+        return _outside(fmu, _STEPS if options.steps is None else options.steps, wishes(options), cases)
+    except BaseException as error:  # Ctrl-C too: what was looked at until then is no verdict
+        if not any(case.verdict == "error" for case in cases):
+            cases.append(Case(fmu.stem, "ali3 check", "error", str(error) or type(error).__name__))
+        raise
+    finally:
+        if options.junit is not None and cases:
+            write_junit(options.junit, fmu.stem, cases)
 
-        if len(options.fidelity) > 1:
-            raise HostError("--fidelity is given twice; a reference is of one.")
-        fidelity = options.fidelity[0] if options.fidelity else None
-        return check_reference(
-            fmu, options.reference, options.manoeuvre, options.step, fidelity, wishes(options), options.bound
-        )
-    return _outside(fmu, _STEPS if options.steps is None else options.steps, wishes(options))
+
+def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
+    from hosts.check.reference import check_references
+
+    if len(options.fidelity) > 1:
+        raise HostError("--fidelity is given twice; a reference is of one.")
+    how = {
+        "manoeuvre": options.manoeuvre,
+        "step": options.step,
+        "fidelity": options.fidelity[0] if options.fidelity else None,
+        "wishes": wishes(options),
+    }
+    return check_references(fmu, options.reference, cases, options.bound, **how)
 
 
 def _settings(fmu: Path, given: Wishes) -> Settings:
@@ -155,7 +180,7 @@ def _settings(fmu: Path, given: Wishes) -> Settings:
     return settings_of(Variables(described(fmu)), given)
 
 
-def _outside(fmu: Path, steps: int, given: Wishes) -> int:
+def _outside(fmu: Path, steps: int, given: Wishes, cases: list[Case]) -> int:
     """The checks in a process of their own, which a broken FMU may take down."""
     if fmu.is_dir():
         raise HostError(f"{fmu} is a folder; an FMU is a file.")
@@ -169,9 +194,20 @@ def _outside(fmu: Path, steps: int, given: Wishes) -> int:
         start = settings.start
         for name, words in settings.rows():
             print(f" set  {name:<{_WIDTH}}  {words}", flush=True)
+    begin = time.perf_counter()
+
+    def tell(finding: Finding) -> None:
+        nonlocal begin
+        print_finding(finding)
+        verdict: Literal["good", "bad"] = "bad" if finding.verdict == "bad" else "good"
+        now = time.perf_counter()
+        cases.append(Case(fmu.stem, finding.check, verdict, finding.words, now - begin))
+        begin = now
+
     with closing(Isolated(check)) as process:
-        bad = process.do((fmu, steps, start), print_finding)
+        bad = process.do((fmu, steps, start), tell)
     if isinstance(bad, Lost):
+        cases.append(Case(fmu.stem, "stays alive", "bad", f"the process that ran the next check {bad.how}"))
         print(f"{_MARKS['bad']:>4}  {'stays alive':<{_WIDTH}}  the process that ran the next check {bad.how}")
         print(f"\n{fmu}: bad")
         return 1

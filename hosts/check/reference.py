@@ -1,17 +1,21 @@
-"""``ali3 check FMU --reference FILE``: an FMU against a table of reference results."""
+"""``ali3 check FMU --reference CSV|DIR``: an FMU against tables of reference results."""
 
 from __future__ import annotations
 
 import fnmatch
 import math
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.errors import UserError
 from ali3.tables import TextTable
+from hosts.check.junit import Case
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.driving.co_simulation import Result, run_with_bar
@@ -67,6 +71,18 @@ class Deviation:
         """Whether it is within its bound; what is no number is not."""
         return self.share <= self.bound
 
+    @property
+    def words(self) -> tuple[str, str, str, str]:
+        """The error, its time, its share and the bound."""
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        return f"{self.error:.3g}{unit}", f"{self.at:g} s", f"{100.0 * self.share:.2g} %", f"{100.0 * self.bound:g} %"
+
+    def case(self, reference: str) -> Case:
+        """For a JUnit file."""
+        error, at, share, bound = self.words
+        words = f"largest error {error} at {at}, {share} of its range; the bound is {bound}"
+        return Case(reference, self.name, "good" if self.good else "bad", words)
+
 
 def bounded(name: str, bounds: Sequence[tuple[str, float]]) -> float:
     """The bound of a signal: the last whose pattern fits."""
@@ -113,6 +129,56 @@ def deviations(
     return sorted(found, key=lambda d: -d.share / d.bound)
 
 
+def check_references(
+    path: Path, place: Path, cases: list[Case], bounds: Sequence[tuple[str, float]], **how: Any
+) -> int:
+    """Compare an FMU with a table, or with all tables in a folder, by name.
+
+    Parameters
+    ----------
+    path : Path
+        FMU.
+    place : Path
+        Table or folder.
+    cases : list of Case
+        Takes what was found, also before an error.
+    bounds : sequence of (str, float)
+        See `deviations`; each fits an output of one of the tables.
+    **how
+        Of `check_reference`.
+
+    Returns
+    -------
+    int
+        Exit code: 0 if all are within their bounds and no step was refused.
+
+    Raises
+    ------
+    HostError
+        There is no table, or no output that a bound fits; or the first of what `check_reference` raises, when all
+        tables have been tried.
+    """
+    files = sorted(place.glob("*.csv")) if place.is_dir() else [place]
+    if not files:
+        raise HostError(f"There is no table (.csv) in the folder {place}.")
+    errors = []
+    for file in files:
+        try:
+            cases += check_reference(path, file, bounds=bounds, **how)
+        except UserError as error:
+            cases.append(Case(file.stem, "comparison", "error", str(error)))
+            errors.append(error)
+            if len(files) > 1:
+                print(f"BAD   {error}")
+    names = [case.name for case in cases]
+    for pattern, _ in bounds:
+        if not errors and not fnmatch.filter(names, pattern):
+            raise HostError(f"--bound {pattern}: {place} has no such output of {path.name}.")
+    if errors:
+        raise errors[0]
+    return int(any(case.verdict == "bad" for case in cases))
+
+
 def check_reference(
     path: Path,
     file: Path,
@@ -121,7 +187,7 @@ def check_reference(
     fidelity: float | None,
     wishes: Wishes,
     bounds: Sequence[tuple[str, float]],
-) -> int:
+) -> list[Case]:
     """Run an FMU as its reference was, and print how far its outputs are from it.
 
     Parameters
@@ -143,19 +209,17 @@ def check_reference(
 
     Returns
     -------
-    int
-        Exit code: 0 if all are within their bounds and no step was refused.
+    list of Case
+        The run, and each signal.
 
     Raises
     ------
     HostError
         The table has no output of the FMU, or times that are no communication points.
     """
+    begin = time.perf_counter()
     with Fmu(path) as fmu:
         driven, times, columns, left = _read(fmu, file, manoeuvre)
-        for pattern, _ in bounds:
-            if not fnmatch.filter(columns, pattern):
-                raise HostError(f"--bound {pattern}: {file} has no such output of {path.name}.")
         driven = with_names_of(driven, fmu.variables)
         check_columns(fmu, driven)
         driver = driver_of(fmu, driven)
@@ -180,9 +244,13 @@ def check_reference(
         f"\n{path} against {file}, {len(found)} signals up to {result.time[-1]:g} s in steps of {step:g} s: "
         f"{'all within their bounds' if not bad else f'{bad} beyond their bounds'}{share}"
     )
+    ended = f"up to {result.time[-1]:g} s in steps of {step:g} s"
     if result.failed_steps:
-        print(f"The step at {result.time[-1]:g} s was refused; the reference goes on to {times[-1]:g} s.")
-    return 1 if bad or result.failed_steps else 0
+        ended = f"The step at {result.time[-1]:g} s was refused; the reference goes on to {times[-1]:g} s."
+        print(ended)
+    run = Case(file.stem, "run", "bad" if result.failed_steps else "good", ended, time.perf_counter() - begin)
+    missing = [Case(file.stem, name, "skipped", f"{path.name} has no such output") for name in left]
+    return [run, *(deviation.case(file.stem) for deviation in found), *missing]
 
 
 def _read(
@@ -225,9 +293,7 @@ def _check_times(times: NDArray[np.float64], step: float, file: Path) -> None:
 def _print_table(found: Sequence[Deviation]) -> None:
     rows = [("", "signal", "largest error", "at", "of its range", "bound")]
     for d in found:
-        unit = "" if d.unit == "1" else f" {d.unit}"
-        shares = (f"{100.0 * d.share:.2g} %", f"{100.0 * d.bound:g} %")
-        rows.append((" ok " if d.good else "BAD ", d.name, f"{d.error:.3g}{unit}", f"{d.at:g} s", *shares))
+        rows.append((" ok " if d.good else "BAD ", d.name, *d.words))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         print("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip())

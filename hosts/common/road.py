@@ -8,7 +8,7 @@ from pathlib import Path
 from ali3.files import make_folder
 from hosts.common.commands import run_module
 
-MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml")
+MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml", ".crg", ".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
 """Suffixes of what ``ali3 road`` makes a road file of."""
 
 

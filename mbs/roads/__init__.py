@@ -3,7 +3,8 @@
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import RoadFile
 from mbs.roads.road_header import RoadFileError
+from mbs.roads.sampled_road import SampledRoad
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
 
-__all__ = ["RoadFile", "RoadFileError", "RoadWarning", "read_road", "write_road"]
+__all__ = ["RoadFile", "RoadFileError", "RoadWarning", "SampledRoad", "read_road", "write_road"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -15,6 +16,7 @@ from ali3.typed_sentences import Sentences
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header.limits import ROAD_FRICTION
 from mbs.roads.grid_files import read_grid
+from mbs.roads.kinds import CRG, MESHES
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.rough_road import ISO_8608, rough_heights
 
@@ -74,12 +76,16 @@ class GridOfFiles(_Road):
     spacing: tuple[Length, Length] | None = None
     height_range: Range | None = None
     friction_range: Range | None = None
+    scale: Annotated[float, Field(ge=1e-6, le=1e6)] | None = None
+    up: Literal["y", "z"] | None = None
 
     def road(self, folder: Path) -> GridRoad:
         """As the kernel takes it."""
         frictions = folder / self.frictions if isinstance(self.frictions, str) else self.frictions
+        mesh = {name: value for name in ("scale", "up") if (value := getattr(self, name)) is not None}
         return grid_road(
-            folder / self.heights, frictions, self.origin, self.spacing, self.height_range, self.friction_range
+            *(folder / self.heights, frictions, self.origin, self.spacing, self.height_range, self.friction_range),
+            **mesh,
         )
 
 
@@ -173,23 +179,54 @@ def grid_road(
     spacing: tuple[float, float] | None,
     height_range: Range | None = None,
     friction_range: Range | None = None,
+    **mesh: Any,
 ) -> GridRoad:
-    """A grid from files; what is given here goes before what the files say."""
+    """A grid from files; what is given here goes before what the files say.
+
+    Parameters
+    ----------
+    **mesh
+        `scale` and `up` of `mesh_road`.
+    """
+    grid = _grid(heights, height_range, spacing, mesh)
+    values: Any = frictions
+    if frictions is None:
+        values = grid.frictions
+    elif not isinstance(frictions, int | float):
+        second = read_grid(frictions, friction_range, "frictions")
+        values = second.values
+        if values.shape != np.shape(grid.heights):
+            raise RoadFileError(
+                f"The frictions in {frictions} have shape {values.shape}, the heights in {heights} "
+                f"{np.shape(grid.heights)}; both must agree."
+            )
+    if np.any(np.asarray(values) > ROAD_FRICTION) or np.any(np.asarray(values) < 0.0):
+        raise RoadFileError(f"The frictions of {heights} must lie between 0 and {ROAD_FRICTION:g}.")
+    return replace(grid, origin=origin or grid.origin, frictions=values)
+
+
+def _grid(
+    heights: str | os.PathLike[str],
+    height_range: Range | None,
+    spacing: tuple[float, float] | None,
+    mesh: dict[str, Any],
+) -> GridRoad:
+    """The grid of a table, array or picture, or one that is taken from another surface."""
+    kind = Path(heights).suffix.lower()
+    if mesh and kind not in MESHES:
+        raise RoadFileError(f"{heights} is no mesh, which {next(iter(mesh))} is of; {', '.join(MESHES)} are.")
+    if kind in MESHES:
+        from mbs.roads.mesh_road import mesh_road
+
+        return mesh_road(heights, spacing, **mesh)
+    if kind == CRG:
+        from mbs.roads.open_crg import crg_road
+
+        return crg_road(heights, spacing)
     grid = read_grid(heights, height_range, "heights")
     step = spacing or grid.spacing
     if step is None:
         raise RoadFileError(f"{heights} does not say how far its points are apart; give the spacing in x and y, m.")
-    values: Any = frictions
-    if frictions is None:
-        values = GRID_FRICTION if grid.frictions is None else grid.frictions
-    elif not isinstance(frictions, int | float):
-        second = read_grid(frictions, friction_range, "frictions")
-        values = second.values
-        if values.shape != grid.values.shape:
-            raise RoadFileError(
-                f"The frictions in {frictions} have shape {values.shape}, the heights in {heights} "
-                f"{grid.values.shape}; both must agree."
-            )
-    if np.any(np.asarray(values) > ROAD_FRICTION) or np.any(np.asarray(values) < 0.0):
-        raise RoadFileError(f"The frictions of {heights} must lie between 0 and {ROAD_FRICTION:g}.")
-    return GridRoad(origin or grid.origin or (0.0, 0.0), step, grid.values, values)
+    return GridRoad(
+        grid.origin or (0.0, 0.0), step, grid.values, GRID_FRICTION if grid.frictions is None else grid.frictions
+    )

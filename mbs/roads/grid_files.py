@@ -15,12 +15,12 @@ from ali3.files import reason
 from ali3.reading import check_file
 from ali3.tables import Row, TextTable, is_number
 from ali3.words import one_line
+from mbs.roads.kinds import GRIDS, PICTURE, TABLES
 from mbs.roads.road_header import RoadFileError
 
 REGULAR = 1e-6
 """Coordinates of a table may be off a regular grid by this part of its spacing."""
 MOST_BYTES = 2**31
-SUFFIXES = (".csv", ".txt", ".npy", ".npz", ".png")
 
 
 @dataclass(frozen=True)
@@ -61,13 +61,13 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
     """
     file = Path(path)
     kind = file.suffix.lower()
-    if kind not in SUFFIXES:
-        raise RoadFileError(f"{path} has the {what} of a road in a form that is not read; {', '.join(SUFFIXES)} are.")
+    if kind not in GRIDS:
+        raise RoadFileError(f"{path} has the {what} of a road in a form that is not read; {', '.join(GRIDS)} are.")
     try:
         check_file(file, MOST_BYTES, RoadFileError)
-        if kind in (".csv", ".txt"):
+        if kind in TABLES:
             grid = _table(file)
-        elif kind == ".png":
+        elif kind == PICTURE:
             grid = _picture(file, picture_range, what)
         else:
             grid = _arrays(file, what)

@@ -6,10 +6,9 @@ import os
 from pathlib import Path
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+from mbs.roads.kinds import ROADS
 from mbs.roads.road_file import RoadFile
 from mbs.roads.road_header import RoadFileError
-
-SUFFIXES = (".road", ".toml", ".csv", ".txt", ".npy", ".npz", ".png")
 
 
 def read_road(
@@ -29,19 +28,21 @@ def read_road(
         ``.road``; ``.toml``; or heights: ``.csv`` or ``.txt`` (a row for each x, a column for each y; with coordinates
         in the first row and column where the first cell is no number), ``.npy`` (``heights[i, j]`` at x number i and y
         number j), ``.npz`` (arrays `heights`, and as one likes `frictions`, `origin`, `spacing`), ``.png`` (8 or 16
-        bits of grey, seen from above with x to the right and y up).
+        bits of grey, seen from above with x to the right and y up), ``.crg`` (OpenCRG), or a mesh of triangles
+        (``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb``, ``.gltf``).
     frictions : path or float, optional
         Of a grid: a second file of the same shape, or one coefficient; by default what the file says, else 0.9.
     origin : (float, float), optional
         Of a grid: x and y of its first point, m; by default what the file says, else 0.
     spacing : (float, float), optional
-        Of a grid: distances of its points in x and y, m; by default what the file says.
+        Of a grid: distances of its points in x and y, m; by default what the file says, of a mesh 0.1.
     height_range, friction_range : (float, float), optional
         What black and white of a picture mean, m and coefficients of friction.
 
     Returns
     -------
     PlaneRoad, KerbRoad or GridRoad
+        A `SampledRoad`, which says how far it is off, from OpenCRG and meshes.
 
     Raises
     ------
@@ -53,8 +54,8 @@ def read_road(
     kind = Path(path).suffix.lower()
     if kind == ".road":
         return RoadFile(path).read()
-    if kind not in SUFFIXES:
-        raise RoadFileError(f"{path} is of a kind that is not read as a road; {', '.join(SUFFIXES)} are.")
+    if kind not in ROADS:
+        raise RoadFileError(f"{path} is of a kind that is not read as a road; {', '.join(ROADS)} are.")
     from mbs.roads.description import described_road, grid_road
 
     if kind == ".toml":

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
-ISO_8608 = {"A": 16e-6, "B": 64e-6, "C": 256e-6, "D": 1024e-6, "E": 4096e-6}
+from mbs.roads.road_header import RoadFileError
+
+ISO_8608 = {"A": 16e-6, "B": 64e-6, "C": 256e-6, "D": 1024e-6, "E": 4096e-6, "F": 16384e-6}
 """Displacement power spectral density Gd at 0.1 1/m, m3: geometric means of the classes (ISO 8608:2016, table C.2)."""
 REFERENCE = 0.1
 """Spatial frequency of these, 1/m."""
+SQUARE = 2048
+"""A road of up to so many points a side is cut from a square."""
+MOST_POINTS = 2**25
 LOWEST, HIGHEST = 0.011, 2.83
 """Range of spatial frequencies, 1/m (ISO 8608:2016, 5.1.2)."""
 
@@ -17,7 +24,9 @@ def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -
     """Heights of an isotropic surface: along every straight line the one-sided density is Gd(n) = Gd(n0) (n0/n)^2.
 
     A surface whose two-dimensional density is A n^-3 has the two-sided density 2 A n^-2 along a line (the integral over
-    the other component), so A = Gd(n0) n0^2 / 4. Random phases, amplitudes as given.
+    the other component), so A = Gd(n0) n0^2 / 4. Random phases, amplitudes as given. The
+    coherence of two tracks b apart follows from the density: (x K1(x))^2 with x = 2 pi n b and the modified Bessel
+    function K1.
 
     Parameters
     ----------
@@ -34,14 +43,27 @@ def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -
     -------
     ndarray, shape (nx, ny)
         m.
+
+    Raises
+    ------
+    RoadFileError
+        It has too many points.
     """
-    side = max(nx, ny, round(1.0 / (LOWEST * spacing)))
-    n = np.fft.fftfreq(side, spacing)
-    frequency = np.hypot(n[:, None], n[None, : side // 2 + 1])
-    cell = 1.0 / (side * spacing) ** 2
+    longest = round(1.0 / (LOWEST * spacing))
+    sides = [max(n, longest) for n in (nx, ny)]
+    if max(sides) <= SQUARE:
+        sides = [max(sides)] * 2  # as files of earlier versions
+    if math.prod(sides) > MOST_POINTS:
+        raise RoadFileError(
+            f"A rough road of {nx} x {ny} points is computed on {sides[0]} x {sides[1]} points, which hold its longest "
+            f"wave; {MOST_POINTS} are computed at most. A larger spacing or a shorter road has fewer."
+        )
+    n = np.fft.fftfreq(sides[0], spacing), np.fft.fftfreq(sides[1], spacing)[: sides[1] // 2 + 1]
+    frequency = np.hypot(n[0][:, None], n[1][None, :])
+    cell = 1.0 / math.prod(side * spacing for side in sides)
     with np.errstate(divide="ignore"):
         spectrum = np.where(frequency > 0.0, 0.25 * density * REFERENCE**2 * frequency**-3.0, 0.0)
     spectrum[(frequency < LOWEST) | (frequency > HIGHEST)] = 0.0
     phases = np.exp(2j * np.pi * np.random.default_rng(seed).random(spectrum.shape))
-    surface = np.fft.irfft2(np.sqrt(spectrum * cell) * phases, s=(side, side)) * side * side
+    surface = np.fft.irfft2(np.sqrt(spectrum * cell) * phases, s=sides) * math.prod(sides)
     return np.asarray(surface[:nx, :ny])

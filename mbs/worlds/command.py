@@ -22,6 +22,9 @@ inputs:
   .csv, .txt   heights, a row for each x, a column for each y; with coordinates in the first row and the first column
                where the first cell is no number
   .npy, .npz   NumPy arrays: heights[i, j] at x number i and y number j; .npz also frictions, origin, spacing
+  .crg         OpenCRG; the grid says how far it is off
+  .stl, .obj, .ply, .off, .glb, .gltf
+               a mesh of triangles, metres, z up (glTF: y up); scale and axis in a description
   .png         8 or 16 bits of grey, seen from above with x to the right and y up
 
 worlds: DIR gets NAME.road, what wheels feel (road.file of an FMU), and NAME.json, what is drawn and where a car may

@@ -32,7 +32,8 @@ def make_road(options: argparse.Namespace) -> int:
             write_text(options.part, json.dumps(part, allow_nan=False))
             print(f"written: {options.part}, as the world beside {options.input} draws it")
             return 0
-    road = read_road(options.input, **given)
+    with told_warnings():
+        road = read_road(options.input, **given)
     if output is not None:
         with told_warnings():
             write_road(road, output)
@@ -70,7 +71,7 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
             found["frictions"] = Path(options.frictions)
     if found and options.input.suffix.lower() in (".road", ".toml"):
         name = next(iter(found)).replace("height_", "").replace("_", "-")
-        raise UserError(f"{options.input} says by itself what the road is; --{name} is of tables, arrays and pictures.")
+        raise UserError(f"{options.input} says by itself what the road is; --{name} is of what becomes a grid.")
     return found
 
 
@@ -79,6 +80,7 @@ def _lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
     import numpy as np
 
     from mbs.elements.road import GridRoad, PlaneRoad
+    from mbs.roads.sampled_road import SampledRoad
 
     if not isinstance(road, GridRoad):
         kind = "plane" if isinstance(road, PlaneRoad) else "kerb"
@@ -92,4 +94,6 @@ def _lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
     slope = max(float(np.abs(np.diff(heights, axis=k)).max()) / road.spacing[k] for k in range(2))
     lines.append(f"heights: {heights.min():.4g} to {heights.max():.4g} m, steepest {100.0 * slope:.3g} %")
     lines.append(f"frictions: {frictions.min():g} to {frictions.max():g}")
+    if isinstance(road, SampledRoad):
+        lines.append(f"the grid {road.sentence}")
     return lines

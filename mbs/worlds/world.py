@@ -70,8 +70,10 @@ def _file(given: str) -> Path:
     """The file that a name or path means."""
     path = Path(given)
     if path.is_file():
-        if path.suffix.lower() not in (".toml", ".road"):
-            raise UserError(f"{given} is no world; a .toml of a world or a .road file is one.")
+        from mbs.roads.kinds import CRG, MESHES
+
+        if path.suffix.lower() not in (kinds := (".toml", ".road", CRG, *MESHES)):
+            raise UserError(f"{given} is no world; a world or a road is a file of these kinds: {', '.join(kinds)}.")
         return path
     for place in (WORLDS / f"{given}.toml", ROADS / f"{given.removesuffix('.road')}.road"):
         if place.is_file() and Path(given).name == given:

@@ -33,6 +33,7 @@ from mbs.flexible.external_model import read_matrix, read_model
 from mbs.results.trajectory import Trajectory
 from mbs.roads.description import described_road
 from mbs.roads.grid_files import read_grid
+from mbs.roads.read_road import read_road
 from mbs.roads.road_file import RoadFile
 from mbs.system.system import System
 from mbs.vehicle.car_file import load
@@ -124,6 +125,8 @@ KINDS: dict[str, tuple[str, dict[str, str], str, Callable[[Path], Any]]] = {
     "grid": ("g.csv", CELLS, "0,0\n1,@\n", lambda path: read_grid(path, None, "heights")),
     "grid of NumPy": ("g.npy", {}, "\x93NUMPY", lambda path: read_grid(path, None, "heights")),
     "grid of a picture": ("g.png", {}, "PNG", lambda path: read_grid(path, (0.0, 1.0), "heights")),
+    "OpenCRG": ("r.crg", {}, "$ROAD_CRG\nREFERENCE_LINE_INCREMENT = 1", read_road),
+    "road of a mesh": ("r.ply", {}, "ply", read_road),
     "nodes": ("n.csv", CELLS, "name,x,y,z\nA,0,0,@\n", lambda path: read_model(path, path, path)),
     "matrix": ("k.mtx", {}, "%%MatrixMarket", read_matrix),
     "matrix of SciPy": ("k.npz", {}, "PK", read_matrix),

@@ -229,7 +229,7 @@ def test_the_command(tmp_path, capsys):
         (["nothing.csv"], "there is no such file"),
         (["a.csv", "b.txt"], "give it the suffix .road"),
         (["plane.toml", "--origin", "1", "2"], "says by itself what the road is; --origin"),
-        (["plane.toml", "--range", "1", "2"], "--range is of tables"),
+        (["plane.toml", "--range", "1", "2"], "--range is of what becomes a grid"),
         (["bad.road"], "no road file"),
     ],
 )

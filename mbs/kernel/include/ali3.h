@@ -162,6 +162,10 @@ ALI3_API ali3_status ali3_set_road(ali3_instance *in, int32_t road, const char *
                                    size_t message_size);
 /* After ALI3_ROAD_LOST: what is wrong with which part of a file, in words without a full stop; else "". */
 ALI3_API const char *ali3_road_lost(const ali3_instance *in);
+/* Heights at n places of the surface of a road that is a grid, of nx x ny values z (y fastest) from the point grid[0],
+ * grid[1] on, every grid[2] in x and grid[3] in y. The places are pairs of x and y. */
+ALI3_API void ali3_grid_heights(int32_t nx, int32_t ny, const double grid[4], const double *z, int64_t n,
+                                const double *places, double *heights);
 /* Whether a vector is a normal that a road at a port can have: of length 1 within a tenth, and pointing up. */
 ALI3_API int ali3_is_road_normal(const double n[3]);
 /* The first wheel whose centre is half a radius below a road that is a grid, where its contact is lost, as a sentence without its full

@@ -9,6 +9,7 @@
 
 #include <math.h>
 
+#include "../../include/ali3.h"
 #include "../algebra/small_vectors.h"
 
 #define PART 0.005                      /* of the spacing */
@@ -179,4 +180,10 @@ double ali3_grid_top(const ali3_grid *g, const double place[3], double reach) {
       bottom = z < bottom ? z : bottom;
     }
   return top + OVERSHOOT * (top - bottom);
+}
+
+void ali3_grid_heights(int32_t nx, int32_t ny, const double grid[4], const double *z, int64_t n, const double *places,
+                       double *heights) {
+  const ali3_grid g = {.nx = nx, .ny = ny, .x0 = grid[0], .y0 = grid[1], .dx = grid[2], .dy = grid[3], .z = z, .mu = z};
+  for (int64_t k = 0; k < n; k++) heights[k] = ali3_grid_at(&g, places[2 * k], places[2 * k + 1]).height;
 }

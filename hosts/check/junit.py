@@ -1,0 +1,91 @@
+"""JUnit files of a check, which CI servers read.
+
+The elements and attributes are those that pytest writes (its schema ``xunit2``) and servers agree on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+from xml.etree import ElementTree
+
+from ali3.files import whole_file
+
+_MOST = 10_000  # characters of a text
+
+
+@dataclass(frozen=True)
+class Case:
+    """One line of a verdict.
+
+    Parameters
+    ----------
+    group : str
+        What the line belongs to: the FMU, or the reference.
+    name : str
+        Of the check, or the signal.
+    verdict : str
+        ``good``, ``bad``, ``skipped`` where there is nothing to look at, or ``error`` where that is not possible.
+    words : str
+        What was found.
+    seconds : float
+        How long it took.
+    """
+
+    group: str
+    name: str
+    verdict: Literal["good", "bad", "skipped", "error"]
+    words: str
+    seconds: float = 0.0
+
+
+def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
+    """Write the cases as one test suite.
+
+    Parameters
+    ----------
+    file : Path
+        Whole or not at all; its folder is made.
+    suite : str
+        Name of the suite.
+
+    Raises
+    ------
+    FileError
+        The file cannot be written.
+    """
+    counts = {
+        "tests": len(cases),
+        "failures": sum(case.verdict == "bad" for case in cases),
+        "errors": sum(case.verdict == "error" for case in cases),
+        "skipped": sum(case.verdict == "skipped" for case in cases),
+    }
+    numbers = {name: str(count) for name, count in counts.items()}
+    seconds = f"{sum(case.seconds for case in cases):.3f}"
+    top = ElementTree.Element("testsuites", {"name": "ali3 check"})
+    its = ElementTree.SubElement(top, "testsuite", {"name": _text(suite), **numbers, "time": seconds})
+    for case in cases:
+        named = {"classname": _text(case.group), "name": _text(case.name), "time": f"{case.seconds:.3f}"}
+        element = ElementTree.SubElement(its, "testcase", named)
+        if case.verdict == "good":
+            ElementTree.SubElement(element, "system-out").text = _text(case.words)
+        else:
+            kind = "failure" if case.verdict == "bad" else case.verdict
+            ElementTree.SubElement(element, kind, {"message": _text(case.words)}).text = _text(case.words)
+    ElementTree.indent(top)
+    with whole_file(file) as made:
+        ElementTree.ElementTree(top).write(made, encoding="utf-8", xml_declaration=True)
+
+
+def _text(words: str) -> str:
+    """Without characters that XML does not have, and with an end."""
+    return "".join(_allowed(words[:_MOST]))
+
+
+def _allowed(words: str) -> Iterable[str]:
+    for c in words:
+        code = ord(c)
+        good = code in (9, 10, 13) or 32 <= code < 0xD800 or 0xE000 <= code < 0xFFFE or code > 0xFFFF
+        yield c if good else "?"

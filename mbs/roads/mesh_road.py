@@ -1,0 +1,128 @@
+"""Roads from meshes of triangles: the grid of their heights."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from dataclasses import replace
+from itertools import chain
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from scipy import ndimage
+
+from mbs.elements.road import GridRoad
+from mbs.roads.road_header import RoadFileError
+from mbs.roads.sampled_road import SampledRoad, Values, between, compared, points_of_box
+from mbs.roads.steep_faces import RoadWarning
+from mbs.roads.triangle_heights import triangle_heights
+from viewer.mesh_file import MeshError, read_corners
+
+SPACING = 0.1, 0.1
+"""m, of the grid where none is given."""
+LEVEL = 0.5
+"""Least share of its area that a mesh of a road shows from above."""
+SMALLEST = 1.0  # m, across
+HOLE = 100.0
+"""m2: a smaller gap inside of a mesh is a hole, a larger one what a closed road goes round."""
+OVER = 1e-3
+"""m: surfaces above one another that are farther apart are an overhang."""
+_UNIT = 'for a file in millimetres write a description with kind = "grid", heights = "{}" and scale = 0.001'
+
+
+def mesh_road(
+    path: str | os.PathLike[str],
+    spacing: tuple[float, float] | None,
+    scale: float = 1.0,
+    up: Literal["y", "z"] | None = None,
+) -> SampledRoad:
+    """A grid of the heights of a mesh; beside it the heights at its border go on.
+
+    Parameters
+    ----------
+    path : path
+        ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``.
+    spacing : (float, float), optional
+        Of the grid, m; by default 0.1.
+    scale : float
+        Metres per unit of the file.
+    up : "y" or "z", optional
+        The axis of the file that points up; by default y in glTF files, as they say, and z in others.
+
+    Raises
+    ------
+    RoadFileError
+        It is no mesh, stands upright, has overhangs or holes, or needs too many points.
+
+    Warns
+    -----
+    RoadWarning
+        A large gap is filled.
+    """
+    source, name = os.fspath(path), Path(path).name
+    try:
+        corners = read_corners(path, scale, "roads")
+    except MeshError as error:
+        raise RoadFileError(str(error)) from None
+    if (up or ("y" if Path(path).suffix.lower() in (".glb", ".gltf") else "z")) == "y":
+        corners = np.stack([corners[..., 0], -corners[..., 2], corners[..., 1]], -1)
+    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+    if not np.hypot(*(high - low)[:2]) >= SMALLEST:
+        raise RoadFileError(
+            f"{source} is {np.hypot(*(high - low)[:2]):.3g} m across, which is no road; `scale` in a description says "
+            "how many metres its unit has."
+        )
+    _level(corners, source, name)
+    x, y = points_of_box(
+        low[:2], high[:2], spacing or SPACING, source, f" The unit is taken as metre; {_UNIT.format(name)}."
+    )
+    road = GridRoad((float(x[0]), float(y[0])), (float(x[1] - x[0]), float(y[1] - y[0])), np.empty((len(x), len(y))))
+    x_between, y_between = between(road)
+    lowest, highest = triangle_heights(corners, x_between, y_between)
+    if np.any(over := highest - lowest > OVER):
+        i, j = np.argwhere(over)[0].tolist()
+        raise RoadFileError(
+            f"{source} has surfaces above one another at x = {x_between[i]:.6g} m, y = {y_between[j]:.6g} m, of "
+            f"heights {lowest[i, j]:.4g} and {highest[i, j]:.4g} m, at {int(over.sum())} of {over.size} places: a road "
+            "has one height at each place. Leave only the surface in the file that wheels roll on."
+        )
+    heights = _filled(triangle_heights(corners, x, y)[1], road, source)
+    road = replace(road, heights=heights)
+    own = corners.reshape(-1, 3)
+    rows = (
+        (np.stack([np.full(len(y_between), at), y_between], -1), z) for at, z in zip(x_between, highest, strict=True)
+    )
+    return compared(road, chain(rows, [(own[:, :2], own[:, 2])]), source)
+
+
+def _level(corners: Values, source: str, name: str) -> None:
+    """Refuses a mesh that shows little of itself from above."""
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    share = float(np.abs(normals[:, 2]).sum() / max(np.linalg.norm(normals, axis=1).sum(), 1e-300))
+    if share < LEVEL:
+        raise RoadFileError(
+            f"{source} shows only {100.0 * share:.2g} % of its area from above, a road more than {100.0 * LEVEL:g} %; "
+            f'if its y axis points up, write a description with kind = "grid", heights = "{name}" and up = "y".'
+        )
+
+
+def _filled(heights: Values, road: GridRoad, source: str) -> Values:
+    """Beside the mesh the heights at its border; a small gap inside of it is refused."""
+    missing = np.isnan(heights)
+    (x0, y0), (dx, dy) = road.origin, road.spacing
+    parts, count = ndimage.label(missing)
+    outside = np.unique(np.concatenate([parts[0], parts[-1], parts[:, 0], parts[:, -1]]))
+    areas = np.bincount(parts.ravel(), minlength=count + 1) * dx * dy
+    for part in np.setdiff1d(np.arange(1, count + 1), outside):
+        i, j = np.argwhere(parts == part)[0].tolist()
+        gap = f"a gap of {areas[part]:.3g} m2 at x = {x0 + i * dx:.6g} m, y = {y0 + j * dy:.6g} m"
+        if areas[part] < HOLE:
+            raise RoadFileError(f"{source} has {gap} in its surface, with no triangle above or below; close the hole.")
+        warnings.warn(
+            f"{source} has {gap}; it is taken as what the road goes round and filled from its border.",
+            RoadWarning,
+            stacklevel=4,
+        )
+    nearest = ndimage.distance_transform_edt(missing, sampling=(dx, dy), return_distances=False, return_indices=True)
+    return np.asarray(heights[tuple(nearest)])

@@ -1,0 +1,135 @@
+"""A grid that is taken from another surface, and how far it is off."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable
+from ctypes import POINTER, c_double
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.elements.road import GridRoad
+from mbs.kernel.binding.library import load_library
+from mbs.roads.road_header import RoadFileError
+from mbs.roads.steep_faces import RoadWarning
+
+Values = NDArray[np.float64]
+MOST_POINTS = 2**24
+"""Of a grid: 134 MB of heights."""
+TOLD = 0.01
+"""m: a larger difference is warned about."""
+BETWEEN = 0.382, 0.618
+"""Where in its cells a grid is compared; no fraction at which edges of a drawing lie."""
+
+
+@dataclass(frozen=True)
+class SampledRoad(GridRoad):
+    """A grid that was taken from a surface of another form.
+
+    Parameters
+    ----------
+    source : str
+        What it was taken from.
+    largest, rms : float
+        Difference of its heights from the surface where that is, between the points of the grid and at those of the
+        surface, m.
+    place : (float, float)
+        x and y of the largest, m.
+    """
+
+    source: str = ""
+    largest: float = 0.0
+    rms: float = 0.0
+    place: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def sentence(self) -> str:
+        """How far it is off."""
+        return (
+            f"differs from {self.source} by {1000.0 * self.largest:.3g} mm at most, at x = {self.place[0]:.6g} m, "
+            f"y = {self.place[1]:.6g} m, and by {1000.0 * self.rms:.3g} mm (root mean square)"
+        )
+
+
+def points_of_box(
+    low: Values, high: Values, spacing: tuple[float, float], source: str, more: str = ""
+) -> tuple[Values, Values]:
+    """Coordinates x (nx,) and y (ny,) of a grid from border to border of a box, not farther apart than the spacing.
+
+    Raises
+    ------
+    RoadFileError
+        The grid has too many points, with a spacing that would do; `more` is said besides.
+    """
+    sides = high - low
+    counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0
+    if not counts.prod() <= MOST_POINTS:
+        wider = max(spacing) * float(np.sqrt(counts.prod() / MOST_POINTS)) * 1.05
+        raise RoadFileError(
+            f"{source} is {sides[0]:.4g} by {sides[1]:.4g} m, which at a spacing of {spacing[0]:g} by {spacing[1]:g} m "
+            f"is a grid of {counts.prod():.3g} points; {MOST_POINTS} are read at most. A spacing of {wider:.2g} m by "
+            f"{wider:.2g} m fits.{more}"
+        )
+    x, y = (low[k] + sides[k] / (counts[k] - 1.0) * np.arange(int(counts[k])) for k in range(2))
+    return x, y
+
+
+def between(road: GridRoad) -> tuple[Values, Values]:
+    """Coordinates x (nx - 1,) and y (ny - 1,) at which a grid is compared, one place in each cell."""
+    shape = np.shape(road.heights)
+    x, y = (road.origin[k] + road.spacing[k] * (np.arange(shape[k] - 1) + BETWEEN[k]) for k in range(2))
+    return x, y
+
+
+def compared(road: GridRoad, known: Iterable[tuple[Values, Values]], source: str) -> SampledRoad:
+    """The road with its difference from the surface that it was taken from.
+
+    Parameters
+    ----------
+    known : iterable of (places, heights)
+        x and y (n, 2) and heights (n,) of the surface, m; NaN beside it.
+    """
+    heights = np.ascontiguousarray(road.heights, np.float64)
+    largest, place, squares, count = 0.0, (float(road.origin[0]), float(road.origin[1])), 0.0, 0
+    for places, there in known:
+        off = np.abs(grid_heights(road, heights, places) - there)
+        off = np.where(np.isnan(off), 0.0, off)
+        k = int(off.argmax())
+        if off[k] > largest:
+            largest, place = float(off[k]), (float(places[k, 0]), float(places[k, 1]))
+        squares, count = squares + float(off @ off), count + int(np.isfinite(there).sum())
+    rms = float(np.sqrt(squares / max(count, 1)))
+    made = SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
+    if largest > TOLD:
+        step = " by ".join(f"{h:.4g}" for h in road.spacing)
+        warnings.warn(
+            f"The grid with points {step} m apart {made.sentence}; a smaller spacing follows it more closely.",
+            RoadWarning,
+            stacklevel=4,
+        )
+    return made
+
+
+def grid_heights(road: GridRoad, heights: Values, places: Values) -> Values:
+    """Heights of the surface of a grid, as the kernel computes them.
+
+    Parameters
+    ----------
+    heights : ndarray, shape (nx, ny)
+        Of the road, contiguous.
+    places : ndarray, shape (n, 2)
+        x and y, m.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        m.
+    """
+    found = np.empty(len(places))
+    grid = np.array((*road.origin, *road.spacing), np.float64)
+    where = np.ascontiguousarray(places, np.float64)
+    pointers = [a.ctypes.data_as(POINTER(c_double)) for a in (grid, heights, where, found)]
+    load_library().ali3_grid_heights(*heights.shape, *pointers[:2], len(places), *pointers[2:])
+    return found

@@ -1,0 +1,144 @@
+"""The job of docs/continuous_integration.md on a small repository, as it is written; JUnit files by a second reader."""
+
+from __future__ import annotations
+
+import csv
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+import mbs
+from fmu_src.build.build import build_fmu
+from hosts.check.command import main
+from hosts.check.junit import Case, write_junit
+from hosts.run.command import main as run_main
+from tests.hosts.scenes import tuned
+from tests.in_process import run
+
+junitparser = pytest.importorskip("junitparser")
+PAGE = Path(__file__).parents[2] / "docs" / "continuous_integration.md"
+PULL = '"time","pull"\n0,0\n0.4,{0}\n0.4,-20\n1,0\n'
+
+
+@pytest.fixture(scope="module")
+def repository(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An FMU and two references."""
+    folder = tmp_path_factory.mktemp("repository")
+    made = build_fmu(mbs.compile(tuned()), "tuned", folder, [fmpy.platform])
+    made.rename(folder / "model.fmu")
+    for name, pull in (("swing", 30), ("rest", 0)):
+        (folder / f"{name}.csv").write_text(PULL.format(pull))
+        done = run(run_main, folder / "model.fmu", "-m", folder / f"{name}.csv", "--out", folder / "references")
+        assert done.returncode == 0, done.stderr
+    return folder
+
+
+def cases(file: Path) -> dict[tuple[str, str], str]:
+    """Verdict by class and name, as junitparser reads the file."""
+    found = {}
+    for suite in junitparser.JUnitXml.fromfile(str(file)):
+        listed = list(suite)
+        kinds = [type(case.result[0]).__name__.lower() if case.result else "good" for case in listed]
+        assert (suite.tests, suite.failures) == (len(listed), kinds.count("failure"))
+        assert (suite.errors, suite.skipped) == (kinds.count("error"), kinds.count("skipped"))
+        found |= {(case.classname, case.name): kind for case, kind in zip(listed, kinds, strict=True)}
+    return found
+
+
+def spoil(folder: Path, name: str, signal: str, by: float) -> None:
+    """A table whose signal is off by a share of its range in one row."""
+    file = folder / "references" / name
+    heading, *rows = csv.reader(file.read_text().splitlines())
+    k = heading.index(signal)
+    values = np.array([float(row[k]) for row in rows])
+    rows[40][k] = repr(float(values[40] + by * np.ptp(values)))
+    file.write_text("\n".join(",".join(row) for row in [heading, *rows]) + "\n")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("good", [True, False])
+def test_the_job_as_it_is_written(repository: Path, tmp_path: Path, good: bool) -> None:
+    """Each `run:` of the workflow by its words, but for the installation; a spoilt table fails its step alone."""
+    folder = Path(shutil.copytree(repository, tmp_path / "a repository"))
+    if not good:
+        spoil(folder, "model_swing.csv", "bob.x", 0.01)
+    steps = re.findall(r"^ +- run: (.+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+    assert steps[0].startswith("python -m pip install")
+    codes = []
+    for step in steps[1:]:
+        program, *arguments = shlex.split(step)
+        assert program == "ali3"
+        done = subprocess.run([sys.executable, "-m", "ali3", *arguments], cwd=folder, capture_output=True, check=False)
+        codes.append(done.returncode)
+    assert codes == [0, 0 if good else 1]
+    check, references = cases(folder / "reports" / "check.xml"), cases(folder / "reports" / "references.xml")
+    assert set(check.values()) == {"good"}
+    assert len(check) > 20
+    assert {group for group, _ in references} == {"model_swing", "model_rest"}
+    assert [key for key, kind in references.items() if kind != "good"] == ([] if good else [("model_swing", "bob.x")])
+
+
+def test_a_failure_says_how_far_off_it_is(repository: Path, tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(repository, tmp_path / "r"))
+    spoil(folder, "model_swing.csv", "bob.x", 0.05)
+    done = run(main, folder / "model.fmu", "--reference", folder / "references", "--junit", tmp_path / "a.xml")
+    assert done.returncode == 1
+    (suite,) = junitparser.JUnitXml.fromfile(str(tmp_path / "a.xml"))
+    (failure,) = [result for case in suite for result in case.result]
+    assert re.fullmatch(
+        r"largest error [\d.e-]+ m at 0\.4 s, 5(\.\d)? % of its range; the bound is 1 %", failure.message
+    )
+
+
+def test_what_is_no_reference_is_an_error_and_the_others_are_compared(repository: Path, tmp_path: Path) -> None:
+    """Also columns that are gone, which are skipped."""
+    folder = Path(shutil.copytree(repository, tmp_path / "r"))
+    (folder / "references" / "a.csv").write_text("no table\n")
+    rest = folder / "references" / "model_rest.csv"
+    rest.write_text(rest.read_text().replace("bob.y", "bob.height"))
+    done = run(main, folder / "model.fmu", "--reference", folder / "references", "--junit", tmp_path / "a.xml")
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: ")
+    assert "a.csv" in done.stderr
+    found = cases(tmp_path / "a.xml")
+    assert {key: kind for key, kind in found.items() if kind != "good"} == {
+        ("a", "comparison"): "error",
+        ("model_rest", "bob.height"): "skipped",
+    }
+    assert found[("model_swing", "bob.y")] == "good"
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--reference", "nothing"), "nothing"),
+        (("--reference", "references", "--bound", "bob.z=1"), "--bound bob.z: "),
+        (("--show-parameters",), "--junit does not go with --show-parameters"),
+    ],
+)
+def test_an_error_is_no_good_file(
+    repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...], said: str
+) -> None:
+    monkeypatch.chdir(repository)
+    done = run(main, "model.fmu", *options, "--junit", tmp_path / "a.xml")
+    assert done.returncode == 2
+    assert said in done.stderr
+    if options[0] != "--show-parameters":
+        assert "error" in cases(tmp_path / "a.xml").values()
+
+
+def test_any_text_is_read_back(tmp_path: Path) -> None:
+    """Characters that XML does not have are question marks."""
+    words = 'a < b & "c" \x00\x1b[31m\ud800 Ω €'
+    write_junit(tmp_path / "a.xml", words, [Case(words, words, "bad", words), Case("b", "c", "good", words, 0.25)])
+    (suite,) = junitparser.JUnitXml.fromfile(str(tmp_path / "a.xml"))
+    bad, good = list(suite)
+    assert bad.name == bad.result[0].message == 'a < b & "c" ??[31m? Ω €'
+    assert (good.time, suite.time) == (0.25, 0.25)
