@@ -73,7 +73,7 @@ def test_rigid_car_survives(name, h):
     _hard(name, 0, h)
 
 
-@pytest.mark.parametrize(("name", "fidelity", "h"), zip(CASES, (1, 2, 3, 1), STEPS, strict=True))
+@pytest.mark.parametrize(("name", "fidelity", "h"), list(zip(CASES, (1, 2, 3, 1), STEPS, strict=True)))
 @pytest.mark.slow
 def test_car_survives_at_every_fidelity(name, fidelity, h):
     """Each case, fidelity and step once; all of them together in the proof run."""
