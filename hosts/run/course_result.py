@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.driving.co_simulation import Result
 from hosts.driving.driver import Driver
+from hosts.driving.result import Result
 
 
 def passed(result: Result, driver: Driver) -> list[tuple[str, str]]:

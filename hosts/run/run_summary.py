@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.driving.senses import DEAR
 
 WHEELS = ("FL", "FR", "RL", "RR")
