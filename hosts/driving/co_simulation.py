@@ -34,7 +34,7 @@ def run_with_bar(
 
 
 def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-    """Sets inputs, and those of the parameters that have changed: a parameter may be dear."""
+    """Sets inputs, and those of the parameters that have changed: setting one may be costly."""
     tunable = set(fmu.tunable)
     inputs = [k for k, n in enumerate(names) if n not in tunable]
     set_inputs = fmu.setter([names[k] for k in inputs])
@@ -65,7 +65,7 @@ def _line_follower(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequenc
 def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, float]) -> str:
     act = next(f"{n} = {x}" for n, x in acts.items() if not math.isfinite(x))
     sense = next((f": the output {n} of the FMU is {x}" for n, x in senses.items() if not math.isfinite(x)), "")
-    return f"At {time:.4g} s who drives asks for {act}{sense}."
+    return f"At {time:.4g} s the driver asks for {act}{sense}."
 
 
 def run(
@@ -96,8 +96,8 @@ def run(
     until : callable, optional
         Of the time and the outputs; the run ends with the first step after which it is true.
     every : int
-        Steps from one recorded row to the next. Outputs that are `hosts.driving.senses.DEAR` are read in the others
-        where who drives looks at one.
+        Steps from one recorded row to the next. Those outputs that are `hosts.driving.senses.COSTLY` are read in
+        the others where the driver uses one.
     last : bool
         Whether the last step has a row in any case, which then comes sooner than the others.
 

@@ -16,7 +16,10 @@ ASIDE, ABOVE = 0.03, 0.03  # m: least y and z of a point of a suspension
 MARGIN = 0.15  # m: a part's centre of mass lies among the points of the suspension, or that near to them
 HEIGHT = 2.5  # m: of a car
 OUTSIDE = 0.2  # m: of a point beyond the outline
-SMALL, SMALL_X = 0.001, 0.004  # m: nobody means it; of a point of the body along x, where all are metres apart
+SMALL, SMALL_X = (
+    0.001,
+    0.004,
+)  # m: less, but not 0, tells of a wrong unit; along x of points of the body
 TYRE = 0.05  # m: half the width of a narrow tyre
 Point = tuple[float, float, float]
 

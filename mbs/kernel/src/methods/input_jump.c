@@ -1,5 +1,5 @@
 /* Accelerations and multipliers at the start of a step where inputs jump: the trapezoidal rule takes its forces from
- * them, and those of before the jump would make every force late by half a step. A guide that follows an input needs
+ * them, and those before the jump would make every force late by half a step. A guide that follows an input needs
  * nothing: its rate is continuous, and the mean force of a row comes from the end of the step. */
 #include <string.h>
 
