@@ -186,7 +186,7 @@ def run(
 
 
 def _is_whole(variable: ScalarVariable) -> bool:
-    return variable.variability == "discrete" or variable.type == "Integer"
+    return bool(variable.variability == "discrete" or variable.type == "Integer")
 
 
 def _at_start(fmu: SimulatedFmu, inputs: Sequence[str], start: Mapping[str, Value]) -> NDArray[np.float64]:

@@ -206,7 +206,7 @@ def array(
     wanted : str
         What it must be, in words; by default from the shape.
     """
-    few = value.tolist() if type(value) is np.ndarray and value.size < _FEW else value
+    few: Any = value.tolist() if type(value) is np.ndarray and value.size < _FEW else value
     if type(few) in (list, tuple) and shape == (len(few),) and all(map(_is_plain, few)):
         return np.array(few)  # nearly all are points and directions
     wanted = wanted or _shape_text(shape)
