@@ -1,4 +1,4 @@
-"""Commands of before, each with what stands in its place now."""
+"""Commands of earlier versions, each with what replaces it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 
 class Before(NamedTuple):
-    """A command of before, which is a part of another one now.
+    """A command of an earlier version, which is a part of another one now.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class Before(NamedTuple):
     options: Mapping[str, str] = {}
 
     def line(self, arguments: Sequence[str]) -> str:
-        """What the same arguments are now."""
+        """The command line that does the same now."""
         words = [self._new(word) for word in arguments]
         return shlex.join([*self.words.split(), *filter(None, words)])
 
@@ -46,4 +46,4 @@ BEFORE = {
     "world": Before("road --world"),
     "kernel": Before("build --kernel"),
 }
-"""Commands of before by name."""
+"""Commands of earlier versions by name."""

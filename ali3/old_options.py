@@ -1,4 +1,4 @@
-"""Options of before, which end a command with one sentence."""
+"""Options of earlier versions, which end a command with one sentence."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ali3.running import WRONG_USE
 
 
 def add_old_names(parser: argparse.ArgumentParser, names: Mapping[str, str]) -> None:
-    """Let options of before end the command with one sentence.
+    """Let options of earlier versions end the command with one sentence.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ def open_address(address: str) -> bool:
 def open_secretly(address: str, folder: str | os.PathLike[str]) -> bool:
     """Show what is at an address that nobody else may know; see `open_address`.
 
-    The command line of a browser is seen by all users of a machine; it names a page that leads on.
+    The command line of a browser is seen by all users of a machine; it names a page that redirects to the address.
 
     Parameters
     ----------

@@ -84,12 +84,12 @@ def compare(rows: list[dict[str, Any]]) -> None:
 
 
 def misses(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Rows of the choice that are dear or wrong, and of any method that are wrong without a warning."""
+    """Rows of the choice that are costly or wrong, and of any method that are wrong without a warning."""
     found = []
     for row in rows:
         chosen = row["method"].startswith(CHOSEN)
         wrong = row["error_over_tolerance"] is not None and row["error_over_tolerance"] > MOST_ERROR
-        dear = row["ratio"] is not None and row["ratio"] > MOST_TIME
-        if (chosen and (dear or wrong or row["ended"] != "finished")) or (wrong and not row["warned"]):
+        costly = row["ratio"] is not None and row["ratio"] > MOST_TIME
+        if (chosen and (costly or wrong or row["ended"] != "finished")) or (wrong and not row["warned"]):
             found.append(row)
     return found

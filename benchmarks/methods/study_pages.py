@@ -12,7 +12,7 @@ Row = Mapping[str, Any]
 
 RUNS, CORES = 1_000_000, 1000
 _CHUNK_S, _AHEAD = 2.0, 2
-"""Of `hosts.study`: work of a chunk in s, and chunks of a worker that are on their way."""
+"""Of `hosts.study`: work of a chunk in s, and chunks sent to a worker ahead."""
 _FLUSH_S, _FLUSH_PART, _FLUSH_ROWS = (2.0, 60.0), 0.02, 50_000
 """Of `hosts.study`: s between parts, at least and at most; part of the time so far; rows of a part."""
 _NETWORK = 1.25e9
@@ -121,7 +121,7 @@ def _extrapolated(rows: Sequence[Row]) -> list[dict[str, str]]:
         ("writer", f"{rate:,.0f} per s × {row_ms:.4f} ms", f"{1e-3 * rate * row_ms:.0%} of a core"),
         ("workers that fill the writer", f"{run} s / {row_ms:.4f} ms", f"{1e3 / row_ms * run:,.0f}"),
         ("workers that fill the scheduler", f"{_CHUNK_S:g} s / {task:.2f} ms", f"{1e3 / task * _CHUNK_S:,.0f}"),
-        ("chunks on their way", f"{_AHEAD} × {CORES:,}", f"{_AHEAD * CORES:,}"),
+        ("chunks sent ahead", f"{_AHEAD} × {CORES:,}", f"{_AHEAD * CORES:,}"),
         (
             "memory of the main process",
             f"{before:.0f} MB + {RUNS:,} × ({slope:.0f} B + {of_plan:.0f} B of the plan)",

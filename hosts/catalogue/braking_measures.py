@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 
 from hosts.catalogue.record import Line, Plot
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.braking import (
     corrected_to,
     locked,

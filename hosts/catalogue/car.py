@@ -8,10 +8,11 @@ from functools import cached_property
 from pathlib import Path
 
 from hosts.common.numbers import Value
-from hosts.driving.co_simulation import Result, run
+from hosts.driving.co_simulation import run
 from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
+from hosts.driving.result import Result
 from hosts.driving.run_checks import communication_step
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases

@@ -13,12 +13,12 @@ from scipy.ndimage import uniform_filter1d
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.steered_run import level_acceleration
 from hosts.catalogue.steering import SteeringInput
-from hosts.driving.co_simulation import Result
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.together import Together
+from hosts.driving.result import Result
 
 CONSTANT_RADIUS, CONSTANT_ANGLE, CONSTANT_SPEED = 1.0, 2.0, 3.0
 _FIRST = 0.5  # m/s2 of lateral acceleration to begin with

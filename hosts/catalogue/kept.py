@@ -17,7 +17,7 @@ from ali3.reading import read_json
 from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.task import Task, run_file
 from hosts.common.program import program_digest
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.measure import Limit, Measure
 
 

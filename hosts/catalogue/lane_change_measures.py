@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.record import Line, Plot
-from hosts.driving.co_simulation import Result
 from hosts.driving.course import Course
+from hosts.driving.result import Result
 from hosts.measures.clearance import clearance, outline
 from hosts.measures.measure import Measure
 from hosts.measures.wheels import WHEELS, at_wheels, duration, lifted_wheels

@@ -9,8 +9,8 @@ import numpy as np
 
 from hosts.catalogue.car import TestedCar
 from hosts.common.numbers import Value
-from hosts.driving.co_simulation import Result
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.result import Result
 from hosts.fmu.fmu import described
 
 

@@ -13,7 +13,7 @@ from hosts.catalogue.plausible import implausible
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.filters import phaseless_low_pass
 
 _SLOW = math.radians(2.0)

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.steering import SteeringInput
-from hosts.driving.co_simulation import Result
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.speed_holder import SpeedHolder
+from hosts.driving.result import Result
 from hosts.measures.filters import resample
 
 _CLOSE = 0.1

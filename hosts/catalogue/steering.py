@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hosts.catalogue.car import CarFacts
 from hosts.common.errors import HostError
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 ANGLE = "steering_wheel_angle"
 DEMAND = "steering_wheel_angle_demand"

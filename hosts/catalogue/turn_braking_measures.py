@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.record import Line, Plot
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.braking import locked
 from hosts.measures.measure import Measure
 from hosts.measures.turning import circle_through, off_circle, yaw_rate_on_circle

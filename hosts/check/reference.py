@@ -18,11 +18,12 @@ from ali3.tables import TextTable
 from hosts.check.junit import Case
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
-from hosts.driving.co_simulation import Result, run_with_bar
+from hosts.driving.co_simulation import run_with_bar
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
 from hosts.driving.manoeuvre_table import read_table
+from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.load_manoeuvre import load_manoeuvre

@@ -11,7 +11,7 @@ from pathlib import Path
 from hosts.common.numbers import Value
 from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.stretches import Stretch
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 
 _own: list[tuple[LoadedFmu, list[Stretch]]] = []  # of a process of the crew

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 
 class Curve:

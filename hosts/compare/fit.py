@@ -19,7 +19,7 @@ from hosts.compare.left_out import FEWEST, Parts, clustered_covariance, left_out
 from hosts.compare.log import Signal
 from hosts.compare.noise import computed_noise, difference_steps, measured_noise
 from hosts.compare.residuals import RefusedError, Residuals, Unknown
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 Jacobian = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]

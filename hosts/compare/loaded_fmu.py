@@ -11,9 +11,10 @@ import numpy as np
 from hosts.common.numbers import Value
 from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch
-from hosts.driving.co_simulation import Result, run
+from hosts.driving.co_simulation import run
 from hosts.driving.derived_columns import derive_columns
 from hosts.driving.pilots.speed_holder import SpeedHolder
+from hosts.driving.result import Result
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu

@@ -27,7 +27,7 @@ from hosts.compare.task import Task, prepare
 from hosts.compare.wanted import fit_step, wanted_parameters
 from hosts.compare.windows import held_words, window_words, windows
 from hosts.compare.words import common_words, table, with_unit
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 _WORTH_PROCESSES = 60.0  # s of all windows: less is driven sooner than other processes start
 

@@ -15,8 +15,8 @@ from hosts.compare.follower import demanded
 from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch, joined
-from hosts.driving.co_simulation import Result
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 
 

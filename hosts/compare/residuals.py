@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.compare.curve import Curve
 from hosts.compare.log import Signal
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 Array = NDArray[np.float64]
 NUISANCES = ("delay", "delays", "drift", "bias", "gain")

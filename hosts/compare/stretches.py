@@ -10,8 +10,8 @@ import numpy as np
 
 from hosts.common.errors import HostError
 from hosts.compare.log import Signal
-from hosts.driving.co_simulation import Result
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.result import Result
 
 GAP = 1.0  # s between two stretches where they stand one after the other
 Spans = tuple[tuple[float, float], ...]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hosts.compare.comparison import Comparison
 from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 _LEAST = 20  # samples of a bin that is shown
 _BINS: Mapping[str, tuple[str, float]] = {"speed": ("m/s", 10.0), "lateral acceleration": ("m/s2", 2.0)}

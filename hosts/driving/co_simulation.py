@@ -5,77 +5,21 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 
 import numpy as np
+from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
+from hosts.driving.recorded_rows import RecordedRows
+from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.senses import Senses
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import StepRefusedError
-
-# Of a value that is reached at the end of a step and set again for the next.
-_ROUND_OFF = 1e-9
-
-
-@dataclass(frozen=True)
-class Result:
-    """What a run recorded.
-
-    Parameters
-    ----------
-    names : list of str
-        Inputs and outputs.
-    units : dict of str to str
-        By name.
-    time : ndarray of shape (n,)
-        s.
-    values : ndarray of shape (n, len(names))
-        In the units of the model description. Inputs are those with which the next step begins; in the last row those
-        with which the last step ended, or with which one that was refused would have begun.
-    wall : float
-        Time spent in the loop, s.
-    simulated : float
-        s.
-    failed_steps : int
-        Communication steps the FMU refused; the run ends with the first.
-    messages : list of str
-        What the FMU logged at warning or above.
-    held : list of str
-        Inputs that kept their value over each step; the others went straight.
-    late : list of str
-        Those of them that were to move between the steps: the FMU takes no input derivatives, or a driver acts on them.
-    jumps : dict of int to list of float
-        By the number of a row: inputs before a jump at its time, where the row alone does not tell them.
-    starts : list of int
-        Rows at which runs begin that were put one after the other.
-    lost : list of str
-        Inputs that moved between the rows otherwise than the rows tell, where not every step has one.
-    """
-
-    names: list[str]
-    units: dict[str, str]
-    time: NDArray[np.float64]
-    values: NDArray[np.float64]
-    wall: float
-    simulated: float
-    failed_steps: int
-    messages: list[str]
-    held: list[str] = field(default_factory=list)
-    late: list[str] = field(default_factory=list)
-    jumps: dict[int, list[float]] = field(default_factory=dict)
-    starts: list[int] = field(default_factory=lambda: [0])
-    lost: list[str] = field(default_factory=list)
-
-    def __contains__(self, name: str) -> bool:
-        return name in self.names
-
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
-        return np.asarray(self.values[:, self.names.index(name)])
 
 
 def run_with_bar(
@@ -90,7 +34,7 @@ def run_with_bar(
 
 
 def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-    """Sets inputs, and those of the parameters that have changed: a parameter may be dear."""
+    """Sets inputs, and those of the parameters that have changed: setting one may be costly."""
     tunable = set(fmu.tunable)
     inputs = [k for k, n in enumerate(names) if n not in tunable]
     set_inputs = fmu.setter([names[k] for k in inputs])
@@ -121,7 +65,7 @@ def _line_follower(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequenc
 def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, float]) -> str:
     act = next(f"{n} = {x}" for n, x in acts.items() if not math.isfinite(x))
     sense = next((f": the output {n} of the FMU is {x}" for n, x in senses.items() if not math.isfinite(x)), "")
-    return f"At {time:.4g} s who drives asks for {act}{sense}."
+    return f"At {time:.4g} s the driver asks for {act}{sense}."
 
 
 def run(
@@ -152,8 +96,8 @@ def run(
     until : callable, optional
         Of the time and the outputs; the run ends with the first step after which it is true.
     every : int
-        Steps from one recorded row to the next. Outputs that are `hosts.driving.senses.DEAR` are read in the others
-        where who drives looks at one.
+        Steps from one recorded row to the next. Those outputs that are `hosts.driving.senses.COSTLY` are read in
+        the others where the driver uses one.
     last : bool
         Whether the last step has a row in any case, which then comes sooner than the others.
 
@@ -162,16 +106,15 @@ def run(
     Result
         Up to the first refused step.
     """
-    outputs = fmu.names("output")
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
     check_columns(fmu, manoeuvre)
     inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
-    discrete = {n for n in manoeuvre.inputs if fmu.variables[n].variability == "discrete"}
-    whole = discrete | {n for n in manoeuvre.inputs if fmu.variables[n].type == "Integer"}
+    outputs = fmu.names("output")
+    whole = {n for n in manoeuvre.inputs if _is_whole(fmu.variables[n])}
     senses = Senses(fmu, outputs, every == 1)
 
-    first = manoeuvre.initial(whole)
-    fmu.initialise({**manoeuvre.start, **first})
+    start = {**manoeuvre.start, **manoeuvre.initial(whole)}
+    fmu.initialise(start)
     if manoeuvre.state is not None:
         fmu.restore_bytes(manoeuvre.state)
     senses.read()
@@ -180,24 +123,19 @@ def run(
     if missing:
         raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
     used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
-    set_inputs = _setter(fmu, used)
+    fixed = {*whole, *acts, *manoeuvre.held, *fmu.tunable}
+    straight = [n for n in manoeuvre.inputs if n not in fixed] if fmu.follows_slopes else []
+    set_inputs, follow = _setter(fmu, used), _line_follower(fmu, straight)
     steps = max(1, round(manoeuvre.stop_time / step))
-    values = np.empty((steps // every + 2, len(inputs) + len(outputs)))
-    columns = [inputs.index(n) for n in used]
-    held = fmu.start_values(inputs)
-    for name, value in {**manoeuvre.start, **first}.items():
-        if name in inputs and not isinstance(value, str):
-            held[inputs.index(name)] = value
-    values[0, len(inputs) :] = senses.whole()
-    straight = [
-        n for n in manoeuvre.inputs if n in fmu.names("input") and n not in {*whole, *acts, *manoeuvre.held}
-    ]  # fmt: skip
-    straight = straight if fmu.follows_slopes else []
-    places, follow = [inputs.index(n) for n in straight], _line_follower(fmu, straight)
-    jumps: dict[int, list[float]] = {}
-    lost, slopes = np.zeros(len(inputs), bool), list[float]()
-    sizes = np.array([np.abs(manoeuvre.inputs[n]).max() for n in straight])
-    done, failed = 0, 0
+    rows = RecordedRows(
+        senses,
+        _at_start(fmu, inputs, start),
+        [inputs.index(n) for n in used],
+        [inputs.index(n) for n in straight],
+        np.array([np.abs(manoeuvre.inputs[n]).max() for n in straight]),
+        every,
+        steps,
+    )
     begin = clock.perf_counter()
     for k in range(steps):
         t = k * step
@@ -208,58 +146,54 @@ def run(
                 raise HostError(_not_finite(t, acts, senses))
             wanted |= acts
         now = [wanted[n] for n in used]
-        before = held.copy()
         if used:
             set_inputs(now)
-            held[columns] = now
-        jumped = np.abs(held - before) > _ROUND_OFF * (np.abs(held) + np.abs(before))
-        if k % every:
-            lost |= jumped
-        else:
-            values[k // every, : len(inputs)] = held
-            if every > 1 or jumped[places if k else columns].any():
-                jumps[k // every] = before.tolist()
+        rows.begin(now)
         if straight:
             then = manoeuvre.at(t + step, whole, before=True)
-            earlier, slopes = slopes, [(then[n] - wanted[n]) / step for n in straight]
-            if k % every:
-                lost[places] |= np.abs(np.subtract(slopes, earlier)) * step > _ROUND_OFF * sizes
-            follow(slopes)
-            held[places] = [then[n] for n in straight]
+            changes = [then[n] - wanted[n] for n in straight]
+            rows.move([then[n] for n in straight], changes)
+            follow([change / step for change in changes])
         try:
             fmu.step(manoeuvre.state_time + t, step)
         except StepRefusedError:
-            failed = 1
-            held[places] = [wanted[n] for n in straight]
+            rows.refuse([wanted[n] for n in straight])
             break
-        done = k + 1
         senses.read()
-        if done % every == 0:
-            values[done // every] = [*held, *senses.whole()]
-        if done % 50 == 0:
-            progress(done)
-        if until is not None and until(done * step, senses):
+        rows.end()
+        if rows.done % 50 == 0:
+            progress(rows.done)
+        if until is not None and until(rows.done * step, senses):
             break
     wall = clock.perf_counter() - begin
-    progress(done)
-    rows = [*range(0, done + 1, every)]
-    if last and done % every:
-        if failed:
-            jumps[len(rows)] = before.tolist()
-        values[len(rows)] = [*held, *senses.whole()]
-        rows.append(done)
+    progress(rows.done)
+    recorded, values = rows.close(last)
     names = inputs + outputs
     return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
-        step * np.array(rows, dtype=np.float64),
-        values[: len(rows)],
+        step * np.array(recorded, dtype=np.float64),
+        values,
         wall,
-        done * step,
-        failed,
+        rows.done * step,
+        int(rows.refused),
         list(fmu.messages),
         [n for n in inputs if n not in straight],
         [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
-        jumps,
-        lost=[n for n, gone in zip(inputs, lost.tolist(), strict=True) if gone],
+        rows.jumps,
+        lost=[n for n, gone in zip(inputs, rows.lost.tolist(), strict=True) if gone],
     )
+
+
+def _is_whole(variable: ScalarVariable) -> bool:
+    return bool(variable.variability == "discrete" or variable.type == "Integer")
+
+
+def _at_start(fmu: SimulatedFmu, inputs: Sequence[str], start: Mapping[str, Value]) -> NDArray[np.float64]:
+    """Values of inputs after the initialisation with start values."""
+    values = fmu.start_values(inputs)
+    for k, name in enumerate(inputs):
+        value = start.get(name)
+        if value is not None and not isinstance(value, str):
+            values[k] = value
+    return values

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 
 

@@ -16,7 +16,6 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import text_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
-from hosts.driving.state_file import read_state
 
 SUFFIXES = (".toml", ".csv", ".ini")
 """Of files that hold manoeuvres; ``.ini`` is of earlier versions."""
@@ -143,4 +142,6 @@ def _state(table: Mapping[str, Any], path: Path) -> tuple[bytes | None, float]:
         return None, 0.0
     if set(table) != {"file", "time"} or not isinstance(table["file"], str):
         raise HostError(f"{path}: [state] must have the name of a file and a time.")
+    from hosts.driving.state_file import read_state
+
     return read_state(path.parent / table["file"], str(path)), _number(table["time"], f"{path}, time of the state")

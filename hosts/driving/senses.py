@@ -1,4 +1,4 @@
-"""The outputs of an FMU as who drives sees them: those that are dear are read only where somebody looks."""
+"""The outputs of an FMU for a pilot: those that are costly to compute are read only where they are used."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.driving.simulated_fmu import SimulatedFmu
 
-DEAR = ("stress.", "bending_moment.")
-"""Outputs that an FMU may find when they are read: they are read where a row is recorded or who drives looks at one."""
+COSTLY = ("stress.", "bending_moment.")
+"""Outputs that an FMU may compute on reading: they are read where a row is recorded or a pilot uses one."""
 
 
 class _NoOutputError(HostError, KeyError):
-    """Who drives looks for an output that there is not."""
+    """A pilot uses an output that there is not."""
 
     __str__ = Exception.__str__
 
@@ -32,7 +32,7 @@ class Senses(Mapping[str, float]):
     def __init__(self, fmu: SimulatedFmu, names: Sequence[str], all_rows: bool) -> None:
         self._places = {n: k for k, n in enumerate(names)}
         self.row = np.empty(len(names))
-        later = [] if all_rows else [k for k, n in enumerate(names) if n.startswith(DEAR)]
+        later = [] if all_rows else [k for k, n in enumerate(names) if n.startswith(COSTLY)]
         self._later, self._fresh = frozenset(later), True
         self._parts = [
             (fmu.reader([names[k] for k in part]), np.empty(len(part)), np.array(part, dtype=np.intp))
@@ -40,7 +40,7 @@ class Senses(Mapping[str, float]):
         ]
 
     def read(self) -> None:
-        """Take over the outputs of now, but for those that are dear."""
+        """Read the outputs of now, but for costly ones."""
         self._fresh = not self._later
         self._take(0)
 
@@ -61,7 +61,7 @@ class Senses(Mapping[str, float]):
             place = self._places[name]
             return (self.whole() if place in self._later else self.row).item(place)
         except KeyError:
-            raise _NoOutputError(f"Who drives needs the output '{name}', which the FMU does not have.") from None
+            raise _NoOutputError(f"The driver needs the output '{name}', which the FMU does not have.") from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._places)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 WHEELS = ("FL", "FR", "RL", "RR")
 LIFTED = 1.0

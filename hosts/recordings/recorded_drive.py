@@ -206,7 +206,7 @@ def read_recording(folder: Path) -> RecordedDrive:
     if not file.is_file():
         what = "has no" if folder.is_dir() else "is no folder with a"
         raise HostError(f"{folder} {what} {DESCRIPTION}; name the folder of a recording.")
-    meta = read_json(file, HostError, finite=False)  # recordings of before may have NaN
+    meta = read_json(file, HostError, finite=False)  # recordings of earlier versions may have NaN
     if not isinstance(meta, dict) or meta.get("format") != FORMAT:
         raise HostError(f"{file} is no recording of the simulator: its format is not {FORMAT!r}.")
     if meta.get("version") not in (1, VERSION):

@@ -50,7 +50,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
     )
     add_option(parser, "--stop-time", "that of the manoeuvre, else that of the FMU")
     add_option(parser, "--step", "that of the FMU; of the kerb test 0.01")
-    add_option(parser, "--interval", "the step; stresses that the FMU finds when they are read are read at rows alone")
+    add_option(parser, "--interval", "the step; stresses that an FMU computes on reading are then read at rows only")
     add_option(parser, "--fidelity", "that of the FMU")
     add_setting_options(parser)
     add_option(parser, "--road")

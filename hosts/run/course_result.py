@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.driving.co_simulation import Result
 from hosts.driving.driver import Driver
+from hosts.driving.result import Result
 
 
 def passed(result: Result, driver: Driver) -> list[tuple[str, str]]:
     """The row of the summary table that says whether the vehicle stayed inside the gates; none without its path."""
     if any(f"chassis.{name}" not in result for name in ("x", "y", "yaw")):
         return []
-    path = (result[f"chassis.{name}"] for name in ("x", "y", "yaw"))
-    out = driver.course.corners_outside(*path, driver.settings.vehicle_length, driver.settings.vehicle_width)
+    x, y, yaw = (result[f"chassis.{name}"] for name in ("x", "y", "yaw"))
+    out = driver.course.corners_outside(x, y, yaw, driver.settings.vehicle_length, driver.settings.vehicle_width)
     return [(driver.course.name, f"passed, {-out:.2f} m to spare" if out <= 0.0 else f"missed by {out:.2f} m")]
 
 

@@ -14,7 +14,7 @@ from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 
 if TYPE_CHECKING:
-    from hosts.driving.co_simulation import Result
+    from hosts.driving.result import Result
 
 SCENE = "kerb_test"
 DIST = Path("dist", "KerbTest.fmu")

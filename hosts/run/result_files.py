@@ -8,10 +8,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from ali3.files import check_writable, whole_file, write_text
-from hosts.driving.co_simulation import Result
 from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.state_file import write_state
+from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import Settings
 
@@ -71,6 +70,8 @@ def write_record(
     """
     state = None
     if manoeuvre.state is not None:
+        from hosts.driving.state_file import write_state
+
         state = {"file": write_state(manoeuvre.state, file).name, "time": manoeuvre.state_time}
     record = {
         "fmu": str(fmu.path),

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ali3.chart_style import BLACK, BLUE, COLOURS, GREEN, ORANGE, RED, SKY, STYLE
 from ali3.charts import save_picture
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.run.run_summary import WHEELS
 
 _MAX_PANELS = 9

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hosts.driving.co_simulation import Result
-from hosts.driving.senses import DEAR
+from hosts.driving.result import Result
+from hosts.driving.senses import COSTLY
 
 WHEELS = ("FL", "FR", "RL", "RR")
 # A wheel that carries less is in the air, N.
@@ -87,7 +87,7 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
         left = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
         count = f"{result['solver.capped_steps'][-1]:.0f}"
         rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {left:.2g} mm"))
-    if any(name.startswith(DEAR) and result[name].any() for name in result.names):
+    if any(name.startswith(COSTLY) and result[name].any() for name in result.names):
         fewer = "" if interval > 1.5 * step else "; --interval reads fewer"
         rows.append(("stresses and moments", f"read every {1e3 * interval:g} ms{fewer}"))
     rows.append(("failed steps", f"{result.failed_steps} of {round(result.simulated / step) + result.failed_steps}"))

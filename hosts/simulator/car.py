@@ -165,7 +165,7 @@ class Car:
         elif name == "speed" and not SLOWEST <= value <= 1.0:
             raise HostError(f"The speed is {value:g}; it must be from {SLOWEST:g} to 1.")
         elif name == "rewind" and not (math.isfinite(value) and value > 0.0):
-            raise HostError(f"It is to go back by {value:g} s; it must be a positive time.")
+            raise HostError(f"The time to rewind is {value:g} s; it must be positive.")
         with self._lock:
             self._send(name, value)
 
@@ -190,7 +190,7 @@ class Car:
         self._alive()
         commands = self._shared.commands
         if not commands.has_room():
-            raise HostError(f"The car has not yet taken the commands before; '{name}' was left out.")
+            raise HostError(f"The car has not yet carried out earlier commands; '{name}' was left out.")
         if start is not None and self._process is not None:
             self._process.send(start)
         commands.slot()[:] = COMMANDS.index(name), value, self._wishes
@@ -204,7 +204,7 @@ class Car:
         return Moment.of(v)
 
     def events(self) -> list[Event]:
-        """What there is to be said since the last call."""
+        """Events since the last call."""
         events = self._mail.events() if self._mail is not None else []
         if not events and self.ended:
             raise HostError(self.ended)

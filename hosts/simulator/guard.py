@@ -50,7 +50,7 @@ class Guard:
         host = headers.get("Host", "")
         if not self._is_ours(host):
             # a name of a foreign page may be made to lead here (DNS rebinding); then it stands in Host
-            return f"This server is asked for by its own address; the request asks for {host[:80]!r}."
+            return f"A request must name this server by its own address, not {host[:80]!r}."
         origin = headers.get("Origin")
         if origin is not None and origin.lower() != f"http://{host.lower()}":
             return f"Only pages of this server may talk to it; the request is of a page from {origin[:80]!r}."

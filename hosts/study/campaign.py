@@ -86,7 +86,7 @@ def run_study(
     if all(job.manoeuvre is not None for job in plan.work.jobs):
         plan = _with_limits(plan, study)  # measures of tests are known after a run only
     if before is not None:
-        # columns of tests are known from the first half
+        # columns of tests are known from the runs that there are
         plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
         check_same(folder, before, plan.record)
         plan = _with_limits(plan, study)
@@ -106,7 +106,7 @@ def run_study(
 
 
 def _before(folder: Path) -> dict[str, Any] | None:
-    """The record of a first half."""
+    """The record of the runs that there are; None where there are none."""
     record = read_record(folder)
     if record is None and part_files(folder):
         raise HostError(f"{folder} has rows of a study but not its study.json; give another --out.")
@@ -114,7 +114,7 @@ def _before(folder: Path) -> dict[str, Any] | None:
 
 
 def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | None) -> Plan:
-    """The checked plan, with the FMU that is named, or that of the car; an unchanged car has that of the first half."""
+    """The checked plan, with the FMU that is named, or that of the car, which an unchanged car keeps."""
     if study.car is None:
         return make_plan(study, file, fmu_of_study(study, file))
     from hosts.fmu.built_fmu import car_digest
@@ -149,7 +149,7 @@ def _with_limits(plan: Plan, study: StudyFile) -> Plan:
 
 
 def _keep_limits(plan: Plan, folder: Path, before: dict[str, Any], content: bytes) -> dict[str, Any]:
-    """The record of a first half with the limits of now: runs that are made do not depend on them."""
+    """The record of an earlier start with the limits of now, on which runs do not depend."""
     if before.get("limits", {}) == plan.record["limits"]:
         return before
     after = {**before, "limits": plan.record["limits"]}

@@ -18,7 +18,7 @@ from hosts.study.signals import SignalWriter
 from hosts.study.work import FAILED, Chunk, Outcome
 from hosts.study.worker import WrongWorkerError, run_chunk
 
-_AHEAD = 2  # chunks of each worker that are on their way
+_AHEAD = 2  # chunks that are sent to each worker before the first is done
 _FLUSH = (2.0, 60.0)  # s between parts, at least and at most
 _FLUSH_PART = 0.02  # of the time so far
 _MOST_ROWS = 50_000  # of a part
@@ -32,7 +32,7 @@ class SchedulerLostError(Exception):
 
 
 class Execution:
-    """The runs of a study that are on their way.
+    """The runs of a study that are in progress.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ class Execution:
         future.add_done_callback(self._arrived.put)
 
     def _collect(self) -> None:
-        """Take in what has come, or look after the scheduler."""
+        """Collect results, or check whether the scheduler still answers."""
         try:
             future = self._arrived.get(timeout=_LOOK)
         except queue.Empty:

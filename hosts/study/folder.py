@@ -1,4 +1,4 @@
-"""The folder of a study: only one study lives in it."""
+"""The folder of the results of one study."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hosts.common.errors import HostError
 
 RECORD, RUNS, SIGNALS = "study.json", "runs", "signals"
 _FREE = ("versions", "file", "units", "measures", "limits", "created", "reuse")
-"""Keys of the record that may differ between two halves of a study, or follow from others."""
+"""Keys of the record that may differ when a study goes on, or follow from others."""
 _WORDS = {
     "guid": "the GUID of the FMU",
     "fmu_sha256": "the content of the FMU",

@@ -82,8 +82,8 @@ def shares(frame: pd.DataFrame) -> list[Share]:
     Notes
     -----
     A run without a result is outside of its limits: nobody knows that it keeps them. A run that lacks another measure
-    is judged by the one that it has, and not at all by one that does not exist in it. Tables of before say of a run
-    that lacks some measure not which; there each that it has not counts as lacking.
+    is judged by the one that it has, and not at all by one that does not exist in it. Tables of earlier
+    versions do not say which measures a run lacks; there each that it does not have counts as lacking.
     """
     about, found = frame.attrs, []
     points = frame["point"].to_numpy(dtype=np.int64)

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.co_simulation import Result, run
+from hosts.driving.co_simulation import run
 from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.result import Result
 from hosts.fmu.aliased_fmu import seen_through
 from hosts.fmu.fmu import Fmu
 from hosts.measures.measure import Measure

@@ -25,6 +25,7 @@ Error = type[ValueError]
 LARGEST = 1e30
 """Squares and products of three such numbers are still finite; no machine has one."""
 SHOWN = 60  # characters of a value in a sentence
+_FEW = 9  # numbers that are looked at one by one, which takes less than asking NumPy
 
 
 def shown(value: object) -> str:
@@ -149,7 +150,9 @@ def text(value: object, what: str, error: Error = ModelError, lines: bool = Fals
     """Text that a file can hold: no control characters (with `lines` but line ends and tabs), no half characters."""
     if not isinstance(value, str):
         raise error(f"{capital(what)} must be text, not {shown(value)}.")
-    for c in "" if value.isprintable() else value:
+    if value.isprintable():  # nearly all are
+        return str(value)
+    for c in value:
         if unicodedata.category(c) in ("Cc", "Cs") and not (lines and c in "\n\t"):
             raise error(f"{capital(what)} is {value!r}; {c!r} is no character that a file can hold.")
     return str(value)
@@ -159,7 +162,7 @@ def named(value: object, what: str, error: Error = ModelError) -> str:
     """A name: text that is not empty."""
     if not isinstance(value, str) or not value.strip():
         raise error(f"{capital(what)} needs a name that is not empty, got {shown(value)}.")
-    return text(value, f"the name of {what}", error)
+    return str(value) if value.isprintable() else text(value, f"the name of {what}", error)
 
 
 def one_of(value: object, words: Collection[str], what: str, error: Error = ModelError) -> str:
@@ -203,6 +206,9 @@ def array(
     wanted : str
         What it must be, in words; by default from the shape.
     """
+    few: Any = value.tolist() if type(value) is np.ndarray and value.size < _FEW else value
+    if type(few) in (list, tuple) and shape == (len(few),) and all(map(_is_plain, few)):
+        return np.array(few)  # nearly all are points and directions
     wanted = wanted or _shape_text(shape)
     found = numbers(value, what, error, wanted)
     if not found.shape:
@@ -217,6 +223,10 @@ def array(
             raise error(f"{capital(what)} is {given}; all numbers must be of a size below {LARGEST:g}.")
         raise error(f"{capital(what)} is {given}, which is not finite; all numbers must be finite.")
     return found
+
+
+def _is_plain(x: object) -> bool:
+    return type(x) is float and -LARGEST < x < LARGEST
 
 
 def numbers(

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import dist
 
 import numpy as np
 
 from mbs.common.checks import Vector
 from mbs.model.body import Body
+
+SAME = 1e-9
 
 
 def body_length(body: Body) -> float:
@@ -22,8 +25,10 @@ def body_length(body: Body) -> float:
 def distinct(vectors: Sequence[Vector], opposites: bool = False) -> list[Vector]:
     """Without repetitions (of directions: nor opposites), in order of first use."""
     found: list[Vector] = []
+    seen: list[list[float]] = []
     for v in vectors:
-        gaps = [min(np.linalg.norm(v - w), np.linalg.norm(v + w) if opposites else np.inf) for w in found]
-        if all(gap > 1e-9 for gap in gaps):
+        here, opposite = v.tolist(), (-v).tolist()
+        if all(dist(here, w) > SAME and not (opposites and dist(opposite, w) <= SAME) for w in seen):
             found.append(v)
+            seen.append(here)
     return found

@@ -78,8 +78,8 @@ def _describe(body: Body, info: list[NaturalCoordinate], expressions: list[Affin
         blocks = np.transpose(turn, (2, 0, 3, 1))
     matrix = blocks.reshape(body.size, body.size)
     least = DROP * np.max(np.abs(matrix))
-    for i, row in enumerate(matrix):
-        expressions[body.start + i] = Affine({body.start + j: float(v) for j, v in enumerate(row) if abs(v) > least})
+    for i, row in enumerate(matrix.tolist(), start=body.start):
+        expressions[i] = Affine({j: v for j, v in enumerate(row, start=body.start) if abs(v) > least})
     for n, (name, o, w) in enumerate(chosen):
         for k in range(d):
             kind = "point" if o else "vector"

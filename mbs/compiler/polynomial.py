@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 
 from mbs.common.affine import Affine
 from mbs.model.equation import Equation, Product
@@ -60,7 +61,7 @@ class RowTerms:
     def columns(self) -> list[int]:
         """Coordinates it depends on, ascending."""
         parts = (self.main, self.cosine, self.sine, self.rates, *(g[2] for g in self.guides))
-        found = {i for p in parts for m in p for i in m}
+        found = {*chain.from_iterable(chain.from_iterable(parts))}
         found.add(self.theta)
         found.discard(-1)
         return sorted(found)
@@ -79,11 +80,12 @@ def substitute(expression: Affine, full: Sequence[Affine]) -> Affine:
             biggest = max(biggest, abs(part))
         for j, v in of_z.terms.items():
             part = c * v
-            if j in terms:
-                largest[j] = max(largest.get(j, abs(terms[j])), abs(part))
-                terms[j] += part
-            else:
+            before = terms.get(j)
+            if before is None:
                 terms[j] = part
+            else:
+                largest[j] = max(largest.get(j, abs(before)), abs(part))
+                terms[j] = before + part
     if largest or 0.0 in terms.values():
         terms = {j: v for j, v in terms.items() if abs(v) > DROP * largest.get(j, 0.0)}
     return Affine(terms, constant if abs(constant) > DROP * biggest else 0.0)

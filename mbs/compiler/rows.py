@@ -8,6 +8,7 @@ for a link between two points that are coordinates.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
 
 import numpy as np
 
@@ -34,7 +35,7 @@ def candidates(body: Body) -> list[Vector]:
     found += [size * u for u in body.joint_axes]
     points = distinct([np.zeros(body.dimension), *body.joint_points])[:MOST_POINTS]
     found += [p - q for k, p in enumerate(points) for q in points[:k]]
-    return [w for w in found if np.linalg.norm(w) > 1e-6 * size]
+    return [w for w in found if hypot(*w.tolist()) > 1e-6 * size]
 
 
 def rigid_rows(body: Body, full: Sequence[Affine]) -> list[RowTerms]:
@@ -49,10 +50,12 @@ def rigid_rows(body: Body, full: Sequence[Affine]) -> list[RowTerms]:
         ranked.append((sum(t * t for t in terms), order, w, expression))
     ranked.sort(key=lambda item: item[:2])
     chosen: list[tuple[Vector, AffineVector]] = []
+    units: list[Vector] = []
     for _, _, w, expression in ranked:
-        units = np.array([v / np.linalg.norm(v) for v in [*(c[0] for c in chosen), w]])
-        if len(units) == 1 or np.linalg.svd(units, compute_uv=False)[-1] > INDEPENDENT:
+        trial = [*units, w / np.linalg.norm(w)]
+        if len(trial) == 1 or np.linalg.svd(np.array(trial), compute_uv=False)[-1] > INDEPENDENT:
             chosen.append((w, expression))
+            units = trial
         if len(chosen) == needed:
             break
     rows = []

@@ -20,7 +20,7 @@ NONE = [-1] * 12
 
 @dataclass(frozen=True)
 class Dependents:
-    """Which expressions of z are which, once those of tabled bodies and numbers are told apart.
+    """Expressions of z, those of tabled bodies and numbers apart from the others.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ def tell_apart(model: Model, remaining: list[int], full: list[Affine], of_z: lis
 
 
 def refuse_joint(name: str) -> ModelError:
-    """Why a joint cannot be."""
+    """The error for a joint on a tabled body."""
     return ModelError(f"The joint '{name}' is on a tabled body, which takes forces and sensors, and no joints.")
 
 

@@ -30,7 +30,7 @@ class Brake:
 
     @staticmethod
     def for_wheel(max_torque: float, radius: float, spin_inertia: float, travel: float = 0.9e-3) -> Brake:
-        """Brake that lets the tread give by a travel at full torque, critically damped with the wheel's inertia.
+        """Brake under whose full torque the tread moves by a travel, critically damped with the wheel's inertia.
 
         Parameters
         ----------
@@ -41,7 +41,7 @@ class Brake:
         spin_inertia : float
             Of the wheel about its axis, kg m2.
         travel : float
-            By which the tread gives, m.
+            Of the tread at full torque, m.
         """
         torque, r = (
             positive(max_torque, "The largest torque of a brake"),

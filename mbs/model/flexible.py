@@ -123,7 +123,7 @@ class FlexibleBody(Body):
 
     @property
     def frame(self) -> Body:
-        """The floating frame in the part of a rigid body: its points do not take part in the deformation."""
+        """The floating frame as a rigid body: its points do not take part in the deformation."""
         body = Body(self.model, f"{self.name}.frame", self.com, self.start)
         body.owner = self
         return body
@@ -271,7 +271,7 @@ class FlexibleBody(Body):
 
 
 class Interface(Body):
-    """A node of a flexible body in the part of a body: joints, springs and sensors take it.
+    """A node of a flexible body, which joints, springs and sensors take in place of a body.
 
     Its points are fixed to the node as by rigid arms, its vectors turn with the node. Coordinates and rows come with
     the first use: three for the node, three for its rotation, three for each vector.

@@ -10,6 +10,7 @@ from scipy.interpolate import PPoly
 
 from mbs.common.checks import not_negative, number, positive, shown
 from mbs.elements.record import ElementRecord
+from mbs.model.air import AirVocabulary
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
 from mbs.model.body import Body
@@ -27,6 +28,7 @@ from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.parameters import Target, new_parameter
 from mbs.model.records import Armature, Constant, Guide, Input, Parameter
+from mbs.model.road_vocabulary import RoadVocabulary
 from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.model.spin import spin
 from mbs.model.table_vocabulary import TableVocabulary
@@ -37,6 +39,8 @@ class Model(
     TransmissionVocabulary,
     TableVocabulary,
     ForceVocabulary,
+    AirVocabulary,
+    RoadVocabulary,
     MotionSensorVocabulary,
     OrientationSensorVocabulary,
     ForceSensorVocabulary,

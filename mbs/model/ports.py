@@ -22,7 +22,7 @@ SAME_PLACE = 1e-6
 
 
 class PortedBody(Body):
-    """A rigid body in the part of one with ports; made by `Model.ported`.
+    """A rigid body with ports; made by `Model.ported`.
 
     Attributes
     ----------

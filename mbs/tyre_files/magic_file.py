@@ -180,8 +180,7 @@ def read_tyre(file: str | Path) -> TyreFile:
     notes: list[str] = []
     coefficients = {key: numbers[key] for key in MAGIC_COEFFICIENTS if key in numbers}
     if text.word("TYRESIDE", "MODEL") in ("SYMMETRIC", "SYMMETRICAL"):
-        old = _ONE_SIDED_OLD if version in ("PAC2002", "MF52") else ()
-        coefficients |= dict.fromkeys((*_ONE_SIDED, *old), 0.0)
+        coefficients |= dict.fromkeys(one_sided(version), 0.0)
     absent = [
         key
         for key in MAGIC_COEFFICIENTS
@@ -215,6 +214,11 @@ def read_tyre(file: str | Path) -> TyreFile:
         nominal,
         tuple(notes),
     )
+
+
+def one_sided(version: str) -> tuple[str, ...]:
+    """Coefficients of a version of `MagicTyre` that are 0 for a tyre whose sides are alike."""
+    return (*_ONE_SIDED, *_ONE_SIDED_OLD) if version in ("PAC2002", "MF52") else _ONE_SIDED
 
 
 def _version(text: PropertyText) -> str:

@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from math import sqrt
 
 from ali3.files import write_text
+from mbs.common.checks import one_of
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
+from mbs.tyre_files.magic_file import one_sided
 
 _FORMS = {"PAC2002": ("PAC2002", None), "MF52": ("MF-TYRE", 6), "MF61": ("MF-TYRE", 61), "MF62": ("MF-TYRE", 62)}
 _RUBBER = 0.010  # m between the rim and where it bears, as it is read
@@ -26,7 +28,7 @@ def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMME
         In ISO axes, not mirrored, at its nominal pressure; its friction factor over its
         reference friction is multiplied into LMUX and LMUY.
     side : {"LEFT", "RIGHT", "SYMMETRIC"}
-        Where it was measured.
+        Where it was measured; of a symmetric tyre a reader takes the coefficients of one side as 0.
     comment : str
         Its first line.
 
@@ -34,7 +36,7 @@ def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMME
     ------
     ValueError
         The tyre is mirrored, of other axes or of another pressure, has a bore torque or a settling of its own, or no
-        friction.
+        friction; or it is not symmetric where `side` says so.
     ReportError
         The file cannot be written.
     """
@@ -47,6 +49,13 @@ def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMME
         )
     if not tyre.friction_factor > 0.0:
         raise ValueError("The friction factor of the tyre is 0; a tyre property file needs a positive LMUX and LMUY.")
+    one_of(side, ("LEFT", "RIGHT", "SYMMETRIC"), "The side of the tyre", ValueError)
+    lost = [name for name in one_sided(tyre.version) if tyre.coefficients.get(name)]
+    if side == "SYMMETRIC" and lost:
+        raise ValueError(
+            f"The tyre is not symmetric: a reader would take its {', '.join(lost)} as 0. Give the side on which it was "
+            "measured, 'LEFT' or 'RIGHT', or set them to 0."
+        )
     write_text(file, "\n".join(f"$ {line}" for line in comment.splitlines()) + "\n".join(_lines(tyre, side)) + "\n")
 
 

@@ -11,7 +11,7 @@ import pytest
 from hosts.driving.co_simulation import run as driven
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre_file import read_manoeuvre
-from hosts.driving.senses import DEAR
+from hosts.driving.senses import COSTLY
 from hosts.fmu.fmu import Fmu
 from hosts.run.command import main
 from tests.in_process import run
@@ -61,10 +61,10 @@ def test_stresses_are_read_at_rows_and_where_somebody_looks(kerb_fmus: Path, loo
         reader, reads = fmu.reader, {True: 0, False: 0}
 
         def counted(names):  # type: ignore[no-untyped-def]
-            read, dear = reader(names), any(n.startswith(DEAR) for n in names)
+            read, costly = reader(names), any(n.startswith(COSTLY) for n in names)
 
             def read_values(into):  # type: ignore[no-untyped-def]
-                reads[dear] += 1
+                reads[costly] += 1
                 read(into)
 
             return read_values

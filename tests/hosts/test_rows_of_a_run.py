@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hosts.driving.co_simulation import Result, run
+from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.result import Result
 from hosts.fmu.fmu import StepRefusedError
 from hosts.run.run_summary import summary
 

@@ -19,6 +19,7 @@ TABLES = {
     "--manoeuvre FILE.csv": "hosts.driving.manoeuvre_table",
     "--manoeuvre FILE.ini": "hosts.driving.old_manoeuvre",
 }
+STATE = {"[state]": "hosts.driving.state_file"}
 DRIVER = {"a manoeuvre's driver": "hosts.driving.driver"}
 NEW_ROAD = {"--road": "hosts.common.road"}
 ALIASES = {"--aliases": "hosts.fmu.aliases.file", "from = FORMULA": "hosts.fmu.aliases.formulas"}
@@ -41,7 +42,17 @@ WAYS = {
         "stresses that are drawn": "mbs.vehicle.chassis.stress_scene",
         "an axle without stops": "mbs.vehicle.linkages.free_travel",
     },
-    "run": {**EVERY, **CAR, **RECORDING, **PARAMETERS, **TABLES, **DRIVER, **NEW_ROAD, "--kerb": "hosts.run.kerb"},
+    "run": {
+        **EVERY,
+        **CAR,
+        **RECORDING,
+        **PARAMETERS,
+        **TABLES,
+        **DRIVER,
+        **STATE,
+        **NEW_ROAD,
+        "--kerb": "hosts.run.kerb",
+    },
     "view": {**EVERY, "RESULT": "hosts.view.show", "--live": "hosts.view.live", **PARAMETERS},
     "simulator": {
         **EVERY,
@@ -61,6 +72,7 @@ WAYS = {
         **RECORDING,
         **PARAMETERS,
         **TABLES,
+        **STATE,
         "--show-parameters": "hosts.check.parameters",
         "--soak": "hosts.soak.soak",
     },
@@ -73,6 +85,7 @@ WAYS = {
         **ALIASES,
         **TABLES,
         **DRIVER,
+        **STATE,
         **TYPED,
         "[limits]": "hosts.study.limits_told",
         "[signals]": "hosts.study.signals",

@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 
 from mbs.elements import MagicTyre, Tyre, TyreBore
+from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 from mbs.tyre_files import read_tyre
 from mbs.tyre_files.fits import magic_of_tmeasy, tmeasy_of_magic
+from mbs.tyre_files.magic_file import one_sided
 from mbs.tyre_files.writing import write_tyre
 from tests.elements.harness import Element
 from tests.elements.test_magic_tyre import element_of, pose
@@ -117,6 +119,16 @@ def test_a_written_file_is_read_as_the_same_tyre(tmp_path: Path, file: Path) -> 
     assert (tmp_path / "again.tir").read_text(encoding="utf-8").startswith("$ written again\n")
 
 
+def test_a_symmetric_tyre_is_written_and_read_as_it_is(tmp_path: Path) -> None:
+    """Whatever a reader of a symmetric file sets to 0 is 0 in what may be written as one."""
+    for file in FILES:
+        tyre = magic(file)
+        c = {n: v for n, v in tyre.coefficients.items() if n not in one_sided(tyre.version)}
+        write_tyre(tmp_path / "even.tir", replace(tyre, coefficients=c))
+        again = read_tyre(tmp_path / "even.tir").tyre().coefficients
+        assert again == pytest.approx({n: c.get(n, MAGIC_COEFFICIENTS[n]) for n in again})
+
+
 def test_a_written_tyre_keeps_grip_and_progression(tmp_path: Path) -> None:
     """LMUX and LMUY take the friction factor; VERTICAL_STIFFNESS, at FNOMIN, agrees with Q_FZ1 and Q_FZ2."""
     plain = replace(magic(FILES[0]), progression=2e5)
@@ -153,6 +165,10 @@ def test_what_cannot_be_written_or_made_is_said(tmp_path: Path) -> None:
             write_tyre(tmp_path / "a.tir", replace(tyre, **lost))
     with pytest.raises(ValueError, match="friction factor of the tyre is 0"):
         write_tyre(tmp_path / "a.tir", replace(tyre, friction_factor=0.0))
+    with pytest.raises(ValueError, match=r"not symmetric: .*PHY1.* as 0\. Give the side .*'LEFT' or 'RIGHT'"):
+        write_tyre(tmp_path / "a.tir", tyre)
+    with pytest.raises(ValueError, match="side of the tyre is 'MIDDLE'; it must be"):
+        write_tyre(tmp_path / "a.tir", tyre, "MIDDLE")
     assert not list(tmp_path.iterdir())
     with pytest.raises(ValueError, match=r"pressure of the tyre is 1\.1 times the nominal one"):
         tmeasy_of_magic(replace(tyre, pressure=0.1))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.preparation import early_end, held, with_step_up_to
 from hosts.catalogue.record import Line, Plot, Setting, Standard, TestRecord
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.impact import fall_time, first_contact, rebound, settling_time, weight_from_momentum
 from hosts.measures.measure import Limit, Measure
 from hosts.measures.wheels import WHEELS, at_wheels, duration, lifted_wheels

@@ -11,7 +11,7 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.preparation import early_end, held, with_step_up_to
 from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
 from hosts.common.numbers import Value
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.measure import Measure
 from hosts.measures.vibration import LONGEST_STEP, largest_running_rms, vibration_dose, weighted
 from hosts.measures.wheels import WHEELS, at_wheels, duration, lifted_wheels

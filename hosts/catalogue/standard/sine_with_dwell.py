@@ -16,7 +16,7 @@ from hosts.catalogue.steady_map import why_not_reached
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import NEED, SteeringInput
 from hosts.common.errors import HostError
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.slowly_increasing_steer import G, angle_by_regression
 
 _RATE = math.radians(13.5)

@@ -13,7 +13,7 @@ from hosts.catalogue.steady_map import SteadyMap, map_at_reachable_speed
 from hosts.catalogue.steered_run import Pedals, steer
 from hosts.catalogue.steering import NEED, SteeringInput
 from hosts.catalogue.stepped_run import SteppedRun, measures_of_step, remarks, stepped
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.measure import Measure
 
 _LEVELS = ("level_1", "level_2", "level_3")

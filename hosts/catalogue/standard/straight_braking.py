@@ -10,11 +10,11 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.ends import Ends
 from hosts.catalogue.preparation import early_end, held, with_step_up_to
 from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
-from hosts.driving.co_simulation import Result
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import ConstantSteering
 from hosts.driving.pilots.together import Together
+from hosts.driving.result import Result
 from hosts.measures.measure import Measure
 from hosts.measures.wheels import WHEELS
 

@@ -1,1 +1,1 @@
-"""Who drives: pilots that turn what a car senses into its inputs."""
+"""Pilots: from the outputs of a car to its inputs."""

@@ -12,7 +12,7 @@ ACTS = ("steering", "throttle", "brake")
 
 
 class Pilot(Protocol):
-    """Who drives: from what the car senses to its inputs."""
+    """A driver: from the outputs of the car to its inputs."""
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """Inputs for the coming communication step; `senses` are all outputs by our names, until that step is made."""

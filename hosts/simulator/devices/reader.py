@@ -1,4 +1,4 @@
-"""The thread that reads devices, sees them come and go, and passes on what they want."""
+"""The thread that reads devices, notices which are plugged in or out, and passes on their values."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PERIOD = 0.004
 IDLE_PERIOD = 0.05
 """s between two looks for devices while there is none."""
 REPEAT = 0.25
-"""s after which wishes are said again, for inputs that another source has let go."""
+"""s after which values are sent again, for inputs that another source no longer drives."""
 _START_TIME = 5.0
 _END_TIME = 0.4
 TORQUE = "steering_wheel_torque"
@@ -197,7 +197,7 @@ class Reader:
             return
         if self._torque is None:
             device.force_problem = f"the car has no {TORQUE}"
-            self.tell(f"{device.label} has a motor, but the car has no {TORQUE}: it stays without force.")
+            self.tell(f"{device.label} has a motor, but the car has no {TORQUE}: it gives no force.")
             return
 
         def fail(why: str) -> None:
@@ -222,7 +222,7 @@ class Reader:
         return default_mapping(joystick.kind, joystick.read(), joystick.bindings, self.inputs)
 
     def let_go(self, device: Device) -> None:
-        """Nothing that the device drives stays held; what is touched again is driven again."""
+        """Release the inputs that the device drives; what is moved again drives again."""
         device.sleep(list(device.mapping.inputs))
         self._hands.gone(device.source)
 

@@ -14,7 +14,7 @@ import numpy as np
 from ali3.near_names import MOST, did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.measure import Measure
 from hosts.study.measures.grammar import Node, check_form, number_of, signal_name, windows
 from hosts.study.measures.reductions import REDUCTIONS, Array

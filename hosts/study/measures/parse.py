@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Protocol
 
 from hosts.common.numbers import Value
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.measure import Measure
 from hosts.study.measures.expression import Expression
 

@@ -18,7 +18,7 @@ from typing import Any
 from ali3.reading import LARGEST_TEXT, read_text
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.measures.measure import Measure
 from hosts.study.measures.expression import near
 

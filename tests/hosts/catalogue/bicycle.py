@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from scipy.signal import StateSpace, cont2discrete
 
 from hosts.catalogue.car import CarFacts, TestedCar
-from hosts.driving.co_simulation import Result
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.pilot import Pilot
+from hosts.driving.result import Result
 
 MASS, INERTIA, FRONT, REAR = 1500.0, 2500.0, 1.2, 1.5
 STIFF_FRONT, STIFF_REAR, RATIO = 90e3, 110e3, 16.0

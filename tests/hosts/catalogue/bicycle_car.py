@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from hosts.catalogue.car import CarFacts, Pilot
-from hosts.driving.co_simulation import Result
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 
 INPUTS = ("steering_wheel_angle_demand", "throttle", "brake")

@@ -14,7 +14,7 @@ from hosts.catalogue.record import TestRecord
 from hosts.catalogue.standard import braking_in_a_turn
 from hosts.catalogue.turn_braking_measures import Stop, measures_of
 from hosts.common.errors import HostError
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 FEW = {"levels": 2.0, "pedal": 0.3, "deceleration": 4.0}
 

@@ -16,8 +16,8 @@ from hosts.catalogue.record import TestRecord
 from hosts.catalogue.standard import double_lane_change
 from hosts.catalogue.standard.double_lane_change import _LAYOUTS, DRIVERS, limit
 from hosts.common.errors import HostError
-from hosts.driving.co_simulation import Result
 from hosts.driving.course import Course
+from hosts.driving.result import Result
 
 OBSTACLE = {"course": 2.0, "lowest": 60.0, "highest": 80.0, "increment": 10.0, "resolution": 5.0}
 LANE = Course("lane", (Gate(10.0, 30.0, -1.5, 1.5),))

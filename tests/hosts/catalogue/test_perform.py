@@ -10,7 +10,7 @@ import pytest
 from hosts.catalogue.perform import missing_for, perform, settings_of_test
 from hosts.catalogue.record import Setting, TestRecord
 from hosts.common.errors import HostError
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 from tests.hosts.catalogue.bicycle_car import BicycleCar
 

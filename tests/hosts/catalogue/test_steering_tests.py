@@ -16,7 +16,7 @@ from hosts.catalogue.steady_map import steady_map
 from hosts.catalogue.steered_run import Pedals, level_acceleration, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from tests.hosts.catalogue.bicycle import ROLL_PER_ACCELERATION, BicycleCar, bicycle, gains, mode
 
 SPEED = 100.0 / 3.6

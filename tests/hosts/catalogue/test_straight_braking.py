@@ -13,7 +13,7 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.standard import straight_braking
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 G = 9.81
 

@@ -11,11 +11,11 @@ import pytest
 
 from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
-from hosts.driving.co_simulation import Result
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import SteeringTable
 from hosts.driving.pilots.together import Together
+from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Alias, Aliases
 
 NAMES = {
@@ -110,7 +110,7 @@ def test_what_a_pilot_lacks_is_named(prototype: TestedCar) -> None:
 
 def test_a_pilot_that_asks_for_nothing_is_told(prototype: TestedCar) -> None:
     turn = SteeringTable([0.0, 0.1, 0.2], [0.0, 0.0, math.nan])
-    with pytest.raises(HostError, match="At 0.1.* s who drives asks for steering = nan."):
+    with pytest.raises(HostError, match="At 0.1.* s the driver asks for steering = nan."):
         prototype.drive(Manoeuvre("blank", np.zeros(0), {}, 0.3), turn)
 
 

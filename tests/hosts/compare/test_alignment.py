@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hosts.compare.alignment import align
 from hosts.compare.curve import Curve
 from hosts.compare.log import Signal
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 END = 20.0
 

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from hosts.compare.command import main
-from hosts.driving.co_simulation import Result, run
+from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 
 END = 5.0

@@ -13,7 +13,7 @@ from hosts.compare.fit import Fit, fit, overlapping
 from hosts.compare.replay import Replay, inputs_of
 from hosts.compare.residuals import Unknown, nuisances
 from hosts.compare.stretches import Stretch
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 
 STEP = 0.01

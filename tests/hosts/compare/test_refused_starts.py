@@ -12,7 +12,7 @@ from hosts.compare.fit import fit
 from hosts.compare.fit_words import fit_notes
 from hosts.compare.log import Signal
 from hosts.compare.residuals import Unknown
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 RATE, REFUSED = 2.0, 3.0
 T = np.linspace(0.0, 3.0, 151)

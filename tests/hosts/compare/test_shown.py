@@ -13,7 +13,7 @@ from hosts.compare.curve import Curve
 from hosts.compare.log import Signal
 from hosts.compare.page import comparison_figure, write_picture, write_summary
 from hosts.compare.words import table, with_unit
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 
 TIME = np.linspace(0.0, 2.0, 201)
 

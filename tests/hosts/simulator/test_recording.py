@@ -21,7 +21,7 @@ from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.last_drive import last_drive
 from hosts.recordings.load_manoeuvre import load_manoeuvre

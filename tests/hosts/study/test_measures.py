@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.driving.co_simulation import Result
+from hosts.driving.result import Result
 from hosts.study.measures import parse_measure
 
 END, N = 2.0, 2001

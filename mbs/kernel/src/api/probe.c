@@ -4,7 +4,7 @@
 
 #include "../algebra/finite.h"
 #include "../elements/forces.h"
-#include "../flexible/flexible_body.h"
+#include "../flexible/bodies.h"
 #include "../instance.h"
 #include "../methods/newton.h"
 #include "../rows/constraints.h"
@@ -77,8 +77,8 @@ static void spread(const ali3_instance *in, double *dense) {
 ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) {
   if (in == NULL || q == NULL || dense == NULL || !ali3_finite(q, in->system->size.nq)) return ALI3_BAD_ARGUMENT;
   memcpy(in->F, in->front_mass, (size_t)in->system->size.front_size * sizeof(double));
-  ali3_flexible_prepare(in, q);
-  ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
+  ali3_bodies_prepare(in, q);
+  ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
   spread(in, dense);
   return ALI3_OK;
 }

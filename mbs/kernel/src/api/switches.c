@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../flexible/flexible_body.h"
+#include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../methods/energy_balance.h"
@@ -12,7 +12,7 @@
 #include "../state/vectors.h"
 
 static double kinetic_energy(ali3_instance *in) {
-  ali3_flexible_prepare(in, in->now.q);
+  ali3_bodies_prepare(in, in->now.q);
   return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
 }
 

@@ -130,12 +130,12 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
 }
 
-/* The same with the flexible bodies, their changing mass too. */
+/* The same with flexible and tabled bodies, their changing mass too. */
 void ali3_forces_tangent(ali3_instance *in, double *F) {
   if (in->system->n_flexible > 0) ali3_flexible_tangent(in, 1.0, in->wC, in->wK, F);
   ali3_elements_tangent(in, F);
   if (in->system->n_tabled > 0) {
-    ali3_flexible_tangent(in, 1.0, in->wC, in->wK, F);
+    ali3_tabled_tangent(in, 1.0, in->wK, F);
     ali3_tabled_elements_tangent(in, F);
   }
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../instance.h"
+#include "bodies.h"
 #include "body_arrays.h"
 #include "discrete_inertia.h"
 #include "flexible_body.h"
@@ -56,7 +57,7 @@ static void add_gradient(const ali3_instance *in, const double *v, double weight
 /* p = M v without the constant part of M, at q. */
 void ali3_flexible_momentum(const ali3_instance *in, const double *q, const double *v, double *p) {
   memset(p, 0, (size_t)in->system->size.nq * sizeof *p);
-  ali3_flexible_prepare(in, q);
+  ali3_bodies_prepare(in, q);
   ali3_flexible_mass_times(in, v, p);
 }
 

@@ -7,7 +7,6 @@
 
 #include "../algebra/fronts.h"
 #include "../instance.h"
-#include "../tabled/tabled.h"
 #include "body_arrays.h"
 #include "flexible_body.h"
 
@@ -44,7 +43,6 @@ void ali3_flexible_prepare(const ali3_instance *in, const double *q) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     prepare_body(in, &f, q);
   }
-  if (in->system->n_tabled > 0) ali3_tabled_prepare(in, q);
 }
 
 /* out += (M(q) - constant part) x at the q that was prepared. */
@@ -140,7 +138,6 @@ void ali3_flexible_energy(const ali3_instance *in, const double *q, double *grav
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) *gravity -= f.gravity[k] * f.A[3 * i + k] * f.S[i];
   }
-  if (in->system->n_tabled > 0) *gravity += ali3_tabled_gravity(in, q);
 }
 
 /* Lower triangle of wC C + wK K into the body's front. */
@@ -182,7 +179,6 @@ void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double
       }
     if (wC != 0.0 || wK != 0.0) add_moduli(&f, size, wC, wK, block);
   }
-  if (s->n_tabled > 0) ali3_tabled_tangent(in, wM, wK, F);
 }
 
 /* F += weight K, without the part of the weight of the body. */

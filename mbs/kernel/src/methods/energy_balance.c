@@ -2,7 +2,7 @@
  * the simplest prediction. They do not influence the steps. */
 #include <math.h>
 
-#include "../flexible/flexible_body.h"
+#include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../method.h"
@@ -15,7 +15,7 @@ static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its
 static double potential(const ali3_instance *in, const ali3_vectors *v) {
   const ali3_system *S = in->system;
   double gravity = in->gravity_const, elastic = 0.0;
-  ali3_flexible_energy(in, v->q, &gravity, &elastic);
+  ali3_bodies_energy(in, v->q, &gravity, &elastic);
   for (int32_t i = 0; i < S->size.nq; i++) gravity -= in->gravity_force[i] * v->q[i];
   for (int32_t e = 0; e < S->size.ne; e++) elastic += v->potential[e];
   return gravity + elastic;
@@ -31,7 +31,7 @@ void ali3_balance_open(ali3_instance *in) {
   in->report.open_power = in->report.energy_floor = 0.0;
   const ali3_method *method = ali3_method_of(in);
   if (method->has_balance == NULL || !method->has_balance(in)) return;
-  ali3_flexible_prepare(in, in->now.q);
+  ali3_bodies_prepare(in, in->now.q);
   const double kinetic = 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
   double rest = 0.0;
   for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * REST * REST * in->mass_floor[i];

@@ -5,7 +5,7 @@
 
 #include "../algebra/fronts.h"
 #include "../elements/forces.h"
-#include "../flexible/flexible_body.h"
+#include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
@@ -23,7 +23,7 @@ static const double SAME_STEP = 1e-6; /* relative difference of two steps that c
 /* Gives v the kinetic energy of v->own, except where a drive sets the velocity or much was taken away. */
 static void scale(ali3_instance *in, const ali3_vectors *v) {
   const int32_t nq = in->system->size.nq;
-  ali3_flexible_prepare(in, v->q);
+  ali3_bodies_prepare(in, v->q);
   const double ratio = ali3_mass_product(in, v->own, v->own, in->x) / ali3_mass_product(in, v->qd, v->qd, in->x);
   for (int32_t k = 0; k < in->system->size.nc; k++)
     if (in->Phit[k] != 0.0) return;

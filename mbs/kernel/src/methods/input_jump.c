@@ -1,11 +1,11 @@
 /* Accelerations and multipliers at the start of a step where inputs jump: the trapezoidal rule takes its forces from
- * them, and those of before the jump would make every force late by half a step. A guide that follows an input needs
+ * them, and those before the jump would make every force late by half a step. A guide that follows an input needs
  * nothing: its rate is continuous, and the mean force of a row comes from the end of the step. */
 #include <string.h>
 
 #include "../algebra/fronts.h"
 #include "../elements/forces.h"
-#include "../flexible/flexible_body.h"
+#include "../flexible/bodies.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
 #include "../start/index_one.h"
@@ -47,7 +47,7 @@ static ali3_status input_change(ali3_instance *in, double h, const double *befor
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
   memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
   ali3_rows_square(in, in->J, ALI3_INDEX_ONE_PENALTY, in->F);
-  if (S->n_flexible + S->n_tabled > 0) ali3_flexible_tangent(in, 1.0, 0.5 * h, 0.25 * h * h, in->F);
+  if (S->n_flexible + S->n_tabled > 0) ali3_bodies_tangent(in, 1.0, 0.5 * h, 0.25 * h * h, in->F);
   const ali3_status status = ali3_factorise(in, in->F);
   if (status != ALI3_OK) return status;
   ali3_solve(in, in->F, in->x);

@@ -11,7 +11,7 @@
 #include "../algebra/fronts.h"
 #include "../elements/forces.h"
 #include "../elements/signals.h"
-#include "../flexible/flexible_body.h"
+#include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../method.h"
@@ -152,9 +152,9 @@ static ali3_status factorise(ali3_instance *in, double t, double h, double alpha
     forces(in, 0.0, 1.0);
     ali3_elements_tangent(in, in->F_K);
     if (flexible) {
-      ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
-      ali3_flexible_tangent(in, 0.0, 1.0, 0.0, in->F_C);
-      ali3_flexible_tangent(in, 0.0, 0.0, 1.0, in->F_K);
+      ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
+      ali3_bodies_tangent(in, 0.0, 1.0, 0.0, in->F_C);
+      ali3_bodies_tangent(in, 0.0, 0.0, 1.0, in->F_K);
     }
     if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, of_rows(in, in->stage_lam, i), 1.0, in->F_K);
     ali3_rows_square(in, of_entries(in, in->stage_J, i), alpha, in->F_K);
@@ -296,7 +296,7 @@ static ali3_status project(ali3_instance *in, double h, double alpha) {
   memcpy(in->J_tangent, in->J, entries);
   if (in->settings.project) {
     memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
-    if (S->n_flexible > 0) ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
+    if (S->n_flexible > 0) ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
     ali3_rows_square(in, in->J, weight, in->F);
     const ali3_status status = ali3_factorise(in, in->F);
     if (status != ALI3_OK) return status;

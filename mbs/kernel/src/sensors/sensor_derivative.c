@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../flexible/bodies.h"
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
@@ -103,8 +104,8 @@ static void flexible_energy(const ali3_instance *in, double *kinetic, double *gr
   for (int side = -1; side <= 1; side += 2) {
     double twice = 0.0, of_weight = 0.0, of_strain = 0.0;
     for (int32_t i = 0; i < nq; i++) in->w[i] = in->now.q[i] + side * in->direction.q[i];
-    ali3_flexible_prepare(in, in->w);
-    ali3_flexible_energy(in, in->w, &of_weight, &of_strain);
+    ali3_bodies_prepare(in, in->w);
+    ali3_bodies_energy(in, in->w, &of_weight, &of_strain);
     memset(in->x, 0, (size_t)nq * sizeof(double));
     ali3_flexible_mass_times(in, in->now.qd, in->x);
     for (int32_t i = 0; i < nq; i++) twice += in->x[i] * in->now.qd[i];
@@ -119,7 +120,7 @@ static double change_energy(const ali3_instance *in, const int32_t *v, const dou
   const ali3_system *S = in->system;
   double kinetic = 0.0, gravity = 0.0, elastic = 0.0;
   if (S->n_flexible > 0) flexible_energy(in, &kinetic, &gravity, &elastic);
-  ali3_flexible_prepare(in, in->now.q);
+  ali3_bodies_prepare(in, in->now.q);
   ali3_mass_times(in, in->now.qd, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
     kinetic += in->x[i] * in->direction.qd[i];

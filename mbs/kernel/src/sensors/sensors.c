@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "../algebra/elementary.h"
-#include "../flexible/flexible_body.h"
+#include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/guides.h"
@@ -120,8 +120,8 @@ static double value_energy(const ali3_instance *in, const int32_t *v, const doub
   (void)real;
   const ali3_system *S = in->system;
   double kinetic = 0.0, gravity = in->gravity_const, elastic = 0.0;
-  ali3_flexible_prepare(in, in->now.q);
-  ali3_flexible_energy(in, in->now.q, &gravity, &elastic);
+  ali3_bodies_prepare(in, in->now.q);
+  ali3_bodies_energy(in, in->now.q, &gravity, &elastic);
   ali3_mass_times(in, in->now.qd, in->x);
   for (int32_t i = 0; i < S->size.nq; i++) {
     kinetic += 0.5 * in->x[i] * in->now.qd[i];

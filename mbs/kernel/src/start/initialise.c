@@ -7,6 +7,7 @@
 #include "../algebra/finite.h"
 #include "../algebra/fronts.h"
 #include "../elements/forces.h"
+#include "../flexible/bodies.h"
 #include "../flexible/flexible_body.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
@@ -30,11 +31,11 @@ enum { POSITION_ITERATIONS = 200 };
 /* F = M(q) + what massless coordinates lack + BENDING K + ALPHA Phi_q' Phi_q, factorised. */
 static ali3_status factorise_metric(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
-  ali3_flexible_prepare(in, q);
+  ali3_bodies_prepare(in, q);
   memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
   for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += in->mass_missing[i];
   ali3_rows_square(in, in->J, ALPHA, in->F);
-  ali3_flexible_tangent(in, 1.0, 0.0, 0.0, in->F);
+  ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
   ali3_flexible_stiffen(in, BENDING, in->F);
   return ali3_factorise(in, in->F);
 }

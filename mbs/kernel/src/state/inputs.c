@@ -79,7 +79,7 @@ ali3_status ali3_inputs_at(ali3_instance *in, double share) {
   return ALI3_OK;
 }
 
-/* Whether the inputs jump at the start of the step: what the last one left of accelerations is then of before. */
+/* Whether the inputs jump at the start of the step: the accelerations that the last one left then do not hold. */
 bool ali3_inputs_jump(const ali3_instance *in) {
   for (int32_t i = 0; i < in->system->size.nu; i++) {
     const double before = in->now.used[i], behind = in->input_begin[i];

@@ -56,7 +56,7 @@ export class Bar {
    * @param {number} now.oldest - Time one can go back to, s.
    * @param {number} now.time - Of the picture, s.
    * @param {number} now.end - Of the run, s.
-   * @param {boolean} now.scrubbed - Whether the picture is one of before.
+   * @param {boolean} now.scrubbed - Whether the picture is that of an earlier instant.
    */
   show({ running, oldest, time, end, scrubbed }) {
     this._play.textContent = running ? "Pause" : scrubbed ? "Run from here" : "Run";

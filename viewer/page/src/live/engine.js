@@ -210,7 +210,7 @@ export class Engine {
     this.runs.forEach((run, which) => {
       if (asleep.includes(run)) return;
       try {
-        // Only what has changed is set: a parameter may be dear.
+        // Only what has changed is set: setting one may be costly.
         run.indices.forEach((i, n) => {
           if (Object.is(run.last[n], held[i])) return;
           run.writers[n](held[i]);

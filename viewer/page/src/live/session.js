@@ -52,7 +52,7 @@ export class Session {
     return this._last;
   }
 
-  /** Let time run; from the instant that is shown if one of before is. */
+  /** Let time run; from the instant that is shown if it is an earlier one. */
   async run(speed = this.speed) {
     if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
     this.speed = speed;
@@ -90,7 +90,7 @@ export class Session {
     await this._ask("back", { do: "back", k });
   }
 
-  /** Show an instant of before. */
+  /** Show an earlier instant. */
   scrub(time) {
     if (this.running) this.pause();
     this.scrubbed = Math.max(this.oldest, Math.min(time, this.time));

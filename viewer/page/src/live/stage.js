@@ -80,7 +80,7 @@ export class Stage {
     for (const { effects } of this.parts) effects?.sound.mute(on);
   }
 
-  /** Another run, or an instant of before: nothing goes on across it. */
+  /** Another run, or an earlier instant: nothing goes on across it. */
   renew() {
     this._epoch += 1;
   }

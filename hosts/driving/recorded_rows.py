@@ -1,0 +1,116 @@
+"""Rows of a run while it goes on: what inputs do at them and between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.driving.senses import Senses
+
+# Of a value that is reached at the end of a step and set again for the next.
+_ROUND_OFF = 1e-9
+
+
+class RecordedRows:
+    """Inputs and outputs at every nth step; the first row is that of the start.
+
+    Parameters
+    ----------
+    senses : Senses
+        Outputs, read at the start.
+    held : ndarray of shape (n,)
+        Inputs at the start.
+    used : sequence of int
+        Which of them are set.
+    straight : sequence of int
+        Which of these go straight over a step.
+    sizes : ndarray of shape (len(straight),)
+        Their largest values.
+    every : int
+        Steps from row to row.
+    most : int
+        Steps of the whole run.
+
+    Attributes
+    ----------
+    done : int
+        Steps that were made.
+    refused : bool
+        Whether the last one was refused.
+    jumps : dict of int to list of float
+        By the number of a row: inputs before a jump at its time, where the row alone does not tell them.
+    lost : ndarray of shape (n,)
+        Which inputs moved between the rows otherwise than the rows tell.
+    """
+
+    def __init__(
+        self,
+        senses: Senses,
+        held: NDArray[np.float64],
+        used: Sequence[int],
+        straight: Sequence[int],
+        sizes: NDArray[np.float64],
+        every: int,
+        most: int,
+    ) -> None:
+        self._senses, self._held, self._before = senses, held, held
+        self._used, self._straight, self._sizes = list(used), list(straight), sizes
+        self._every, self._changes = every, list[float]()
+        self._values = np.empty((most // every + 2, len(held) + len(senses)))
+        self._values[0, len(held) :] = senses.whole()
+        self.done, self.refused = 0, False
+        self.jumps: dict[int, list[float]] = {}
+        self.lost = np.zeros(len(held), bool)
+
+    def begin(self, values: Sequence[float]) -> None:
+        """A step begins with these values of the inputs that are set."""
+        held, before = self._held, self._held.copy()
+        held[self._used] = values
+        jumped = np.abs(held - before) > _ROUND_OFF * (np.abs(held) + np.abs(before))
+        row, between = divmod(self.done, self._every)
+        if between:
+            self.lost |= jumped
+        else:
+            self._values[row, : len(held)] = held
+            if self._every > 1 or jumped[self._straight if row else self._used].any():
+                self.jumps[row] = before.tolist()
+        self._before = before
+
+    def move(self, ends: Sequence[float], changes: Sequence[float]) -> None:
+        """Over the step those that go straight change by `changes` and reach `ends`."""
+        if self.done % self._every:
+            self.lost[self._straight] |= np.abs(np.subtract(changes, self._changes)) > _ROUND_OFF * self._sizes
+        self._changes = list(changes)
+        self._held[self._straight] = ends
+
+    def refuse(self, values: Sequence[float]) -> None:
+        """The step was refused: those that go straight have the values with which it would have begun."""
+        self._held[self._straight] = values
+        self.refused = True
+
+    def end(self) -> None:
+        """The step was made, and its outputs were read."""
+        self.done += 1
+        if self.done % self._every == 0:
+            self._values[self.done // self._every] = self._row()
+
+    def _row(self) -> list[float]:
+        return [*self._held, *self._senses.whole()]
+
+    def close(self, last: bool) -> tuple[list[int], NDArray[np.float64]]:
+        """The steps that have a row, and the rows.
+
+        Parameters
+        ----------
+        last : bool
+            Whether the last step has one in any case.
+        """
+        rows = [*range(0, self.done + 1, self._every)]
+        if last and self.done % self._every:
+            if self.refused:
+                self.jumps[len(rows)] = self._before.tolist()
+            self._values[len(rows)] = self._row()
+            rows.append(self.done)
+        return rows, self._values[: len(rows)]
