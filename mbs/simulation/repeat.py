@@ -18,7 +18,7 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
-FEWEST = 10  # instants at which a much coarser run is compared
+FEWEST = 6  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 
 
@@ -145,7 +145,7 @@ class Repeats:
 def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
-    A run that is not plainly smooth is compared with ones of four times and twice the step. Where they differ it is
+    A run that is not plainly smooth is compared with ones of eight times and twice the step. Where they differ it is
     repeated with half the step, and where that leaves the verdict near its limit, with a quarter. With
     `Repeats.extents` only half the step is tried.
 
