@@ -116,20 +116,6 @@ class TestRepeats:
         whole = simulate(system_of("pendulum"), 10.0, 0.005, estimate_error=True, **QUIET)
         assert run.accuracy.error == pytest.approx(whole.accuracy.error, rel=0.5)
 
-    @pytest.mark.parametrize(
-        ("h", "cost", "more"),
-        [
-            pytest.param(0.016, 0.625, {}, id="eight times is too far off"),
-            pytest.param(0.005, 0.5, {"method": "energy_momentum"}, id="iterations cannot be limited"),
-            pytest.param(0.005, 0.5, {"settings": Settings(step_iterations=4)}, id="they are limited already"),
-        ],
-    )
-    def test_else_with_one_of_twice_the_step(self, h, cost, more):
-        run = simulate(system_of("pendulum"), 10.0, h, **more, **QUIET)
-        assert run.accuracy.repeated_with == 2.0 * h
-        assert run.accuracy.repeat_cost == cost
-        assert not run.accuracy.message
-
     def test_near_the_limit_a_third_run_decides(self, starts):
         case = CASES["pendulum"]
         run = simulate(system_of("pendulum"), case.end, 0.2 / 6, every=6, **QUIET)
