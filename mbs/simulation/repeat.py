@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
-from mbs.results.accuracy import Accuracy, Glance
+from mbs.results.accuracy import Accuracy
+from mbs.results.glance import HOPELESS, Glance, difference_from, glances
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
+from mbs.results.two_repeats import by_two_repeats
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
@@ -168,12 +170,12 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     if len(run[0].t) < 2 or not (always or doubt):
         return known
     if not (always or once) and doubt == accuracy.SCREEN:
-        for glance in accuracy.glances(run[0].settings, repeats.groups):
+        for glance in glances(run[0].settings, repeats.groups):
             screened = repeats.coarser(glance)
-            apart = math.inf if screened is None else accuracy.difference_from(screened, method, glance)
+            apart = math.inf if screened is None else difference_from(screened, method, glance)
             if screened is not None and apart <= glance.difference:
                 return screened
-            if screened is not None and apart > accuracy.HOPELESS:
+            if screened is not None and apart > HOPELESS:
                 break
     parts = accuracy.divisor(report.steps, report.halvings)
     try:
@@ -183,7 +185,8 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
             and known.error is not None
             and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]
         ):
-            known = repeats.finer(2 * parts)
+            ratio = parts / (1.0 + known.halvings_per_step)
+            known = by_two_repeats(known, repeats.finer(2 * parts), ratio)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps
