@@ -17,13 +17,12 @@ from mbs.results.missed_load import missed_load
 from mbs.results.run_report import Report
 from mbs.settings.input_signals import unit_text
 from mbs.settings.methods import METHOD_TABLE
-from mbs.settings.settings import LIMITED, Settings
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
 
 WRONG_ERROR = 0.05  # of the largest range in a unit
-WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about 2 %
+WARNED_ERROR = 0.99 * WRONG_ERROR  # estimates at the limit are themselves off by about a hundredth
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
@@ -38,24 +37,6 @@ STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 COORDINATES = "1"
 WITH_ORDER = (SensorType.COMPONENT, SensorType.NORM)  # their first integer
 LENGTHS, RATES = ("m", "rad", "N"), ("m/s", "rad/s")
-
-
-@dataclass(frozen=True)
-class Glance:
-    """A coarser run by which a run is seen to be right."""
-
-    times: int
-    """Its step over that of the run."""
-    iterations: int
-    """Newton iterations of a step at most; 0 for no limit."""
-    difference: float
-    """Largest one, of the range, with which the run is right."""
-
-
-QUICK = (Glance(4, 1, 0.06), Glance(2, 1, 0.03))
-"""Where steps can be limited and no forces are judged: one iteration shows more of what a long step misses."""
-TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
-HOPELESS = 0.5  # of the range: two runs that differ by more are not compared once more with longer steps
 
 
 class AccuracyWarning(UserWarning):
@@ -166,17 +147,6 @@ def doubt(report: Report, steps: int, halvings: int, method: str) -> str:
     miss = report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
     smooth = miss <= METHOD_TABLE[method].smooth_miss and drift(report) <= SMOOTH_DRIFT and halvings == 0
     return "" if smooth else SCREEN
-
-
-def glances(settings: Settings, groups: Mapping[str, Sequence[str]]) -> tuple[Glance, ...]:
-    """The coarser runs that are tried in turn; forces of contacts are missed by too long steps."""
-    return QUICK if settings.method in LIMITED and not settings.step_iterations and "N" not in groups else TWICE
-
-
-def difference_from(known: Accuracy, method: str, glance: Glance) -> float:
-    """Largest difference of a run from a coarser one, of the range."""
-    order = known.order or float(METHOD_TABLE[method].order)
-    return 0.0 if known.error is None else known.error * (glance.times**order - 1.0)
 
 
 def drift(report: Report) -> float:

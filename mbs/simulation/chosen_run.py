@@ -42,7 +42,7 @@ FINER = 4.0
 """How much finer the second run is at least: two of the same tolerance show no error."""
 AGAIN, MOST_AT_ONCE = 0.5, 1e-3
 """What a further run aims at in parts of the tolerance, and by how much it may be finer than the last."""
-FAR, ONCE = 0.1, 1.0 / 3.0
+FAR, ONCE = 0.1, 0.1
 """Distance of two runs beyond which it says nothing of the finer one; largest guess by a single pair of runs that is
 accepted where errors grow, in parts of the tolerance: two coarse runs may be off alike."""
 MOST_RUNS, LEAST = 5, 1e-13

@@ -11,14 +11,16 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
-from mbs.results.accuracy import Accuracy, Glance
+from mbs.results.accuracy import Accuracy
+from mbs.results.glance import HOPELESS, Glance, difference_from, glances
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
+from mbs.results.two_repeats import by_two_repeats
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
-FEWEST = 10  # instants at which a much coarser run is compared
+FEWEST = 6  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 
 
@@ -145,7 +147,7 @@ class Repeats:
 def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
-    A run that is not plainly smooth is compared with ones of four times and twice the step. Where they differ it is
+    A run that is not plainly smooth is compared with ones of eight times and twice the step. Where they differ it is
     repeated with half the step, and where that leaves the verdict near its limit, with a quarter. With
     `Repeats.extents` only half the step is tried.
 
@@ -168,12 +170,12 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     if len(run[0].t) < 2 or not (always or doubt):
         return known
     if not (always or once) and doubt == accuracy.SCREEN:
-        for glance in accuracy.glances(run[0].settings, repeats.groups):
+        for glance in glances(run[0].settings, repeats.groups):
             screened = repeats.coarser(glance)
-            apart = math.inf if screened is None else accuracy.difference_from(screened, method, glance)
+            apart = math.inf if screened is None else difference_from(screened, method, glance)
             if screened is not None and apart <= glance.difference:
                 return screened
-            if screened is not None and apart > accuracy.HOPELESS:
+            if screened is not None and apart > HOPELESS:
                 break
     parts = accuracy.divisor(report.steps, report.halvings)
     try:
@@ -183,7 +185,8 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
             and known.error is not None
             and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]
         ):
-            known = repeats.finer(2 * parts)
+            ratio = parts / (1.0 + known.halvings_per_step)
+            known = by_two_repeats(known, repeats.finer(2 * parts), ratio)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps

@@ -107,28 +107,14 @@ class TestRepeats:
         assert run.accuracy.message == ""
 
     @pytest.mark.parametrize("every", [1, 2, 7])
-    def test_a_right_run_is_compared_with_one_of_four_times_the_step(self, starts, every):
+    def test_a_right_run_is_compared_with_one_of_eight_times_the_step(self, starts, every):
         run = simulate(system_of("pendulum"), 10.0, 0.005, every=every, **QUIET)
         assert len(starts) == 2
-        assert run.accuracy.repeated_with == 0.02
-        assert run.accuracy.repeat_cost == 0.25
-        assert "repeats of 0.25 times its steps" in repr(run)
+        assert run.accuracy.repeated_with == 0.04
+        assert run.accuracy.repeat_cost == 0.125
+        assert "repeats of 0.12 times its steps" in repr(run)
         whole = simulate(system_of("pendulum"), 10.0, 0.005, estimate_error=True, **QUIET)
-        assert run.accuracy.error == pytest.approx(whole.accuracy.error, rel=0.2)
-
-    @pytest.mark.parametrize(
-        ("h", "cost", "more"),
-        [
-            pytest.param(0.016, 0.75, {}, id="four times is too far off"),
-            pytest.param(0.005, 0.5, {"method": "energy_momentum"}, id="iterations cannot be limited"),
-            pytest.param(0.005, 0.5, {"settings": Settings(step_iterations=4)}, id="they are limited already"),
-        ],
-    )
-    def test_else_with_one_of_twice_the_step(self, h, cost, more):
-        run = simulate(system_of("pendulum"), 10.0, h, **more, **QUIET)
-        assert run.accuracy.repeated_with == 2.0 * h
-        assert run.accuracy.repeat_cost == cost
-        assert not run.accuracy.message
+        assert run.accuracy.error == pytest.approx(whole.accuracy.error, rel=0.5)
 
     def test_near_the_limit_a_third_run_decides(self, starts):
         case = CASES["pendulum"]

@@ -1,0 +1,39 @@
+"""Coarser runs by which a run is seen to be right, and what their difference from it says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from mbs.results.accuracy import Accuracy
+from mbs.settings.methods import METHOD_TABLE
+from mbs.settings.settings import LIMITED, Settings
+
+
+@dataclass(frozen=True)
+class Glance:
+    """A coarser run by which a run is seen to be right."""
+
+    times: int
+    """Its step over that of the run."""
+    iterations: int
+    """Newton iterations of a step at most; 0 for no limit."""
+    difference: float
+    """Largest one, of the range, with which the run is right."""
+
+
+QUICK = (Glance(8, 1, 0.15), Glance(2, 1, 0.03))
+"""Where steps can be limited and no forces are judged: one iteration shows more of what a long step misses."""
+TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
+HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps
+
+
+def glances(settings: Settings, groups: Mapping[str, Sequence[str]]) -> tuple[Glance, ...]:
+    """The coarser runs that are tried in turn; forces of contacts are missed by too long steps."""
+    return QUICK if settings.method in LIMITED and not settings.step_iterations and "N" not in groups else TWICE
+
+
+def difference_from(known: Accuracy, method: str, glance: Glance) -> float:
+    """Largest difference of a run from a coarser one, of the range."""
+    order = known.order or float(METHOD_TABLE[method].order)
+    return 0.0 if known.error is None else known.error * (glance.times**order - 1.0)
