@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -14,15 +15,22 @@ _LONGEST = 60.0  # s between lines
 
 
 class _Lines:
-    """A stream to which a bar draws itself: each drawing is a line without control characters."""
+    """A stream to which a bar draws itself: some drawings and the last are lines without control characters.
+
+    They are chosen here: a bar whose interval changes while it goes through things counts some of them twice.
+    """
 
     bar: tqdm[Any] | None = None
 
+    def __init__(self) -> None:
+        self._apart, self._next = _DELAY, 0.0
+
     def write(self, text: str) -> None:
-        if line := text.strip():
+        now, ended = time.monotonic(), self.bar is not None and self.bar.disable
+        if (line := text.strip()) and (ended or now >= self._next):
             sys.stderr.write(f"{line}\n")
-            if self.bar is not None:
-                self.bar.mininterval *= _LATER
+            self._apart = min(self._apart * _LATER, _LONGEST)
+            self._next = now + self._apart
 
     def flush(self) -> None:
         sys.stderr.flush()

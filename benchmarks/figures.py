@@ -14,6 +14,7 @@ from collections.abc import Callable, Sequence
 
 import mbs
 from ali3.running import run_command
+from benchmarks import faces, tyre_fits
 from benchmarks.car import accuracy, trust
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
 from benchmarks.methods import honesty, pages, stability, stability_margins
@@ -99,6 +100,16 @@ def flexible() -> list[Again]:
     ]
 
 
+def roads_and_tyres() -> list[Again]:
+    """Loads of a wheel at steps of a road, and errors of fits of tyres."""
+    loads = faces.face_table([faces.measure("hatchback", height) for height in faces.HEIGHTS])
+    fits = "docs/decisions/0096-tyres-from-one-formula-to-the-other.md"
+    return [
+        Again("docs/roads.md", loads, "faces", ("height, m",)),
+        Again(fits, tyre_fits.fit_table(), "tyre fits", ("tyre",)),
+    ]
+
+
 def instructions() -> list[Again]:
     """The table of instructions is that of the file that `benchmarks.instructions` compares steps with."""
     block = instruction_blocks(json.loads(INSTRUCTIONS.read_text(encoding="utf-8"))["rows"])["instructions"]
@@ -129,6 +140,7 @@ MADE: dict[str, Callable[[], list[Again]]] = {
     "trust": trusted,
     "car": car,
     "flexible": flexible,
+    "roads and tyres": roads_and_tyres,
     "instructions": instructions,
     "README": readme,
 }

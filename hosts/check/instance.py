@@ -88,6 +88,7 @@ _WHOLE = ("Integer", "Int32")
 
 
 def count_of(variable: ScalarVariable) -> int:
+    """How many values it has."""
     return math.prod(variable.shape or ())
 
 

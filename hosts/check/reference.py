@@ -22,7 +22,7 @@ from hosts.driving.co_simulation import run_with_bar
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
-from hosts.driving.manoeuvre_table import read_table
+from hosts.driving.manoeuvre_table import read_table, recorded_step
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.fmu.fmu import Fmu
@@ -259,7 +259,11 @@ def _read(
 ) -> tuple[Manoeuvre, NDArray[np.float64], dict[str, NDArray[np.float64]], list[str]]:
     """What drives the FMU, times and outputs of the table, and columns that the FMU does not have."""
     drives, outputs = {*fmu.names("input"), *fmu.tunable}, set(fmu.names("output"))
-    driven = read_table(file, drives) if manoeuvre is None else load_manoeuvre(manoeuvre)
+    if manoeuvre is None:
+        driven = read_table(file, drives)
+    else:
+        driven = load_manoeuvre(manoeuvre)
+        driven = replace(driven, step=recorded_step(file) or driven.step)
     table = TextTable(file, HostError)
     values = table.values()
     columns = {n: values[:, k] for k, n in enumerate(table.names) if n in outputs}

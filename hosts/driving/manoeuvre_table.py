@@ -119,6 +119,11 @@ class _Record:
     lost: tuple[str, ...] = ()
 
 
+def recorded_step(path: Path) -> float | None:
+    """The communication step of the run whose result a table is, s; None where no record beside it says it."""
+    return _record_of(path).step
+
+
 def _record_of(path: Path) -> _Record:
     file = path.with_suffix(".json")
     try:

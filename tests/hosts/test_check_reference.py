@@ -77,6 +77,16 @@ def test_a_signal_beyond_its_bound_is_named(
     assert ("1 beyond their bounds" in done.stdout) == bool(code)
 
 
+def test_what_drives_it_in_place_of_the_table_does_so_at_the_step_of_the_table(fmu: Path, tmp_path: Path) -> None:
+    """Rows are every 0.1 s, the step of their run was neither that nor the FMU's."""
+    given = tmp_path / "given.csv"
+    given.write_text('"time","pull"\n0,0\n0.4,30\n1,0\n')
+    assert run(run_main, fmu, "-m", given, "--step", 0.02, "--interval", 0.1, "--out", tmp_path).returncode == 0
+    done = run(main, fmu, "-m", given, "--reference", tmp_path / "tuned_given.csv", "--bound", "*=1e-6")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "in steps of 0.02 s" in done.stdout
+
+
 def test_without_a_bound_the_usual_one_is_told(fmu: Path, result: Path) -> None:
     assert "the bound is 1 % of the range of each" in run(main, fmu, "--reference", result).stdout
 
