@@ -78,7 +78,7 @@ static void place_tabled(ali3_lane_group *g, ali3_pool *pool) {
   g->tabled_parameter = items(g, pool, (size_t)S->n_tabled_parameter * (sizeof *g->tabled_parameter / sizeof(double)));
   g->tabled_square = items(g, pool, (size_t)S->tabled_square);
   for (int k = 0; k < 3; k++) g->extended[k] = items(g, pool, extended);
-  g->extended_force = items(g, pool, (size_t)S->n_dependent);
+  g->extended_force = items(g, pool, extended);
 }
 
 static bool has_law(const ali3_element_type *type) {

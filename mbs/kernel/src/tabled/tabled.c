@@ -186,12 +186,13 @@ static void back(const ali3_tabled *c, const ali3_tabled_work *w, const real *f,
 
 void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q) {
   const ali3_system *S = in->system;
+  memcpy(Q, in->extended_force, (size_t)S->size.nq * sizeof *Q);
   ali3_tabled_inertia_forces(in, qd, Q);
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     ali3_tabled_work *w = work_of(in, i);
     if (c->n_seen == 0) continue;
-    memcpy(w->force, in->extended_force + c->first, (size_t)c->n * sizeof *w->force);
+    memcpy(w->force, in->extended_force + S->size.nq + c->first, (size_t)c->n * sizeof *w->force);
     back(c, w, w->force, Q);
   }
 }

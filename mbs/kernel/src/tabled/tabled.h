@@ -78,6 +78,7 @@ void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, 
 /* X of a change D of coordinates that ends where was prepared, behind D in in->extended[0]: to second order, of vectors
  * that elements see. */
 void ali3_tabled_way(const ali3_instance *in, const real *D);
+/* Q of the forces on coordinates and dependents in in->extended_force, with weight and inertia. */
 void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q);
 
 static inline bool ali3_tabled_heavy(const ali3_tabled *c) { return c->n == ALI3_TABLED_BODY && c->mass[0] > 0.0; }
