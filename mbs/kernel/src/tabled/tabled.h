@@ -37,6 +37,10 @@ struct ali3_tabled_parameter {
   int32_t column, loc; /* the coordinate, its place in the front of the base */
 };
 
+typedef struct {
+  uint8_t n, signal[ALI3_TABLED_SIGNALS];
+} ali3_tabled_list;
+
 /* Elements of one front with signals of the same dependents. */
 struct ali3_tabled_group {
   int32_t front, first, end;          /* elements: tabled_order[first .. end) */
@@ -44,6 +48,8 @@ struct ali3_tabled_group {
   int32_t n_item, item[ALI3_TABLED_ITEMS], slot[ALI3_TABLED_ITEMS][ALI3_TABLED_COLUMNS]; /* of an item's coordinates */
   int32_t n_signal, signal[ALI3_TABLED_SIGNALS]; /* of all of them */
   int32_t entry[ALI3_TABLED_SIGNALS], n_entry[ALI3_TABLED_SIGNALS]; /* of a signal, as one of its elements has them */
+  /* which signals: of those that share an element with a signal, of those that a coordinate moves */
+  ali3_tabled_list beside[ALI3_TABLED_SIGNALS], moved[ALI3_TABLED_MOST];
 };
 
 /* Of the rows of its matrices. */

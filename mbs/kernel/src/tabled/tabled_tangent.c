@@ -123,16 +123,15 @@ static truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, real *
   return idle;
 }
 
-/* to (m, from `first` on) = sum of n rows by factors that are `step` apart; zeros are passed over. */
-static void blend(int32_t n, int32_t m, int32_t first, const real *factor, int32_t step, const real *restrict rows,
-                  real *restrict to) {
+/* to (m, from `first` on) = sum of the rows in the list by their factors, which are `step` apart. */
+static void blend(const ali3_tabled_list *list, int32_t m, int32_t first, const real *factor, int32_t step,
+                  const real *restrict rows, real *restrict to) {
   for (int32_t at = first / CHUNK * CHUNK; at < m; at += CHUNK) {
     real sum[CHUNK];
     for (int k = 0; k < CHUNK; k++) sum[k] = ali3_same(0.0);
-    for (int32_t i = 0; i < n; i++) {
-      const real f = factor[i * step];
-      if (!ali3_any(f != 0.0)) continue;
-      for (int k = 0; k < CHUNK; k++) sum[k] += f * rows[i * m + at + k];
+    for (int32_t i = 0; i < list->n; i++) {
+      const real f = factor[list->signal[i] * step], *restrict row = rows + list->signal[i] * m + at;
+      for (int k = 0; k < CHUNK; k++) sum[k] += f * row[k];
     }
     for (int k = 0; k < CHUNK; k++) to[at + k] = sum[k];
   }
@@ -147,10 +146,10 @@ static void add_group(ali3_instance *in, const ali3_tabled_group *of, real *F) {
   const truth idle = sum_of(in, of, sum);
   if (!ali3_any(ali3_not(idle))) return;
   rows_of(in, of, m, B);
-  for (int32_t i = 0; i < n; i++) blend(n, m, 0, sum + i * n, 1, B, SB + i * m);
+  for (int32_t i = 0; i < n; i++) blend(of->beside + i, m, 0, sum + i * n, 1, B, SB + i * m);
   for (int32_t j = 0; j < of->m; j++) {
     real *column = block + (int64_t)of->loc[j] * size;
-    blend(n, m, j, B + j, m, SB, row);
+    blend(of->moved + j, m, j, B + j, m, SB, row);
     for (int32_t i = j; i < of->m; i++) column[of->loc[i]] = ali3_add_unless(idle, column[of->loc[i]], row[i]);
   }
 }
