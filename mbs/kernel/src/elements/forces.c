@@ -107,8 +107,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     if (in->idle[e]) continue;
     for (int32_t i = 0; i < S->el_sig_ptr[e + 1] - S->el_sig_ptr[e]; i++) {
       const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
-      for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++)
-        Q[S->sig_col[k]] += S->sig_val[k] * f[i];
+      for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) Q[S->sig_col[k]] += S->sig_val[k] * f[i];
     }
   }
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);

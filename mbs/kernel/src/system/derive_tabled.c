@@ -188,8 +188,8 @@ static void derive_entries(ali3_system *s, int32_t e, ali3_tabled_group *group) 
     for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, at++, loc++) {
       const int32_t d = s->sig_col[k] - s->size.nq;
       s->el_entry_dependent[at] = d < 0 ? -1 : d - s->tabled[owner(s, d)].first;
-      s->el_entry_local[at] = d < 0 ? ali3_find(group->loc, group->m, *loc)
-                                    : place_of(group->item, group->n_item, owner(s, d));
+      s->el_entry_local[at] =
+          d < 0 ? ali3_find(group->loc, group->m, *loc) : place_of(group->item, group->n_item, owner(s, d));
     }
   }
 }

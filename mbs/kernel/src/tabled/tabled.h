@@ -59,15 +59,15 @@ static inline int32_t ali3_tabled_stride(const ali3_tabled_group *of) {
 
 struct ali3_tabled_work { /* what ali3_tabled_prepare leaves of an item; its members are numbers of each lane */
   real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]; /* functions, their derivatives by a, b, aa, ab, bb */
-  real by[2][ALI3_TABLED_BODY];                     /* dX/da, dX/db, of vectors that are seen */
-  real inertia[3], twist[3];                        /* T_p J T_q of the parameters aa, ab, bb; of T_a J T_b' (2 3), ... */
-  real force[ALI3_TABLED_BODY];                     /* of elements on X, of the last ali3_tabled_forces */
+  real by[2][ALI3_TABLED_BODY]; /* dX/da, dX/db, of vectors that are seen */
+  real inertia[3], twist[3]; /* T_p J T_q of the parameters aa, ab, bb; of T_a J T_b' (2 3), ... */
+  real force[ALI3_TABLED_BODY]; /* of elements on X, of the last ali3_tabled_forces */
 };
 
 struct ali3_tabled_base_work {
-  real axes[9];    /* Y */
+  real axes[9]; /* Y */
   real mass[4][4]; /* sum of T J T' */
-  real force[12];  /* scratch */
+  real force[12]; /* scratch */
 };
 
 struct ali3_tabled_parameter_work {
@@ -76,7 +76,7 @@ struct ali3_tabled_parameter_work {
 
 /* Whether a coordinate of in->now is beyond its table by more than a spacing: along a tangent a body is none there. */
 bool ali3_tabled_left(const ali3_instance *in);
-void ali3_tabled_table(const ali3_tabled *c, double a, double b, double value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]);
+void ali3_tabled_table(const ali3_tabled *c, real a, real b, real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]);
 void ali3_tabled_prepare(const ali3_instance *in, const real *q);
 /* in->extended[0 .. 2]: q, qd, qdd (NULL: left) with the dependents behind them, all or those that elements see;
  * prepared at q. */

@@ -42,8 +42,8 @@ static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, r
   memset(f, 0, sizeof f);
   for (int v = 0; body && v < 4; v++)
     for (int k = 0; heavy && k < 3; k++)
-      f[3 * v + k] = c->mass[v] * (axes[3 * k] * c->gravity[0] + axes[3 * k + 1] * c->gravity[1] +
-                                   axes[3 * k + 2] * c->gravity[2]);
+      f[3 * v + k] = c->mass[v] *
+                     (axes[3 * k] * c->gravity[0] + axes[3 * k + 1] * c->gravity[1] + axes[3 * k + 2] * c->gravity[2]);
   for (int32_t n = 0; body && n < c->n_seen; n++) {
     const real *force = w->force + 3 * c->seen[n];
     for (int k = 0; k < 3; k++)
@@ -142,7 +142,8 @@ static void add_group(ali3_instance *in, const ali3_tabled_group *of, real *F) {
   const ali3_system *S = in->system;
   const int32_t size = S->front_ptr[of->front + 1] - S->front_ptr[of->front];
   const int32_t n = of->n_signal, m = ali3_tabled_stride(of);
-  real *block = F + S->front_off[of->front], *sum = in->tabled_square, *B = sum + n * n, *SB = B + n * m, *row = SB + n * m;
+  real *block = F + S->front_off[of->front], *sum = in->tabled_square, *B = sum + n * n, *SB = B + n * m,
+       *row = SB + n * m;
   const truth idle = sum_of(in, of, sum);
   if (!ali3_any(ali3_not(idle))) return;
   rows_of(in, of, m, B);
