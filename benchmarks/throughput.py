@@ -1,8 +1,9 @@
 """Cars a core: ``python -m benchmarks.throughput [--json FILE]``.
 
-Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms, with links and by tables (fidelity 10): one
-after the other, in lanes of each width that the processor has, and in the widest lanes on all cores. Each way makes a part of the same steps in turn, so
-that ratios hold on a busy machine; seconds are those in which its threads had a core.
+Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms, with links and by tables (fidelity 10):
+one after the other, in lanes of each width that the processor has, and in the widest lanes on all cores. Each way makes
+a part of the same steps in turn, so that ratios hold on a busy machine; seconds are those in which its threads had a
+core.
 """
 
 from __future__ import annotations

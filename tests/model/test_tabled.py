@@ -91,8 +91,8 @@ def one_by_joint(gravity: float = 9.81) -> System:
     return compile(watch(m, base, arm))
 
 
-def two_by_table(damping: float = 0.0) -> System:
-    """A chain of two, the second one over both angles."""
+def two_by_table(damping: float = 0.0, *, beside: bool = False) -> System:
+    """A chain of two, the second one over both angles; `beside`: a spring from it to another body."""
     m = Model("tables")
     base = base_of(m)
     swing, bend = m.travel("swing", unit="rad", rate=SWING), m.travel("bend", unit="rad", rate=BEND)
@@ -110,6 +110,9 @@ def two_by_table(damping: float = 0.0) -> System:
         com=HAND,
         inertia=TIP,
     )
+    if beside:
+        other = m.body("beside", mass=1.0, com=(0.4, 0.3, -2.0), inertia=TIP)
+        m.spring_damper("pull", (tip, HAND), (other, (0.3, 0.1, -2.1)), stiffness=6.0, free_length=0.4)
     return compile(watch(m, base, tip, damping))
 
 
@@ -207,9 +210,11 @@ def test_angular_momentum_is_kept_as_far_as_the_table_is_a_rotation() -> None:
     assert changes[1] < 2e-8
 
 
-def test_the_tangent_is_that_of_differences() -> None:
+@pytest.mark.parametrize("beside", [False, True])
+def test_the_tangent_is_that_of_differences(beside: bool) -> None:
     """At rest, T(h) = M + h^2/4 K + what h does not change; springs, weight and the bends of tables are in K."""
-    simulation = Simulation(two_by_table())
+    simulation = Simulation(two_by_table(beside=beside))
+    rows = simulation.system.meta["report"]["rows"]
     q = np.array(simulation.state.q)
     instance, n = simulation.instance, len(q)
     evaluate, still, shift = instance.evaluate, [0.0] * n, 1e-6
@@ -220,7 +225,7 @@ def test_the_tangent_is_that_of_differences() -> None:
     K = np.array([(force(q - d) - force(q + d)) / (2.0 * shift) for d in shift * np.eye(n)])
     instance.set_q(q.tolist(), still)
     instance.initialise()
-    long, short = (np.reshape(instance.tangent(h, [0.0] * 6), (n, n)) for h in (0.2, 0.1))
+    long, short = (np.reshape(instance.tangent(h, [0.0] * rows), (n, n)) for h in (0.2, 0.1))
     found = (long - short) / (0.25 * (0.2**2 - 0.1**2))
     assert np.abs(K - K.T).max() < 1e-6 * np.abs(K).max()
     assert np.abs(found - K).max() < 1e-6 * np.abs(K).max()

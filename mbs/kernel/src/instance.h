@@ -101,7 +101,7 @@ struct ali3_instance {
   ali3_tabled_base_work *tabled_base;
   ali3_tabled_parameter_work *tabled_parameter;
   double *tabled_square; /* of one group of elements */
-  double *extended[3], *extended_force; /* q, qd, qdd with the dependents behind them; forces on dependents */
+  double *extended[3], *extended_force; /* q, qd, qdd and forces on them, with the dependents behind */
   double wC, wK; /* weights of the last forces */
   /* of radau.c, empty where there are element states or filtered guides: stages of the rows, of Phi_q, of where the
    * tangent saw it, of corrections */

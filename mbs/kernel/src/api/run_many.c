@@ -54,8 +54,8 @@ void ali3_many_free(ali3_many *many) {
 
 /* Whether lanes make steps of this System with these settings: those of ALi3-P as it is by default. */
 static bool taken(const ali3_system *s, const ali3_settings *settings) {
-  return s->n_flexible == 0 && s->size.n_switch == 0 && settings->method == ALI3_METHOD_ALI3P &&
-         settings->project && settings->update == ALI3_UPDATE_LINEARISED && settings->step_iterations == 0;
+  return s->n_flexible == 0 && s->size.n_switch == 0 && settings->method == ALI3_METHOD_ALI3P && settings->project &&
+         settings->update == ALI3_UPDATE_LINEARISED && settings->step_iterations == 0;
 }
 
 /* A step that has begun: lane l of the group from in->now. False: the instance must make it alone. */

@@ -83,24 +83,12 @@ static void look(ali3_instance *in, const double *q, const double *qd) {
   ali3_active_signals(in, q, qd);
 }
 
-/* Forces f of element e to coordinates and dependents. */
-static void spread(ali3_instance *in, int32_t e, const double *f, double *Q) {
-  const ali3_system *S = in->system;
-  const int32_t nq = S->size.nq;
-  for (int32_t i = 0; i < S->el_sig_ptr[e + 1] - S->el_sig_ptr[e]; i++) {
-    const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
-    for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) {
-      const int32_t to = S->sig_col[k];
-      *(to < nq ? Q + to : in->extended_force + (to - nq)) += S->sig_val[k] * f[i];
-    }
-  }
-}
-
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
+  double *Q = S->n_tabled > 0 ? in->extended_force : call->Q; /* with those on dependents behind */
   look(in, call->q, call->qd);
-  memcpy(call->Q, in->gravity_force, (size_t)S->size.nq * sizeof(double));
+  memcpy(Q, in->gravity_force, (size_t)S->size.nq * sizeof(double));
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, call->q);
     ali3_flexible_forces(in, call->q, call->qd, call->Q);
@@ -108,7 +96,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     in->wK = call->wK;
   }
   if (S->n_tabled > 0) {
-    memset(in->extended_force, 0, (size_t)S->n_dependent * sizeof(double));
+    memset(Q + S->size.nq, 0, (size_t)S->n_dependent * sizeof(double));
     in->wC = call->wC;
     in->wK = call->wK;
   }
@@ -117,14 +105,9 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     local(in, e, u, ud);
     in->idle[e] = ali3_element_forces(in, call, e, u, ud, f, tangent) ? 1 : 0;
     if (in->idle[e]) continue;
-    if (S->n_tabled > 0) {
-      spread(in, e, f, call->Q);
-      continue;
-    }
     for (int32_t i = 0; i < S->el_sig_ptr[e + 1] - S->el_sig_ptr[e]; i++) {
       const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
-      for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++)
-        call->Q[S->sig_col[k]] += S->sig_val[k] * f[i];
+      for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) Q[S->sig_col[k]] += S->sig_val[k] * f[i];
     }
   }
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);

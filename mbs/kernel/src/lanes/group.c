@@ -47,8 +47,7 @@ static void place_step(ali3_lane_group *g, ali3_pool *pool) {
     *of_coordinates[k] = items(g, pool, (size_t)z->nq);
   for (size_t k = 0; k < sizeof of_rows / sizeof *of_rows; k++) *of_rows[k] = items(g, pool, (size_t)z->nc);
   g->guide_mean = items(g, pool, (size_t)z->ng);
-  g->discarded =
-      ali3_pool_array(pool, ali3_vector_count(g->system) + (size_t)g->system->n_tabled_base * BASE_NUMBERS);
+  g->discarded = ali3_pool_array(pool, ali3_vector_count(g->system) + (size_t)g->system->n_tabled_base * BASE_NUMBERS);
 }
 
 static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
@@ -78,7 +77,7 @@ static void place_tabled(ali3_lane_group *g, ali3_pool *pool) {
   g->tabled_parameter = items(g, pool, (size_t)S->n_tabled_parameter * (sizeof *g->tabled_parameter / sizeof(double)));
   g->tabled_square = items(g, pool, (size_t)S->tabled_square);
   for (int k = 0; k < 3; k++) g->extended[k] = items(g, pool, extended);
-  g->extended_force = items(g, pool, (size_t)S->n_dependent);
+  g->extended_force = items(g, pool, extended);
 }
 
 static bool has_law(const ali3_element_type *type) {

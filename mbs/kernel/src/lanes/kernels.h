@@ -57,6 +57,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_energy_size ALI3_LANED(energy_size)
 #define ali3_lagrange ALI3_LANED(lagrange)
 #define ali3_work_ways ALI3_LANED(work_ways)
+#define ali3_tabled_table ALI3_LANED(tabled_table)
 #define ali3_tabled_prepare ALI3_LANED(tabled_prepare)
 #define ali3_tabled_extend ALI3_LANED(tabled_extend)
 #define ali3_tabled_way ALI3_LANED(tabled_way)
@@ -80,6 +81,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #include "../rows/constraints.c"
 #include "../rows/velocity_rows.c"
 #include "../state/work_ways.c"
+#include "../tabled/table.c"
 #include "../tabled/tabled.c"
 #include "../tabled/tabled_inertia.c"
 #include "../tabled/tabled_tangent.c"

@@ -66,14 +66,14 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
   if (S->n_tabled > 0) {
     ali3_tabled_prepare(in, q);
     ali3_tabled_extend(in, q, qd, NULL, false);
-    memset(in->extended_force, 0, (size_t)S->n_dependent * sizeof *in->extended_force);
+    memset(in->extended_force + nq, 0, (size_t)S->n_dependent * sizeof *q);
     q = in->extended[0], qd = in->extended[1];
   }
   ali3_active_signals(in, q, qd);
   elements(in, lanes, tangent);
   const int32_t *ptr = S->sig_ptr, *col = S->sig_col, *el_sig = S->el_sig;
   const double *val = S->sig_val;
-  real *Q = in->Q;
+  real *Q = S->n_tabled > 0 ? in->extended_force : in->Q; /* with those on dependents behind */
   const real *f = in->f;
   memcpy(Q, in->gravity_force, (size_t)nq * sizeof *Q);
   for (int32_t e = 0; e < S->size.ne; e++) {
@@ -82,13 +82,11 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
     for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
       const int32_t signal = el_sig[i];
       const real force = f[i];
-      for (int32_t k = ptr[signal]; k < ptr[signal + 1]; k++) {
-        real *to = col[k] < nq ? Q + col[k] : in->extended_force + (col[k] - nq);
-        *to = ali3_add_unless(idle, *to, val[k] * force);
-      }
+      for (int32_t k = ptr[signal]; k < ptr[signal + 1]; k++)
+        Q[col[k]] = ali3_add_unless(idle, Q[col[k]], val[k] * force);
     }
   }
-  if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, Q);
+  if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->Q);
 }
 
 static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {

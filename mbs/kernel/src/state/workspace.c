@@ -126,7 +126,7 @@ static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->tabled_parameter = ali3_pool_items(p, (size_t)s->n_tabled_parameter, sizeof *in->tabled_parameter);
   in->tabled_square = ali3_pool_array(p, (size_t)s->tabled_square);
   for (int k = 0; k < 3; k++) in->extended[k] = ali3_pool_array(p, extended);
-  in->extended_force = ali3_pool_array(p, (size_t)s->n_dependent);
+  in->extended_force = ali3_pool_array(p, extended);
   in->y_work = ali3_pool_array(p, (size_t)z->ny);
   in->out_work = ali3_pool_array(p, (size_t)z->nout);
   in->potential_work = ali3_pool_array(p, (size_t)z->ne);

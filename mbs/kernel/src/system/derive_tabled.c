@@ -188,10 +188,37 @@ static void derive_entries(ali3_system *s, int32_t e, ali3_tabled_group *group) 
     for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, at++, loc++) {
       const int32_t d = s->sig_col[k] - s->size.nq;
       s->el_entry_dependent[at] = d < 0 ? -1 : d - s->tabled[owner(s, d)].first;
-      s->el_entry_local[at] = d < 0 ? ali3_find(group->loc, group->m, *loc)
-                                    : place_of(group->item, group->n_item, owner(s, d));
+      s->el_entry_local[at] =
+          d < 0 ? ali3_find(group->loc, group->m, *loc) : place_of(group->item, group->n_item, owner(s, d));
     }
   }
+}
+
+static void list_once(ali3_tabled_list *list, int32_t signal) {
+  for (int32_t i = 0; i < list->n; i++)
+    if (list->signal[i] == signal) return;
+  list->signal[list->n++] = (uint8_t)signal;
+}
+
+/* Which entries of the matrices of a group are ever other than zero. */
+static void derive_lists(const ali3_system *s, ali3_tabled_group *group) {
+  for (int32_t o = group->first; o < group->end; o++) {
+    const int32_t e = s->tabled_order[o];
+    for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++)
+      for (int32_t k = s->el_sig_ptr[e]; k < s->el_sig_ptr[e + 1]; k++)
+        list_once(group->beside + s->tabled_signal[i], s->tabled_signal[k]);
+  }
+  for (int32_t i = 0; i < group->n_signal; i++)
+    for (int32_t k = group->entry[i], end = k + group->n_entry[i]; k < end; k++) {
+      const int32_t d = s->el_entry_dependent[k], local = s->el_entry_local[k];
+      const ali3_tabled *c = d < 0 ? NULL : s->tabled + group->item[local];
+      if (c == NULL) list_once(group->moved + local, i);
+      for (int32_t n = 0; c != NULL && n < ALI3_TABLED_COLUMNS; n++) {
+        const bool base = n < 12, same_axis = c->n == ALI3_TABLED_BODY && n % 3 == d % 3, place = n < 3 && d >= 3;
+        if (group->slot[local][n] >= 0 && (!base || (same_axis && !place)))
+          list_once(group->moved + group->slot[local][n], i);
+      }
+    }
 }
 
 static void derive_group(ali3_system *s, int32_t g) {
@@ -208,6 +235,7 @@ static void derive_group(ali3_system *s, int32_t g) {
     s->tabled_order[group->end++] = e;
     derive_entries(s, e, group);
   }
+  derive_lists(s, group);
   const int32_t m = ali3_tabled_stride(group), n = group->n_signal, work = n * n + (2 * n + 1) * m;
   if (work > s->tabled_square) s->tabled_square = work;
 }

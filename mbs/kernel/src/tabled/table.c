@@ -1,74 +1,106 @@
 /* Functions of one or two parameters as uniform cubic B-splines: twice continuously differentiable. Beyond the ends of
  * its table a function goes on along its tangent. */
-#include <math.h>
-#include <string.h>
-
 #include "tabled.h"
 
 enum { WINDOW = 4 }; /* control points that a place depends on */
+#ifdef ALI3_WIDTH
+enum { LANES = ALI3_WIDTH };
+#else
+enum { LANES = 1 };
+#endif
 
 typedef struct {
-  int32_t cell;
-  double w[3][WINDOW]; /* weights of the value and of its two derivatives */
+  int32_t cell[LANES];
+  real w[3][WINDOW]; /* weights of the value and of its two derivatives */
 } window;
 
-static window at(const double *axis, int32_t count, double x) {
+/* The cell of each lane, at most `last`, also as a number. */
+static inline real cell_of(real place, int32_t last, int32_t cell[LANES]) {
+#ifdef ALI3_WIDTH
+  for (int l = 0; l < LANES; l++) {
+    cell[l] = (int32_t)place[l] < last ? (int32_t)place[l] : last;
+    place[l] = cell[l];
+  }
+  return place;
+#else
+  cell[0] = (int32_t)place < last ? (int32_t)place : last;
+  return cell[0];
+#endif
+}
+
+/* A number of each lane's control points. */
+static inline real pick(const double *const point[LANES], int64_t at) {
+#ifdef ALI3_WIDTH
+  real x;
+  for (int l = 0; l < LANES; l++) x[l] = point[l][at];
+  return x;
+#else
+  return point[0][at];
+#endif
+}
+
+static inline window at(const double *axis, int32_t count, real x) {
   window n;
-  const double per = 1.0 / axis[1], place = (x - axis[0]) / axis[1];
-  const int32_t last = count - WINDOW; /* the last cell */
-  const double held = fmin(fmax(place, 0.0), (double)(last + 1)); /* NaN: the first cell, and NaN as weights */
-  n.cell = (int32_t)held;
-  if (n.cell > last) n.cell = last;
-  const double s = held - n.cell, r = 1.0 - s, beyond = place - held;
-  const double value[WINDOW] = {r * r * r / 6.0, (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0,
-                                (4.0 - 6.0 * r * r + 3.0 * r * r * r) / 6.0, s * s * s / 6.0};
-  const double first[WINDOW] = {-0.5 * r * r, s * (1.5 * s - 2.0), r * (2.0 - 1.5 * r), 0.5 * s * s};
-  const double second[WINDOW] = {r, 3.0 * s - 2.0, 3.0 * r - 2.0, s};
+  const double per = 1.0 / axis[1], end = count - WINDOW + 1;
+  const real place = (x - axis[0]) / axis[1], from = ali3_where(place > 0.0, place, ali3_same(0.0)),
+             held = ali3_where(from < end, from, ali3_same(end)); /* NaN: the first cell, and NaN as weights */
+  const real s = held - cell_of(held, count - WINDOW, n.cell), r = 1.0 - s, beyond = place - held;
+  const real value[WINDOW] = {r * r * r / 6.0, (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0,
+                              (4.0 - 6.0 * r * r + 3.0 * r * r * r) / 6.0, s * s * s / 6.0};
+  const real first[WINDOW] = {-0.5 * r * r, s * (1.5 * s - 2.0), r * (2.0 - 1.5 * r), 0.5 * s * s};
+  const real second[WINDOW] = {r, 3.0 * s - 2.0, 3.0 * r - 2.0, s};
   for (int i = 0; i < WINDOW; i++) {
     n.w[0][i] = value[i] + beyond * first[i];
     n.w[1][i] = per * first[i];
-    n.w[2][i] = beyond == 0.0 ? per * per * second[i] : 0.0 * beyond;
+    n.w[2][i] = ali3_where(beyond == 0.0, per * per * second[i], 0.0 * beyond);
   }
   return n;
 }
 
-/* Sum of four numbers, `step` apart, by their weights. */
-static inline double blend(const double w[WINDOW], const double *x, int64_t step) {
-  return (w[0] * x[0] + w[1] * x[step]) + (w[2] * x[2 * step] + w[3] * x[3 * step]);
+static inline real weighed(const real w[WINDOW], const real x[WINDOW]) {
+  return (w[0] * x[0] + w[1] * x[1]) + (w[2] * x[2] + w[3] * x[3]);
 }
 
-static inline void along_one(int32_t n, const window *x, const double *restrict point,
-                             double value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+static inline void along_one(int32_t n, const window *x, const double *const point[LANES],
+                             real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
   for (int32_t i = 0; i < n; i++) {
-    value[0][i] = blend(x->w[0], point + i, n);
-    value[ALI3_BY_A][i] = blend(x->w[1], point + i, n);
-    value[ALI3_BY_AA][i] = blend(x->w[2], point + i, n);
+    const real v[WINDOW] = {pick(point, i), pick(point, n + i), pick(point, 2 * n + i), pick(point, 3 * n + i)};
+    value[0][i] = weighed(x->w[0], v);
+    value[ALI3_BY_A][i] = weighed(x->w[1], v);
+    value[ALI3_BY_AA][i] = weighed(x->w[2], v);
   }
 }
 
 /* `row`: from one control point along the first parameter to the next. */
-static inline void along_two(int32_t n, int64_t row, const window *x, const window *y, const double *restrict point,
-                             double value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+static inline void along_two(int32_t n, int64_t row, const window *x, const window *y, const double *const point[LANES],
+                             real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
   for (int32_t i = 0; i < n; i++) {
-    const double *p0 = point + i, *p1 = p0 + row, *p2 = p1 + row, *p3 = p2 + row;
-    const double v[WINDOW] = {blend(y->w[0], p0, n), blend(y->w[0], p1, n), blend(y->w[0], p2, n), blend(y->w[0], p3, n)};
-    const double d[WINDOW] = {blend(y->w[1], p0, n), blend(y->w[1], p1, n), blend(y->w[1], p2, n), blend(y->w[1], p3, n)};
-    const double b[WINDOW] = {blend(y->w[2], p0, n), blend(y->w[2], p1, n), blend(y->w[2], p2, n), blend(y->w[2], p3, n)};
-    value[0][i] = blend(x->w[0], v, 1);
-    value[ALI3_BY_A][i] = blend(x->w[1], v, 1);
-    value[ALI3_BY_B][i] = blend(x->w[0], d, 1);
-    value[ALI3_BY_AA][i] = blend(x->w[2], v, 1);
-    value[ALI3_BY_AB][i] = blend(x->w[1], d, 1);
-    value[ALI3_BY_BB][i] = blend(x->w[0], b, 1);
+    real v[WINDOW], d[WINDOW], b[WINDOW];
+    for (int k = 0; k < WINDOW; k++) {
+      const int64_t from = k * row + i;
+      const real p[WINDOW] = {pick(point, from), pick(point, from + n), pick(point, from + 2 * n),
+                              pick(point, from + 3 * n)};
+      v[k] = weighed(y->w[0], p);
+      d[k] = weighed(y->w[1], p);
+      b[k] = weighed(y->w[2], p);
+    }
+    value[0][i] = weighed(x->w[0], v);
+    value[ALI3_BY_A][i] = weighed(x->w[1], v);
+    value[ALI3_BY_B][i] = weighed(x->w[0], d);
+    value[ALI3_BY_AA][i] = weighed(x->w[2], v);
+    value[ALI3_BY_AB][i] = weighed(x->w[1], d);
+    value[ALI3_BY_BB][i] = weighed(x->w[0], b);
   }
 }
 
 /* The loops of a body have a length that the compiler knows. */
-void ali3_tabled_table(const ali3_tabled *c, double a, double b, double value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+void ali3_tabled_table(const ali3_tabled *c, real a, real b, real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
   const window x = at(c->axis, c->count[0], a);
   const bool body = c->n == ALI3_TABLED_BODY;
+  const int64_t row = (int64_t)c->count[1] * c->n;
+  const double *point[LANES];
+  for (int l = 0; l < LANES; l++) point[l] = c->coef + x.cell[l] * row;
   if (c->count[1] == 1) {
-    const double *point = c->coef + (int64_t)x.cell * c->n;
     if (body)
       along_one(ALI3_TABLED_BODY, &x, point, value);
     else
@@ -76,8 +108,7 @@ void ali3_tabled_table(const ali3_tabled *c, double a, double b, double value[AL
     return;
   }
   const window y = at(c->axis + 2, c->count[1], b);
-  const int64_t row = (int64_t)c->count[1] * c->n;
-  const double *point = c->coef + x.cell * row + (int64_t)y.cell * c->n;
+  for (int l = 0; l < LANES; l++) point[l] += (int64_t)y.cell[l] * c->n;
   if (body)
     along_two(ALI3_TABLED_BODY, row, &x, &y, point, value);
   else

@@ -16,21 +16,6 @@ static void base_of(const ali3_tabled_base *b, const real *x, const double *fixe
   for (int i = 0; i < 12; i++) out[i] = b->frame[0] < 0 ? ali3_same(fixed[i]) : x[b->frame[i]];
 }
 
-static void look_up(const ali3_tabled *c, const real *q, ali3_tabled_work *w) {
-  const real a = parameter(c, 0, q), b = parameter(c, 1, q);
-#ifdef ALI3_WIDTH
-  const int32_t known = c->count[1] > 1 ? ALI3_TABLED_VALUES : ALI3_BY_AA + 1;
-  for (int l = 0; l < ALI3_WIDTH; l++) { /* each lane is in a cell of its own */
-    double value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY];
-    ali3_tabled_table(c, a[l], b[l], value);
-    for (int32_t d = 0; d < known; d++)
-      for (int32_t i = 0; (c->count[1] > 1 || d != ALI3_BY_B) && i < c->n; i++) w->value[d][i][l] = value[d][i];
-  }
-#else
-  ali3_tabled_table(c, a, b, w->value);
-#endif
-}
-
 void ali3_tabled_prepare(const ali3_instance *in, const real *q) {
   const ali3_system *S = in->system;
   for (int32_t b = 0; b < S->n_tabled_base; b++) {
@@ -44,7 +29,7 @@ void ali3_tabled_prepare(const ali3_instance *in, const real *q) {
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     ali3_tabled_work *w = work_of(in, i);
-    look_up(c, q, w);
+    ali3_tabled_table(c, parameter(c, 0, q), parameter(c, 1, q), w->value);
     if (c->n != ALI3_TABLED_BODY) {
       for (int p = 0; p < (c->count[1] > 1 ? 2 : 1); p++) w->by[p][0] = w->value[ALI3_BY_A + p][0];
       continue;
@@ -186,12 +171,13 @@ static void back(const ali3_tabled *c, const ali3_tabled_work *w, const real *f,
 
 void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q) {
   const ali3_system *S = in->system;
+  memcpy(Q, in->extended_force, (size_t)S->size.nq * sizeof *Q);
   ali3_tabled_inertia_forces(in, qd, Q);
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     ali3_tabled_work *w = work_of(in, i);
     if (c->n_seen == 0) continue;
-    memcpy(w->force, in->extended_force + c->first, (size_t)c->n * sizeof *w->force);
+    memcpy(w->force, in->extended_force + S->size.nq + c->first, (size_t)c->n * sizeof *w->force);
     back(c, w, w->force, Q);
   }
 }

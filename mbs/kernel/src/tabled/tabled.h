@@ -37,6 +37,10 @@ struct ali3_tabled_parameter {
   int32_t column, loc; /* the coordinate, its place in the front of the base */
 };
 
+typedef struct {
+  uint8_t n, signal[ALI3_TABLED_SIGNALS];
+} ali3_tabled_list;
+
 /* Elements of one front with signals of the same dependents. */
 struct ali3_tabled_group {
   int32_t front, first, end;          /* elements: tabled_order[first .. end) */
@@ -44,6 +48,8 @@ struct ali3_tabled_group {
   int32_t n_item, item[ALI3_TABLED_ITEMS], slot[ALI3_TABLED_ITEMS][ALI3_TABLED_COLUMNS]; /* of an item's coordinates */
   int32_t n_signal, signal[ALI3_TABLED_SIGNALS]; /* of all of them */
   int32_t entry[ALI3_TABLED_SIGNALS], n_entry[ALI3_TABLED_SIGNALS]; /* of a signal, as one of its elements has them */
+  /* which signals: of those that share an element with a signal, of those that a coordinate moves */
+  ali3_tabled_list beside[ALI3_TABLED_SIGNALS], moved[ALI3_TABLED_MOST];
 };
 
 /* Of the rows of its matrices. */
@@ -53,15 +59,15 @@ static inline int32_t ali3_tabled_stride(const ali3_tabled_group *of) {
 
 struct ali3_tabled_work { /* what ali3_tabled_prepare leaves of an item; its members are numbers of each lane */
   real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]; /* functions, their derivatives by a, b, aa, ab, bb */
-  real by[2][ALI3_TABLED_BODY];                     /* dX/da, dX/db, of vectors that are seen */
-  real inertia[3], twist[3];                        /* T_p J T_q of the parameters aa, ab, bb; of T_a J T_b' (2 3), ... */
-  real force[ALI3_TABLED_BODY];                     /* of elements on X, of the last ali3_tabled_forces */
+  real by[2][ALI3_TABLED_BODY]; /* dX/da, dX/db, of vectors that are seen */
+  real inertia[3], twist[3]; /* T_p J T_q of the parameters aa, ab, bb; of T_a J T_b' (2 3), ... */
+  real force[ALI3_TABLED_BODY]; /* of elements on X, of the last ali3_tabled_forces */
 };
 
 struct ali3_tabled_base_work {
-  real axes[9];    /* Y */
+  real axes[9]; /* Y */
   real mass[4][4]; /* sum of T J T' */
-  real force[12];  /* scratch */
+  real force[12]; /* scratch */
 };
 
 struct ali3_tabled_parameter_work {
@@ -70,7 +76,7 @@ struct ali3_tabled_parameter_work {
 
 /* Whether a coordinate of in->now is beyond its table by more than a spacing: along a tangent a body is none there. */
 bool ali3_tabled_left(const ali3_instance *in);
-void ali3_tabled_table(const ali3_tabled *c, double a, double b, double value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]);
+void ali3_tabled_table(const ali3_tabled *c, real a, real b, real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]);
 void ali3_tabled_prepare(const ali3_instance *in, const real *q);
 /* in->extended[0 .. 2]: q, qd, qdd (NULL: left) with the dependents behind them, all or those that elements see;
  * prepared at q. */
@@ -78,6 +84,7 @@ void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, 
 /* X of a change D of coordinates that ends where was prepared, behind D in in->extended[0]: to second order, of vectors
  * that elements see. */
 void ali3_tabled_way(const ali3_instance *in, const real *D);
+/* Q of the forces on coordinates and dependents in in->extended_force, with weight and inertia. */
 void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q);
 
 static inline bool ali3_tabled_heavy(const ali3_tabled *c) { return c->n == ALI3_TABLED_BODY && c->mass[0] > 0.0; }

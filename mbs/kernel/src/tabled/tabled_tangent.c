@@ -42,8 +42,8 @@ static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, r
   memset(f, 0, sizeof f);
   for (int v = 0; body && v < 4; v++)
     for (int k = 0; heavy && k < 3; k++)
-      f[3 * v + k] = c->mass[v] * (axes[3 * k] * c->gravity[0] + axes[3 * k + 1] * c->gravity[1] +
-                                   axes[3 * k + 2] * c->gravity[2]);
+      f[3 * v + k] = c->mass[v] *
+                     (axes[3 * k] * c->gravity[0] + axes[3 * k + 1] * c->gravity[1] + axes[3 * k + 2] * c->gravity[2]);
   for (int32_t n = 0; body && n < c->n_seen; n++) {
     const real *force = w->force + 3 * c->seen[n];
     for (int k = 0; k < 3; k++)
@@ -123,16 +123,15 @@ static truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, real *
   return idle;
 }
 
-/* to (m, from `first` on) = sum of n rows by factors that are `step` apart; zeros are passed over. */
-static void blend(int32_t n, int32_t m, int32_t first, const real *factor, int32_t step, const real *restrict rows,
-                  real *restrict to) {
+/* to (m, from `first` on) = sum of the rows in the list by their factors, which are `step` apart. */
+static void blend(const ali3_tabled_list *list, int32_t m, int32_t first, const real *factor, int32_t step,
+                  const real *restrict rows, real *restrict to) {
   for (int32_t at = first / CHUNK * CHUNK; at < m; at += CHUNK) {
     real sum[CHUNK];
     for (int k = 0; k < CHUNK; k++) sum[k] = ali3_same(0.0);
-    for (int32_t i = 0; i < n; i++) {
-      const real f = factor[i * step];
-      if (!ali3_any(f != 0.0)) continue;
-      for (int k = 0; k < CHUNK; k++) sum[k] += f * rows[i * m + at + k];
+    for (int32_t i = 0; i < list->n; i++) {
+      const real f = factor[list->signal[i] * step], *restrict row = rows + list->signal[i] * m + at;
+      for (int k = 0; k < CHUNK; k++) sum[k] += f * row[k];
     }
     for (int k = 0; k < CHUNK; k++) to[at + k] = sum[k];
   }
@@ -143,14 +142,15 @@ static void add_group(ali3_instance *in, const ali3_tabled_group *of, real *F) {
   const ali3_system *S = in->system;
   const int32_t size = S->front_ptr[of->front + 1] - S->front_ptr[of->front];
   const int32_t n = of->n_signal, m = ali3_tabled_stride(of);
-  real *block = F + S->front_off[of->front], *sum = in->tabled_square, *B = sum + n * n, *SB = B + n * m, *row = SB + n * m;
+  real *block = F + S->front_off[of->front], *sum = in->tabled_square, *B = sum + n * n, *SB = B + n * m,
+       *row = SB + n * m;
   const truth idle = sum_of(in, of, sum);
   if (!ali3_any(ali3_not(idle))) return;
   rows_of(in, of, m, B);
-  for (int32_t i = 0; i < n; i++) blend(n, m, 0, sum + i * n, 1, B, SB + i * m);
+  for (int32_t i = 0; i < n; i++) blend(of->beside + i, m, 0, sum + i * n, 1, B, SB + i * m);
   for (int32_t j = 0; j < of->m; j++) {
     real *column = block + (int64_t)of->loc[j] * size;
-    blend(n, m, j, B + j, m, SB, row);
+    blend(of->moved + j, m, j, B + j, m, SB, row);
     for (int32_t i = j; i < of->m; i++) column[of->loc[i]] = ali3_add_unless(idle, column[of->loc[i]], row[i]);
   }
 }
