@@ -89,7 +89,7 @@ class CoupledFmus:
             self._parts = [_part(name, fmu, wires) for name, fmu in fmus.items()]
             self._stack = stack.pop_all()
         if inputs == "repeated":
-            cannot = [p.name for p in self._parts if not p.fmu._can("canGetAndSetFMUstate")]
+            cannot = [p.name for p in self._parts if not p.fmu.description.coSimulation.canGetAndSetFMUstate]
             if cannot:
                 self.close()
                 raise HostError(f"The part '{cannot[0]}' cannot save its state; its steps cannot be repeated.")

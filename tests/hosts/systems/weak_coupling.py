@@ -1,10 +1,11 @@
 """How far cars wired to copies of their own parts in second FMUs are from the closed car, over the communication step.
 
-python -m tests.hosts.systems.weak_coupling
+python -m tests.hosts.systems.weak_coupling [PICTURE]
 """
 
 from __future__ import annotations
 
+import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,11 +13,13 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 from pythonfmu import FmuBuilder
 
 import mbs
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.systems import CoupledFmus
+from hosts.systems.coupled import Inputs, Order
 from mbs.vehicle import load
 from tests.hosts.systems.fmus.second_road import ANSWER
 from tests.hosts.systems.fmus.second_tyres import READ
@@ -109,7 +112,9 @@ def closed(name: str) -> tuple[np.ndarray, np.ndarray]:
     return np.array(loads), np.array(ways)
 
 
-def coupled(name: str, step: float, order: str = "in turn", inputs: str = "held") -> tuple[float, float, list[str]]:
+def coupled(
+    name: str, step: float, order: Order = "in turn", inputs: Inputs = "held"
+) -> tuple[float, float, list[str]]:
     """Error of the wheel loads, rms over their mean, and of the path over its length; what was said."""
     case = CASES[name]
     parts = {"car": car_fmu(case.car, case.ports), "partner": partner_fmu(case.partner)}
@@ -124,25 +129,46 @@ def coupled(name: str, step: float, order: str = "in turn", inputs: str = "held"
     return float(load), float(path), messages
 
 
-def main() -> None:
-    """Print the table."""
-    steps = (0.002, 0.004, 0.01)
-    print("| part | order | inputs | " + " | ".join(f"{1e3 * h:g} ms: loads, path" for h in steps) + " | order |")
-    print("| --- | --- | --- |" + " --- |" * (len(steps) + 1))
+STEPS = (0.002, 0.004, 0.01)
+WAYS: tuple[tuple[Order, Inputs], ...] = (
+    ("at once", "held"),
+    ("in turn", "held"),
+    ("in turn", "followed"),
+    ("in turn", "repeated"),
+)
+Errors = dict[tuple[str, str, str], list[tuple[float, float]]]
+
+
+def chart(errors: Errors, file: Path) -> None:
+    """Errors of the wheel loads over the communication step, a panel a part."""
+    figure = Figure(figsize=(9.0, 3.4), layout="constrained")
+    for panel, name in zip(figure.subplots(1, len(CASES), sharey=True), CASES, strict=True):
+        for order, inputs in WAYS:
+            loads = [100.0 * load for load, _ in errors[name, order, inputs]]
+            panel.loglog([1e3 * h for h in STEPS], loads, marker="o", label=f"{order}, {inputs}")
+        panel.set(title=name, xlabel="communication step, ms", xticks=[2, 4, 10], xticklabels=["2", "4", "10"])
+        panel.minorticks_off()
+        panel.grid(alpha=0.3)
+    figure.axes[0].set_ylabel("error of the wheel loads, rms, %")
+    figure.axes[0].legend(fontsize="small")
+    figure.savefig(file, dpi=90)
+
+
+def main(picture: str = "") -> None:
+    """Print the table, and draw it."""
+    print("| part | order | inputs | " + " | ".join(f"{1e3 * h:g} ms: loads, path" for h in STEPS) + " | order |")
+    print("| --- | --- | --- |" + " --- |" * (len(STEPS) + 1))
+    errors: Errors = {}
     for name in CASES:
-        for order, inputs in (
-            ("at once", "held"),
-            ("in turn", "held"),
-            ("in turn", "followed"),
-            ("in turn", "repeated"),
-        ):
-            found = [coupled(name, h, order, inputs) for h in steps]
+        for order, inputs in WAYS:
+            found = [coupled(name, h, order, inputs) for h in STEPS]
+            errors[name, order, inputs] = [(load, path) for load, path, _ in found]
             rate = np.log(found[1][0] / found[0][0]) / np.log(2.0)
             cells = " | ".join(f"{100 * a:.2g} %, {100 * b:.2g} %" for a, b, _ in found)
             print(f"| {name} | {order} | {inputs} | {cells} | {rate:.1f} |", flush=True)
-            for text in dict.fromkeys(t for f in found for t in f[2]):
-                print("   ", text)
+    if picture:
+        chart(errors, Path(picture))
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])
