@@ -30,7 +30,7 @@ class _Part:
     name: str
     fmu: Fmu
     wires: tuple[Wire, ...]
-    set: Callable[[Sequence[float]], None]
+    give: Callable[[Sequence[float]], None]
     set_slopes: Callable[[Sequence[float]], None] | None
     outputs: tuple[str, ...]
     read: Callable[[], list[float]]
@@ -211,9 +211,9 @@ class CoupledFmus:
     def _feed(self, p: _Part, first: Array, newest: Array, repeated: bool) -> None:
         """Inputs of a part over the step that follows: at its start, and as known at its end."""
         if p.set_slopes is None or self.inputs == "held":
-            p.set(newest.tolist())
+            p.give(newest.tolist())
             return
-        p.set(first.tolist())
+        p.give(first.tolist())
         slope = (newest - first) / self.step_length
         if not repeated:  # of what is not known yet, as in the last step
             before = np.zeros_like(first) if p.last is None else (first - p.last) / self.step_length

@@ -128,7 +128,7 @@ def run(
 def main() -> None:
     """Print by how much the measure at the end changes with the step, in parts of its change over the run."""
     steps = (0.002, 0.004, 0.01)
-    print("| system | measured at the end | " + " | ".join(f"{1e3 * h:g} ms" for h in steps) + " | order |")
+    print("| system | measured at the end | " + " | ".join(f"{1e3 * h:g} ms" for h in steps) + " | measured order |")
     print("| --- | --- |" + " --- |" * (len(steps) + 1))
     for name, case in SYSTEMS.items():
         finest = run(name, 0.001, inputs="followed")[case.measure]

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
+import subprocess
+import sys
+import zipfile
 from pathlib import Path
 
 import fmpy.ssp.ssd
@@ -109,8 +113,6 @@ def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str
 @pytest.mark.slow
 def test_libcosim_runs_the_ssp_as_the_own_master_does(tmp_path: Path) -> None:
     """It steps all at once; to round-off, as it counts its time in nanoseconds."""
-    import zipfile
-
     from libcosimpy.CosimExecution import CosimExecution
     from libcosimpy.CosimObserver import CosimObserver
 
@@ -159,3 +161,19 @@ def test_the_car_behind_keeps_its_distance_when_the_one_ahead_brakes() -> None:
     assert columns["controller.gap"].min() > 8.0
     wanted = 5.0 + 1.2 * columns["car.speed"][-1]
     assert columns["controller.gap"][-1] == pytest.approx(wanted, abs=2.0)
+
+
+@pytest.mark.slow
+def test_the_code_of_the_page_stops_where_it_says(tmp_path: Path) -> None:
+    root = Path(__file__).parents[3]
+    page = (root / "docs" / "systems.md").read_text(encoding="utf-8")
+    code = page.split("```python\n")[1].split("```")[0]
+    (tmp_path / "dist").mkdir()
+    (tmp_path / "examples").symlink_to(root / "examples")
+    environment = os.environ | {"PYTHONPATH": str(root)}
+    command = [sys.executable, "-c", code]
+    told = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    assert told.returncode == 0, told.stderr[-2000:]
+    way = told.stdout.split("stands after ")[1].split(" m")[0]
+    assert f"It stands after {way} m" in page
+    assert (tmp_path / "dist" / "anti_lock_brakes.ssp").is_file()
