@@ -111,6 +111,22 @@ def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str
 
 
 @pytest.mark.slow
+def test_a_partner_that_falls_silent_or_gives_no_number_is_told(partners: dict[str, Path]) -> None:
+    """Three ports that nobody sets, and one whose partner breaks: it holds the last value, and the car drives on."""
+    parts = {"car": car_fmu("prototype", "torque"), "spring": partners["half_spring"]}
+    wires = {"spring.position": "car.chassis.x", "car.wheel_RL.drive_torque": "spring.force"}
+    with CoupledFmus(parts, wires, step=0.01) as system:
+        system.initialise(**{"car.initial.speed": 5.0, "spring.break_at": 0.205})
+        rows = system.run(0.5, ("car.used.wheel_RL.drive_torque", "car.chassis.x"))
+        said = " ".join(system.messages)
+    for words in ("3 ports were not set", "'wheel_RL.drive_torque' was set to nan and holds", "'force' is nan"):
+        assert said.count(words) == 1, system.messages
+    assert np.isfinite(rows).all()
+    assert np.ptp(rows[25:, 0]) == 0.0
+    assert np.ptp(rows[:20, 0]) > 0.1
+
+
+@pytest.mark.slow
 def test_libcosim_runs_the_ssp_as_the_own_master_does(tmp_path: Path) -> None:
     """It steps all at once; to round-off, as it counts its time in nanoseconds."""
     from libcosimpy.CosimExecution import CosimExecution
