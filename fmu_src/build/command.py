@@ -235,8 +235,8 @@ def _tell_names(found: Renamed, variables: int) -> None:
     reasons: dict[str, list[str]] = {}
     for ours, why in found.left_out.items():
         reasons.setdefault(why, []).append(ours)
-    for why, ours in reasons.items():
-        print(f"{', '.join(ours)}: no other name; {why}", flush=True)
+    for why, names in reasons.items():
+        print(f"{', '.join(names)}: no other name; {why}", flush=True)
 
 
 def _tell_grip(grip: Mapping[str, str]) -> None:

@@ -1,0 +1,70 @@
+"""Which input of a part takes which output of another."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from ali3.near_names import did_you_mean
+from hosts.common.errors import HostError
+from hosts.common.units import known_unit, says_nothing
+from hosts.fmu.fmu import Fmu
+
+
+@dataclass(frozen=True)
+class Wire:
+    """One connection: the input takes the output.
+
+    Parameters
+    ----------
+    source, output : str
+        Part and its variable.
+    target, input : str
+        Part and its variable.
+    """
+
+    source: str
+    output: str
+    target: str
+    input: str
+
+
+def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[Wire, ...]:
+    """Connections of a system, held against its parts.
+
+    Parameters
+    ----------
+    connections : mapping of str to str
+        Outputs by the inputs that take them, each as ``part.variable``.
+    parts : mapping of str to Fmu
+        By name.
+
+    Raises
+    ------
+    HostError
+        There is no such part or variable, or the units of both ends differ.
+    """
+    wires = []
+    for end, start in connections.items():
+        target, name = _split(end, parts, "input")
+        source, output = _split(start, parts, "output")
+        units = [parts[p].variables[n].unit for p, n in ((source, output), (target, name))]
+        given, wanted = (None if unit is None else known_unit(unit) for unit in units)
+        told = given is not None and wanted is not None and not (says_nothing(given) or says_nothing(wanted))
+        if told and given != wanted:
+            raise HostError(
+                f"'{start}' is in {units[0]} and '{end}' in {units[1]}; a wire converts no units, so wire variables "
+                "of one unit."
+            )
+        wires.append(Wire(source, output, target, name))
+    return tuple(wires)
+
+
+def _split(text: str, parts: Mapping[str, Fmu], causality: str) -> tuple[str, str]:
+    part, dot, name = text.partition(".")
+    if not dot or part not in parts:
+        raise HostError(f"'{text}' names no part{did_you_mean(part, parts)} It must be PART.VARIABLE.")
+    known: Sequence[str] = parts[part].names(causality)
+    if name not in known:
+        raise HostError(f"The part '{part}' has no {causality} '{name}'{did_you_mean(name, known)}")
+    return part, name

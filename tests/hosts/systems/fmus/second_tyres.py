@@ -1,0 +1,36 @@
+"""Copies of the tyres of the hatchback in a second FMU."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tests.hosts.systems.partner import Partner
+from tests.vehicle.second_tyres import HUB, WHEELS, SecondTyre
+
+READ = (
+    *("x", "y", "z", "axis_x", "axis_y", "axis_z"),
+    *("earth_vx", "earth_vy", "earth_vz", "axis_rate_x", "axis_rate_y", "axis_rate_z", "omega"),
+)
+
+
+class TyresPartner(Partner):
+    """Know how their hubs move alone."""
+
+    inputs = tuple(f"wheel_{w}.{n}" for w in WHEELS for n in READ)
+    outputs = (*(f"wheel_{w}.{n}" for w in WHEELS for n in HUB), *(f"wheel_{w}.load" for w in WHEELS))
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.tyres = [SecondTyre(w) for w in WHEELS]
+
+    def find(self, step: float) -> None:
+        for tyre in self.tyres:
+            wrench, self.value[f"wheel_{tyre.wheel}.load"] = tyre.wrench(self.value, step)
+            self.value.update({f"wheel_{tyre.wheel}.{n}": float(v) for n, v in zip(HUB, wrench, strict=True)})
+
+    def memory(self) -> Any:
+        return [tyre.states for tyre in self.tyres]
+
+    def recall(self, memory: Any) -> None:
+        for tyre, states in zip(self.tyres, memory, strict=True):
+            tyre.states = states

@@ -1,0 +1,195 @@
+"""Systems of FMUs: cars wired to copies of their own parts converge to the closed car; what is wrong is said."""
+
+from __future__ import annotations
+
+import math
+import os
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy.ssp.ssd
+import numpy as np
+import pytest
+from pythonfmu import FmuBuilder
+
+from hosts.common.errors import HostError
+from hosts.systems import CoupledFmus, write_ssp
+from tests.hosts.systems.controlled import run
+from tests.hosts.systems.weak_coupling import CASES, car_fmu, coupled, partner_fmu
+
+FMUS = Path(__file__).parent / "fmus"
+
+
+@pytest.fixture(scope="module")
+def partners(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Two halves of an oscillator, each of them an FMU, and one that fails."""
+    folder = tmp_path_factory.mktemp("halves")
+    names = ("half_mass", "half_spring")
+    return {n: Path(FmuBuilder.build_FMU(FMUS / f"{n}.py", dest=folder, canGetAndSetFMUstate=True)) for n in names}
+
+
+WIRES = {"spring.position": "mass.position", "mass.force": "spring.force"}
+
+
+def oscillate(partners: dict[str, Path], step: float, order: str) -> tuple[np.ndarray, list[str]]:
+    parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
+    with CoupledFmus(parts, WIRES, step=step, order=order) as system:
+        system.initialise(**{"mass.start": 1.0})
+        return system.run(1.0, ("mass.position", "spring.force")), system.messages
+
+
+def test_an_oscillator_of_two_fmus_is_the_scheme_that_its_order_makes(partners: dict[str, Path]) -> None:
+    """Mass and spring in turn are the symplectic Euler method, at once a later one; both by their own recurrences."""
+    h = 0.05
+    for order in ("in turn", "at once"):
+        rows, messages = oscillate(partners, h, order)
+        x, v, force = 1.0, 0.0, -1.0
+        for k in range(20):
+            given = force
+            force = -x if order == "at once" else force
+            v += h * given
+            x += h * v
+            force = -x if order == "in turn" else force
+            assert rows[k + 1, 0] == pytest.approx(x, rel=1e-12), (order, k)
+        assert not messages
+    errors = [abs(oscillate(partners, h, "in turn")[0][-1, 0] - math.cos(1.0)) for h in (0.05, 0.025)]
+    assert 1.8 < errors[0] / errors[1] < 2.2
+
+
+def test_a_value_that_is_none_is_told_with_its_part_once(partners: dict[str, Path]) -> None:
+    parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
+    with CoupledFmus(parts, WIRES, step=0.1) as system:
+        system.initialise(**{"mass.start": 1.0, "spring.break_at": 0.25})
+        system.run(0.5, ("mass.position",))
+        told = [m for m in system.messages if "spring: at" in m]
+        assert len(told) == 1
+        assert "'force' is nan" in told[0]
+
+
+@pytest.mark.parametrize(
+    ("wires", "words"),
+    [
+        ({"spring.position": "car.x"}, "'car.x' names no part"),
+        ({"spring.place": "mass.position"}, "The part 'spring' has no input 'place'"),
+        ({"spring.position": "mass.force"}, "The part 'mass' has no output 'force'"),
+    ],
+)
+def test_wires_that_cannot_be(partners: dict[str, Path], wires: dict[str, str], words: str) -> None:
+    parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
+    with pytest.raises(HostError, match=words):
+        CoupledFmus(parts, wires, step=0.1)
+
+
+def test_an_ssp_is_read_by_fmpy_and_says_what_was_wired(partners: dict[str, Path], tmp_path: Path) -> None:
+    parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
+    file = write_ssp(tmp_path / "oscillator.ssp", parts, WIRES, {"mass.start": 0.5})
+    system = fmpy.ssp.ssd.read_ssd(str(file)).system
+    assert [c.name for c in system.elements] == ["mass", "spring"]
+    found = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
+    wanted = {tuple(end.split(".")): tuple(start.split(".")) for end, start in WIRES.items()}
+    assert found == wanted
+    with pytest.raises(HostError, match="has no parameter or input 'stop'"):
+        write_ssp(tmp_path / "bad.ssp", parts, WIRES, {"mass.stop": 0.5})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CASES)
+def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str) -> None:
+    """At 2 ms: wheel loads within 1 %, the path within 0.2 %; repeated steps halve the error or better."""
+    load, path, messages = coupled(name, 0.002)
+    assert load < 1e-2
+    assert path < 2e-3
+    assert not messages
+    again, path_again, _ = coupled(name, 0.002, inputs="repeated")
+    assert again < 0.5 * load
+    assert path_again < 0.5 * path
+    rate = coupled(name, 0.004)[0] / load
+    assert 1.5 < rate < 5.0, "of order one, and of order two where the answers are planes"
+    assert (rate > 3.0) == (name == "road")
+
+
+@pytest.mark.slow
+def test_a_partner_that_falls_silent_or_gives_no_number_is_told(partners: dict[str, Path]) -> None:
+    """Three ports that nobody sets, and one whose partner breaks: it holds the last value, and the car drives on."""
+    parts = {"car": car_fmu("prototype", "torque"), "spring": partners["half_spring"]}
+    wires = {"spring.position": "car.chassis.x", "car.wheel_RL.drive_torque": "spring.force"}
+    with CoupledFmus(parts, wires, step=0.01) as system:
+        system.initialise(**{"car.initial.speed": 5.0, "spring.break_at": 0.205})
+        rows = system.run(0.5, ("car.used.wheel_RL.drive_torque", "car.chassis.x"))
+        said = " ".join(system.messages)
+    for words in ("3 ports were not set", "'wheel_RL.drive_torque' was set to nan and holds", "'force' is nan"):
+        assert said.count(words) == 1, system.messages
+    assert np.isfinite(rows).all()
+    assert np.ptp(rows[25:, 0]) == 0.0
+    assert np.ptp(rows[:20, 0]) > 0.1
+
+
+@pytest.mark.slow
+def test_libcosim_runs_the_ssp_as_the_own_master_does(tmp_path: Path) -> None:
+    """It steps all at once; to round-off, as it counts its time in nanoseconds."""
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimObserver import CosimObserver
+
+    case, step = CASES["drive"], 0.004
+    parts = {"car": car_fmu(case.car, case.ports), "partner": partner_fmu(case.partner)}
+    start = {"car.initial.speed": 12.0} | {f"car.{n}": x for n, x in case.inputs.items()}
+    names = ("chassis.x", "speed", "wheel_RL.Fz")
+    with zipfile.ZipFile(write_ssp(tmp_path / "drive.ssp", parts, case.wires, start)) as archive:
+        archive.extractall(tmp_path / "ssp")
+    execution = CosimExecution.from_ssp_file(str(tmp_path / "ssp"), round(1e9 * step))
+    observer = CosimObserver.create_last_value()
+    execution.add_observer(observer)
+    assert execution.step(100)
+    with CoupledFmus(parts, case.wires, step=step, order="at once") as system:
+        system.initialise(**start)
+        for _ in range(100):
+            system.step()
+        own = system.read([f"car.{n}" for n in names])
+        places = [system.fmu("car").variables[n].valueReference for n in names]
+    index = execution.slave_index_from_instance_name("car")
+    assert list(observer.last_real_values(index, places)) == pytest.approx(own, rel=1e-10)
+    assert own[1] > 12.05
+
+
+@pytest.mark.slow
+def test_a_slip_controller_stops_the_car_sooner_than_locked_wheels_do() -> None:
+    ways = []
+    for on in (False, True):
+        columns = run("anti-lock brakes", 0.004, on=on)
+        assert columns["car.speed"][-1] < 0.1
+        ways.append(float(np.ptp(columns["car.chassis.x"])))
+    assert ways[1] < 0.9 * ways[0]
+
+
+@pytest.mark.slow
+def test_torque_vectoring_turns_the_car_more() -> None:
+    """Towards the yaw rate that is wanted, 12 m/s * 0.125 rad / (1.68 m + 0.0015 s2/m (12 m/s)2) = 0.79 rad/s."""
+    rates = [float(run("torque vectoring", 0.004, on=on)["car.chassis.wz"][-1]) for on in (False, True)]
+    assert 1.05 * rates[0] < rates[1] < 0.79
+
+
+@pytest.mark.slow
+def test_the_car_behind_keeps_its_distance_when_the_one_ahead_brakes() -> None:
+    columns = run("two cars", 0.01)
+    assert columns["ahead.speed"][-1] < 8.0
+    assert columns["controller.gap"].min() > 8.0
+    wanted = 5.0 + 1.2 * columns["car.speed"][-1]
+    assert columns["controller.gap"][-1] == pytest.approx(wanted, abs=2.0)
+
+
+@pytest.mark.slow
+def test_the_code_of_the_page_stops_where_it_says(tmp_path: Path) -> None:
+    root = Path(__file__).parents[3]
+    page = (root / "docs" / "systems.md").read_text(encoding="utf-8")
+    code = page.split("```python\n")[1].split("```")[0]
+    (tmp_path / "dist").mkdir()
+    (tmp_path / "examples").symlink_to(root / "examples")
+    environment = os.environ | {"PYTHONPATH": str(root)}
+    command = [sys.executable, "-c", code]
+    told = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    assert told.returncode == 0, told.stderr[-2000:]
+    way = told.stdout.split("stands after ")[1].split(" m")[0]
+    assert f"It stands after {way} m" in page
+    assert (tmp_path / "dist" / "anti_lock_brakes.ssp").is_file()
