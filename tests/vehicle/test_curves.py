@@ -138,7 +138,7 @@ def test_columns_in_other_units_names_and_of_both_wheels_are_the_same_car(conten
     car = car_from(content["saloon"], copied, "first")
     heading, rows = rows_of(copied / "rear.csv")
     columns = dict(zip([name.split(" ")[0] for name in heading], rows.T, strict=True))
-    _, axis, up = car.rear.alignment.axes(Side("rear", "left", 1.0))
+    *_, up = car.rear.alignment.axes(Side("rear", "left", 1.0))
     toe, camber = columns["toe_angle"], columns["camber_angle"]
     leaning = np.stack([np.sin(camber) * np.sin(toe), np.sin(camber) * np.cos(toe), np.cos(camber)], axis=-1)
     contact = np.stack([columns["wheel_centre_x"], columns["wheel_centre_y"]], axis=-1)

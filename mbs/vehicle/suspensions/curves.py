@@ -139,8 +139,9 @@ class Curves(Section):
         found = self.of(Side("front", "left", 1.0)).lengths
         if self.bar is not None and (self.bar.lever is None) == ("anti_roll_bar_angle" not in found):
             both = "is there too" if self.bar.lever is not None else "is not there"
+            lever = "missing" if self.bar.lever is None else f"{self.bar.lever:g} m"
             yield (
-                f"{self.bar.key('lever')} is {'missing' if self.bar.lever is None else f'{self.bar.lever:g} m'}, and the "
+                f"{self.bar.key('lever')} is {lever}, and the "
                 f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {both}; there must be one of them."
             )
         if self.compliance is not None:
