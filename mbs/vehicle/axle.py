@@ -120,8 +120,8 @@ class Axle(Section):
         ):
             if reached < gap + travel:
                 yield (
-                    f"{curves.key('file')} ({curves.file}) ends at {reached:.3g} m of the spring in {name}; it must reach "
-                    f"to the end of its stop at {gap + travel:g} m."
+                    f"{curves.key('file')} ({curves.file}) ends at {reached:.3g} m of the spring in {name}; it must "
+                    f"reach to the end of its stop at {gap + travel:g} m."
                 )
 
     def build(

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
+from ali3.command import main
 from mbs import Pose, Simulation, System, compile, simulate
 from mbs.common.errors import ModelError
 from mbs.vehicle import Car, CarFileError, CarWarning
@@ -138,7 +139,7 @@ def test_columns_in_other_units_names_and_of_both_wheels_are_the_same_car(conten
     car = car_from(content["saloon"], copied, "first")
     heading, rows = rows_of(copied / "rear.csv")
     columns = dict(zip([name.split(" ")[0] for name in heading], rows.T, strict=True))
-    _, axis, up = car.rear.alignment.axes(Side("rear", "left", 1.0))
+    *_, up = car.rear.alignment.axes(Side("rear", "left", 1.0))
     toe, camber = columns["toe_angle"], columns["camber_angle"]
     leaning = np.stack([np.sin(camber) * np.sin(toe), np.sin(camber) * np.cos(toe), np.cos(camber)], axis=-1)
     contact = np.stack([columns["wheel_centre_x"], columns["wheel_centre_y"]], axis=-1)
@@ -252,3 +253,14 @@ def test_links_are_asked_for_where_there_are_none(content: dict, folder: Path) -
     data = content["saloon"] | {"front": content["saloon"]["front"] | {"anti_roll_bar": bar}}
     with pytest.raises(CarFileError, match="hangs on links; of an axle by its curves give"):
         car_from(data, folder / "saloon", "x")
+
+
+def test_the_command_writes_the_tables_of_links(
+    content: dict, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    assert main(["car", "saloon", "--kinematics", "--points", "3", "--out", str(tmp_path)]) == 0
+    assert "front_table.csv, rear_table.csv: where the wheels stand" in capsys.readouterr().out
+    written_by_hand = rows_of(folder / "saloon" / "rear.csv")
+    heading, rows = rows_of(tmp_path / "rear_table.csv")
+    assert heading == written_by_hand[0]
+    np.testing.assert_allclose(rows, written_by_hand[1], atol=1e-12)  # masses are no part of it

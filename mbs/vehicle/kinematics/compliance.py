@@ -71,8 +71,8 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
     """
     instance_of(Car, car, "The car of compliance()", "a Car of mbs.vehicle.load()")
     chosen = fidelity_of(car, fidelity)
-    for axle in (car.front, car.rear):
-        axle.needs_links()
+    for part in (car.front, car.rear):
+        part.needs_links()
     held = HeldCar(car, chosen)
     V, soft = held.flexibility(held.wheel_rows())
     values = {axle: _responses(held, axle, V, soft) for axle in ("front", "rear")}

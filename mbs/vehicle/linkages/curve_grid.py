@@ -76,7 +76,7 @@ def _travels(linkage: Linkage, coupled: bool) -> Array:
         while min(way * _compression(linkage, _reached(linkage, np.array([t, o * t]), 0.0)) for o in others) < most:
             t += way * 0.5 * SPACING[0]
         ends.append(t)
-    return even_points(*ends, SPACING[0])
+    return even_points(ends[0], ends[1], SPACING[0])
 
 
 def _compression(linkage: Linkage, q: Array) -> float:

@@ -24,6 +24,14 @@ def notes_without_stops(car: Car) -> Iterator[str]:
     for name, axle in (("front", car.front), ("rear", car.rear)):
         if axle.stops is not None:
             continue
+        if axle.by_curves is not None:
+            travel = axle.by_curves.table.travel
+            yield (
+                f"{axle.key('stops')} is left out: nothing but the spring ends the travel of the {name} wheels, and "
+                f"{axle.by_curves.key('file')} ({axle.by_curves.file}) goes from {travel[0]:+.3f} to {travel[-1]:+.3f} "
+                "m of wheel travel from the drawing; a run ends beyond. Stops that bear before that keep it within."
+            )
+            continue
         linkage = Linkage(car, name)
         ends = [reached(linkage, HEAVE, np.array([far]))[1] for far in (-FARTHEST, FARTHEST)]
         if ends == [None, None]:

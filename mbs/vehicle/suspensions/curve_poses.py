@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.vehicle.side import Point, Side
-from mbs.vehicle.suspensions.curve_table import OTHER, RACK, CurveTable
+from mbs.vehicle.suspensions.curve_table import RACK, CurveTable
 
 Array = NDArray[np.float64]
 

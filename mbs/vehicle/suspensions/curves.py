@@ -33,6 +33,10 @@ class CurvesBodies(Section):
     """All that moves with the wheel without turning about its axis: hub carrier, brake, shares of links and springs."""
 
 
+class NoPoints(Section):
+    """Hard points of a suspension that has none."""
+
+
 class CurveBar(Section):
     """Anti-roll bar between both wheels."""
 
@@ -72,7 +76,7 @@ class Curves(Section):
 
     near_wheel: ClassVar[tuple[str, ...]] = ()
     """Points on what carries the wheel: it has none."""
-    points: ClassVar[None] = None
+    points: ClassVar[NoPoints] = NoPoints()
     """It has no hard points."""
 
     _table: CurveTable | None = PrivateAttr(None)
@@ -139,8 +143,9 @@ class Curves(Section):
         found = self.of(Side("front", "left", 1.0)).lengths
         if self.bar is not None and (self.bar.lever is None) == ("anti_roll_bar_angle" not in found):
             both = "is there too" if self.bar.lever is not None else "is not there"
+            lever = "missing" if self.bar.lever is None else f"{self.bar.lever:g} m"
             yield (
-                f"{self.bar.key('lever')} is {'missing' if self.bar.lever is None else f'{self.bar.lever:g} m'}, and the "
+                f"{self.bar.key('lever')} is {lever}, and the "
                 f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {both}; there must be one of them."
             )
         if self.compliance is not None:
@@ -192,7 +197,7 @@ class Curves(Section):
             spring_of_length(b, w, spring, number("damper_length", f"length of damper {w}"), springs)
             lever = number("anti_roll_bar_angle", f"{LINK}{w}", "rad")
             if self.bar is not None:
-                levers.append(lever[0] if self.bar.lever is None and lever else own.affine * (1.0 / self.bar.lever))
+                levers.append(lever[0] if lever is not None else own.affine * (1.0 / (self.bar.lever or 1.0)))
             yield Corner(side, carrier, {"carrier": carrier})
         if self.bar is not None:
             law = ScalarSpringDamper(self.bar.stiffness, stiffness_factor=self.bar.factor)

@@ -1,0 +1,143 @@
+"""Cars by CommonRoad's parameters against its own multi-body model: ``python -m benchmarks.validation.commonroad``.
+
+The references are made by `commonroad_reference`. Both are asked for the same angle of the front wheels and the same
+torque of the brakes; engine and air are left out here, as that model has none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.shared.command import parser_of, save_rows
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from benchmarks.validation.commonroad_reference import (
+    BEGIN,
+    BRAKING,
+    CARS,
+    FOLDER,
+    MANOEUVRES,
+    SECONDS,
+    STEER,
+    STEER_SPEED,
+)
+from mbs import Pose, compile, simulate
+from mbs.vehicle import Car, load
+
+Array = NDArray[np.float64]
+
+STEP = 0.002
+WHEELS = ("FL", "FR", "RL", "RR")
+ROLLING = 0.344  # m, R_w
+SAME = {"steering.frequency": 200.0, "ports.torque": "half_shafts"}
+"""Of the cars here: their wheels follow the demand at once, and nothing drives or drags."""
+COLUMNS = {"car": "", "manoeuvre": "", "quantity": "", "reference": ".4g", "found": ".4g", "largest": ".1%"}
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A manoeuvre of both models, at the times of the reference.
+
+    Attributes
+    ----------
+    reference, found : dict of str to ndarray, shape (n,)
+        By the names of the reference's columns.
+    """
+
+    reference: Mapping[str, Array]
+    found: Mapping[str, Array]
+
+    def largest(self, name: str) -> float:
+        """Largest difference over the range of the reference."""
+        return float(np.abs(self.found[name] - self.reference[name]).max() / np.ptp(self.reference[name]))
+
+
+def compared(name: str, manoeuvre: str) -> Compared:
+    """Drive a car as its reference was driven.
+
+    Parameters
+    ----------
+    name : str
+        Of the car.
+    manoeuvre : str
+        Of `MANOEUVRES`.
+    """
+    table = np.genfromtxt(FOLDER / f"{name}_{manoeuvre}.csv", delimiter=",", names=True)
+    table = table[table["time"] > BEGIN - 0.1]
+    reference = {column: np.asarray(table[column]) for column in table.dtype.names}
+    car = load(name)
+    changes = _consistent(car) if manoeuvre.startswith("consistent") else {}
+    car = car.changed(SAME | changes)
+    run = simulate(
+        compile(car.model()), SECONDS, STEP, inputs=_inputs(car, manoeuvre), pose=Pose(speed=MANOEUVRES[manoeuvre])
+    )
+    names = {"vx": "chassis.vx", "yaw_rate": "chassis.wz", "roll": "chassis.roll", "pitch": "chassis.pitch"}
+    names |= {"x": "chassis.x", "y": "chassis.y"} | {f"Fz_{wheel}": f"wheel_{wheel}.Fz" for wheel in WHEELS}
+    found = {ours: np.interp(reference["time"], run.t, run[theirs]) for ours, theirs in names.items()}
+    for way in ("x", "y"):
+        reference[way], found[way] = reference[way] - reference[way][0], found[way] - found[way][0]
+    return Compared(reference, found)
+
+
+def _consistent(car: Car) -> dict[str, Any]:
+    """The wheels' carriers as heavy as `commonroad_reference.consistent` has the axles."""
+    sprung = -car.chassis.com[0]
+    axles = {"front": car.wheelbase - sprung, "rear": sprung}
+    parts = {axle: getattr(car, axle) for axle in axles}
+    carried = {axle: part.suspension.bodies.carrier.mass for axle, part in parts.items()}
+    half = sum(carried[axle] + part.wheel.mass for axle, part in parts.items())
+    return {
+        f"{axle}.suspension.bodies.carrier.mass": half * lever / car.wheelbase - parts[axle].wheel.mass
+        for axle, lever in axles.items()
+    }
+
+
+def _inputs(car: Car, manoeuvre: str) -> dict[str, tuple[Array, Array]]:
+    """Of both models the same."""
+    if manoeuvre != "braking":
+        most = car.steering.front_wheel_angle_max
+        t = np.array([0.0, BEGIN, BEGIN + STEER / STEER_SPEED, SECONDS])
+        return {"steering": (t, np.array([0.0, 0.0, STEER, STEER]) / most)}
+    pedal = car.vehicle.mass * ROLLING * BRAKING / (2.0 * car.brakes.torque)
+    t = np.array([0.0, BEGIN, BEGIN + 1e-6, SECONDS])
+    return {"brake": (t, np.array([0.0, 0.0, pedal, pedal]))}
+
+
+def rows() -> list[dict[str, Any]]:
+    """Last values of both models and the largest difference over the range of the reference."""
+    turning = ("yaw_rate", "roll", "y", "Fz_FL", "Fz_RL")
+    asked = {"step_steer": turning, "consistent_step_steer": turning, "braking": ("vx", "x", "pitch", "Fz_FL", "Fz_RL")}
+    made = []
+    for name in CARS:
+        for manoeuvre, quantities in asked.items():
+            both = compared(name, manoeuvre)
+            for quantity in quantities:
+                made.append(
+                    {
+                        "car": name,
+                        "manoeuvre": manoeuvre,
+                        "quantity": quantity,
+                        "reference": float(both.reference[quantity][-1]),
+                        "found": float(both.found[quantity][-1]),
+                        "largest": both.largest(quantity),
+                    }
+                )
+    return made
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Print the table."""
+    parser = parser_of("validation.commonroad", __doc__)
+    options = parser.parse_args(arguments)
+    made = rows()
+    print_table(made, COLUMNS)
+    save_rows(options.json, describe("validation.commonroad"), made)
+
+
+if __name__ == "__main__":
+    main()
