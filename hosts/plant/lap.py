@@ -130,6 +130,7 @@ class LapDriver:
     Parameters
     ----------
     environment : ProvingGroundLap
+        Whose car he drives; he looks at its lane ahead.
     speed : float
         m/s.
 
