@@ -189,3 +189,4 @@ class AntiLockBraking(_CarEnvironment):
 
 gymnasium.register("ali3/LaneKeeping-v0", entry_point="hosts.plant.environments:LaneKeeping")
 gymnasium.register("ali3/AntiLockBraking-v0", entry_point="hosts.plant.environments:AntiLockBraking")
+gymnasium.register("ali3/ProvingGroundLap-v0", entry_point="hosts.plant.lap:ProvingGroundLap")

@@ -14,6 +14,7 @@ from ali3.files import check_writable, make_folder
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import ROAD, Wishes
+from hosts.common.world_files import DEFAULT_WORLD, World, make_world, no_world
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.of_file import aliases_of
@@ -25,7 +26,6 @@ from hosts.fmu.settings import START_OF, Settings
 from hosts.fmu.variables import Variables
 from hosts.recordings.format import DESCRIPTION, check_new
 from hosts.simulator.drivable import not_drivable
-from hosts.simulator.world_files import DEFAULT_WORLD, World, make_world, no_world
 
 ITERATIONS = "solver.step_iterations"
 _MOST_ITERATIONS = 6

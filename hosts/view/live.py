@@ -20,9 +20,9 @@ from hosts.view.open_page import open_page
 
 if TYPE_CHECKING:
     from hosts.common.numbers import Value
+    from hosts.common.world_files import World
     from hosts.driving.manoeuvre import Manoeuvre
     from hosts.fmu.variables import Variable
-    from hosts.simulator.world_files import World
     from hosts.view.page_parts import FmuParts
     from viewer.recording import Recording
 
@@ -87,7 +87,7 @@ def _world(options: argparse.Namespace, road: Value) -> World | None:
         return None
     if road:
         raise HostError(f"The road is given by --world {options.world} and by {road}; give it once.")
-    from hosts.simulator.world_files import make_world
+    from hosts.common.world_files import make_world
 
     return make_world(options.world, lambda line: print(line, flush=True), thin=True)
 

@@ -137,8 +137,11 @@ def test_an_error_is_no_good_file(
 def test_any_text_is_read_back(tmp_path: Path) -> None:
     """Characters that XML does not have are question marks."""
     words = 'a < b & "c" \x00\x1b[31m\ud800 Ω €'
-    write_junit(tmp_path / "a.xml", words, [Case(words, words, "bad", words), Case("b", "c", "good", words, 0.25)])
+    write_junit(
+        tmp_path / "a.xml", words, [Case(words, words, "bad", words), *2 * [Case("b", "c", "good", words, 0.125)]]
+    )
     (suite,) = junitparser.JUnitXml.fromfile(str(tmp_path / "a.xml"))
-    bad, good = list(suite)
+    bad, good, _ = list(suite)
     assert bad.name == bad.result[0].message == 'a < b & "c" ??[31m? Ω €'
-    assert (good.time, suite.time) == (0.25, 0.25)
+    assert (good.time, suite.time) == (0.125, 0.25)
+    assert (suite.tests, suite.failures, suite.errors, suite.skipped) == (3, 1, 0, 0)

@@ -1,0 +1,159 @@
+"""A lap of the ring of the proving ground: `gymnasium.make("ali3/ProvingGroundLap-v0")`, and the driver on it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+
+from hosts.common.errors import HostError
+from hosts.common.world_files import make_world
+from hosts.driving.course import Course
+from hosts.driving.driver import CONSTANTS
+from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
+from hosts.plant.car import Car
+from hosts.plant.environments import Floats, _CarEnvironment
+from hosts.plant.lane import Lane
+
+STRAIGHT, RADIUS, BEGIN, WIDTH = 640.0, 60.0, -20.0, 12.0
+"""m, of the ring in `mbs/worlds/proving_ground.toml`: straights, curves to the left, x of the first straight, road."""
+
+
+def ring() -> Lane:
+    """The centre line of the ring, closed, from the place `start` of the world on."""
+    half = STRAIGHT + math.pi * RADIUS
+    way = (np.linspace(0.0, 2.0 * half, 831) - BEGIN) % (2.0 * half)
+    part, back = way % half, way >= half
+    angle = np.maximum(part - STRAIGHT, 0.0) / RADIUS
+    x = np.minimum(part, STRAIGHT) + RADIUS * np.sin(angle)
+    y = RADIUS * (1.0 - np.cos(angle))
+    points = np.column_stack([np.where(back, STRAIGHT - x, x) + BEGIN, np.where(back, 2.0 * RADIUS - y, y)])
+    points[-1] = points[0]
+    return Lane(points, WIDTH)
+
+
+class ProvingGroundLap(_CarEnvironment):
+    """Drive a lap of the ring of the proving ground, 1657 m with a banked curve, a hill and a flat curve, to the left.
+
+    Action: steering, -1 to 1, positive to the left; pedal, -1 the whole brake to 1 the whole throttle. Observation:
+    offset from the middle of the road m, heading from its direction rad, speed m/s, yaw rate rad/s, sideslip rad,
+    steering as it is now, curvature of the road at `AHEAD` 1/m. Reward a step: the way made along the road over 20 m/s,
+    less the time, s; over a lap its sum is 82.8 s less the lap time, which `info["lap_time"]` has at its end. An
+    episode ends with the lap, or where the middle of the car is beside the road, which costs 20 s; it is truncated
+    after `seconds`.
+
+    Parameters
+    ----------
+    car : str
+        As for `Car`.
+    speed : (float, float)
+        Range of the speed at the start, m/s.
+    seconds : float
+        After which an episode is truncated.
+    road : str, optional
+        A road file in place of that of the proving ground, which is made at the first use, in a quarter of a minute.
+    """
+
+    AHEAD = (5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 110.0)
+    PACE = 20.0  # m/s at which the reward is none
+    OUT = 20.0  # s that the end beside the road costs
+
+    def __init__(
+        self,
+        car: str = "prototype",
+        speed: tuple[float, float] = (14.0, 16.0),
+        seconds: float = 180.0,
+        step: float = 0.02,
+        road: str | None = None,
+    ) -> None:
+        if road is None:
+            road = str(make_world("proving_ground", lambda line: None).road)
+        reads = ("chassis.x", "chassis.y", "chassis.yaw", "speed", "chassis.wz", "sideslip")
+        made = Car(car, step=step, inputs=("steering", "throttle", "brake"), parameters={"road.file": road})
+        super().__init__(made, reads, seconds)
+        self.lane = ring()
+        self._speed = speed
+        self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
+        high = np.array([20.0, np.pi, 90.0, 10.0, np.pi, 1.0, *len(self.AHEAD) * [1.0]], np.float32)
+        self.observation_space = spaces.Box(-high, high, dtype=np.float32)
+        self._steering = self._way = self.driven = 0.0
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
+        """A flying start at x = 0; see `gymnasium.Env.reset`."""
+        self._start(seed, **{"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.01, 0.01)})
+        self.lane.forget()
+        self._steering = self.driven = 0.0
+        seen = self._observed()
+        self._way = self.lane.way
+        return seen, {}
+
+    def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
+        """A step; see `gymnasium.Env.step`."""
+        self._steering, pedal = (float(np.clip(part, -1.0, 1.0)) for part in action)
+        refused = self._advance(np.array([self._steering, max(pedal, 0.0), max(-pedal, 0.0)]))
+        seen = self._observed()
+        made = math.remainder(self.lane.way - self._way, self.lane.length)
+        before, self._way, self.driven = self.driven, self.lane.way, self.driven + made
+        told: dict[str, Any] = {"refused": refused} if refused else {}
+        lap = self.driven >= self.lane.length
+        if lap:  # the line is crossed within the step
+            told["lap_time"] = self.car.time - (self.driven - self.lane.length) / max(made, 1e-9) * self.car.step_length
+        out = abs(float(seen[0])) > 0.5 * self.lane.width
+        reward = (self.driven - before) / self.PACE - self.car.step_length - self.OUT * out
+        return seen, reward, bool(lap or out or refused), self._steps >= self._most, told
+
+    def _observed(self) -> Floats:
+        x, y, yaw, speed, yaw_rate, sideslip = self._now
+        offset, heading, curvature = self.lane.sense(x, y, yaw, self.AHEAD)
+        seen = np.array([offset, heading, speed, yaw_rate, sideslip, self._steering, *curvature])
+        box = self.observation_space
+        assert isinstance(box, spaces.Box)
+        held: Floats = np.clip(seen, box.low, box.high).astype(np.float32)
+        return held
+
+
+class _Straightened(Course):
+    """A lane by its way: what a driver of courses sees of it."""
+
+    def __init__(self, lane: Lane) -> None:
+        super().__init__("lane", ())
+        object.__setattr__(self, "lane", lane)
+
+    def path(self, x: float) -> tuple[float, float, float]:
+        """See `hosts.driving.course.Course.path`: always in its middle."""
+        return 0.0, 0.0, float(self.lane.curvature(x))  # type: ignore[attr-defined]
+
+
+class LapDriver:
+    """The driver of the manoeuvres, who holds a speed, on the lane of an environment.
+
+    Parameters
+    ----------
+    environment : ProvingGroundLap
+        Whose car he drives; he looks at its lane ahead.
+    speed : float
+        m/s.
+
+    Raises
+    ------
+    HostError
+        The car does not tell its dimensions.
+    """
+
+    def __init__(self, environment: ProvingGroundLap, speed: float) -> None:
+        constants = environment.car.fmu.constants()
+        if missing := [name for name in CONSTANTS.values() if name not in constants]:
+            raise HostError(f"The driver needs constants that the car does not tell: {', '.join(missing)}.")
+        known = {name: constants[constant] for name, constant in CONSTANTS.items()}
+        self.environment = environment
+        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=speed, **known))
+
+    def act(self, seen: Floats) -> Floats:
+        """The action for an observation."""
+        offset, heading, speed = (float(value) for value in seen[:3])
+        place = (self.environment.lane.way, offset, heading, speed)
+        senses = dict(zip(("chassis.x", "chassis.y", "chassis.yaw", "speed"), place, strict=True))
+        acts = self.driver.act(self.environment.car.time, senses)
+        return np.array([acts["steering"], acts["throttle"] - acts["brake"]], np.float32)

@@ -1,0 +1,98 @@
+"""The lap of the proving ground: the ring of the world, Gymnasium's checker, seeds, the driver as baseline."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+from hosts.plant.lap import LapDriver, ProvingGroundLap, ring
+from mbs.worlds.make_world import read_world
+from mbs.worlds.world import WORLDS
+
+LAP = "ali3/ProvingGroundLap-v0"
+LEVEL = "plane.road"  # of the FMU: the ring as a line on a plane
+
+
+def test_the_ring_is_that_of_the_world() -> None:
+    """Each of its points lies on the straights and arcs of the description, in their order; also the width."""
+    (course,) = [course for course in read_world(WORLDS / "proving_ground.toml").courses if course.name == "ring"]
+    x, y, yaw = course.start
+    expected = []
+    for segment in course.segments:
+        length = segment.length or np.radians(segment.angle) * segment.radius
+        for s in np.linspace(0.0, length, 200):
+            turn = 0.0 if segment.length else s / segment.radius
+            along = s + 0j if segment.length else 1j * segment.radius * (1.0 - np.exp(1j * turn))
+            place = complex(x, y) + along * np.exp(1j * yaw)
+            expected.append((place.real, place.imag))
+        (x, y), yaw = expected[-1], yaw + turn
+    lane = ring()
+    assert lane.closed
+    assert lane.width == course.width
+    ways = np.array([lane.place(*place) for place in expected])
+    assert max(abs(lane.sense(*place, 0.0)[0]) for place in expected) < 2e-3
+    ahead = np.diff(ways) % lane.length
+    assert np.all(ahead < 10.0)
+    assert lane.place(0.0, 0.0) % lane.length == pytest.approx(0.0, abs=1e-6)
+    assert lane.length == pytest.approx(2.0 * 640.0 + 2.0 * np.pi * 60.0, rel=1e-4)
+
+
+def test_it_passes_the_checker(rigid_fmu: Path) -> None:
+    made = gymnasium.make(LAP, car=str(rigid_fmu), road=LEVEL).unwrapped
+    made.spec = None  # else the checker makes a second one by its name, of the car of the package
+    check_env(made, skip_render_check=True)
+    made.close()
+
+
+def test_a_seed_gives_the_same_episode_and_several_run_beside_each_other(rigid_fmu: Path) -> None:
+    episodes = []
+    for seed in (3, 3, 4):
+        with gymnasium.make(LAP, car=str(rigid_fmu), road=LEVEL) as made:
+            rows = [made.reset(seed=seed)[0]]
+            made.action_space.seed(1)
+            rows += [made.step(made.action_space.sample())[0] for _ in range(10)]
+            episodes.append(np.array(rows))
+    assert (episodes[0] == episodes[1]).all()
+    assert (episodes[0] != episodes[2]).any()
+    several = gymnasium.make_vec(LAP, 2, vectorization_mode="sync", car=str(rigid_fmu), road=LEVEL)
+    seen, _ = several.reset(seed=1)
+    assert (seen[0] != seen[1]).any()
+    seen, reward, *_ = several.step(np.zeros((2, 2), np.float32))
+    assert np.isfinite(seen).all()
+    assert reward.shape == (2,)
+    several.close()
+
+
+def test_beside_the_road_it_ends(rigid_fmu: Path) -> None:
+    """Straight on in the first curve: it ends 6 m beside the middle; the rewards are way over 20 m/s less time."""
+    made = ProvingGroundLap(str(rigid_fmu), road=LEVEL, speed=(30.0, 30.0))
+    seen, _ = made.reset(seed=0)
+    total, ended, cut = 0.0, False, False
+    while not (ended or cut):
+        seen, reward, ended, cut, told = made.step(np.array([0.0, 0.5], np.float32))
+        total += reward
+    assert ended
+    assert "lap_time" not in told
+    assert seen[0] < -6.0
+    assert 620.0 < made.driven < 700.0
+    assert total == pytest.approx(made.driven / 20.0 - made.car.time - 20.0, abs=1e-9)
+    made.close()
+
+
+@pytest.mark.slow
+def test_the_driver_makes_a_lap(rigid_fmu: Path) -> None:
+    """On the proving ground, within 1 m of the middle; the time is that of his speed, the sum of rewards that of it."""
+    made = ProvingGroundLap(str(rigid_fmu), speed=(20.0, 20.0), step=0.04)
+    seen, _ = made.reset(seed=0)
+    driver, total, worst, ended, cut = LapDriver(made, 20.0), 0.0, 0.0, False, False
+    while not (ended or cut):
+        seen, reward, ended, cut, told = made.step(driver.act(seen))
+        total, worst = total + reward, max(worst, abs(float(seen[0])))
+    assert worst < 1.5
+    assert told["lap_time"] == pytest.approx(made.lane.length / 20.0, rel=0.02)
+    assert total == pytest.approx(made.lane.length / 20.0 - told["lap_time"], abs=0.05)
+    made.close()
