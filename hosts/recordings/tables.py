@@ -68,7 +68,8 @@ def recorded(steps: ArrayLike, begins: ArrayLike, every: ArrayLike) -> NDArray[n
     ndarray of shape (n, m)
     """
     due = np.asarray(steps)[:, np.newaxis] % np.asarray(every) == 0
-    return due | np.asarray(begins, dtype=bool)[:, np.newaxis]
+    kept: NDArray[np.bool_] = due | np.asarray(begins, dtype=bool)[:, np.newaxis]
+    return kept
 
 
 def joined(blocks: Sequence[Rows], columns: int) -> Rows:
