@@ -15,22 +15,16 @@ _LONGEST = 60.0  # s between lines
 
 
 class _Lines:
-    """A stream to which a bar draws itself: some drawings and the last are lines without control characters.
-
-    They are chosen here: a bar whose interval changes while it goes through things counts some of them twice.
-    """
+    """A stream to which a bar draws itself: some drawings and the last are lines without control characters."""
 
     bar: tqdm[Any] | None = None
-
-    def __init__(self) -> None:
-        self._apart, self._next = _DELAY, 0.0
+    # Chosen here: a bar whose interval changes while it goes through things counts some of them twice.
+    _apart, _next = _DELAY, 0.0
 
     def write(self, text: str) -> None:
-        now, ended = time.monotonic(), self.bar is not None and self.bar.disable
-        if (line := text.strip()) and (ended or now >= self._next):
+        if (line := text.strip()) and (time.monotonic() >= self._next or (self.bar is not None and self.bar.disable)):
             sys.stderr.write(f"{line}\n")
-            self._apart = min(self._apart * _LATER, _LONGEST)
-            self._next = now + self._apart
+            self._next, self._apart = time.monotonic() + self._apart, min(self._apart * _LATER, _LONGEST)
 
     def flush(self) -> None:
         sys.stderr.flush()

@@ -22,7 +22,7 @@ from hosts.driving.co_simulation import run_with_bar
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
-from hosts.driving.manoeuvre_table import read_table, recorded_step
+from hosts.driving.manoeuvre_table import read_table, record_of
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.fmu.fmu import Fmu
@@ -263,7 +263,7 @@ def _read(
         driven = read_table(file, drives)
     else:
         driven = load_manoeuvre(manoeuvre)
-        driven = replace(driven, step=recorded_step(file) or driven.step)
+        driven = replace(driven, step=record_of(file).step or driven.step)
     table = TextTable(file, HostError)
     values = table.values()
     columns = {n: values[:, k] for k, n in enumerate(table.names) if n in outputs}

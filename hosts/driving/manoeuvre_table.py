@@ -53,7 +53,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
             raise HostError(f"{path}, line {row.line}: time goes back from {rows[-2][0]:g} s to {rows[-1][0]:g} s.")
     if not rows:
         raise HostError(f"{path} holds no values; it needs a heading and at least one row.")
-    record = _record_of(path)
+    record = record_of(path)
     recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
     step = record.step
     for number, comment in table.comments:
@@ -119,12 +119,8 @@ class _Record:
     lost: tuple[str, ...] = ()
 
 
-def recorded_step(path: Path) -> float | None:
-    """The communication step of the run whose result a table is, s; None where no record beside it says it."""
-    return _record_of(path).step
-
-
-def _record_of(path: Path) -> _Record:
+def record_of(path: Path) -> _Record:
+    """The record beside a table; one that says nothing where there is none."""
     file = path.with_suffix(".json")
     try:
         record = read_json(file, HostError, finite=False) if file.is_file() else None

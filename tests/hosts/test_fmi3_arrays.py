@@ -214,15 +214,18 @@ def test_checks_drive_elements_of_inputs(fmu: Path, tmp_path: Path) -> None:
     """Values before the start, strong inputs, NaN and derivatives reach each element."""
     hidden = '<Output valueReference="7" dependencies=""/>'
     silent = described_as(fmu, tmp_path, {'<Output valueReference="7"/>': hidden})
+    (tmp_path / "told").mkdir()
+    told = described_as(fmu, tmp_path / "told", {'<Output valueReference="7"/>': hidden.replace('""', '"1"')})
     lines = {}
-    for path in (fmu, silent):
+    for path in (fmu, silent, told):
         done = run(check, path, "--steps", 5, "--set", "A[2,1]=-9", "--set", "u[2]=4")
         assert "set  A[2,1]                  -4 -> -9 (--set)" in done.stdout
         lines[path] = {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in done.stdout.splitlines()}
     assert lines[fmu]["runs"] == "ok 5 steps of 0.01 s, 2 outputs move"
     assert "NaN for an input" in lines[fmu]["refusals"]
     assert lines[fmu]["refused steps"] == "BAD a refused step at 0 s can be asked for without end"
-    assert lines[fmu]["dependencies"].startswith("ok outputs have derivatives only by inputs")
+    for path in (fmu, told):
+        assert lines[path]["dependencies"].startswith("ok outputs have derivatives only by inputs")
     assert lines[silent]["dependencies"] == "BAD y has a derivative by u[1], on which it is said not to depend"
     subject = open_subject(fmu, tmp_path / "open", 5, {"A[2,1]": -9.0, "u[2]": 4.0})
     assert [v.name for v in subject.inputs] == ["u[1]", "u[2]", "u[3]"]
