@@ -259,6 +259,10 @@ def _make_files(folder: Path) -> None:
     ball = trimesh.creation.icosphere(1)
     for suffix in ("stl", "obj", "ply", "off", "glb"):
         ball.export(folder / f"ball.{suffix}")
+    plate = trimesh.creation.box((20.0, 10.0, 0.1)).slice_plane((0, 0, 0), (0, 0, 1))
+    for suffix in ("stl", "obj", "ply", "off", "glb"):
+        plate.export(folder / f"plate.{suffix}")
+    shutil.copy(ROOT / "tests" / "data" / "crg" / "handmade_straight_minimalist.crg", folder / "line.crg")
     for file in (ROOT / "tests" / "data" / "external").iterdir():
         shutil.copy(file, folder / file.name)
     nodes = np.array([(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])

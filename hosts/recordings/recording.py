@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ali3.extras import missing_package
-from ali3.files import make_folder, whole_file, write_text
+from ali3.files import check_writable, make_folder, whole_file, write_text
 from hosts.common.numbers import Value
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, STATES, VERSION, check_new
 from hosts.recordings.tables import Rows, recorded
@@ -28,6 +28,12 @@ from hosts.recordings.written_tables import CsvTable, ParquetTable, Table
 
 _MOST_ROWS = 2000  # in memory before they are written
 _MOST_WAIT = 2.0  # s of the clock before they are written
+
+
+def check_folder(folder: Path) -> None:
+    """Make the folder of a recording; `HostError` or `FileError` where it holds one, or cannot be written."""
+    check_new(folder)
+    check_writable(make_folder(folder) / DESCRIPTION)
 
 
 def recording_meta(

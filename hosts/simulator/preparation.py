@@ -10,7 +10,6 @@ from typing import Any
 
 from fmpy.model_description import ModelDescription
 
-from ali3.files import check_writable, make_folder
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import ROAD, Wishes
@@ -24,7 +23,6 @@ from hosts.fmu.fmu_file import FoundFmu, find_fmu
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import START_OF, Settings
 from hosts.fmu.variables import Variables
-from hosts.recordings.format import DESCRIPTION, check_new
 from hosts.simulator.drivable import not_drivable
 
 ITERATIONS = "solver.step_iterations"
@@ -119,8 +117,9 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
         Something is wrong or cannot be used; one sentence with what would be right.
     """
     if asked.record is not None:
-        check_new(asked.record)
-        check_writable(make_folder(asked.record) / DESCRIPTION)
+        from hosts.recordings.recording import check_folder
+
+        check_folder(asked.record)
     with ThreadPoolExecutor() as pool:
         ahead = None if asked.fmu is not None else pool.submit(_wanted_world, asked, tell)  # both may take a while
         fmu = find_fmu(asked.fmu, tell, "all")

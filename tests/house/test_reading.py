@@ -10,20 +10,20 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 43450,
+    "build": 45350,
     "build --kernel": 400,
-    "car": 31350,
+    "car": 32400,
     "run": 4000,
-    "run, all of it": 6650,
+    "run, all of it": 6700,
     "view": 950,
     "simulator": 9000,
-    "simulator, all of it": 15600,
-    "check": 5600,
+    "simulator, all of it": 16050,
+    "check": 5800,
     "catalogue": 8350,
     "compare": 9650,
     "study": 7750,
-    "study --run": 8250,
-    "study, all of it": 15950,
+    "study --run": 8350,
+    "study, all of it": 16050,
     "road": 700,
 }
 """Lines; a command that needs fewer takes its number down with it."""
