@@ -259,7 +259,7 @@ def _make_files(folder: Path) -> None:
     ball = trimesh.creation.icosphere(1)
     for suffix in ("stl", "obj", "ply", "off", "glb"):
         ball.export(folder / f"ball.{suffix}")
-    plate = trimesh.creation.box((20.0, 10.0, 0.1)).slice_plane((0, 0, 0), (0, 0, 1))
+    plate = trimesh.Trimesh([(0, 0, 0), (20, 0, 0.1), (20, 10, 0.1), (0, 10, 0)], [(0, 1, 2), (0, 2, 3)])
     for suffix in ("stl", "obj", "ply", "off", "glb"):
         plate.export(folder / f"plate.{suffix}")
     shutil.copy(ROOT / "tests" / "data" / "crg" / "handmade_straight_minimalist.crg", folder / "line.crg")
