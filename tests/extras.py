@@ -82,7 +82,7 @@ READERS = (
     Reader("study", "ali3 study {} --dry-run", ("study.toml",), TABLE),
     Reader("roads", "ali3 road {} picture.road --range 0 1 --spacing 1 1", ("picture.png",)),
     Reader("roads", "ali3 road {} line.road", ("line.crg",)),
-    Reader("roads", "ali3 road {} plate.road", ("plate.stl", "plate.obj", "plate.ply", "plate.off", "plate.glb")),
+    Reader("roads", "ali3 road {} plate.road", ("plate.stl", "plate.obj", "plate.ply", "plate.off")),
     Reader(
         "pictures",
         "from viewer.mesh_file import read_mesh; read_mesh('{}')",
@@ -260,7 +260,7 @@ def _make_files(folder: Path) -> None:
     for suffix in ("stl", "obj", "ply", "off", "glb"):
         ball.export(folder / f"ball.{suffix}")
     plate = trimesh.Trimesh([(0, 0, 0), (20, 0, 0.1), (20, 10, 0.1), (0, 10, 0)], [(0, 1, 2), (0, 2, 3)])
-    for suffix in ("stl", "obj", "ply", "off", "glb"):
+    for suffix in ("stl", "obj", "ply", "off"):
         plate.export(folder / f"plate.{suffix}")
     shutil.copy(ROOT / "tests" / "data" / "crg" / "handmade_straight_minimalist.crg", folder / "line.crg")
     for file in (ROOT / "tests" / "data" / "external").iterdir():
