@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from ali3.extras import command_needs
+from ali3.files import check_writable
 from ali3.isolated import Isolated, Lost
 from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, assignment, count, given_of
@@ -139,6 +140,8 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         from hosts.soak.soak import soak
 
         return soak(options, parser.prog)
+    if options.junit is not None:
+        check_writable(options.junit)
     fmu = fmu_file(options.fmu)
     if table:
         from hosts.check.parameters import parameters

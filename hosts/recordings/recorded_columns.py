@@ -10,7 +10,12 @@ from hosts.fmu.geometry import scene_of
 from viewer.scene_columns import all_columns
 
 DRAWN, OTHERS = 0.025, 0.1
-"""Between two values of outputs that are drawn, and of others, s; steps that are longer count."""
+"""Between two values of outputs that are drawn, and of others, s, about; a longer step counts."""
+
+
+def check_interval(interval: float, step: float) -> int:
+    """How many steps lie between two recorded outputs; `HostError` if the interval is no whole multiple of the step."""
+    return steps_of(interval, step, "The interval")
 
 
 def recorded_columns(
@@ -18,9 +23,9 @@ def recorded_columns(
 ) -> dict[str, int]:
     """Columns of a recording, and how many steps lie between two of their values.
 
-    Inputs are recorded at every step, so that a drive can be repeated; outputs that the scene of the FMU draws every
-    25 ms, others every 0.1 s. The amplitudes of flexible parts are left out, some dozens of columns that only the
-    colours of stresses need.
+    Inputs are recorded at every step, so that a drive can be repeated; outputs that the scene of the FMU draws about
+    every 25 ms, others at every fourth of these rows. The amplitudes of flexible parts are left out, some
+    dozens of columns that only the colours of stresses need.
 
     Parameters
     ----------
@@ -36,9 +41,10 @@ def recorded_columns(
     """
     every = dict.fromkeys(inputs, 1)
     if interval is not None:
-        return every | dict.fromkeys(outputs, steps_of(interval, step, "The interval"))
+        return every | dict.fromkeys(outputs, check_interval(interval, step))
     scene = scene_of(fmu) or {}
     drawn = set(all_columns(scene)) if scene else set()
     amplitudes = {name for part in scene.get("flexible") or [] for name in part["amplitudes"]}
-    often, seldom = (max(1, round(span / step)) for span in (DRAWN, OTHERS))
+    often = max(1, round(DRAWN / step))
+    seldom = often * max(1, round(OTHERS / (often * step)))
     return every | {name: often if name in drawn else seldom for name in outputs if name not in amplitudes}

@@ -145,21 +145,18 @@ class RecordedDrive:
             before = int(epochs[-1]), int(counts[-1])
             yield rows
 
-    def shown(self) -> Iterator[Rows]:
-        """All rows with outputs, some thousands at a time."""
-        epoch = None
+    def shown(self, every: int = 1) -> Iterator[Rows]:
+        """Rows with outputs, some thousands at a time; of those between the beginnings of epochs every so many."""
+        outputs = self.every[len(self.inputs) :]
+        due = every * min(outputs, default=1)
+        epoch = -1
         for rows in self.blocks():
-            outputs = self.recorded(rows, epoch)[:, len(self.inputs) :]
+            yield rows.chosen(recorded(rows.steps, np.diff(rows.epoch, prepend=epoch) != 0, [due])[:, 0])
             epoch = int(rows.epoch[-1])
-            yield rows.chosen(outputs.any(axis=1)) if outputs.shape[1] else rows
 
     def rows(self, every: int = 1) -> Rows:
-        """All rows with outputs, or every so many of them."""
-        made, first = [], 0
-        for rows in self.shown():
-            made.append(rows.chosen(slice(first, None, every)))
-            first = (first - len(rows)) % every
-        return joined(made, len(self.names))
+        """The rows of `shown` together."""
+        return joined(list(self.shown(every)), len(self.names))
 
     def restart(self, epoch: int) -> dict[str, Value] | None:
         """Start values of the FMU if it starts again with this epoch, else None."""
@@ -220,7 +217,8 @@ def read_recording(folder: Path) -> RecordedDrive:
     every = meta["every"]
     if not isinstance(every, list) or not all(isinstance(k, int) and k > 0 for k in every):
         raise HostError(f"{file} does not say by 'every' how many steps lie between two values of a column.")
-    if len(every) != len(meta["columns"]) or not isinstance(meta["left_out"], list):
+    names = meta["left_out"]
+    if len(every) != len(meta["columns"]) or not isinstance(names, list) or not all(isinstance(n, str) for n in names):
         raise HostError(f"{file} does not say by 'every' and 'left_out' what of the columns is recorded.")
     notes = [] if meta.get("closed") else [f"{folder} was not closed: what was driven in its last seconds may be lost."]
     return RecordedDrive(folder, meta, _events(folder / EVENTS), notes)

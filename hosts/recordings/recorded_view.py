@@ -44,7 +44,9 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     count = sum(len(rows) for rows in drive.shown())
     if not count:
         raise HostError(f"{folder} holds no row yet.")
-    every = max(1, -(-count * len(drive.names) // _MOST_VALUES))
+    every = 1  # doubled, so that rows with the seldom outputs stay among those that are read
+    while count * len(drive.names) > every * _MOST_VALUES:
+        every *= 2
     rows = drive.rows(every)
     if every > 1:
         told.append(f"One of every {every} of {count} rows of {folder} with outputs is read.")
@@ -59,8 +61,8 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
             told.append(f"{fmu} was built again since {name} was recorded; what is drawn is that of the new build.")
     if scene is None:
         told.append(f"{geometry or drive.meta['fmu']} does not say what there is to draw; signals can be plotted.")
-    time = session_time(rows, drive.step)
-    columns = {column: _filled(time, rows.epoch, rows.values[:, k]) for k, column in enumerate(drive.names)}
+    time, whole = session_time(rows, drive.step), set(drive.meta.get("whole", ()))
+    columns = {name: _filled(time, rows.epoch, rows.values[:, k], name in whole) for k, name in enumerate(drive.names)}
     for part in (scene or {}).get("flexible") or []:
         if set(part["amplitudes"]) & set(drive.left_out):  # drawn rigid, and without the colours of stresses
             rigid = [*part["amplitudes"], *([part["computed"]] if "computed" in part else [])]
@@ -69,7 +71,7 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     if drive.left_out:
         recording.notes.append(
             f"{len(drive.left_out)} outputs are not recorded, such as {drive.left_out[0]}; --interval records all, and "
-            f"'ali3 run {drive.meta['model']}.fmu --manoeuvre {folder}' computes them again."
+            f"'ali3 run {drive.meta['fmu']} --manoeuvre {folder}' computes them again."
         )
     kinds = [event["kind"] for event in drive.events]
     jumps = [f"{kind} {kinds.count(kind)} times" for kind in ("reset", "rewind", "upright") if kind in kinds]
@@ -78,14 +80,18 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     return recording, told
 
 
-def _filled(time: NDArray[np.float64], epoch: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A column that goes straight between its recorded values, within each epoch."""
+def _filled(
+    time: NDArray[np.float64], epoch: NDArray[np.int64], values: NDArray[np.float64], held: bool
+) -> NDArray[np.float64]:
+    """A column that goes straight between its recorded values, or is held, within each epoch."""
     known = np.isfinite(values)
     if known.all() or not known.any():
         return values
     made = values.copy()
     for part in np.split(np.arange(len(time)), np.flatnonzero(np.diff(epoch)) + 1):
         there = part[known[part]]
-        if len(there):
+        if len(there) and held:
+            made[part] = values[there[np.maximum(np.searchsorted(there, part, side="right") - 1, 0)]]
+        elif len(there):
             made[part] = np.interp(time[part], time[there], values[there])
     return made

@@ -76,6 +76,7 @@ def recording_meta(
         "model": description.modelName,
         "guid": description.guid,
         "inputs": causalities.count("input"),
+        "whole": [v.name for v in description.modelVariables if v.type == "Integer"],
         "step": step,
         "start": dict(start),
         "seed": seed,

@@ -130,7 +130,8 @@ class Repeater:
         drive = self.drive
         self.fmu.initialise(last.start, float(last.time[0]))
         keys = list(zip(last.count.tolist(), last.epoch.tolist(), strict=True))
-        begin = next((k for k in range(stop, 0, -1) if keys[k] in drive.saved), 0)
+        saved = drive.saved if self.fmu.description.guid == drive.meta["guid"] else set()  # states are of one build
+        begin = next((k for k in range(stop, 0, -1) if keys[k] in saved), 0)
         state = drive.state_after(*keys[begin]) if begin else None if last.whole else drive.start_state
         if state is not None:
             self.fmu.restore_bytes(state)

@@ -124,7 +124,8 @@ def _csv_blocks(file: Path) -> Iterator[Rows]:
     if table.width < len(KEYS):
         raise HostError(f"{file} has {table.width} columns; a recording has {', '.join(KEYS)} and signals.")
     rows = table.rows()
-    full = (row._replace(cells=[cell or "nan" for cell in row.cells]) for row in rows)
+    keys = len(KEYS)
+    full = (row._replace(cells=row.cells[:keys] + [cell or "nan" for cell in row.cells[keys:]]) for row in rows)
     while block := [table.numbers(row, finite=False) for row in islice(full, _BLOCK)]:
         yield _of_lines(block)
 

@@ -67,7 +67,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_setting_options(parser)
     add_option(parser, "--aliases")
     parser.add_argument("--record", type=Path, metavar="DIR", help="record the drive there")
-    add_option(parser, "--interval", "poses 0.025, other outputs 0.1; inputs are recorded at every step")
+    add_option(parser, "--interval", "about 0.025 of what is drawn, 0.1 of other outputs; inputs at every step")
     add_option(parser, "--json")
     page = parser.add_argument_group("with a page")
     page.add_argument("--port", type=int, metavar="N", help="of the server; default: the first free one from 8765 on")
@@ -124,6 +124,10 @@ def _check(options: argparse.Namespace) -> None:
         raise HostError(f"{given[0]} is for a recording; --recording names its folder.")
     if options.interval is not None and options.record is None:
         raise HostError("--interval is for what --record writes; name a folder for the recording.")
+    if options.interval is not None:
+        from hosts.recordings.recorded_columns import check_interval
+
+        check_interval(options.interval, options.step)
     alone = {"--stop-time": options.stop_time, "--manoeuvre": options.manoeuvre, "--seed": options.seed}
     given = [name for name, value in alone.items() if value is not None]
     if given and not options.headless:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import math
+import shutil
 import threading
 import time
 from collections.abc import Callable
@@ -14,9 +16,10 @@ import pytest
 import hosts.simulator.car as car_module
 from ali3.errors import FileError
 from hosts.common.errors import HostError
+from hosts.recordings.last_drive import last_drive
 from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.recording import Recorder
-from hosts.recordings.replay import replay
+from hosts.recordings.replay import Repeater, replay
 from hosts.simulator.car import Car, CarSettings
 
 PATIENCE = 60.0
@@ -76,6 +79,33 @@ def test_a_drive_with_all_jumps_is_repeated_bit_for_bit(fmu: Callable[[str], Pat
     assert made.different == 0, made.notes
     assert made.rows == 700 + 300 + 300 + 100 + 50 + 50 + 100 + 8
     assert drive.meta["world"] == "a plane"
+
+
+@pytest.mark.slow
+def test_states_between_lead_to_the_same_bits(fmu: Callable[[str], Path], tmp_path: Path) -> None:
+    """A part is found from the state that the car's process has saved as it is from the start."""
+    folder = tmp_path / "drive"
+    with Car(settings(fmu("sledge"), folder)) as car:
+        car.want({"steering": (0.4, 0.1), "throttle": (1.0, 0.1)})
+        steps(car, 500)
+        car.command("reset")
+        steps(car, 12_000)
+    drive = read_recording(folder)
+    assert drive.saved == {(10_000, 1)}
+    last, found = last_drive(drive), []
+    for there in (True, False):
+        with Repeater(drive) as repeater:
+            assert len(list(repeater.along(last, 9700))) == (200 if there else 9700)
+            found.append(repeater.fmu.state_bytes())
+        shutil.rmtree(folder / "states", ignore_errors=True)
+    assert found[0] == found[1]
+    # Another build has other states: the drive is repeated from its start.
+    meta = json.loads((folder / "recording.json").read_text())
+    (folder / "states").mkdir()
+    (folder / "states" / "1-10000.state").write_bytes(b"of another build")
+    (folder / "recording.json").write_text(json.dumps(meta | {"guid": "{another}"}))
+    with Repeater(read_recording(folder)) as repeater:
+        assert len(list(repeater.along(last, 9700))) == 9700
 
 
 @pytest.mark.slow

@@ -223,7 +223,7 @@ def test_outputs_are_recorded_seldom_and_states_between(fmus: dict[str, Path], t
     """What is there is repeated bit for bit, what is wrong is found, and a part is found from the last state."""
     whole = read_recording(whole_drive(fmus["sledge"], tmp_path / "all", table))
     outputs = whole.names[3:]
-    every = dict.fromkeys(whole.inputs, 1) | {outputs[0]: 4} | dict.fromkeys(outputs[2:], 10)
+    every = dict.fromkeys(whole.inputs, 1) | {outputs[0]: 4} | dict.fromkeys(outputs[2:], 12)
     folder = whole_drive(fmus["sledge"], tmp_path / "drive", table, every)
     drive = read_recording(folder)
     assert drive.left_out == [outputs[1]]
@@ -235,7 +235,8 @@ def test_outputs_are_recorded_seldom_and_states_between(fmus: dict[str, Path], t
         there = (everything.steps % every[name] == 0) | begins
         assert np.array_equal(np.isfinite(some.values[:, k]), there), name
         assert np.array_equal(some.values[there, k], everything.values[there, whole.names.index(name)]), name
-    assert len(drive.rows()) == np.sum((everything.steps % 4 == 0) | (everything.steps % 10 == 0) | begins)
+    assert len(drive.rows()) == np.sum((everything.steps % 4 == 0) | begins)
+    assert len(drive.rows(2)) == np.sum((everything.steps % 8 == 0) | begins)
 
     part = tmp_path / "part.csv"
     to_manoeuvre(drive, part, 0.36, 0.5)
@@ -266,7 +267,7 @@ def test_what_of_a_car_is_recorded(fmus: dict[str, Path], monkeypatch: pytest.Mo
     scene = {"frames": {"a": {"position": ["x", "y", "z"]}}, "flexible": [{"amplitudes": ["q1"]}]}
     monkeypatch.setattr("hosts.recordings.recorded_columns.scene_of", lambda fmu: scene)
     given = fmus["sledge"], ["u"], ["x", "y", "speed", "q1"], 0.002
-    assert recorded_columns(*given) == {"u": 1, "x": 12, "y": 12, "speed": 50}
+    assert recorded_columns(*given) == {"u": 1, "x": 12, "y": 12, "speed": 48}
     assert recorded_columns(*given, 0.01) == {"u": 1, "x": 5, "y": 5, "speed": 5, "q1": 5}
     assert recorded_columns(*given[:3], 0.2) == {"u": 1, "x": 1, "y": 1, "speed": 1}
     with pytest.raises(HostError, match=r"The interval is 0.003 s, no whole multiple of the step of 0.002 s"):
@@ -580,6 +581,11 @@ def test_a_view_draws_straight_between_outputs_and_flexible_parts_rigid(
     known = np.isfinite(column)
     assert np.array_equal(column[known], all_rows.values[there, whole.names.index(drawn)][known])
     assert np.array_equal(made["columns"][drawn][known], column[known])
+    monkeypatch.setattr("hosts.recordings.recorded_view._MOST_VALUES", 60 * len(every))
+    recorded_view(folder, "drive")
+    assert len(made["t"]) == len(read_recording(folder).rows(2))  # thinned: every value that is left stays
+    thin = read_recording(folder).rows(2).values[:, list(every).index(drawn)]
+    assert np.array_equal(made["columns"][drawn], thin)
     assert not made["columns"][amplitude].any()
     assert not made["columns"]["computed"].any()
     assert f"such as {whole.names[5]}; --interval records all" in shown.notes[0]
