@@ -13,11 +13,6 @@ DRAWN, OTHERS = 0.025, 0.1
 """Between two values of outputs that are drawn, and of others, s, about; a longer step counts."""
 
 
-def check_interval(interval: float, step: float) -> int:
-    """How many steps lie between two recorded outputs; `HostError` if the interval is no whole multiple of the step."""
-    return steps_of(interval, step, "The interval")
-
-
 def recorded_columns(
     fmu: Path, inputs: Sequence[str], outputs: Sequence[str], step: float, interval: float | None = None
 ) -> dict[str, int]:
@@ -41,7 +36,7 @@ def recorded_columns(
     """
     every = dict.fromkeys(inputs, 1)
     if interval is not None:
-        return every | dict.fromkeys(outputs, check_interval(interval, step))
+        return every | dict.fromkeys(outputs, steps_of(interval, step, "The interval"))
     scene = scene_of(fmu) or {}
     drawn = set(all_columns(scene)) if scene else set()
     amplitudes = {name for part in scene.get("flexible") or [] for name in part["amplitudes"]}

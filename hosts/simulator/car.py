@@ -92,8 +92,8 @@ class Car:
         from hosts.recordings.recorded_columns import recorded_columns
         from hosts.recordings.recording import Recorder, recording_meta
 
-        outputs = self.names[len(self.inputs) :]
-        every = recorded_columns(settings.fmu, self.inputs, outputs, settings.step, settings.interval)
+        outputs, interval = self.names[len(self.inputs) :], settings.interval
+        every = recorded_columns(settings.fmu, self.inputs, outputs, settings.step, interval)
         meta = recording_meta(settings.fmu, settings.step, start, seed=settings.seed, world=settings.world)
         return Recorder(settings.record, self.names, self.units, meta, every=every)
 

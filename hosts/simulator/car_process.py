@@ -256,17 +256,9 @@ class Loop:
         shared.rows.finish()
         if car.count >= self._state_due:
             self._state_due = car.count + self._state_every
-            self._save_state(car.state_bytes())
-
-    def _save_state(self, state: bytes) -> None:
-        """Hand a state to the recording; where there is no room now, a later one serves."""
-        message = STATE_HEAD.pack(self._car.count, self._car.epoch) + state
-        if state and len(message) <= self._shared.states.longest:
-            self._shared.states.put(message)
-            return
-        self._state_due = sys.maxsize
-        why = f"one has {1e-6 * len(state):.3g} MB" if state else "the FMU cannot write one"
-        self._tell(Told("told", f"The recording has no states between: {why}. A part of it is found from its start."))
+            state = car.state_bytes()
+            if state:  # where there is no room, a later one serves
+                shared.states.put(STATE_HEAD.pack(car.count, car.epoch) + state)
 
     def _tell(self, told: Told) -> None:
         car = self._car

@@ -124,10 +124,6 @@ def _check(options: argparse.Namespace) -> None:
         raise HostError(f"{given[0]} is for a recording; --recording names its folder.")
     if options.interval is not None and options.record is None:
         raise HostError("--interval is for what --record writes; name a folder for the recording.")
-    if options.interval is not None:
-        from hosts.recordings.recorded_columns import check_interval
-
-        check_interval(options.interval, options.step)
     alone = {"--stop-time": options.stop_time, "--manoeuvre": options.manoeuvre, "--seed": options.seed}
     given = [name for name, value in alone.items() if value is not None]
     if given and not options.headless:

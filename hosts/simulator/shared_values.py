@@ -134,13 +134,8 @@ class ByteRing:
     def __init__(self, counters: NDArray[np.int64], data: NDArray[np.uint8]) -> None:
         self._counters, self._data = counters, data
 
-    @property
-    def longest(self) -> int:
-        """Bytes of a message, at most."""
-        return len(self._data) - self._HEAD
-
     def put(self, message: bytes) -> bool:
-        """Whether there was room; a message longer than `longest` never has it."""
+        """Whether there was room."""
         written, size = int(self._counters[0]), len(self._data)
         record = np.frombuffer(len(message).to_bytes(self._HEAD, "little") + message, np.uint8)
         if written - int(self._counters[1]) + len(record) > size:
