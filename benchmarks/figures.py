@@ -14,8 +14,7 @@ from collections.abc import Callable, Sequence
 
 import mbs
 from ali3.running import run_command
-from benchmarks import faces, tyre_fits
-from benchmarks.car import accuracy, trust
+from benchmarks.car import accuracy, road_faces, trust, tyre_formulas
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
 from benchmarks.methods import honesty, pages, stability, stability_margins
 from benchmarks.paper import double_four_bar, flexible_tables, puma
@@ -102,11 +101,11 @@ def flexible() -> list[Again]:
 
 def roads_and_tyres() -> list[Again]:
     """Loads of a wheel at steps of a road, and errors of fits of tyres."""
-    loads = faces.face_table([faces.measure("hatchback", height) for height in faces.HEIGHTS])
+    loads = road_faces.face_table([road_faces.measure("hatchback", height) for height in road_faces.HEIGHTS])
     fits = "docs/decisions/0096-tyres-from-one-formula-to-the-other.md"
     return [
         Again("docs/roads.md", loads, "faces", ("height, m",)),
-        Again(fits, tyre_fits.fit_table(), "tyre fits", ("tyre",)),
+        Again(fits, tyre_formulas.fit_table(), "tyre fits", ("tyre",)),
     ]
 
 

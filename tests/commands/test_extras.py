@@ -71,7 +71,8 @@ def test_extras_that_are_named_exist() -> None:
         ("build", "", "lxml", "fmu"),
         ("view", "pictures", "PIL", "pictures"),
         ("road", "roads", "PIL", "roads"),
-        ("view", "", "trimesh", "pictures"),
+        ("view", "pictures", "trimesh", "pictures"),
+        ("road", "roads", "trimesh", "roads"),
     ],
 )
 def test_the_extra_of_the_command_comes_first(command: str, extra: str, package: str, told: str) -> None:

@@ -258,7 +258,7 @@ def for_ever(ask: Callable[[], None]) -> None:
 def test_too_many_commands_are_refused(make: Made) -> None:
     car = make(paced=True, step=0.5)
     for ask in (lambda: car.command("pause"), lambda: car.restart({})):
-        with pytest.raises(HostError, match="not yet taken"):
+        with pytest.raises(HostError, match="not yet carried out"):
             for_ever(ask)
     until(car, lambda _: car._shared.commands.has_room())
     car.restart({"initial.x": 3.0})
@@ -372,8 +372,8 @@ def test_wants_and_commands_that_are_none(make: Made) -> None:
         ("step", -1.0, "whole number"),
         ("speed", 2.0, "from 0.05 to 1"),
         ("speed", math.nan, "from 0.05 to 1"),
-        ("rewind", 0.0, "positive time"),
-        ("rewind", math.inf, "positive time"),
+        ("rewind", 0.0, "must be positive"),
+        ("rewind", math.inf, "must be positive"),
     ):
         with pytest.raises(HostError, match=sentence):
             car.command(name, value)
