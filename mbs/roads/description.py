@@ -13,12 +13,14 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from ali3.reading import read_toml
 from ali3.typed_sentences import Sentences
+from mbs.common.checks import positive
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header.limits import ROAD_FRICTION
 from mbs.roads.grid_files import read_grid
-from mbs.roads.kinds import CRG, MESHES
+from mbs.roads.kinds import CRG, MESHES, PICTURE
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.rough_road import ISO_8608, rough_heights
+from mbs.roads.sampled_road import SampledRoad, tell
 
 Length = Annotated[float, Field(gt=0.0, le=1e5)]
 Place = Annotated[float, Field(ge=-1e6, le=1e6)]
@@ -188,6 +190,14 @@ def grid_road(
     **mesh
         `scale` and `up` of `mesh_road`.
     """
+    for limits, what, file in ((height_range, "heights", heights), (friction_range, "frictions", frictions)):
+        if limits is not None and Path(str(file)).suffix.lower() != PICTURE:
+            raise RoadFileError(
+                f"{heights}: the range {limits[0]:g} to {limits[1]:g} of {what} says what black and white of a picture "
+                f"({PICTURE}) are, but its {what} come from no picture; leave the range out."
+            )
+    for step in spacing or ():
+        positive(step, f"The spacing of the grid of {heights}", RoadFileError)
     grid = _grid(heights, height_range, spacing, mesh)
     values: Any = frictions
     if frictions is None:
@@ -202,7 +212,12 @@ def grid_road(
             )
     if np.any(np.asarray(values) > ROAD_FRICTION) or np.any(np.asarray(values) < 0.0):
         raise RoadFileError(f"The frictions of {heights} must lie between 0 and {ROAD_FRICTION:g}.")
-    return replace(grid, origin=origin or grid.origin, frictions=values)
+    road = replace(grid, frictions=values)
+    if isinstance(road, SampledRoad):
+        road = road.moved_to(origin or road.origin)
+        tell(road)
+        return road
+    return replace(road, origin=origin or road.origin)
 
 
 def _grid(

@@ -28,6 +28,9 @@ HOLE = 100.0
 """m2: a smaller gap inside of a mesh is a hole, a larger one what a closed road goes round."""
 OVER = 1e-3
 """m: surfaces above one another that are farther apart are an overhang."""
+LAYERS = 3.0
+"""Times its box that a mesh may cover seen from above; a scan takes as long as what it covers is large."""
+_ONE_HEIGHT = "a road has one height at each place. Leave only the surface in the file that wheels roll on."
 _UNIT = 'for a file in millimetres write a description with kind = "grid", heights = "{}" and scale = 0.001'
 
 
@@ -53,7 +56,7 @@ def mesh_road(
     Raises
     ------
     RoadFileError
-        It is no mesh, stands upright, has overhangs or holes, or needs too many points.
+        It is no mesh, stands upright, has overhangs or holes, needs too many points, or none of them meets it.
 
     Warns
     -----
@@ -73,7 +76,13 @@ def mesh_road(
             f"{source} is {np.hypot(*(high - low)[:2]):.3g} m across, which is no road; `scale` in a description says "
             "how many metres its unit has."
         )
-    _level(corners, source, name)
+    seen = _seen_areas(corners)
+    _level(corners, seen, source, name)
+    area, box = float(seen.sum()), float((high - low)[:2].prod())
+    if area > LAYERS * box:
+        raise RoadFileError(
+            f"{source} has surfaces above one another, {area:.4g} m2 seen from above within {box:.4g} m2: {_ONE_HEIGHT}"
+        )
     x, y = points_of_box(
         low[:2], high[:2], spacing or SPACING, source, f" The unit is taken as metre; {_UNIT.format(name)}."
     )
@@ -84,11 +93,16 @@ def mesh_road(
         i, j = np.argwhere(over)[0].tolist()
         raise RoadFileError(
             f"{source} has surfaces above one another at x = {x_between[i]:.6g} m, y = {y_between[j]:.6g} m, of "
-            f"heights {lowest[i, j]:.4g} and {highest[i, j]:.4g} m, at {int(over.sum())} of {over.size} places: a road "
-            "has one height at each place. Leave only the surface in the file that wheels roll on."
+            f"heights {lowest[i, j]:.4g} and {highest[i, j]:.4g} m, at {int(over.sum())} of {over.size} places: "
+            f"{_ONE_HEIGHT}"
         )
-    heights = _filled(triangle_heights(corners, x, y)[1], road, source)
-    road = replace(road, heights=heights)
+    heights = triangle_heights(corners, x, y)[1]
+    if np.isnan(heights).all():
+        raise RoadFileError(
+            f"{source} is narrower than the grid: none of its {heights.size} points, {road.spacing[0]:.4g} by "
+            f"{road.spacing[1]:.4g} m apart, lies on it. A spacing of {_fine(corners, seen):.2g} m has such points."
+        )
+    road = replace(road, heights=_filled(heights, road, source))
     own = corners.reshape(-1, 3)
     rows = (
         (np.stack([np.full(len(y_between), at), y_between], -1), z) for at, z in zip(x_between, highest, strict=True)
@@ -96,10 +110,23 @@ def mesh_road(
     return compared(road, chain(rows, [(own[:, :2], own[:, 2])]), source)
 
 
-def _level(corners: Values, source: str, name: str) -> None:
+def _seen_areas(corners: Values) -> Values:
+    """Of triangles from above, m2."""
+    (ax, ay), (bx, by) = ((corners[:, k, :2] - corners[:, 0, :2]).T for k in (1, 2))
+    return np.asarray(0.5 * np.abs(ax * by - bx * ay))
+
+
+def _fine(corners: Values, seen: Values) -> float:
+    """A spacing with a point in the widest triangle: as one is in every circle across which a cell's diagonal fits."""
+    sides = np.linalg.norm(np.diff(corners[:, [0, 1, 2, 0], :2], axis=1), axis=-1).sum(axis=1)
+    inner = 2.0 * seen / np.maximum(sides, 1e-300)
+    return 0.9 * float(np.sqrt(2.0) * inner.max())
+
+
+def _level(corners: Values, seen: Values, source: str, name: str) -> None:
     """Refuses a mesh that shows little of itself from above."""
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    share = float(np.abs(normals[:, 2]).sum() / max(np.linalg.norm(normals, axis=1).sum(), 1e-300))
+    share = 2.0 * float(seen.sum() / max(np.linalg.norm(normals, axis=1).sum(), 1e-300))
     if share < LEVEL:
         raise RoadFileError(
             f"{source} shows only {100.0 * share:.2g} % of its area from above, a road more than {100.0 * LEVEL:g} %; "

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from ctypes import POINTER, c_double
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,6 +51,11 @@ class SampledRoad(GridRoad):
             f"differs from {self.source} by {1000.0 * self.largest:.3g} mm at most, at x = {self.place[0]:.6g} m, "
             f"y = {self.place[1]:.6g} m, and by {1000.0 * self.rms:.3g} mm (root mean square)"
         )
+
+    def moved_to(self, origin: Sequence[float]) -> SampledRoad:
+        """The same road with its first point at x and y, m."""
+        x, y = (self.place[k] + origin[k] - self.origin[k] for k in range(2))
+        return replace(self, origin=origin, place=(x, y))
 
 
 def points_of_box(
@@ -101,15 +106,18 @@ def compared(road: GridRoad, known: Iterable[tuple[Values, Values]], source: str
             largest, place = float(off[k]), (float(places[k, 0]), float(places[k, 1]))
         squares, count = squares + float(off @ off), count + int(np.isfinite(there).sum())
     rms = float(np.sqrt(squares / max(count, 1)))
-    made = SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
-    if largest > TOLD:
+    return SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
+
+
+def tell(road: SampledRoad) -> None:
+    """Warns of a large difference."""
+    if road.largest > TOLD:
         step = " by ".join(f"{h:.4g}" for h in road.spacing)
         warnings.warn(
-            f"The grid with points {step} m apart {made.sentence}; a smaller spacing follows it more closely.",
+            f"The grid with points {step} m apart {road.sentence}; a smaller spacing follows it more closely.",
             RoadWarning,
             stacklevel=4,
         )
-    return made
 
 
 def grid_heights(road: GridRoad, heights: Values, places: Values) -> Values:

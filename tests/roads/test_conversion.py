@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from mbs.roads.picture import shown
 from mbs.roads.rough_road import ISO_8608, rough_heights
 from mbs.roads.shipped import FOLDER
 
+CRG = Path(__file__).parents[1] / "data" / "crg"
 HEIGHTS = np.array([[0.0, 0.1, 0.2], [1.0, 1.1, 1.2]])  # x number 0 and 1, y number 0 to 2
 LABELLED = "x\\y,-1,0,1\n5,0.0,0.1,0.2\n7,1.0,1.1,1.2\n"
 
@@ -149,6 +151,31 @@ def test_pictures_that_are_none_are_refused(tmp_path):
     ):
         with pytest.raises(RoadFileError, match=sentence):
             read_road(tmp_path / name, spacing=(1.0, 1.0), height_range=(0.0, 1.0))
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.crg", "a.stl"])
+def test_what_a_grid_cannot_have_is_refused(tmp_path, name):
+    """A spacing that is none, and a range of black and white where there is no picture; without the extras too."""
+    (tmp_path / "a.csv").write_text(LABELLED)
+    (tmp_path / "a.crg").write_bytes((CRG / "handmade_straight_minimalist.crg").read_bytes())
+    corners = "\n".join(f"vertex {x} {y} 0" for x, y in ((0, 0), (9, 0), (0, 9)))
+    facet = f"facet normal 0 0 1\nouter loop\n{corners}\nendloop\nendfacet"
+    (tmp_path / "a.stl").write_text(f"solid a\n{facet}\nendsolid a\n")
+    for spacing, sentence in (
+        ((-0.1, 0.1), "is -0.1; it must be greater than zero"),
+        ((0.1, 0.0), "is 0; it must be greater than zero"),
+        ((np.nan, 0.1), "is nan; it must be"),
+    ):
+        with pytest.raises(RoadFileError, match=sentence):
+            read_road(tmp_path / name, spacing=spacing)
+    for given, sentence in (
+        ({"height_range": (0.0, 0.25)}, "range 0 to 0.25 of heights .* its heights come from no picture"),
+        ({"friction_range": (0.2, 1.0)}, "range 0.2 to 1 of frictions .* its frictions come from no picture"),
+        ({"friction_range": (0.2, 1.0), "frictions": 0.5}, "its frictions come from no picture"),
+    ):
+        with pytest.raises(RoadFileError, match=sentence) as refused:
+            read_road(tmp_path / name, **given)
+        assert name in str(refused.value)
 
 
 def test_descriptions(tmp_path):

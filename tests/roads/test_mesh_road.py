@@ -150,6 +150,46 @@ def test_a_mesh_that_is_no_road_is_refused(tmp_path: Path, mesh: tuple[Array, Ar
     assert "\n" not in str(refused.value)
 
 
+def test_many_surfaces_above_one_another_are_refused_before_they_are_scanned(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Eight squares of 400 m, 0.1 mm apart: no two that follow each other are an overhang."""
+    monkeypatch.setattr("mbs.roads.mesh_road.triangle_heights", lambda *_: pytest.fail("they were scanned"))
+    points, triangles = sheet(400.0, 400.0, lambda x, y: 0.0, 400.0)
+    file = saved(
+        tmp_path / "a.ply",
+        np.concatenate([points + np.array([0.0, 0.0, 1e-4 * k]) for k in range(8)]),
+        np.concatenate([triangles + len(points) * k for k in range(8)]),
+    )
+    with pytest.raises(
+        RoadFileError, match=r"above one another, 1\.28e\+06 m2 seen from above within 1\.6e\+05 m2: a road"
+    ):
+        read_road(file)
+
+
+def test_a_mesh_between_the_points_of_a_grid_is_refused_with_a_spacing_that_meets_it(tmp_path: Path) -> None:
+    """Three strips of 20 mm between the middles of the sides of a square of 3 m."""
+    middles, across = np.array([[0.0, 1.5], [1.5, 0.0], [3.0, 1.5], [1.5, 3.0]]), np.array([[1, 1], [1, -1], [1, 1]])
+    points = [m + s * 0.0071 * w for k, w in enumerate(across) for m in middles[k : k + 2] for s in (-1.0, 1.0)]
+    triangles = [[4 * k + i for i in corners] for k in range(3) for corners in ((0, 1, 2), (1, 3, 2))]
+    file = saved(tmp_path / "a.ply", np.column_stack([points, np.zeros(12)]), np.array(triangles))
+    with pytest.raises(RoadFileError, match="none of its .* points") as refused:
+        read_road(file, spacing=(0.29, 0.29))
+    fits = float(str(refused.value).split("A spacing of ")[1].split()[0])
+    assert np.isfinite(read_road(file, spacing=(fits, fits)).heights).all()
+
+
+def test_the_place_of_the_largest_difference_moves_with_the_grid(tmp_path: Path) -> None:
+    """Also in the warning."""
+    file = saved(tmp_path / "a.ply", *sheet(20.0, 4.0, lambda x, y: 0.5 * np.clip(x - 7.03, 0.0, 3.1), 0.1))
+    with pytest.warns(RoadWarning, match=r"at most, at x = 7 m, y"):
+        there = read_road(file, spacing=(0.4, 0.4))
+    with pytest.warns(RoadWarning, match=r"at most, at x = 107 m, y"):
+        moved = read_road(file, spacing=(0.4, 0.4), origin=(100.0, 20.0))
+    assert np.subtract(moved.place, there.place) == pytest.approx((100.0, 22.0))
+    assert (moved.largest, tuple(moved.origin)) == (there.largest, (100.0, 20.0))
+
+
 @pytest.mark.parametrize(("scale", "up", "order"), [(0.001, "z", (0, 1, 2)), (1.0, "y", (0, 2, 1))])
 def test_a_description_says_unit_and_axis(tmp_path: Path, scale: float, up: str, order: tuple[int, ...]) -> None:
     points, triangles = changed(1.0 / scale, order)
