@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import shutil
+import tracemalloc
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,8 @@ from mbs.vehicle.car import car_from
 from mbs.vehicle.kinematics.car_kinematics import kinematics
 from mbs.vehicle.kinematics.compliance import compliance
 from mbs.vehicle.side import Side
-from mbs.vehicle.suspensions.curve_table import read_curves
+from mbs.vehicle.suspensions.curve_poses import wheel_curves
+from mbs.vehicle.suspensions.curve_table import COLUMNS, FINEST, read_curves
 from tests.vehicle.curved_car import curved_content, light_armed
 
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -186,9 +188,7 @@ def test_uneven_points_are_a_smooth_curve_and_two_sweeps_of_a_rack_are_added(con
     heading, rows = rows_of(copied / "front.csv")
     cross = rows[(np.abs(rows[:, 0]) < 1e-9) | (np.abs(rows[:, 1]) < 1e-9)]
     written(copied, heading, cross)
-    (copied / "rear.csv").rename(copied / "front.csv")
-    shutil.copy(copied / "front.csv", copied / "rear.csv")
-    front = read_curves(copied, "front.csv", "key")
+    front = read_curves(copied, "rear.csv", "key")
     full = before.front.by_curves.table
     i, k = (int(np.argmin(np.abs(axis))) for axis in (full.travel, full.second))
     toe, whole = front.columns["toe_angle"], full.columns["toe_angle"]
@@ -218,6 +218,9 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
     refused(r"has 3 values of wheel_travel; there must be 4 or more", values=rows[:3])
     refused(r"has a wheel_travel of .* after .*; it must rise", values=rows[::-1])
     refused(r"0, the drawing, must lie between them", values=rows[-5:])
+    hardly = np.vstack([rows[rows[:, 0] <= 0.0], rows[-1:]])
+    hardly[-1, 0] = 1e-7
+    refused(r"from .* to 1e-07 m; .* farther from 0 than a 200th of the range", values=hardly)
     refused(r"ends at .* m of the spring in bump; it must reach to the end of its stop", values=rows[:-4])
     wide = rows.copy()
     wide[2, toe] = 100.0
@@ -231,6 +234,86 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
     refused("has the column rack_travel; the rear axle does not steer", heading, rows)
     refused(r"rows for .*; there must be one for each pair", heading, rows[:-1])
     refused("twice; there must be one row for each", heading, np.vstack([rows, rows[:1]]))
+
+
+def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Path, tmp_path: Path) -> None:
+    """The left wheel of a twist beam and, of the right one, the image of what the left does with travels exchanged."""
+    mirrored = car_from(content["hatchback"], folder / "hatchback", "mirrored").rear.by_curves
+    heading, rows = rows_of(folder / "hatchback" / "rear.csv")
+    exchanged = rows[[int(np.flatnonzero((rows[:, 0] == b) & (rows[:, 1] == a))[0]) for a, b in rows[:, :2]], 2:]
+    names = heading[2:]
+    exchanged[:, names.index("wheel_centre_y [m]")] *= -1.0
+    sides = [name.replace(" [", f"_{side} [") for side in ("left", "right") for name in names]
+    both = np.hstack([rows, exchanged])
+    lifted = both[both[:, 0] >= -0.04]  # the right wheel keeps its range
+    written(tmp_path, ["wheel_travel_left [m]", *heading[1:2], *sides], lifted)
+    table, hub = read_curves(tmp_path, "rear.csv", "key"), mirrored.hub
+    short, whole = slice(-len(table.travel), None), slice(None)
+    for side, own, second in (
+        (Side("rear", "left", 1.0), short, whole),
+        (Side("rear", "right", -1.0), whole, short),
+    ):
+        one, other = mirrored.of(side), wheel_curves(table, side, hub)
+        np.testing.assert_allclose(other.travel, one.travel[own], atol=1e-12)
+        np.testing.assert_allclose(other.second, one.second[second], atol=1e-12)
+        np.testing.assert_allclose(other.centres, one.centres[own, second], atol=1e-12)
+        np.testing.assert_allclose(other.rotations, one.rotations[own, second], atol=1e-12)
+        np.testing.assert_allclose(other.lengths["spring_length"], one.lengths["spring_length"][own, second])
+
+
+def test_a_column_of_one_wheel_is_asked_of_the_other(tmp_path: Path) -> None:
+    travel = np.linspace(-0.08, 0.08, 17)
+    needed = dict.fromkeys(("wheel_centre_x", "wheel_centre_y", "toe_angle", "camber_angle"), 0.1 * travel)
+    needed["carrier_pitch_angle"] = 0.1 * travel
+    unit = {name: "rad" if name.endswith("angle") else "m" for name in COLUMNS}
+
+    def table(*names: str) -> None:
+        columns = [needed.get(name.removesuffix("_left").removesuffix("_right"), travel + 0.4) for name in names]
+        units = [unit[name.removesuffix("_left").removesuffix("_right")] for name in names]
+        written(
+            tmp_path,
+            ["wheel_travel [m]", *(f"{n} [{u}]" for n, u in zip(names, units, strict=True))],
+            np.column_stack([travel, *columns]),
+        )
+        read_curves(tmp_path, "rear.csv", "key")
+
+    sides = [f"{name}_{side}" for name in needed for side in ("left", "right")]
+    table(*sides)
+    table(*sides, "spring_length_left", "spring_length_right")
+    with pytest.raises(CarFileError, match="no column toe_angle or steer_angle of the right wheel"):
+        table(*(n for n in sides if not n.startswith("toe")), "toe_angle")
+    for given in (
+        ["spring_length"],
+        ["spring_length_left"],
+        ["spring_length_right"],
+        ["spring_length", "spring_length_left", "spring_length_right"],
+    ):
+        match = rf"right wheel and {', '.join(given)}; there must be spring_length_left and spring_length_right"
+        with pytest.raises(CarFileError, match=match):
+            table(*sides, *given)
+
+
+def test_a_table_of_many_rows_is_thinned_or_refused_with_its_name(content: dict, folder: Path, copied: Path) -> None:
+    """Noisy pairs take no memory of rows by rows; a travel that ends at the drawing is no range."""
+    rng = np.random.default_rng(1)
+    noisy = np.column_stack([np.linspace(-0.08, 0.08, 6000), rng.uniform(-0.05, 0.05, 6000), np.zeros((6000, 5))])
+    names = ("wheel_centre_x [m]", "wheel_centre_y [m]", "toe_angle [rad]", "camber_angle [rad]", "caster_angle [rad]")
+    written(copied, ["wheel_travel [m]", "rack_travel [m]", *names], noisy)
+    tracemalloc.start()
+    try:
+        with pytest.raises(CarFileError, match=r"rear\.csv\) has 6000 rows for 6000 values .* and 599. of rack_travel"):
+            read_curves(copied, "rear.csv", "key")
+        assert tracemalloc.get_traced_memory()[1] < 16e6  # bytes; 6000 by 6000 numbers are 288e6
+    finally:
+        tracemalloc.stop()
+    heading, rows = rows_of(folder / "saloon" / "rear.csv")
+    smooth, step = CubicSpline(rows[:, 0], rows), rows[-1, 0] / 2500
+    written(copied, heading, smooth(step * np.arange(np.ceil(rows[0, 0] / step), 2501)))
+    table = car_from(content["saloon"], copied, "x").rear.by_curves.table
+    assert len(table.travel) <= FINEST + 1
+    np.testing.assert_allclose(
+        table.columns["toe_angle"][:, 0], smooth(table.travel)[:, heading.index("toe_angle [rad]")]
+    )
 
 
 def test_a_wheel_beyond_its_table_ends_the_run_with_its_name_and_range(content: dict, copied: Path) -> None:
@@ -258,9 +341,17 @@ def test_links_are_asked_for_where_there_are_none(content: dict, folder: Path) -
 def test_the_command_writes_the_tables_of_links(
     content: dict, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture
 ) -> None:
-    assert main(["car", "saloon", "--kinematics", "--points", "3", "--out", str(tmp_path)]) == 0
+    assert main(["car", "saloon", "--kinematics", "--points", "5", "--out", str(tmp_path)]) == 0
     assert "front_table.csv, rear_table.csv: where the wheels stand" in capsys.readouterr().out
     written_by_hand = rows_of(folder / "saloon" / "rear.csv")
     heading, rows = rows_of(tmp_path / "rear_table.csv")
     assert heading == written_by_hand[0]
     np.testing.assert_allclose(rows, written_by_hand[1], atol=1e-12)  # masses are no part of it
+    parallel = read_curves(tmp_path, "rear_parallel.csv", "key")
+    right = np.abs(parallel.columns["wheel_centre_y_right"] + parallel.columns["wheel_centre_y_left"])
+    assert parallel.both
+    assert right.max() < 1e-9
+    for motion, row in (("opposite", 1), ("single", 1)):
+        match = rf"{motion}\.csv\), row {row} has .*; both wheels must travel alike, or give other_wheel_travel"
+        with pytest.raises(CarFileError, match=match):
+            read_curves(tmp_path, f"rear_{motion}.csv", "key")

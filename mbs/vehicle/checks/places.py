@@ -17,10 +17,7 @@ MARGIN = 0.15  # m: a part's centre of mass lies among the points of the suspens
 OF_CURVES = 0.6  # m: the same where links have no points
 HEIGHT = 2.5  # m: of a car
 OUTSIDE = 0.2  # m: of a point beyond the outline
-SMALL, SMALL_X = (
-    0.001,
-    0.004,
-)  # m: less, but not 0, tells of a wrong unit; along x of points of the body
+SMALL, SMALL_X = 0.001, 0.004  # m: less, but not 0, tells of a wrong unit; along x of points of the body
 TYRE = 0.05  # m: half the width of a narrow tyre
 Point = tuple[float, float, float]
 

@@ -67,7 +67,8 @@ def report(options: argparse.Namespace) -> int:
     if options.json:
         write_text(options.json, json.dumps(_content(found, gives), indent=1) + "\n")
     print(f"\n{folder / 'kinematics.html'} and {len(found.curves)} CSV files beside it", flush=True)
-    print(f'{", ".join(tables)}: where the wheels stand, as kind = "curves" reads it', flush=True)
+    if tables:
+        print(f'{", ".join(tables)}: where the wheels stand, as kind = "curves" reads it', flush=True)
     return 1 if any(curve.notes for curve in found.curves.values()) else 0
 
 

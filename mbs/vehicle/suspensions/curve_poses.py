@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.vehicle.side import Point, Side
-from mbs.vehicle.suspensions.curve_table import RACK, CurveTable
+from mbs.vehicle.suspensions.curve_table import OTHER, RACK, CurveTable
 
 Array = NDArray[np.float64]
 
@@ -38,6 +38,8 @@ class WheelCurves:
 
     Attributes
     ----------
+    travel : ndarray, shape (n,)
+        Of this wheel, m.
     second : ndarray, shape (k,)
         Points of the second variable for this wheel.
     centres : ndarray, shape (n, k, 3)
@@ -48,6 +50,7 @@ class WheelCurves:
         Lengths of spring and damper, m, and the angle of the lever, rad, where the table has them.
     """
 
+    travel: Array
     second: Array
     centres: Array
     rotations: Array
@@ -92,6 +95,8 @@ def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
         The left wheel as drawn.
     """
     own = table.both and side.name == "right"
+    if own and table.second_name == OTHER:  # whose rows are places of the axle: the left wheel's travel comes first
+        table = table.exchanged()
     sign = -1.0 if own else 1.0
     centres, rotations = _motion(table, "right" if own else "left", sign, hub)
     lengths = {
@@ -100,14 +105,13 @@ def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
         if (values := table.of(name, "right" if own else "left")) is not None
     }
     if side.name == "left" or own:
-        return WheelCurves(table.second, centres, rotations, lengths)
+        return WheelCurves(table.travel, table.second, centres, rotations, lengths)
     mirror = np.array([1.0, -1.0, 1.0])
     centres, rotations = centres * mirror, mirror[:, None] * rotations * mirror
     if table.second_name != RACK:
-        return WheelCurves(table.second, centres, rotations, lengths)
-    return WheelCurves(
-        -table.second[::-1], centres[:, ::-1], rotations[:, ::-1], {n: v[:, ::-1] for n, v in lengths.items()}
-    )
+        return WheelCurves(table.travel, table.second, centres, rotations, lengths)
+    lengths = {n: v[:, ::-1] for n, v in lengths.items()}
+    return WheelCurves(table.travel, -table.second[::-1], centres[:, ::-1], rotations[:, ::-1], lengths)
 
 
 def _motion(table: CurveTable, name: str, sign: float, hub: Hub) -> tuple[Array, Array]:
@@ -128,10 +132,10 @@ def _motion(table: CurveTable, name: str, sign: float, hub: Hub) -> tuple[Array,
     k = int(np.argmin(np.abs(table.second)))
     steer, inclination = angle("toe_angle", "steer_angle"), angle("camber_angle", "inclination_angle")
     pitch = of("carrier_pitch_angle")
-    if pitch is None:  # the steering axis is fixed to the carrier: caster changes as the carrier pitches
+    if pitch is None:  # the steering axis is fixed to the carrier: caster changes as the carrier pitches, not by steer
         caster = of("caster_angle")
         assert caster is not None, "checked by the reader"
-        pitch = -np.broadcast_to(caster[:, k : k + 1], caster.shape)
+        pitch = -np.broadcast_to(caster[:, k : k + 1], caster.shape) if table.second_name == RACK else -caster
     axes = axes_of(steer, inclination) @ pitched(pitch - pitch[i, k])
     rotations = axes @ axes[i, k].T
     up = axes_of(steer, inclination)[..., 2]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -49,22 +49,23 @@ NEEDED = (
     ("carrier_pitch_angle", "caster_angle"),
 )
 """Of each line there must be one; the first that is there is used."""
+OPTIONAL = ("spring_length", "damper_length", "anti_roll_bar_angle")
 LARGEST = {"m": 3.0, "rad": 1.6}
 SAME = 1e-9  # m: two places of a table that are one
-FINEST = 200  # points along a coordinate, of a table with uneven ones
+FINEST = 200  # parts of a coordinate; a table with more is thinned
 COARSEST = {TRAVEL: 0.0125, RACK: 0.0065, OTHER: 0.0125}  # m: a table with farther points gets some between them
 
 
 @dataclass(frozen=True)
 class CurveTable:
-    """A table of one wheel as it stands in the file, or of both.
+    """A table of the left wheel as it stands in the file, or of both.
 
     Attributes
     ----------
     travel : ndarray, shape (n,)
-        Of the wheel centre, m, positive in bump; evenly spaced, with 0 among the points.
+        Of the left wheel's centre, m, positive in bump; evenly spaced, with 0 among the points.
     second : ndarray, shape (k,)
-        Travel of the rack, positive to the left, or of the other wheel, m, likewise; one point where there is none.
+        Travel of the rack, positive to the left, or of the right wheel, m, likewise; one point where there is none.
     second_name : str
         `RACK`, `OTHER` or nothing.
     columns : dict of str to ndarray, shape (n, k)
@@ -89,6 +90,11 @@ class CurveTable:
         """Whether the right wheel has columns of its own."""
         return any(name.endswith("_right") for name in self.columns)
 
+    def exchanged(self) -> CurveTable:
+        """The same with both variables exchanged."""
+        columns = {name: values.T for name, values in self.columns.items()}
+        return replace(self, travel=self.second, second=self.travel, columns=columns)
+
 
 def read_curves(folder: Path, name: str, key: str) -> CurveTable:
     """Read the table of an axle.
@@ -110,31 +116,63 @@ def read_curves(folder: Path, name: str, key: str) -> CurveTable:
     what = f"{key} ({name})"
     table = TextTable(beside(folder, name, key), CarFileError, what, units=True)
     given = dict(zip(table.names, table.values(finite=False, least=0).T, strict=True))
-    used = [n for n in given if n.removesuffix("_left").removesuffix("_right") in COLUMNS]
+    used = [n for n in given if n in COLUMNS or (_base(n) in COLUMNS and _base(n) not in (RACK, OTHER))]
     columns = {n: _in_si(what, n, table.units.get(n, ""), given[n]) for n in used}
-    if f"{TRAVEL}_left" in columns and TRAVEL not in columns:
-        columns[TRAVEL] = columns.pop(f"{TRAVEL}_left")
-        columns.pop(f"{TRAVEL}_right", None)
+    travel = _travel(what, given, columns)
     seconds = [n for n in (RACK, OTHER) if n in columns]
-    if TRAVEL not in columns:
-        raise CarFileError(f"{what} has no column {TRAVEL}; its columns are {', '.join(given)}.")
     if len(seconds) > 1:
         raise CarFileError(f"{what} has the columns {RACK} and {OTHER}; there must be one of them or none.")
-    sides = ("left", "right") if any(n.endswith("_right") for n in columns) else ("left",)
-    for names in NEEDED:
-        for side in sides:
-            if not any(n in columns or f"{n}_{side}" in columns for n in names):
-                raise CarFileError(
-                    f"{what} has no column {' or '.join(names)}{f' of the {side} wheel' if len(sides) > 1 else ''}; "
-                    f"its columns are {', '.join(given)}."
-                )
+    _check_sides(what, given, columns)
     second_name = seconds[0] if seconds else ""
-    made = _grid(what, columns.pop(TRAVEL), columns.pop(second_name, None), second_name, columns)
+    made = _grid(what, travel, columns.pop(second_name, None), second_name, columns)
     return replace(made, left_out=tuple(n for n in given if n not in used))
 
 
+def _base(name: str) -> str:
+    """A name without its side."""
+    return name.removesuffix("_left").removesuffix("_right")
+
+
+def _travel(what: str, given: Iterable[str], columns: dict[str, Array]) -> Array:
+    """The travel of both wheels, or of the left one beside that of the other, taken out of the columns."""
+    names = [n for n in (TRAVEL, f"{TRAVEL}_left", f"{TRAVEL}_right") if n in columns]
+    if names in ([], [f"{TRAVEL}_right"]):
+        raise CarFileError(f"{what} has no column {TRAVEL}; its columns are {', '.join(given)}.")
+    travel = columns.pop(names[0])
+    for name in names[1:]:
+        values = columns.pop(name)
+        apart = np.abs(values - travel) > SAME
+        if np.any(apart):
+            k = int(np.argmax(apart))
+            raise CarFileError(
+                f"{what}, row {k + 1} has a {names[0]} of {travel[k]:g} m and a {name} of {values[k]:g} m; both wheels "
+                f"must travel alike, or give {OTHER} in place of {name}."
+            )
+    return travel
+
+
+def _check_sides(what: str, given: Iterable[str], columns: Mapping[str, Array]) -> None:
+    """All that is needed is there, and once the right wheel has a column of its own, for both wheels."""
+    both = any(n.endswith("_right") for n in columns)
+    for names in NEEDED:
+        for side in ("left", "right") if both else ("left",):
+            if not any(f"{n}_{side}" in columns or (side == "left" and n in columns) for n in names):
+                raise CarFileError(
+                    f"{what} has no column {' or '.join(names)}{f' of the {side} wheel' if both else ''}; "
+                    f"its columns are {', '.join(given)}."
+                )
+    for name in OPTIONAL if both else ():
+        there = [n for n in (name, f"{name}_left", f"{name}_right") if n in columns]
+        asked = [f"{name}_left", f"{name}_right"]
+        if there and there != asked:
+            raise CarFileError(
+                f"{what} has columns of the right wheel and {', '.join(there)}; there must be {' and '.join(asked)}, "
+                "or neither."
+            )
+
+
 def _in_si(what: str, name: str, unit: str, values: Array) -> Array:
-    base = name.removesuffix("_left").removesuffix("_right")
+    base = _base(name)
     known = [u for u, (si, _) in UNITS.items() if si == COLUMNS[base]]
     if unit not in known:
         raise CarFileError(
@@ -160,29 +198,34 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
     along, across = _points(travel), _points(second)
     for name, points in ((TRAVEL, along), (second_name, across)):
         _check_axis(what, name, points)
-    place = np.abs(along[:, None] - travel).argmin(axis=0), np.abs(across[:, None] - second).argmin(axis=0)
-    rows = np.full((len(along), len(across)), -1)
-    rows[place] = np.arange(len(travel))
-    if np.count_nonzero(rows >= 0) != len(travel):
+    place, at = (np.searchsorted(p, v, "right") - 1 for p, v in ((along, travel), (across, second)))
+    pairs = place * len(across) + at
+    if len(np.unique(pairs)) < len(pairs):
         raise CarFileError(f"{what} has a pair of {TRAVEL} and {second_name} twice; there must be one row for each.")
     i, k = int(np.argmin(np.abs(along))), int(np.argmin(np.abs(across)))
-    cross = np.zeros(rows.shape, bool)
-    cross[i], cross[:, k] = abs(along[i]) < SAME, abs(across[k]) < SAME
-    crossed = second_name == RACK and np.array_equal(rows >= 0, cross)
-    if not crossed and np.any(rows < 0):
+    drawn = abs(along[i]) < SAME and abs(across[k]) < SAME
+    cross = drawn and len(pairs) == len(along) + len(across) - 1 and bool(np.all((place == i) | (at == k)))
+    size = len(along) * len(across)
+    if len(pairs) < size and not (cross and second_name == RACK):
         raise CarFileError(
             f"{what} has {len(travel)} rows for {len(along)} values of {TRAVEL} and {len(across)} of {second_name}; "
-            f"there must be one for each pair, {rows.size}, or of a rack those where one of both is 0."
+            f"there must be one for each pair, {size}, or of a rack those where one of both is 0."
         )
+    order = np.argsort(pairs)
+    one, other = order[at[order] == k], order[place[order] == i]  # rows of both sweeps through the drawing
     evens, found = (_even(along, COARSEST[TRAVEL]), _even(across, COARSEST[second_name])), {}
     for name, values in columns.items():
-        grid = values[rows] if not crossed else values[rows[:, [k]]] + values[rows[[i]]] - values[rows[i, k]]
-        found[name] = _on(across, evens[1], _on(along, evens[0], grid, 0), 1)
+        if cross:
+            changes = _on(across, evens[1], values[other][None] - values[one[i]], 1)
+            found[name] = _on(along, evens[0], values[one][:, None], 0) + changes
+        else:
+            grid = values[order].reshape(len(along), len(across))
+            found[name] = _on(across, evens[1], _on(along, evens[0], grid, 0), 1)
     return CurveTable(*evens, second_name, found)
 
 
 def _points(values: Array) -> Array:
-    """Different values, rising."""
+    """Different values, rising; of those that are one, the least."""
     found = np.unique(values)
     return np.asarray(found[np.concatenate([[True], np.diff(found) > SAME])])
 
@@ -198,16 +241,21 @@ def _check_axis(what: str, name: str, points: Array) -> None:
         raise CarFileError(
             f"{what} has {name} from {points[0]:g} to {points[-1]:g} m; 0, the drawing, must lie between them."
         )
+    if min(-points[0], points[-1]) < (points[-1] - points[0]) / FINEST:
+        raise CarFileError(
+            f"{what} has {name} from {points[0]:g} to {points[-1]:g} m; both ends must be farther from 0 than a "
+            f"{FINEST}th of the range."
+        )
 
 
 def _even(points: Array, coarsest: float) -> Array:
-    """The points, or evenly spaced ones within them as dense as they are at their densest, with 0 among them.
+    """The points, or evenly spaced ones within them, at most as dense as they are at their densest, with 0 among them.
 
     Places and rotations are splines through these points, angles of coarse ones are splines before.
     """
     steps = np.diff(points)
     near = int(np.argmin(np.abs(points)))
-    if np.ptp(steps) <= UNIFORM * steps.max() and abs(points[near]) < SAME:
+    if np.ptp(steps) <= UNIFORM * steps.max() and abs(points[near]) < SAME and len(steps) <= FINEST:
         parts = math.ceil(steps.max() / coarsest)
         step = steps.mean() / parts
         return points if parts == 1 else step * np.arange(-near * parts, (len(points) - 1 - near) * parts + 1)

@@ -57,8 +57,10 @@ class Curves(Section):
     `toe_angle` or `steer_angle`; `camber_angle` or `inclination_angle`; `carrier_pitch_angle`, the turn of the carrier
     about the wheel's axis, positive with the top forward, or `caster_angle`; if there are any `spring_length`,
     `damper_length`, `anti_roll_bar_angle`. One row for each pair of travels, or of a rack those where one is 0. They
-    are those of the left wheel, which the right one mirrors, or of both with `_left` and `_right` behind the names.
-    All counts from the row of no travel, the drawing, whose toe and camber stand in `alignment`.
+    are those of the left wheel, which the right one mirrors, or of both with `_left` and `_right` behind the
+    names. A row of both is one place of the axle: `wheel_travel` is that of both wheels, or, where there is
+    `other_wheel_travel`, that of the left wheel, and `other_wheel_travel` that of the right one. All counts from the
+    row of no travel, the drawing, whose toe and camber stand in `alignment`.
     """
 
     kind: Literal["curves"]
@@ -169,7 +171,6 @@ class Curves(Section):
             own, w = travels[side.name], side.wheel
             curves = self.of(side)
             over, curves = self._over(b, side, curves, travels)
-            axes = [self.table.travel, *([curves.second] if len(over) == 2 else [])]
             part = self.bodies.carrier
             com = np.array(side.point(part.com))
             centre = np.array(side.point(self.hub.centre))
@@ -177,25 +178,18 @@ class Curves(Section):
                 f"carrier {w}",
                 base=b.chassis.frame,
                 parameters=over,
-                axes=axes,
+                axes=_axes(curves, over),
                 places=_flat(curves.centres + curves.rotations @ (com - centre), over),
                 rotations=_flat(curves.rotations, over),
                 mass=part.mass,
                 com=com,
                 inertia=part.inertia,
             )
-
-            def number(column: str, name: str, unit: str = "m") -> tuple[Affine, float] | None:
-                values = curves.lengths.get(column)  # noqa: B023
-                if values is None:
-                    return None
-                found = b.m.tabled_number(name, parameters=over, axes=axes, values=_flat(values, over), unit=unit)  # noqa: B023
-                return found.affine, float(found.table.value(*[0.0] * len(over))[0])  # noqa: B023
-
             plain = own.affine * -1.0 + self.spring_length, self.spring_length
-            spring = number("spring_length", f"length of spring {w}") or plain
-            spring_of_length(b, w, spring, number("damper_length", f"length of damper {w}"), springs)
-            lever = number("anti_roll_bar_angle", f"{LINK}{w}", "rad")
+            spring = _number(b, curves, over, "spring_length", f"length of spring {w}") or plain
+            damper = _number(b, curves, over, "damper_length", f"length of damper {w}")
+            spring_of_length(b, w, spring, damper, springs)
+            lever = _number(b, curves, over, "anti_roll_bar_angle", f"{LINK}{w}", "rad")
             if self.bar is not None:
                 levers.append(lever[0] if lever is not None else own.affine * (1.0 / (self.bar.lever or 1.0)))
             yield Corner(side, carrier, {"carrier": carrier})
@@ -228,6 +222,23 @@ class Curves(Section):
         i = int(np.argmin(np.abs(self.table.travel)))
         rotations = curves.rotations[i]
         return float(CubicSpline(curves.second, np.arctan2(rotations[:, 1, 0], rotations[:, 0, 0]))(0.0, 1))
+
+
+def _number(
+    b: CarBuilder, curves: WheelCurves, over: Sequence[Coordinate], column: str, name: str, unit: str = "m"
+) -> tuple[Affine, float] | None:
+    """A column of lengths as a number of the model, and its value as drawn."""
+    values = curves.lengths.get(column)
+    if values is None:
+        return None
+    axes = _axes(curves, over)
+    found = b.m.tabled_number(name, parameters=over, axes=axes, values=_flat(values, over), unit=unit)
+    return found.affine, float(found.table.value(*[0.0] * len(over))[0])
+
+
+def _axes(curves: WheelCurves, over: Sequence[Coordinate]) -> list[Array]:
+    """Points along one or two coordinates."""
+    return [curves.travel, curves.second][: len(over)]
 
 
 def _flat(values: Array, over: Sequence[Coordinate]) -> Array:
