@@ -9,29 +9,14 @@ import sys
 import zipfile
 from pathlib import Path
 
-import fmpy.ssp.ssd
 import numpy as np
 import pytest
-from pythonfmu import FmuBuilder
 
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import StepRefusedError
 from hosts.systems import CoupledFmus, write_ssp
 from tests.hosts.systems.controlled import run
 from tests.hosts.systems.weak_coupling import CASES, car_fmu, coupled, partner_fmu
-
-FMUS = Path(__file__).parent / "fmus"
-
-
-@pytest.fixture(scope="module")
-def partners(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """Two halves of an oscillator and a step function, each of them an FMU, and the last without states too."""
-    folder = tmp_path_factory.mktemp("halves")
-    names = ("half_mass", "half_spring", "jump")
-    made = {n: Path(FmuBuilder.build_FMU(FMUS / f"{n}.py", dest=folder, canGetAndSetFMUstate=True)) for n in names}
-    (folder / "without").mkdir()
-    return made | {"stateless": Path(FmuBuilder.build_FMU(FMUS / "jump.py", dest=folder / "without"))}
-
 
 WIRES = {"spring.position": "mass.position", "mass.force": "spring.force"}
 
@@ -149,18 +134,6 @@ def test_wires_that_cannot_be(partners: dict[str, Path], wires: dict[str, str], 
     parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
     with pytest.raises(HostError, match=words):
         CoupledFmus(parts, wires, step=0.1)
-
-
-def test_an_ssp_is_read_by_fmpy_and_says_what_was_wired(partners: dict[str, Path], tmp_path: Path) -> None:
-    parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
-    file = write_ssp(tmp_path / "oscillator.ssp", parts, WIRES, {"mass.start": 0.5})
-    system = fmpy.ssp.ssd.read_ssd(str(file)).system
-    assert [c.name for c in system.elements] == ["mass", "spring"]
-    found = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
-    wanted = {tuple(end.split(".")): tuple(start.split(".")) for end, start in WIRES.items()}
-    assert found == wanted
-    with pytest.raises(HostError, match="has no parameter or input 'stop'"):
-        write_ssp(tmp_path / "bad.ssp", parts, WIRES, {"mass.stop": 0.5})
 
 
 @pytest.mark.slow

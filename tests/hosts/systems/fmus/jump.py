@@ -10,7 +10,7 @@ from tests.hosts.systems.partner import Partner
 
 
 class Jump(Partner):
-    """0 at the start and 1 from the end of the first step on; steps from `refuse_from` on fail unless `given` is set."""
+    """0 at the start, 1 from the end of the first step on; steps from `refuse_from` on fail unless `given` is set."""
 
     inputs = ("given",)
     outputs = ("value",)
