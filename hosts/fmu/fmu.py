@@ -191,11 +191,6 @@ class Fmu:
         """Whether inputs may change during a step, by derivatives that are set before it."""
         return self._can("canInterpolateInputs")
 
-    @property
-    def saves_states(self) -> bool:
-        """Whether `state` and `restore` can be called."""
-        return self._can("canGetAndSetFMUstate")
-
     def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
         """A function that sets first derivatives by the time of real inputs, for the next step only."""
         slave, count = self._slave, len(names)
@@ -244,7 +239,7 @@ class Fmu:
 
     def state(self) -> State:
         """The state now, to be given back by `free`; `HostError` if the FMU cannot save it."""
-        self._check_states(self.saves_states, "save its state")
+        self._check_states(self._can("canGetAndSetFMUstate"), "save its state")
         try:
             return self._instance.state()
         except FMICallException as error:

@@ -74,7 +74,7 @@ class DrivenFmu:
             self._split = len(inputs)
             self._set, self._get = self._fmu.setter(inputs), self._fmu.reader(outputs)
             self.inputs = Inputs(self._held(inputs), [self._fmu.variables[n].type == "Integer" for n in inputs])
-            can = self._fmu.saves_states
+            can = bool(getattr(self._fmu.description.coSimulation, "canGetAndSetFMUstate", False))
             if can:
                 self._past = SavedStates(self._fmu, len(inputs), step)
             self._poses = all(n in self.names for n in _POSE) and all(n in self._fmu.variables for n in _AT_REST)

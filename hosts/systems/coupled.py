@@ -87,7 +87,7 @@ class CoupledFmus:
             fmus = {name: stack.enter_context(Fmu(Path(path))) for name, path in parts.items()}
             wires = wires_of(connections, fmus)
             self._parts = [_part(name, fmu, wires) for name, fmu in fmus.items()]
-            self._cannot_save = [n for n, fmu in fmus.items() if not fmu.saves_states]
+            self._cannot_save = [n for n, f in fmus.items() if not f.description.coSimulation.canGetAndSetFMUstate]
             if inputs == "repeated" and self._cannot_save:
                 raise HostError(
                     f"The part '{self._cannot_save[0]}' cannot save its state; its steps cannot be repeated."
