@@ -22,6 +22,7 @@ PARTIAL = "partial"
 
 SHIPPED = Path(__file__).parent / "alias_files"
 _MOST_FILES = 10
+_KEYS = ("name", "factor", "offset", "unit")
 
 
 @dataclass
@@ -153,6 +154,9 @@ def _entry(value: Any, where: str) -> dict[str, Any]:
             raise UserError(f"{where}: beside from nothing else can stand; it has {', '.join(value)}.")
         return value
     if isinstance(value, dict) and isinstance(value.get("name"), str):
+        unknown = next((key for key in value if key not in _KEYS), None)
+        if unknown is not None:
+            raise UserError(f"{where} has '{unknown}'; known are {', '.join(_KEYS)}.")
         return value
     hint = (
         f" (a name with a dot needs quotation marks; but for [{CONSTANTS}] and [{NEEDS}] there are no tables)"

@@ -26,7 +26,7 @@ def parameter_set(name: str, table: Sequence[Variable], texts: Sequence[TextVari
         Those that are text.
     """
     chosen = [v for v in table if v.causality == "parameter" and v.start is not None]
-    units = {v.unit: parse_unit(v.unit) for v in chosen if not v.whole}
+    units = {v.unit: parse_unit(v.unit, foreign=bool(v.ours)) for v in chosen if not v.whole}
     definitions = {n: UnitDefinition(u.exponents, u.factor) for n, u in sorted(units.items())}
     written = [Entry(t.name, "String", t.start, None, told(t.description, "", "fixed")) for t in texts]
     return ParameterSet(name, [_entry(v) for v in chosen] + written, definitions)

@@ -168,7 +168,7 @@ def units(root: ElementTree.Element, table: Sequence[Variable]) -> None:
     """Definitions of all units in use; the same in FMI 2.0 and 3.0."""
     definitions = ElementTree.SubElement(root, "UnitDefinitions")
     for name in sorted({v.unit for v in table if not v.whole}):
-        unit = parse_unit(name)
+        unit = parse_unit(name, foreign=True)  # those of models were checked with their names
         element = ElementTree.SubElement(definitions, "Unit", name=name)
         attributes = {base: str(exponent) for base, exponent in unit.exponents.items()}
         if unit.factor != 1.0:

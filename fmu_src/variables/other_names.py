@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from ali3.alias_file import Content, Entry, number
 from ali3.errors import UserError
+from ali3.near_names import did_you_mean
 from fmu_src.variables.units import DISPLAY_UNITS, parse_unit
 from fmu_src.variables.variables import Variable, check_names
 
@@ -48,7 +49,8 @@ def renamed(table: Sequence[Variable], content: Content) -> Renamed:
     Raises
     ------
     UserError
-        The file names none of the variables, gives a name twice, or one that no variable of an FMU can have.
+        The file names none of the variables, without ``partial`` one that is not there, a name twice, or one that no
+        variable of an FMU can have.
     """
     place = {v.name: k for k, v in enumerate(table)}
     values = {v.name: v for v in table if v.source == "constant"}
@@ -57,6 +59,9 @@ def renamed(table: Sequence[Variable], content: Content) -> Renamed:
     made, left_out = list(table), {}
     for ours, entry in content.entries.items():
         if ours not in place:
+            if not entry.partial and "from" not in entry.value:
+                known = did_you_mean(ours, place)
+                raise UserError(f"{entry.where}: this model has no such variable{known} partial = true leaves it out.")
             continue
         k = place[ours]
         theirs = _theirs(table[k], entry, content, values)
@@ -120,7 +125,7 @@ def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Va
 def _size(unit: str, base: str, entry: Entry) -> float:
     """How many of the SI unit of a value are one of a unit."""
     try:
-        one, other = parse_unit(unit), parse_unit(base)
+        one, other = parse_unit(unit, foreign=True), parse_unit(base)
     except ValueError as error:
         raise UserError(f"{entry.where}: {error}") from None
     if base != "1" and one.exponents != other.exponents:

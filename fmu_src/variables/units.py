@@ -22,12 +22,15 @@ _SYMBOLS: dict[str, tuple[dict[str, int], float]] = {
     "deg": ({"rad": 1}, math.pi / 180.0),
     "mm": ({"m": 1}, 1e-3),
     "km": ({"m": 1}, 1e3),
-    "h": ({"s": 1}, 3600.0),
     "rpm": ({"rad": 1, "s": -1}, math.pi / 30.0),
-    "g": ({"m": 1, "s": -2}, 9.80665),
     "MPa": ({"kg": 1, "m": -1, "s": -2}, 1e6),
     "%": ({}, 0.01),
     "1": ({}, 1.0),
+}
+# Of other programs: in a model `g` may be meant as grams and `h` as a height.
+_FOREIGN: dict[str, tuple[dict[str, int], float]] = {
+    "h": ({"s": 1}, 3600.0),
+    "g": ({"m": 1, "s": -2}, 9.80665),
 }
 
 _TOKEN = re.compile(r"([A-Za-z]+|1|%)\^?([+-]?\d+)?")
@@ -102,13 +105,15 @@ class Unit:
     factor: float
 
 
-def parse_unit(name: str) -> Unit:
+def parse_unit(name: str, foreign: bool = False) -> Unit:
     """Read a unit such as ``m/s2``, ``N.m/rad``, ``kg m2``.
 
     Parameters
     ----------
     name : str
         Products by ``.``, ``*`` or a space; everything after a ``/`` divides; powers as digits with or without ``^``.
+    foreign : bool
+        Whether ``h`` is an hour and ``g`` standard gravity, as other programs have them; in models they are not known.
 
     Returns
     -------
@@ -126,17 +131,18 @@ def parse_unit(name: str) -> Unit:
     >>> parse_unit("mm/s").factor
     0.001
     """
+    symbols = _SYMBOLS | (_FOREIGN if foreign else {})
     exponents = dict.fromkeys(_BASE, 0)
     factor = 1.0
     for k, part in enumerate(name.split("/")):
         sign = 1 if k == 0 else -1
         for token in re.split(r"[.*· ]+", part.strip().strip("()")):
             match = _TOKEN.fullmatch(token)
-            if match is None or match[1] not in _SYMBOLS:
-                known = ", ".join(_SYMBOLS)
+            if match is None or match[1] not in symbols:
+                known = ", ".join(symbols)
                 raise ValueError(f"Unit '{name}' is not understood at '{token}'; known symbols are {known}.")
             power = sign * int(match[2] or 1)
-            base, scale = _SYMBOLS[match[1]]
+            base, scale = symbols[match[1]]
             factor *= scale**power
             for symbol, exponent in base.items():
                 exponents[symbol] += power * exponent

@@ -373,7 +373,7 @@ def check_names(table: Iterable[Variable]) -> None:
             )
         seen.add(v.name)
         try:
-            parse_unit(v.unit)
+            parse_unit(v.unit, foreign=bool(v.ours))
         except ValueError as error:
             raise ValueError(f"Variable '{v.name}': {error}") from None
         low = -math.inf if v.min is None else v.min

@@ -30,11 +30,11 @@ def parameter_set_of(variables: Variables, name: str, values: Mapping[str, Value
         if unit is not None and v.definition is not None:
             units[unit] = v.definition
         text = told(v.description, v.range, v.variability)
-        entries.append(Entry(v.name, v.kind, _written(v, value), unit, text))
+        entries.append(Entry(v.name, v.kind, written(v, value), unit, text))
     return ParameterSet(name, entries, dict(sorted(units.items())))
 
 
-def _written(variable: Variable, value: Value) -> str:
+def written(variable: Variable, value: Value) -> str:
     """A value as the file has it: numbers read back as the same double."""
     if variable.kind == "Enumeration":
         return next((name for name, number in variable.items.items() if number == value), str(value))

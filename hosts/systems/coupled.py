@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.fmu.fmu import Fmu
+from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.systems.wires import Wire, wires_of
 
 Array = NDArray[np.float64]
@@ -82,17 +82,17 @@ class CoupledFmus:
         if not 0.0 < step < np.inf:
             raise HostError(f"The communication step is {step!r} s; it must be a positive number.")
         self.step_length, self.order, self.inputs = float(step), order, inputs
-        self._steps, self._own = 0, list[str]()
+        self._steps, self._own, self._state = 0, list[str](), "new"
         with ExitStack() as stack:
             fmus = {name: stack.enter_context(Fmu(Path(path))) for name, path in parts.items()}
             wires = wires_of(connections, fmus)
             self._parts = [_part(name, fmu, wires) for name, fmu in fmus.items()]
+            self._cannot_save = [n for n, f in fmus.items() if not f.description.coSimulation.canGetAndSetFMUstate]
+            if inputs == "repeated" and self._cannot_save:
+                raise HostError(
+                    f"The part '{self._cannot_save[0]}' cannot save its state; its steps cannot be repeated."
+                )
             self._stack = stack.pop_all()
-        if inputs == "repeated":
-            cannot = [p.name for p in self._parts if not p.fmu.description.coSimulation.canGetAndSetFMUstate]
-            if cannot:
-                self.close()
-                raise HostError(f"The part '{cannot[0]}' cannot save its state; its steps cannot be repeated.")
 
     def __enter__(self) -> CoupledFmus:
         return self
@@ -121,7 +121,7 @@ class CoupledFmus:
         return next(p.fmu for p in self._parts if p.name == name)
 
     def initialise(self, **start: Value) -> None:
-        """Start all parts at the time 0, each with what those before it give.
+        """Start all parts at the time 0, each with what those before it give; once more after steps, too.
 
         Parameters
         ----------
@@ -140,29 +140,49 @@ class CoupledFmus:
                 raise HostError(f"'{text}' names no part; the parts are {', '.join(by_part)}.")
             by_part[part][name] = value
         now: dict[tuple[str, str], float] = {}
+        used, self._state = self._state != "new", "moved in part"
         for p in self._parts:
+            if used:
+                p.fmu.reset()
+            p.last = None
             fed = {w.input: now[w.source, w.output] for w in p.wires if (w.source, w.output) in now}
             p.fmu.initialise(fed | by_part[p.name])
-            now |= self._outputs(p)
-        self._now, self._steps = now, 0
+            now |= self._outputs(p, 0.0)
+        self._now, self._steps, self._state = now, 0, "whole"
 
     def step(self) -> None:
         """A communication step of all parts.
 
         Raises
         ------
-        hosts.fmu.fmu.StepRefusedError
-            A part refused it.
+        hosts.fmu.fmu.StepRefusedError, HostError
+            A part refused it, or an input. Where all parts can save their states, they are then as before the step;
+            else the system must be initialised again.
         """
-        begin = self._now
-        if self.inputs == "repeated":
-            with self._saved() as restore:
-                last = self._pass(begin, None)
+        if self._state != "whole":
+            raise HostError(
+                "A system must be initialised before a step, and again after one that only some parts made."
+            )
+        lasts = [p.last for p in self._parts]
+        with _saved([] if self._cannot_save else [p.fmu for p in self._parts]) as restore:
+            try:
+                now = self._pass(self._now, None)
+                if self.inputs == "repeated":
+                    restore()
+                    now = self._pass(self._now, now)
+            except (StepRefusedError, HostError) as error:
+                self._state = "moved in part"
+                if self._cannot_save:
+                    raise type(error)(
+                        f"{error} The system cannot go on, as the part '{self._cannot_save[0]}' cannot save its state; "
+                        "initialise it again."
+                    ) from None
                 restore()
-                last = self._pass(begin, last)
-        else:
-            last = self._pass(begin, None)
-        self._now = last
+                for p, last in zip(self._parts, lasts, strict=True):
+                    p.last = last
+                self._state = "whole"
+                raise type(error)(f"{error} All parts are back at {self.time:.6g} s.") from None
+        self._now = now
         self._steps += 1
 
     def read(self, names: Sequence[str]) -> Array:
@@ -197,59 +217,57 @@ class CoupledFmus:
         self, begin: Mapping[tuple[str, str], float], end: Mapping[tuple[str, str], float] | None
     ) -> dict[tuple[str, str], float]:
         """Step all parts from the present state; `end`: outputs at the end as a pass before found them."""
-        now = dict(begin)
+        now, ends, stepped = dict(begin), (self._steps + 1) * self.step_length, set[str]()
         for p in self._parts:
             first = np.array([begin[w.source, w.output] for w in p.wires])
             known = dict(now) if self.order == "in turn" else {}
             newest = np.array([(end or known or begin)[w.source, w.output] for w in p.wires])
-            if p.wires:
-                self._feed(p, first, newest, end is not None)
-            p.fmu.step(self.time, self.step_length)
-            now |= self._outputs(p)
+            told = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
+            try:
+                if p.wires:
+                    self._feed(p, first, newest, np.array(told), end is not None)
+                p.fmu.step(self.time, self.step_length)
+            except (StepRefusedError, HostError) as error:
+                raise type(error)(f"The part '{p.name}' refused the step from {self.time:.6g} s: {error}") from None
+            stepped.add(p.name)
+            now |= self._outputs(p, ends)
         return now
 
-    def _feed(self, p: _Part, first: Array, newest: Array, repeated: bool) -> None:
-        """Inputs of a part over the step that follows: at its start, and as known at its end."""
+    def _feed(self, p: _Part, first: Array, newest: Array, known: NDArray[np.bool_], repeated: bool) -> None:
+        """Inputs of a part over the step that follows: at its start, and at its end where that is known."""
         if p.set_slopes is None or self.inputs == "held":
             p.give(newest.tolist())
             return
         p.give(first.tolist())
-        slope = (newest - first) / self.step_length
-        if not repeated:  # of what is not known yet, as in the last step
-            before = np.zeros_like(first) if p.last is None else (first - p.last) / self.step_length
-            slope = np.where(newest == first, before, slope)
+        before = np.zeros_like(first) if p.last is None else first - p.last
+        slope = np.where(known, newest - first, before) / self.step_length
+        if not repeated:
             p.last = first
         p.set_slopes(np.nan_to_num(slope, nan=0.0, posinf=0.0, neginf=0.0).tolist())
 
-    def _outputs(self, p: _Part) -> dict[tuple[str, str], float]:
+    def _outputs(self, p: _Part, time: float) -> dict[tuple[str, str], float]:
         values = p.read()
         for name, value in zip(p.outputs, values, strict=True):
             if not np.isfinite(value) and name not in p.told:
                 p.told.add(name)
-                self._own.append(f"{p.name}: at {self.time:.6g} s '{name}' is {value:g}. This is said once.")
+                self._own.append(f"{p.name}: at {time:.6g} s '{name}' is {value:g}. This is said once.")
         return {(p.name, name): value for name, value in zip(p.outputs, values, strict=True)}
 
-    def _saved(self) -> _Saved:
-        return _Saved([p.fmu for p in self._parts])
 
+@contextmanager
+def _saved(fmus: Sequence[Fmu]) -> Iterator[Callable[[], None]]:
+    """States of FMUs while a step is made; what is given restores them."""
+    with ExitStack() as stack:
+        states = []
+        for fmu in fmus:
+            states.append((fmu, fmu.state()))
+            stack.callback(fmu.free, states[-1][1])
 
-class _Saved:
-    """States of FMUs while a step is made twice; what is called restores them."""
+        def restore() -> None:
+            for fmu, state in states:
+                fmu.restore(state)
 
-    def __init__(self, fmus: Sequence[Fmu]) -> None:
-        self._fmus = fmus
-
-    def __enter__(self) -> Callable[[], None]:
-        self._states = [fmu.state() for fmu in self._fmus]
-        return self._restore
-
-    def _restore(self) -> None:
-        for fmu, state in zip(self._fmus, self._states, strict=True):
-            fmu.restore(state)
-
-    def __exit__(self, *_: object) -> None:
-        for fmu, state in zip(self._fmus, self._states, strict=True):
-            fmu.free(state)
+        yield restore
 
 
 def _part(name: str, fmu: Fmu, wires: Sequence[Wire]) -> _Part:

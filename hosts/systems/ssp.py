@@ -4,23 +4,23 @@ from __future__ import annotations
 
 import tempfile
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from xml.etree import ElementTree
+from xml.etree.ElementTree import Element, SubElement, indent, register_namespace, tostring
 
-from ali3.files import check_writable
+from ali3.files import check_writable, whole_file
+from ali3.near_names import did_you_mean
 from ali3.parameter_set import Entry, ParameterSet
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import Fmu
-from hosts.systems.wires import wires_of
+from hosts.fmu.parameters_as_set import written
+from hosts.systems.wires import Wire, wires_of
 
-_COMMON, _STRUCTURE = (
-    "http://ssp-standard.org/SSP1/SystemStructureCommon",
-    "http://ssp-standard.org/SSP1/SystemStructureDescription",
-)
+_SSP = "http://ssp-standard.org/SSP1/SystemStructure"
+_COMMON, _STRUCTURE = f"{{{_SSP}Common}}", f"{{{_SSP}Description}}"
 
 
 def write_ssp(
@@ -36,8 +36,8 @@ def write_ssp(
         FMUs by the names of their components.
     connections : mapping of str to str
         Outputs by the inputs that take them, each as ``part.variable``.
-    start : mapping of str to float, int or str
-        Parameters and inputs of parts, as ``part.variable``.
+    start : mapping of str to float, int, bool or str
+        Parameters and inputs of parts, as ``part.variable``; of an enumeration the number.
     name : str
         Of the system; by default that of the file.
 
@@ -49,68 +49,77 @@ def write_ssp(
     Raises
     ------
     HostError
-        There is no such part or variable.
+        There is no such part or variable, a value is none of its variable, or a name cannot be that of a file or part.
+    FileError
+        The file cannot be written; an older one is then unchanged.
     """
+    if file.suffix != ".ssp":
+        raise HostError(f"{file}: the name of an SSP ends in .ssp.")
     check_writable(file)
-    root = ElementTree.Element(f"{{{_STRUCTURE}}}SystemStructureDescription", name=name or file.stem, version="1.0")
-    system = ElementTree.SubElement(root, f"{{{_STRUCTURE}}}System", name=name or file.stem)
-    elements = ElementTree.SubElement(system, f"{{{_STRUCTURE}}}Elements")
-    content: dict[str, bytes] = {}
-    with ExitStack() as stack, tempfile.TemporaryDirectory() as folder:
+    for text in start:
+        part = text.partition(".")[0]
+        if part not in parts:
+            known = f"the parts are {', '.join(parts)}"
+            raise HostError(f"'{text}' names no part{did_you_mean(part, parts, known)}")
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         fmus = {part: stack.enter_context(Fmu(Path(path))) for part, path in parts.items()}
         wires = wires_of(connections, fmus)
+        content = {f"resources/{part}.fmu": Path(path) for part, path in parts.items()}
         for part, fmu in fmus.items():
-            source = f"resources/{Path(parts[part]).name}"
-            content[source] = Path(parts[part]).read_bytes()
-            kind = "application/x-fmu-sharedlibrary"
-            component = ElementTree.SubElement(
-                elements, f"{{{_STRUCTURE}}}Component", name=part, type=kind, source=source
-            )
-            ends = {(w.output, "output") for w in wires if w.source == part}
-            ends |= {(w.input, "input") for w in wires if w.target == part}
-            connectors = ElementTree.SubElement(component, f"{{{_STRUCTURE}}}Connectors")
-            for variable, causality in sorted(ends):
-                end = ElementTree.SubElement(connectors, f"{{{_STRUCTURE}}}Connector", name=variable, kind=causality)
-                ElementTree.SubElement(end, f"{{{_COMMON}}}{fmu.variables[variable].type}")
-            values = _values(part, fmu, start)
-            if values:
-                place = f"resources/{part}.ssv"
-                write_parameter_set(ParameterSet(part, values, {}), Path(folder, "values.ssv"), as_built=False)
-                content[place] = Path(folder, "values.ssv").read_bytes()
-                bindings = ElementTree.SubElement(component, f"{{{_STRUCTURE}}}ParameterBindings")
-                ElementTree.SubElement(bindings, f"{{{_STRUCTURE}}}ParameterBinding", source=place)
-    unknown = [text for text in start if text.partition(".")[0] not in parts]
-    if unknown:
-        raise HostError(f"'{unknown[0]}' names no part; the parts are {', '.join(parts)}.")
-    joined = ElementTree.SubElement(system, f"{{{_STRUCTURE}}}Connections")
-    for w in wires:
-        ends_of = {
-            "startElement": w.source,
-            "startConnector": w.output,
-            "endElement": w.target,
-            "endConnector": w.input,
-        }
-        ElementTree.SubElement(joined, f"{{{_STRUCTURE}}}Connection", ends_of)
-    ElementTree.register_namespace("ssd", _STRUCTURE)
-    ElementTree.register_namespace("ssc", _COMMON)
-    ElementTree.indent(root)
-    document = ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("SystemStructure.ssd", document)
-        for path, data in content.items():
-            archive.writestr(path, data)
+            if values := _values(part, fmu, start):
+                made = content[f"resources/{part}.ssv"] = folder / f"{part}.ssv"
+                write_parameter_set(ParameterSet(part, values, {}), made, as_built=False)
+        document = _document(name or file.stem, fmus, wires, content)
+        with whole_file(file) as whole, zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("SystemStructure.ssd", document)
+            for place, path in content.items():
+                archive.write(path, place)
     return file
+
+
+def _document(name: str, fmus: Mapping[str, Fmu], wires: Sequence[Wire], content: Mapping[str, Path]) -> bytes:
+    """The description of the system; elements that would be empty are left out, as its schema wants it."""
+    root = Element(f"{_STRUCTURE}SystemStructureDescription", name=name, version="1.0")
+    system = SubElement(root, f"{_STRUCTURE}System", name=name)
+    if fmus:
+        elements = SubElement(system, f"{_STRUCTURE}Elements")
+        for part, fmu in fmus.items():
+            _component(elements, part, fmu, wires, content)
+    if wires:
+        joined = SubElement(system, f"{_STRUCTURE}Connections")
+        for w in wires:
+            ends = {"startElement": w.source, "startConnector": w.output, "endElement": w.target}
+            SubElement(joined, f"{_STRUCTURE}Connection", ends | {"endConnector": w.input})
+    register_namespace("ssd", _STRUCTURE[1:-1])
+    register_namespace("ssc", _COMMON[1:-1])
+    indent(root)
+    document: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
+    return document
+
+
+def _component(elements: Element, part: str, fmu: Fmu, wires: Sequence[Wire], content: Mapping[str, Path]) -> None:
+    """One part with the ends of its wires and its parameter set."""
+    kind = "application/x-fmu-sharedlibrary"
+    component = SubElement(elements, f"{_STRUCTURE}Component", name=part, type=kind, source=f"resources/{part}.fmu")
+    ends = {(w.output, "output") for w in wires if w.source == part}
+    ends |= {(w.input, "input") for w in wires if w.target == part}
+    if ends:
+        connectors = SubElement(component, f"{_STRUCTURE}Connectors")
+        for variable, causality in sorted(ends):
+            end = SubElement(connectors, f"{_STRUCTURE}Connector", name=variable, kind=causality)
+            SubElement(end, f"{_COMMON}{fmu.variables[variable].type}")
+    if (values := f"resources/{part}.ssv") in content:
+        bindings = SubElement(component, f"{_STRUCTURE}ParameterBindings")
+        SubElement(bindings, f"{_STRUCTURE}ParameterBinding", source=values)
 
 
 def _values(part: str, fmu: Fmu, start: Mapping[str, Value]) -> list[Entry]:
     """Start values of a part as a parameter set has them."""
-    found = []
+    found, source = [], f"The part '{part}'"
     for text, value in start.items():
         owner, _, name = text.partition(".")
-        if owner != part:
-            continue
-        if name not in (*fmu.names("parameter"), *fmu.names("input")):
-            raise HostError(f"The part '{part}' has no parameter or input '{name}'.")
-        kind = str(fmu.variables[name].type)
-        found.append(Entry(name, kind, str(int(value)) if kind == "Integer" else repr(float(value)), None))
+        if owner == part:
+            variable = fmu.table.settable(name, source)
+            found.append(Entry(name, variable.kind, written(variable, variable.check(value, source)), None))
     return found

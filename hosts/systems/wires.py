@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -42,8 +43,11 @@ def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[
     Raises
     ------
     HostError
-        There is no such part or variable, or the units of both ends differ.
+        There is no such part or variable, the units of both ends differ, or a part has a name that no file can have.
     """
+    for part in parts:
+        if not re.fullmatch(r"[\w-]+", part):
+            raise HostError(f"A part is named '{part}'; its name must be of letters, digits, '_' and '-'.")
     wires = []
     for end, start in connections.items():
         target, name = _split(end, parts, "input")

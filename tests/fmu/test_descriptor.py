@@ -142,9 +142,16 @@ def test_units_in_base_units(unit: str, exponents: dict[str, int]) -> None:
     assert parsed.factor == 1.0
 
 
-def test_unknown_unit_is_named() -> None:
-    with pytest.raises(ValueError, match=r"'a\.x'.*'furlong'.*known symbols"):
-        variable_table(META | {"sensors": [{"name": "a.x", "unit": "furlong"}]}, pose=False, step_size=0.01)
+@pytest.mark.parametrize("unit", ["furlong", "g", "h"])
+def test_unknown_unit_is_named(unit: str) -> None:
+    """Grams are no gravity, and a height no hour."""
+    with pytest.raises(ValueError, match=rf"'a\.x'.*'{unit}'.*known symbols"):
+        variable_table(META | {"sensors": [{"name": "a.x", "unit": unit}]}, pose=False, step_size=0.01)
+
+
+def test_units_of_other_programs() -> None:
+    assert parse_unit("km/h", foreign=True).factor == pytest.approx(1.0 / 3.6)
+    assert parse_unit("g", foreign=True).exponents == parse_unit("m/s2").exponents
 
 
 @pytest.mark.parametrize("name", ["two words", "1x", "a..b", "ä"])

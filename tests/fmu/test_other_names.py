@@ -133,7 +133,9 @@ def test_fmpy_the_c_host_and_libcosim_get_the_same_bits(host, renamed_crane, tmp
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ('speed = "v"', "this model has none of the variables that it names"),
+        ('partial = true\nspeed = "v"', "this model has none of the variables that it names"),
+        ('torqe = "T"', "'torqe': this model has no such variable; did you mean 'torque'"),
+        ('torque = { name = "T", units = "kN.m" }', "'torque' has 'units'; known are name, factor, offset, unit"),
         ('torque = "rod.x"', "Two variables are named 'rod.x'"),
         ('torque = "1st torque"', "'1st torque' cannot be the name of an FMU variable"),
         ('torque = { name = "T", factor = 0.0 }', "'torque': factor is 0; it must be another number"),

@@ -16,7 +16,6 @@ from hosts.fmu.aliases.derived import Derived, in_order
 from hosts.fmu.aliases.parse_derived import parse_derived
 from hosts.fmu.variables import Variable, Variables
 
-_KEYS = ("name", "factor", "offset", "unit")
 _RECORDED = ("input", "output")
 
 
@@ -142,9 +141,6 @@ def _lacks(entry: Entry, names: Collection[str]) -> str:
 
 def _alias(entry: Entry, constants: dict[str, float], known: Variables | None) -> Alias:
     value, where = entry.value, entry.where
-    unknown = next((key for key in value if key not in _KEYS), None)
-    if unknown is not None:
-        raise HostError(f"{where} has '{unknown}'; known are {', '.join(_KEYS)}.")
     factor = value.get("factor", 1.0)
     by_constant = isinstance(factor, str)
     if isinstance(factor, str):

@@ -6,6 +6,7 @@ import { CarMix } from "../src/effects/sound/mix.js";
 import * as signals from "../src/effects/sound/signals.js";
 import { Tracks, darkness, STEP } from "../src/effects/tracks.js";
 import { LIMITS, Wheels, use } from "../src/effects/wheels.js";
+import { tyresOf } from "../src/scene/tyres.js";
 
 const UP = [0, 0, 1];
 const names = (head, ends) => ends.map((end) => `${head}${end}`);
@@ -152,6 +153,25 @@ test("a scene without tyres says so and goes on", () => {
   const wheels = new Wheels({});
   assert.match(wheels.problem, /no tyres/);
   assert.deepEqual(wheels.contacts(() => undefined), []);
+});
+
+const renamed = (wheel) => ({ ...tyre(`wheel_${wheel}`), forces: ["x", "y", "z"].map((axis) => `Car.F${axis}${wheel}`) });
+const wheelShapes = ["RR", "FL"].map((wheel) => ({ kind: "wheel", frame: `wheel ${wheel}`, radius: 0.3, width: 0.2 }));
+
+test("a tyre under other names has its own wheel, or none, and not the first", () => {
+  const arrows = ["FL", "RR"].map((wheel) => ({ tyre: renamed(wheel) }));
+  const seen = tyresOf({ arrows, shapes: wheelShapes }).map(({ prefix, shape }) => [prefix, shape?.frame]);
+  assert.deepEqual(seen, [["wheel_FL", "wheel FL"], ["wheel_RR", "wheel RR"]]); // prettier-ignore
+  const strange = { ...tyre("Tyre[1]") };
+  assert.equal(tyresOf({ arrows: [{ tyre: strange }], shapes: wheelShapes })[0].shape, undefined);
+  assert.equal(tyresOf({ arrows: [{ tyre: strange }], shapes: wheelShapes.slice(1) })[0].shape, wheelShapes[1]);
+});
+
+test("slips that are not there are told", () => {
+  const scene = { arrows: [{ tyre: renamed("FL") }], shapes: wheelShapes };
+  assert.match(new Wheels(scene, { columns: ["Car.LongSlipFL"] }).problem, /no numbers wheel_FL.slip, wheel_FL.slip_angle, so these tyres/);
+  assert.equal(new Wheels(scene, { columns: ["wheel_FL.slip", "wheel_FL.slip_angle"] }).problem, "");
+  assert.equal(new Wheels(scene).problem, "");
 });
 
 test("the pitch of an engine is that of its firings, and it idles", () => {

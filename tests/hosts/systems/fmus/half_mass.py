@@ -26,3 +26,9 @@ class HalfMass(Partner):
             self.value["position"] = self.start
         self.speed += step * self.value["force"]
         self.value["position"] += step * self.speed
+
+    def memory(self) -> float:
+        return self.speed
+
+    def recall(self, memory: float) -> None:
+        self.speed = memory

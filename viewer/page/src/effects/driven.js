@@ -12,7 +12,7 @@ export class Effects {
    */
   constructor(view, car, tell) {
     this._tell = tell;
-    this.drawn = [new TyreMarks(view, {}), new Dust(view, {})];
+    this.drawn = [new TyreMarks(view, car), new Dust(view, car)];
     this.sound = new CarSound(car);
   }
 

@@ -17,8 +17,8 @@ export class TyreMarks {
 
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{most?: number, limits?: {slip?: number, lateral?: number}}} [options] most: sections of a wheel that are kept;
-   *   limits: slip and tangent of the slip angle beyond which a tyre leaves a mark
+   * @param {{most?: number, limits?: {slip?: number, lateral?: number}, columns?: string[]}} [options] most: sections of a wheel
+   *   that are kept; limits: slip and tangent of the slip angle beyond which a tyre leaves a mark; columns: see Wheels
    */
   constructor(view, options = {}) {
     this.view = view;
@@ -26,6 +26,7 @@ export class TyreMarks {
     this.wheels = new Wheels(view.scene, options);
     /** One sentence where there can be no marks, else empty. */
     this.problem = this.wheels.problem;
+    if (this.problem && this.wheels.list.length > 0) view.notes.tell(this.problem);
     this.tracks = new Tracks(this.wheels.list.length, this.most);
     if (this.problem || view.problem) return;
     const count = this.wheels.list.length * this.most;

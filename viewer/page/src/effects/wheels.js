@@ -26,15 +26,26 @@ export const use = (slip, angle, limits = LIMITS) => Math.hypot(slip / limits.sl
 
 /** The wheels of a scene: those whose tyre forces it draws as arrows. */
 export class Wheels {
-  /** @param {Data} scene @param {{limits?: Data, surface?: (x: number, y: number) => string}} [options] */
+  /**
+   * @param {Data} scene
+   * @param {{limits?: Data, surface?: (x: number, y: number) => string, columns?: string[]}} [options] columns: names of the
+   *   numbers that there will be, where they are known
+   */
   constructor(scene, options = {}) {
     this.limits = { ...LIMITS, ...options.limits };
     this.surface = options.surface ?? surfaceOf(scene);
     this.list = tyresOf(scene).map(({ tyre, prefix, shape }) => {
       return { tyre, prefix, frame: shape?.frame, width: shape?.width ?? 0.18, radius: shape?.radius ?? 0.3 };
     });
-    /** One sentence where a scene has no tyres, else empty. */
-    this.problem = this.list.length > 0 ? "" : "The scene has no tyres, so there are no marks and no dust.";
+    /** One sentence where a scene has no tyres, or their slips are not among the columns, else empty. */
+    this.problem = this.list.length > 0 ? this.#lacking(options.columns) : "The scene has no tyres, so there are no marks and no dust.";
+  }
+
+  /** @param {string[] | undefined} columns */
+  #lacking(columns) {
+    const lacks = this.list.flatMap(({ prefix }) => ["slip", "slip_angle"].map((end) => `${prefix}.${end}`).filter((name) => !columns?.includes(name)));
+    if (columns === undefined || lacks.length === 0) return "";
+    return `There are no numbers ${[...new Set(lacks)].join(", ")}, so these tyres leave no marks, throw up no dust and are not heard.`;
   }
 
   /** @param {(name: string) => number | undefined} lookup @returns {Contact[]} one a wheel */

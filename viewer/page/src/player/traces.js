@@ -29,8 +29,9 @@ export class Traces {
     if (!scene.focus || scene.planar || view.problem) return;
     this.#paths(scene, tint);
     if (tint !== undefined || (scene.roads ?? []).length === 0) return;
-    this.marks = new TyreMarks(view, {});
-    this.dust = new Dust(view, {});
+    const columns = Object.keys(run.columns);
+    this.marks = new TyreMarks(view, { columns });
+    this.dust = new Dust(view, { columns });
   }
 
   /** @param {Data} scene @param {string | undefined} tint */

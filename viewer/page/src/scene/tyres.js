@@ -4,7 +4,7 @@ import { dot, finite, rotate, subtract, transpose, unit } from "./math.js";
 /**
  * @param {Data} scene
  * @returns {{tyre: Data, prefix: string, shape: Data | undefined}[]} of each arrow of a tyre its columns, what their names begin
- *   with, and the wheel of that name, else the first
+ *   with, and the wheel of that name, else the only one; undefined where no wheel of several has it
  */
 export function tyresOf(scene) {
   const shapes = (scene.shapes ?? []).filter(({ kind }) => kind === "wheel");
@@ -12,8 +12,11 @@ export function tyresOf(scene) {
   return (scene.arrows ?? [])
     .filter(({ tyre }) => tyre !== undefined)
     .map(({ tyre }) => {
-      const prefix = tyre.forces[0].replace(/\.[^.]*$/, "");
-      return { tyre, prefix, shape: shapes.find(({ frame }) => bare(frame) === bare(prefix)) ?? shapes[0] };
+      // Under the names of another program columns of one tyre can begin differently.
+      const prefixes = [tyre.forces, tyre.contact].map(([name]) => name.replace(/\.[^.]*$/, ""));
+      const shapeOf = (prefix) => shapes.find(({ frame }) => bare(frame) === bare(prefix));
+      const prefix = prefixes.find(shapeOf) ?? prefixes[0];
+      return { tyre, prefix, shape: shapeOf(prefix) ?? (shapes.length === 1 ? shapes[0] : undefined) };
     });
 }
 

@@ -1,0 +1,93 @@
+"""SSP archives of systems: what FMPy reads in them, that they fit the schema, and what is refused."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import fmpy.ssp.ssd
+import pytest
+from lxml import etree
+
+from ali3.read_parameter_set import read_parameter_set
+from hosts.common.errors import HostError
+from hosts.systems import write_ssp
+
+SCHEMA = Path(fmpy.ssp.__file__).parent / "schema" / "SystemStructureDescription.xsd"
+WIRES = {"spring.position": "mass.position", "mass.force": "spring.force"}
+
+
+def halves(partners: dict[str, Path]) -> dict[str, Path]:
+    return {"mass": partners["half_mass"], "spring": partners["half_spring"]}
+
+
+def test_fmpy_reads_what_was_wired(partners: dict[str, Path], tmp_path: Path) -> None:
+    file = write_ssp(tmp_path / "oscillator.ssp", halves(partners), WIRES, {"mass.start": 0.5})
+    system = fmpy.ssp.ssd.read_ssd(str(file)).system
+    assert [c.name for c in system.elements] == ["mass", "spring"]
+    found = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
+    wanted = {tuple(end.split(".")): tuple(start.split(".")) for end, start in WIRES.items()}
+    assert found == wanted
+
+
+@pytest.mark.parametrize("wires", [WIRES, dict([next(iter(WIRES.items()))]), {}])
+def test_the_description_fits_the_schema(partners: dict[str, Path], tmp_path: Path, wires: dict[str, str]) -> None:
+    """With wires, with a part that has none, and without any."""
+    parts = halves(partners) | {"alone": partners["jump"]}
+    with zipfile.ZipFile(write_ssp(tmp_path / "system.ssp", parts, wires, {"mass.start": 0.5})) as archive:
+        document = etree.fromstring(archive.read("SystemStructure.ssd"))
+    schema = etree.XMLSchema(etree.parse(SCHEMA))
+    assert schema.validate(document), schema.error_log
+
+
+def test_two_fmus_of_one_file_name_stay_two(partners: dict[str, Path], tmp_path: Path) -> None:
+    parts = {"one": partners["jump"], "two": partners["stateless"]}
+    assert parts["one"].name == parts["two"].name
+    file = write_ssp(tmp_path / "two.ssp", parts, {}, {})
+    with zipfile.ZipFile(file) as archive:
+        for component in fmpy.ssp.ssd.read_ssd(str(file)).system.elements:
+            assert archive.read(component.source) == parts[component.name].read_bytes()
+
+
+def test_start_values_of_all_types(partners: dict[str, Path], tmp_path: Path) -> None:
+    start = {"all.file": "a.road", "all.count": 3.0, "all.on": True, "all.size": 2}
+    file = write_ssp(tmp_path / "all.ssp", {"all": partners["settings"]}, {}, start)
+    with zipfile.ZipFile(file) as archive:
+        archive.extract("resources/all.ssv", tmp_path)
+    found = read_parameter_set(tmp_path / "resources" / "all.ssv").entries
+    assert [(e.name, e.kind, e.value) for e in found] == [
+        ("file", "String", "a.road"),
+        ("count", "Integer", "3"),
+        ("on", "Boolean", "true"),
+        ("size", "Real", "2.0"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("name", "file", "start", "words"),
+    [
+        ("all", "a.ssp", {"all.stop": 0.5}, "The part 'all': the FMU has no parameter or input 'stop'"),
+        ("all", "a.ssp", {"al.size": 0.5}, "'al.size' names no part; did you mean 'all'"),
+        ("all", "a.ssp", {"all.size": "fast"}, "The part 'all': 'size' is 'fast'; it must be a Real"),
+        ("all", "a.ssp", {"all.count": 1.5}, "'count' is 1.5; it must be a whole number"),
+        ("all", "a.ssp", {"all.file": 1.0}, "'file' is 1; it must be a String"),
+        ("all", "a.zip", {}, r"a\.zip: the name of an SSP ends in \.ssp"),
+        ("../all", "a.ssp", {}, r"A part is named '\.\./all'; its name must be of letters"),
+        ("a.b", "a.ssp", {}, r"A part is named 'a\.b'; its name must be of letters"),
+    ],
+)
+def test_what_cannot_be_is_one_sentence_and_writes_nothing(
+    partners: dict[str, Path], tmp_path: Path, name: str, file: str, start: dict[str, float | str], words: str
+) -> None:
+    with pytest.raises(HostError, match=words):
+        write_ssp(tmp_path / file, {name: partners["settings"]}, {}, start)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_older_file_stays_where_the_new_one_fails(partners: dict[str, Path], tmp_path: Path, monkeypatch) -> None:
+    file = write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {})
+    before = file.read_bytes()
+    monkeypatch.setattr(zipfile.ZipFile, "write", lambda *_: (_ for _ in ()).throw(RuntimeError("stopped")))
+    with pytest.raises(RuntimeError, match="stopped"):
+        write_ssp(file, halves(partners), WIRES, {"mass.start": 0.5})
+    assert file.read_bytes() == before
