@@ -15,7 +15,7 @@ from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, STATES, VERSION
-from hosts.recordings.tables import Rows, blocks_of, joined, recorded
+from hosts.recordings.tables import TABLE, Rows, blocks_of, joined, recorded
 
 _KEYS = {"fmu": str, "guid": str, "inputs": int, "step": (int, float), "start": dict, "columns": list, "units": dict}
 
@@ -128,6 +128,12 @@ class RecordedDrive:
                 raise HostError(
                     f"{self.folder}: a row has {rows.values.shape[1]} values; {DESCRIPTION} names {columns} columns."
                 )
+            missing = np.argwhere(np.isnan(rows.values[:, : len(self.inputs)]))
+            if len(missing):
+                row, place = missing[0]
+                file = next(self.folder.glob(f"{TABLE}.*"), self.folder)
+                name, step = brief(self.names[place]), rows.steps[row]
+                raise HostError(f"{file}: the row of step {step} has no value of the input {name}.")
             yield rows
 
     def unbroken(self) -> Iterator[Rows]:
