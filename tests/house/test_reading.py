@@ -14,7 +14,7 @@ MOST = {
     "build --kernel": 400,
     "car": 32450,
     "run": 4000,
-    "run, all of it": 6700,
+    "run, all of it": 6750,
     "view": 950,
     "simulator": 9000,
     "simulator, all of it": 16050,
