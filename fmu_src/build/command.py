@@ -1,4 +1,4 @@
-"""Builds the FMUs of a car or a scene: ``ali3 build [--car CAR | --scene SCENE] [--kind LIST]``; or the kernel."""
+"""Builds the FMUs of a car or a scene: ``ali3 build [CAR | --scene SCENE] [--kind LIST]``; or the kernel."""
 
 from __future__ import annotations
 
@@ -30,10 +30,13 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser = Parser(prog=prog, description="Build the FMUs of a car or a scene, or the C kernel.")
     what = parser.add_mutually_exclusive_group()
     what.add_argument(
-        "--car",
+        "car",
+        nargs="?",
+        default=argparse.SUPPRESS,  # else its absence takes away what --car gave
         metavar="CAR",
         help="a car of the package by its name, a folder with a file car.toml, or such a file",
     )
+    what.add_argument("--car", help=argparse.SUPPRESS)
     what.add_argument(
         "--scene",
         default="prototype_car",
@@ -72,7 +75,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser.add_argument(
         "--ports",
         metavar="LIST",
-        help="inputs of a --car at which other programs take the place of its parts, as torque,brakes=pressure: torque "
+        help="inputs of a CAR at which other programs take the place of its parts, as torque,brakes=pressure: torque "
         "(=half_shafts or =hub_motors), brakes (=torque or =pressure), steering (=rack_position or =rack_force), road, "
         "forces (=earth or =vehicle), wind, tyre, gear",
     )
@@ -82,16 +85,16 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         help="the names and units that another program has for the variables: carmaker, carsim, chrono, osi, "
         "vehicle_interfaces, or an alias file",
     )
-    add_option(parser, "--fidelity", "of a --car, alone in the FMU; default: all that an FMU offers")
+    add_option(parser, "--fidelity", "of a CAR, alone in the FMU; default: all that an FMU offers")
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
     parser.add_argument("--license", default="", help="of the model; default: the solver's")
     add_old_names(parser, {"--only": "--kind", "--target": "--platforms"})
     options = parser.parse_args(arguments)
     if options.ports is not None and options.car is None:
-        parser.error("--ports are of a car: name it by --car")
+        parser.error("--ports are of a car: name it, as in ali3 build prototype")
     if options.fidelity is not None and options.car is None:
-        parser.error("--fidelity is of a car: name it by --car")
+        parser.error("--fidelity is of a car: name it, as in ali3 build prototype")
     if options.kernel:
         return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
     options.out = options.out or Path("dist")

@@ -44,7 +44,7 @@ def change(folder: Path, edit: Callable[[str], str]) -> None:
 
 
 def command(car: object, out: Path) -> list[str]:
-    return ["--car", str(car), "--out", str(out), "--kind", "native", "--platforms", PLATFORM]
+    return [str(car), "--out", str(out), "--kind", "native", "--platforms", PLATFORM]
 
 
 @pytest.mark.slow
