@@ -95,9 +95,16 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
     shown(program, 2.1, RUNNING, speed=0.25, deadline=0.008)
     assert not flag("paused").is_visible()
     assert program.text("flag slow") == "slow motion × 0.25"
-    program.say({"type": "event", "kind": "refused", "time": 2.1, "text": "The step did not converge."})
-    shown(program, 2.2, REFUSED)
+    program.say({"type": "event", "kind": "refused", "time": 2.15, "text": "The step did not converge."})
+    shown(program, 2.15, RUNNING)  # from before the refusal, sent after its sentence
+    shown(program, 2.15, REFUSED)
+    wait_until(program.page, "!document.querySelector('[data-a3=\"flag refused\"]').hidden")
     assert program.text("flag refused").startswith("The step did not converge. Rewind")
+    program.epoch = 2  # a rewind
+    shown(program, 2.0, RUNNING)
+    assert not flag("refused").is_visible()
+    shown(program, 2.2, REFUSED)
+    assert program.text("flag refused").startswith("The car refused a step. Rewind")  # not the sentence of the other
     shown(program, 2.3, RUNNING | BEHIND)
     assert not flag("refused").is_visible()
     assert "behind" in program.text("flag behind")

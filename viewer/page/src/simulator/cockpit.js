@@ -44,6 +44,7 @@ export class Cockpit {
     const { scene, world = {} } = hello;
     this._beat = new Beat();
     this._hosts = []; // devices that the program reads itself
+    this._refusal = { time: Infinity, text: "" }; // of the refused step at which the car stands
     this.plan = new WorldPlan(scene, world);
     this.numbers = new Numbers(hello, this.plan.surfaces);
     this.columns = this.numbers.columns;
@@ -65,15 +66,17 @@ export class Cockpit {
   add(frame, restarted) {
     this.notices.flag("lost", "");
     this.steps.add(frame);
+    // A frame from before the refusal may come after its sentence, and does not answer it.
+    if (!frame.refused && (restarted || frame.time > this._refusal.time)) this._refusal = { time: Infinity, text: "" };
     if (!restarted) return;
     this.plan.trail.lift();
     this.wants.renew();
     this.view.cameras?.trailing.snap();
   }
 
-  /** Something was said. */
-  event(kind, text) {
-    if (kind === "refused") this._refusal = text;
+  /** Something was said. @param {Data} event - Kind, text and simulated time, s. */
+  event({ kind, text, time }) {
+    if (kind === "refused") this._refusal = { time, text };
     else this.notices.tell(text);
   }
 
@@ -236,8 +239,7 @@ export class Cockpit {
     this._timed = now;
     const warn = this.steps.show(frame, time, this.flow());
     const { notices } = this;
-    if (!frame.refused) this._refusal = "";
-    const refused = this._refusal || "The car refused a step.";
+    const refused = this._refusal.text || "The car refused a step.";
     notices.flag("refused", frame.refused ? `${refused} Rewind, set upright or reset to go on.` : "", "bad");
     notices.flag("paused", !frame.running && !frame.refused ? "paused" : "");
     notices.flag("slow", frame.speed < 1 ? `slow motion × ${Number(frame.speed.toPrecision(3))}` : "");

@@ -109,8 +109,8 @@ class Simulator {
     this.cockpit.add(frame, restarted);
   }
 
-  _event({ kind, text }) {
-    this.cockpit?.event(kind, text);
+  _event(event) {
+    this.cockpit?.event(event);
   }
 
   _closed(sentence) {
