@@ -22,6 +22,7 @@ from mbs.vehicle.quantities import (
     Factor,
     FreeLength,
     HysteresisLoss,
+    MetalStiffness,
     SmallLength,
     SpringForce,
     Stiffness,
@@ -167,7 +168,7 @@ class Stops(Section):
     """L of the rebound stop."""
     rebound_travel: SmallLength
     """Compression of the rebound stop at which metal meets metal."""
-    metal_stiffness: StopStiffness
+    metal_stiffness: MetalStiffness
     """Stiffness of metal on metal."""
     metal_onset: SmallLength
     """Depth over which it sets in."""

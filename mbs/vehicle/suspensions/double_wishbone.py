@@ -11,7 +11,7 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.geometry import apart, arm, farther, off_line, steering_rod
 from mbs.vehicle.part import Part
-from mbs.vehicle.quantities import HysteresisLoss, Length, Point, SmallLength, StopStiffness
+from mbs.vehicle.quantities import HysteresisLoss, Length, MetalStiffness, Point, SmallLength, StopStiffness
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import sides
 from mbs.vehicle.springs import AxleSprings, spring_and_damper
@@ -74,7 +74,7 @@ class SteeringStop(Section):
     """Where it begins."""
     travel: SmallLength
     """Compression at which metal meets metal."""
-    metal_stiffness: StopStiffness
+    metal_stiffness: MetalStiffness
     """Stiffness of metal on metal."""
     metal_onset: SmallLength
     """Depth over which it sets in."""
