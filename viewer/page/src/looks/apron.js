@@ -3,7 +3,7 @@ import * as THREE from "three";
 
 /** So far around the focus it is drawn, in metres. */
 const REACH = 1600;
-/** Metres that the focus goes before it is built again. */
+/** It is built about the nearest point of a lattice of so many metres: the same picture wherever one came from. */
 const STEP = 200;
 
 /**
@@ -65,8 +65,9 @@ export function apron(field, material) {
   let built = null;
   /** @param {number[]} origin the picture's origin in the axes of the world */
   const follow = (origin) => {
-    if (built === null || Math.hypot(origin[0] - built[0], origin[1] - built[1]) > STEP) {
-      built = [origin[0], origin[1]];
+    const near = [0, 1].map((k) => STEP * Math.round(origin[k] / STEP));
+    if (built === null || near[0] !== built[0] || near[1] !== built[1]) {
+      built = near;
       fill(mesh.geometry, apronQuads(field, stations, built), built);
     }
     mesh.position.set(built[0] - origin[0], built[1] - origin[1], -origin[2]);

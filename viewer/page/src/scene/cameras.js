@@ -201,7 +201,7 @@ export class Cameras {
   resize(width, height) {
     this.aspect = this.rig.aspect = width / height;
     const { lift = 0 } = this.view.options;
-    for (const camera of [this.rig, this.free]) if (lift) camera.setViewOffset(width, height, 0, lift * height, width, height);
+    for (const camera of [this.rig, this.free]) camera.setViewOffset(width, height, 0, lift * height, width, height);
     this.rig.updateProjectionMatrix();
     if (this.free instanceof THREE.PerspectiveCamera) {
       this.free.aspect = width / height;
