@@ -13,6 +13,7 @@ from hosts.common.errors import HostError
 from hosts.common.units import unit_definition
 from hosts.compare.log_aliases import read_log_aliases
 from hosts.compare.log_file import read_log
+from hosts.compare.spikes import spikes
 
 Array = NDArray[np.float64]
 Spans = tuple[tuple[float, float], ...]
@@ -69,7 +70,7 @@ def text_of(spans: Spans) -> str:
 
 
 def read_drive(file: Path, aliases: Path) -> Drive:
-    """Read a log.
+    """Read a log; single samples that no neighbour supports are bridged by a straight line.
 
     Parameters
     ----------
@@ -91,7 +92,10 @@ def read_drive(file: Path, aliases: Path) -> Drive:
             raise HostError(f"{aliases} has no '{name}', which this needs.")
         c = form.columns[name]
         factor = unit_definition(c.unit or unit, c.name).factor
-        return (raw.numbers(c.name) - c.offset) / c.factor * factor
+        values = (raw.numbers(c.name) - c.offset) / c.factor * factor
+        wrong = spikes(time, values)
+        values[wrong] = np.interp(time[wrong], time[~wrong], values[~wrong])
+        return np.asarray(values)
 
     time = raw.numbers(form.clock.name or "time")
     if np.ptp(np.diff(time)) > 2.0 * _UNEVEN * float(np.median(np.diff(time))) + 1e-9:

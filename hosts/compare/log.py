@@ -14,6 +14,7 @@ from hosts.common.errors import HostError
 from hosts.common.units import known_unit, unit_definition, unit_of
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
+from hosts.compare.spikes import spike_words, spikes
 from hosts.fmu.aliased_fmu import AliasedFmu
 
 FEWEST_SAMPLES = 10
@@ -99,7 +100,7 @@ def log_for(
         if clock not in clocks:
             times, origin = _times(raw, aliases, clock, origin, notes)
             clocks[clock] = times
-        signals[ours] = _signal(fmu, raw, ours, column, *clocks[clock])
+        signals[ours] = _without_spikes(fmu, _signal(fmu, raw, ours, column, *clocks[clock]), notes)
     for name, signal in signals.items():
         if len(signal.time) < FEWEST_SAMPLES:
             raise HostError(
@@ -243,6 +244,16 @@ def _signal(
     if unit == "rad" and len(values) and "yaw" in ours:
         values = np.unwrap(values)
     return Signal(ours, column.name, unit, t, values)
+
+
+def _without_spikes(fmu: AliasedFmu, signal: Signal, notes: list[str]) -> Signal:
+    """Without single samples that no neighbour supports, which are told; whole numbers and switches may jump."""
+    wrong = spikes(signal.time, signal.values)
+    if fmu.variables[signal.name].type != "Real" or not wrong.any():
+        return signal
+    what = f"'{signal.source}' ({signal.name})"
+    notes.append(spike_words(what, signal.unit, signal.time[wrong], signal.values[wrong]))
+    return replace(signal, time=signal.time[~wrong], values=signal.values[~wrong])
 
 
 def _near(name: str, names: Collection[str]) -> str:

@@ -51,6 +51,14 @@ def test_names_of_the_fmu_need_no_aliases(fmu: AliasedFmu, tmp_path: Path) -> No
     assert_read(read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}")))
 
 
+def test_a_sample_that_no_neighbour_supports_is_left_out_and_told(fmu: AliasedFmu, tmp_path: Path) -> None:
+    text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.2,10.0,", "0.2,99.0,")
+    log = read(fmu, tmp_path, text)
+    assert log.inputs["pull"].values == pytest.approx(0.5 * np.delete(np.arange(ROWS), 20))
+    assert len(log.outputs["bob.x"].values) == ROWS
+    assert [note for note in log.notes if "99 N at 0.2 s" in note and note.startswith("1 sample of 'pull' (pull)")]
+
+
 def test_german_logger(fmu: AliasedFmu, tmp_path: Path) -> None:
     text = rows("{ms};{f};{x}").replace(".", ",")
     text = text.replace("\n", ";\n")  # many loggers end a row with a delimiter
