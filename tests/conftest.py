@@ -5,11 +5,12 @@ processes; the order of the tests, and one line for those that need a browser.
 from __future__ import annotations
 
 import functools
+import gc
 import os
 import re
 import shutil
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from pathlib import Path
 
 import pytest
@@ -116,6 +117,17 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         if not slow[path]:
             min(parts, key=len).extend(files[path])
     items[:] = [item for part in parts for item in part]
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """No garbage is looked for among modules and tests, which all stay: that took a third of the time."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 _UNSEEN = "not looked at without a browser"
