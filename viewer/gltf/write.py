@@ -18,7 +18,10 @@ from viewer.gltf.flexible import flexible_part
 from viewer.gltf.materials import Look
 from viewer.gltf.motion import Motion, Track, kept_times, largest_errors, thinned
 from viewer.gltf.parts import Parts
+from viewer.gltf.paths import path_solids
 from viewer.gltf.roads import road_solid
+from viewer.gltf.scenery import scenery_solids
+from viewer.gltf.terrain import earth_axes, terrain_solids
 from viewer.poses import GROUND, FramePoses, Vectors, about_axis, shortest_turns
 from viewer.recording import Recording
 
@@ -28,6 +31,7 @@ if TYPE_CHECKING:
 SUFFIXES = (".glb", ".gltf")
 MOST_RATE = 240.0
 _LOOKED_AT = 20_000  # times of a recording that errors are found at, at least two for each that is written
+_AROUND = 60.0  # m: what of a world is drawn beside the way
 _FAR = 2e-3  # of the size of the scene: what a reader would see
 _ROAD = Look("road", (0.08, 0.08, 0.085, 1.0), 0.0, 0.9)
 _WHITE = Look("stress", (1.0, 1.0, 1.0, 1.0), 0.1, 0.6)
@@ -75,7 +79,8 @@ def write_gltf(
     Lengths are in metres and y is up, as glTF has it. The node of a frame has its name and moves with it; time 0 is the
     first of the recording. Motion is linear between the times, rotations go along great arcs. Flexible parts move by
     morph targets and have the colours of their stress at the time when it is largest, because glTF has no colours over
-    time. Arrows, plots, ghosts and cameras are not in the file.
+    time. Roads, scenery and the whole path are there as far as they are near the way. Arrows, plots, ghosts, marks and
+    cameras are not in the file.
 
     Parameters
     ----------
@@ -91,7 +96,7 @@ def write_gltf(
     deformation : float
         Factor of the drawn deformation.
     road : bool
-        Whether roads are drawn.
+        Whether roads, the surroundings and the path are drawn.
 
     Returns
     -------
@@ -185,18 +190,35 @@ class _Writer:
         places = np.vstack([self.parts.poses.of(name).position for name in frames] or [np.zeros((1, 3))])
         low, high = places.min(axis=0), places.max(axis=0)
         half = 0.5 * float(np.linalg.norm(high - low)) + 2.0 * float(self._scene["extent"])
+        axes = earth_axes(self._up)
+        corners = np.stack([low, high]) @ axes[:2].T
+        near, far = corners.min(axis=0) - _AROUND, corners.max(axis=0) + _AROUND
         for road in self._scene.get("roads") or []:
+            if road["kind"] == "terrain":
+                self._add_terrain(road, axes, near, far)
+                continue
             made = road_solid(road, self._up, 0.5 * (low + high), half)
             if made is None:
-                what = "terrain of a world" if road["kind"] == "terrain" else "road of a file"
-                self.parts.notes.append(f"The {what} is not drawn.")
+                self.parts.notes.append("The road of a file is not drawn.")
                 continue
             self.parts.fixed.append((GROUND, "road", [(made[0], _ROAD)]))
             if made[1] > 1:
                 self.parts.notes.append(f"Of the grid of the road every {made[1]}th point is drawn in each direction.")
+        kinds, left_out = scenery_solids(self._scene.get("scenery") or [], axes, near, far)
+        self.parts.fixed += [(GROUND, kind, meshes) for kind, meshes in kinds.items()]
+        if left_out:
+            self.parts.notes.append(f"{left_out} things of the scenery are left out; the others stand by the way.")
+        paths = path_solids(self._scene, self.parts.poses, self._up)
+        self.parts.fixed += [(GROUND, name, [(band, look)]) for name, band, look in paths]
 
-        if self._scene.get("scenery"):
-            self.parts.notes.append("The scenery is not drawn.")
+    def _add_terrain(self, road: Mapping[str, Any], axes: Vectors, near: Vectors, far: Vectors) -> None:
+        """What of a terrain lies in a rectangle about the way."""
+        made, error = terrain_solids(road, axes, near, far)
+        self.parts.fixed.append((GROUND, "terrain", made))
+        self.parts.notes.append(
+            f"Of the terrain, what is within {_AROUND:g} m of the way is drawn; its heights are up to "
+            f"{1000.0 * error:.2g} mm off."
+        )
 
     def write_nodes(self) -> None:
         """Frames first, so that they have their names."""

@@ -25,9 +25,9 @@ export class Path {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
    * @param {{times: ArrayLike<number>, points: number[][]}} way not decreasing times, and earth positions
-   * @param {{colour: string, width: number, opacity?: number}} look width: m
+   * @param {{colour: string, width: number, opacity: number}} look width: m
    */
-  constructor(view, { times, points }, { colour, width, opacity = 0.85 }) {
+  constructor(view, { times, points }, { colour, width, opacity }) {
     this.times = times;
     this.start = points[0];
     this.geometry = new THREE.BufferGeometry();

@@ -1,4 +1,8 @@
 // The shader of surfaces, in pieces that stand behind those of three.js.
+import looks from "../../../looks.json" with { type: "json" };
+
+/** Mean linear colour of a surface, as the shader writes it. @param {keyof typeof looks.surfaces} name */
+const mean = (name) => `vec3(${looks.surfaces[name].join(", ")})`;
 
 export const HEAD = /* glsl */ `
 // Seen flatly a lane is far longer than wide: without the card's own remedy it is looked up finer than it asks for.
@@ -93,8 +97,9 @@ float total = rest + dot(first, vec4(1.0)) + dot(second, vec3(1.0)) + 1e-6;
 #ifdef A_PAINTED
 diffuseColor.rgb *= 0.72 + 0.3 * grain;
 #else
-vec3 mean = rest * vec3(0.11) + first.x * mix(vec3(0.05, 0.084, 0.02), vec3(0.125, 0.13, 0.04), tone) + first.y * vec3(0.037, 0.039, 0.041);
-mean += first.z * vec3(0.27, 0.25, 0.22) + first.w * vec3(0.31, 0.3, 0.28) + second.x * vec3(0.57, 0.66, 0.71) + second.y * 0.57 + second.z * vec3(0.15, 0.11, 0.068);
+vec3 mean = rest * ${mean("asphalt")} + first.x * ${mean("grass")} * mix(vec3(0.57, 0.785, 0.67), vec3(1.43, 1.215, 1.33), tone);
+mean += first.y * ${mean("wet")} + first.z * ${mean("gravel")} + first.w * ${mean("concrete")};
+mean += second.x * ${mean("ice")} + second.y * ${mean("paint")} + second.z * ${mean("dirt")};
 diffuseColor.rgb *= (0.5 + 0.55 * grain + 0.5 * tone) * mean / total;
 #endif
 `;

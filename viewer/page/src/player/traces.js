@@ -1,4 +1,5 @@
 // What a run leaves on the ground: the paths of its reference point and its wheels, tyre marks and dust.
+import looks from "../../../looks.json" with { type: "json" };
 import { Dust } from "../effects/dust.js";
 import { Path, waysOf } from "../effects/path.js";
 import { TyreMarks } from "../effects/tyre_marks.js";
@@ -7,7 +8,7 @@ import { Frames } from "../scene/frames.js";
 import { add, dot, finite, length, scale, subtract } from "../scene/math.js";
 
 const MOST = 4000; // points of a path
-const [BODY, WHEEL] = ["#ffd24a", "#10161c"];
+const { body: BODY, wheel: WHEEL, shares: SHARES, opacities: OPACITIES } = looks.paths;
 
 /** The traces of one run in a view; those of a ghost have its colour, and neither marks nor dust. */
 export class Traces {
@@ -47,7 +48,8 @@ export class Traces {
     this.way = ways[0].points;
     ways.forEach(({ points, at }, k) => {
       if (points.length < 2) return;
-      const look = k === 0 ? { colour: tint ?? BODY, width: 0.03 * view.extent } : { colour: tint ?? WHEEL, width: 0.008 * view.extent, opacity: 0.5 };
+      const which = k === 0 ? 0 : 1;
+      const look = { colour: tint ?? [BODY, WHEEL][which], width: SHARES[which] * view.extent, opacity: OPACITIES[which] };
       this.paths.push(new Path(view, { times: at.map((i) => run.t[i]), points }, look));
     });
   }

@@ -1,14 +1,9 @@
 // Paint on the ground: lines with dashes and arrows, laid on the heights that are drawn; pure numbers.
+import looks from "../../../../looks.json" with { type: "json" };
 import { LIFT } from "../lifted.js";
 
-/** Linear colours of paint. */
-export const PAINTS = {
-  white: [0.68, 0.68, 0.66],
-  yellow: [0.72, 0.46, 0.04],
-  red: [0.45, 0.03, 0.025],
-  blue: [0.03, 0.11, 0.42],
-  black: [0.02, 0.02, 0.02],
-};
+/** Linear colours of paint. @type {Record<string, number[]>} */
+export const PAINTS = looks.paints;
 
 /** Longest and shortest steps along a line, and how far it may be off the ground where steps are left out, in metres. */
 const [LONGEST, SHORTEST, OFF] = [2, 0.1, 1e-3];

@@ -1,8 +1,9 @@
 // Cones and posts of height 1, to be set up many times.
+import looks from "../../../../looks.json" with { type: "json" };
 import { Triangles } from "./triangles.js";
 
-const CONES = { orange: [0.75, 0.13, 0.015], yellow: [0.75, 0.5, 0.02], blue: [0.03, 0.13, 0.5] };
-const WHITE = [0.72, 0.72, 0.7];
+/** Linear colours. @type {{cones: Record<string, number[]>, white: number[]}} */
+const { cones: CONES, white: WHITE } = looks.things;
 
 /** A round thing of rings: radius and height, with a colour between two rings. */
 function turned(made, rings, sides) {

@@ -1,5 +1,6 @@
 // Trees of three kinds, of trunk and cards with twigs; those far away have fewer cards.
 import * as THREE from "three";
+import looks from "../../../../looks.json" with { type: "json" };
 import { skylit } from "../skylight.js";
 import { chance } from "./chance.js";
 import { SIDE, leafTexture } from "./leaves.js";
@@ -12,7 +13,7 @@ const KINDS = [
   { crown: 0.58, wide: 0.13, high: 0.41, cards: [30, 10], tint: [0.72, 0.85, 0.42] },
 ];
 /** Colour of trunks, whose places in the picture of twigs lie beyond 1. */
-const BARK = [0.13, 0.1, 0.075];
+const BARK = looks.things.bark;
 /** Metres from which on a tree is a far one. */
 export const FAR = 120;
 

@@ -1,7 +1,8 @@
 // Guard rails and buildings.
+import looks from "../../../../looks.json" with { type: "json" };
 import { chance } from "./chance.js";
 
-const ZINC = [0.36, 0.37, 0.385];
+const { zinc: ZINC, roof: ROOF } = looks.things;
 /** Across a rail, from below: outwards and up, of a rail of height 1 whose beam is its upper 0.4. */
 const BEAM = [[0.0, 0.6], [0.08, 0.66], [0.08, 0.72], [0.0, 0.8], [0.08, 0.88], [0.08, 0.94], [0.0, 1.0]]; // prettier-ignore
 /** Metres between the posts of a rail. */
@@ -36,7 +37,6 @@ export function addBarrier(made, { points: all, height = 0.8 }, coarse = false) 
   }
 }
 
-const ROOF = [0.2, 0.075, 0.05];
 const WALLS = [[0.55, 0.52, 0.46], [0.5, 0.45, 0.36], [0.46, 0.47, 0.48], [0.5, 0.36, 0.27]]; // prettier-ignore
 
 /** A box with windows and a gable roof. @param {import("./triangles.js").Triangles} made places: metres of the wall, below zero where no windows are */

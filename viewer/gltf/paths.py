@@ -1,0 +1,68 @@
+"""The paths of the reference point and of the wheels as bands on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from viewer.gltf.materials import LOOKS, Look, linear
+from viewer.gltf.scenery import ribbon
+from viewer.poses import FramePoses, Vectors
+from viewer.solids import Solid
+
+PATHS = LOOKS["paths"]
+_MOST = 4000  # points
+_LIFT = 0.02  # m
+
+
+def path_solids(scene: Mapping[str, Any], poses: FramePoses, up: Vectors) -> list[tuple[str, Solid, Look]]:
+    """Bands where a run has been; none where what is followed stays where it is.
+
+    Parameters
+    ----------
+    scene : mapping
+        That was checked.
+    poses : FramePoses
+        Of its frames, over the run.
+    up : array of shape (3,)
+        Unit.
+
+    Returns
+    -------
+    list of (name, Solid, Look)
+    """
+    focus = scene.get("focus")
+    if not focus or scene.get("planar"):
+        return []
+    body = poses.of(focus)
+    shown = body.shown
+    if not shown.any():
+        return []
+    wheels = [shape for shape in scene["shapes"] if shape["kind"] == "wheel"]
+    feet = [poses.of(wheel["frame"]).position - wheel["radius"] * up for wheel in wheels]
+    if feet:
+        ground = np.mean([foot @ up for foot in feet], axis=0)
+    else:
+        ground = np.full(len(shown), (body.position[shown] @ up).min())
+    middle = body.position + (ground - body.position @ up)[:, None] * up
+    if np.linalg.norm(middle[shown] - middle[shown][0], axis=1).max() < scene["extent"]:
+        return []
+    names = ["path", *(f"path {wheel['frame']}" for wheel in wheels)]
+    colours = [linear(PATHS["body"]), *([linear(PATHS["wheel"])] * len(wheels))]
+    made = []
+    for k, (name, points, colour) in enumerate(zip(names, [middle, *feet], colours, strict=True)):
+        share, opacity = (PATHS[key][min(k, 1)] for key in ("shares", "opacities"))
+        kept = _apart(points[shown], 0.02 * scene["extent"])
+        if len(kept) > 1:
+            band = ribbon(kept, share * scene["extent"], up, _LIFT)
+            made.append((name, band, Look("path", (*colour, opacity), 0.0, 1.0, double=True)))
+    return made
+
+
+def _apart(points: Vectors, least: float) -> Vectors:
+    """Points that are so far from each other, at most 4000 of them."""
+    way = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
+    stations = np.floor(way / max(least, way[-1] / _MOST))
+    return points[np.r_[True, np.diff(stations) > 0]]
