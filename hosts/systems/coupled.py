@@ -113,8 +113,8 @@ class CoupledFmus:
 
     @property
     def messages(self) -> list[str]:
-        """What was said, with the part that says it."""
-        return [f"{p.name}: {text}" for p in self._parts for text in p.fmu.messages] + self._own
+        """What was said, with the part that says it; what is said again in a repeated step once."""
+        return [f"{p.name}: {text}" for p in self._parts for text in dict.fromkeys(p.fmu.messages)] + self._own
 
     def fmu(self, name: str) -> Fmu:
         """A part; inputs that no wire sets are set there."""

@@ -1,12 +1,8 @@
-"""Cars with controllers in second FMUs, and what the communication step changes.
-
-python -m tests.hosts.systems.controlled
-"""
+"""Cars with controllers in second FMUs, and what the communication step changes."""
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -21,19 +17,19 @@ from tests.hosts.systems.weak_coupling import car_fmu
 from tests.vehicle.test_ports import WHEELS
 
 CONTROLLERS = Path(__file__).parents[3] / "examples" / "controllers"
-REAR, INNER = ("RL", "RR"), 0.001  # s
+FRONT, REAR, INNER = ("FL", "FR"), ("RL", "RR"), 0.001  # s
 
 
 @dataclass(frozen=True)
 class Controlled:
-    """A system with one controller.
+    """A system of cars and controllers.
 
     Parameters
     ----------
     cars : dict of str to str
         Ports of the prototype by names of parts; empty: none.
-    controller : str
-        Name of its file.
+    controllers : dict of str to str
+        Names of their files by names of parts.
     wires : dict of str to str
         As `CoupledFmus` takes them.
     start : dict
@@ -42,48 +38,67 @@ class Controlled:
         s.
     measure : str
         What is compared between communication steps at the end.
+    sources : dict of str to str
+        Drivers by schedule, stepped before the cars.
     """
 
     cars: dict[str, str]
-    controller: str
+    controllers: dict[str, str]
     wires: dict[str, str]
     start: dict[str, Value]
     time: float
     measure: str
     reads: tuple[str, ...]
-    act: Callable[[CoupledFmus], None] | None = None
     switch: dict[str, float] = field(default_factory=dict)
+    sources: dict[str, str] = field(default_factory=dict)
 
 
-def braked(system: CoupledFmus) -> None:
-    """The car ahead brakes for two seconds."""
-    system.fmu("ahead").setter(["brake", "throttle"])([0.25 if 1.0 <= system.time < 3.0 else 0.0, 0.05])
-
-
+SLIP_WIRES = (
+    {"controller.speed": "car.speed"}
+    | {f"controller.omega_{w}": f"car.wheel_{w}.omega" for w in WHEELS}
+    | {f"car.wheel_{w}.brake_torque_demand": f"controller.torque_{w}" for w in WHEELS}
+)
+ON = {"controller.on": 1.0}
 SYSTEMS = {
     "anti-lock brakes": Controlled(
         {"car": "brakes"},
-        "slip_controller",
-        {"controller.speed": "car.speed"}
-        | {f"controller.omega_{w}": f"car.wheel_{w}.omega" for w in WHEELS}
-        | {f"car.wheel_{w}.brake_torque_demand": f"controller.torque_{w}" for w in WHEELS},
+        {"controller": "slip_controller"},
+        SLIP_WIRES,
         {"car.initial.speed": 15.0, "car.road.friction": 0.5, "car.selector": 0},
-        *(5.0, "car.chassis.x", ("car.chassis.x", "car.speed")),
-        switch={"controller.on": 1.0},
+        *(5.0, "car.chassis.x", ("car.chassis.x", "car.speed"), ON),
+    ),
+    "brakes on split friction": Controlled(
+        {"car": "brakes"},
+        {"controller": "slip_controller", "driver": "course_holder"},
+        SLIP_WIRES
+        | {"driver.y": "car.chassis.y", "driver.yaw": "car.chassis.yaw", "driver.yaw_rate": "car.chassis.wz"}
+        | {"car.steering": "driver.steering"},
+        {"car.initial.speed": 15.0, "car.road.file": "split.road", "car.selector": 0},
+        *(6.0, "car.chassis.x", ("car.chassis.x", "car.chassis.y", "car.chassis.yaw", "car.speed"), ON),
+    ),
+    "yaw control": Controlled(
+        {"car": "brakes"},
+        {"controller": "yaw_control"},
+        {"controller.speed": "car.speed", "controller.yaw_rate": "car.chassis.wz"}
+        | {"controller.steering": "driver.steering", "car.steering": "driver.steering"}
+        | {f"car.wheel_{w}.brake_torque_demand": f"controller.torque_{w}" for w in FRONT},
+        {"car.initial.speed": 22.0, "car.selector": 0, "driver.amplitude": 0.2}
+        | {f"car.wheel_{w}.brake_torque_demand": 0.0 for w in REAR},
+        *(4.2, "car.chassis.y", ("car.chassis.y", "car.chassis.yaw", "car.chassis.wz", "car.speed"), ON),
+        sources={"driver": "sine_with_dwell"},
     ),
     "torque vectoring": Controlled(
         {"car": "torque=hub_motors"},
-        "torque_vectoring",
+        {"controller": "torque_vectoring"},
         {"controller.speed": "car.speed", "controller.yaw_rate": "car.chassis.wz"}
         | {f"car.wheel_{w}.drive_torque": f"controller.torque_{w}" for w in REAR},
         {"car.initial.speed": 12.0, "car.steering": 0.25, "controller.steering": 0.25, "controller.demand": 150.0}
-        | {f"car.wheel_F{s}.drive_torque": 0.0 for s in "LR"},
-        *(3.0, "car.chassis.yaw", ("car.chassis.yaw", "car.chassis.wz", "car.speed")),
-        switch={"controller.on": 1.0},
+        | {f"car.wheel_{w}.drive_torque": 0.0 for w in FRONT},
+        *(3.0, "car.chassis.yaw", ("car.chassis.yaw", "car.chassis.wz", "car.speed"), ON),
     ),
     "two cars": Controlled(
         {"ahead": "", "car": ""},
-        "distance_controller",
+        {"controller": "distance_controller"},
         {
             "controller.x": "car.chassis.x",
             "controller.speed": "car.speed",
@@ -91,10 +106,12 @@ SYSTEMS = {
             "controller.speed_ahead": "ahead.speed",
             "car.throttle": "controller.throttle",
             "car.brake": "controller.brake",
+            "ahead.throttle": "driver.throttle",
+            "ahead.brake": "driver.brake",
         },
         {"ahead.initial.x": 30.0, "ahead.initial.speed": 15.0, "car.initial.speed": 15.0},
         *(8.0, "car.chassis.x", ("controller.gap", "car.speed", "ahead.speed", "car.chassis.x")),
-        braked,
+        sources={"driver": "brake_pulse"},
     ),
 }
 
@@ -108,7 +125,16 @@ def controller_fmu(name: str) -> Path:
 def parts_of(case: Controlled) -> dict[str, Path]:
     """The FMUs of a system."""
     cars = {name: car_fmu("prototype", ports or None) for name, ports in case.cars.items()}
-    return cars | {"controller": controller_fmu(case.controller)}
+    sources, controllers = (
+        {name: controller_fmu(file) for name, file in each.items()} for each in (case.sources, case.controllers)
+    )
+    return sources | cars | controllers
+
+
+def start_of(name: str, on: bool = True) -> dict[str, Value]:
+    """Start values of a system, with or without its controller."""
+    case = SYSTEMS[name]
+    return case.start | (case.switch if on else {}) | {f"{car}.step_size": INNER for car in case.cars}
 
 
 def run(
@@ -116,11 +142,11 @@ def run(
 ) -> dict[str, np.ndarray]:
     """Columns of a run by name, with or without its controller; and what was said, which must be nothing."""
     case = SYSTEMS[name]
-    start = case.start | (case.switch if on else {}) | {f"{car}.step_size": INNER for car in case.cars}
+    start = start_of(name, on)
     with CoupledFmus(parts_of(case), case.wires, step=step, order=order, inputs=inputs) as system:
         system.initialise(**start)
         reads = tuple(dict.fromkeys((*case.reads, case.measure)))
-        rows = system.run(case.time, reads, case.act)
+        rows = system.run(case.time, reads)
         assert not system.messages, system.messages
     return dict(zip(reads, rows.T, strict=True))
 
@@ -137,7 +163,3 @@ def main() -> None:
             rate = np.log(errors[2] / errors[1]) / np.log(2.5)
             cells = " | ".join(f"{100 * e:.2g} %" for e in errors)
             print(f"| {name}, {inputs} | `{case.measure}` | {cells} | {rate:.1f} |", flush=True)
-
-
-if __name__ == "__main__":
-    main()

@@ -12,11 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import mbs
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import StepRefusedError
 from hosts.systems import CoupledFmus, write_ssp
-from tests.hosts.systems.controlled import run
-from tests.hosts.systems.weak_coupling import CASES, car_fmu, coupled, partner_fmu
+from tests.hosts.systems import controlled, trailer
+from tests.hosts.systems.controlled import SYSTEMS, run
+from tests.hosts.systems.weak_coupling import CASES, car_fmu, coupled, parts_of, start_of
 
 WIRES = {"spring.position": "mass.position", "mass.force": "spring.force"}
 
@@ -169,30 +171,52 @@ def test_a_partner_that_falls_silent_or_gives_no_number_is_told(partners: dict[s
 
 
 @pytest.mark.slow
-def test_libcosim_runs_the_ssp_as_the_own_master_does(tmp_path: Path) -> None:
-    """It steps all at once; to round-off, as it counts its time in nanoseconds."""
-    from libcosimpy.CosimExecution import CosimExecution
-    from libcosimpy.CosimObserver import CosimObserver
+def test_repeated_steps_that_a_stiff_hitch_does_not_bear_are_told() -> None:
+    """At 10 ms each pass makes the force of the ball larger: it ends at the range of the ports, which is said."""
+    load, _, messages = coupled("trailer", 0.01, inputs="repeated")
+    assert load > 0.01
+    assert [m for m in messages if m.startswith("car: 'point_hitch.F") and "end of its range" in m]
+    assert len(messages) == len(set(messages))
+    assert coupled("trailer", 0.01, inputs="followed")[0] < 1e-4
 
-    case, step = CASES["drive"], 0.004
-    parts = {"car": car_fmu(case.car, case.ports), "partner": partner_fmu(case.partner)}
-    start = {"car.initial.speed": 12.0} | {f"car.{n}": x for n, x in case.inputs.items()}
-    names = ("chassis.x", "speed", "wheel_RL.Fz")
-    with zipfile.ZipFile(write_ssp(tmp_path / "drive.ssp", parts, case.wires, start)) as archive:
+
+def test_as_one_model_car_and_trailer_start_as_each_stands_alone() -> None:
+    pose = mbs.Pose(speed=10.0)
+    whole = mbs.Simulation(trailer.with_trailer(), pose=pose).sensors
+    for model in (trailer.car_with_hitch().model(), trailer.trailer()):
+        alone = mbs.Simulation(mbs.compile(model), pose=pose).sensors
+        same = [n for n in alone if n.startswith(("wheel_", "load_", "hitch.", "point_hitch."))]
+        assert len(same) > 7
+        assert [whole[n] for n in same] == pytest.approx([alone[n] for n in same], rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [*CASES, *SYSTEMS])
+def test_libcosim_runs_the_ssp_as_the_own_master_does(name: str, tmp_path: Path) -> None:
+    """It steps all at once; to round-off, as it counts its time in nanoseconds."""
+    execution_of = pytest.importorskip("libcosimpy.CosimExecution").CosimExecution.from_ssp_file
+    observer = pytest.importorskip("libcosimpy.CosimObserver").CosimObserver.create_last_value()
+    step, count = 0.004, 60
+    if name in CASES:
+        parts, wires, start = parts_of(name), CASES[name].wires, start_of(name)
+    else:
+        parts, wires, start = controlled.parts_of(SYSTEMS[name]), SYSTEMS[name].wires, controlled.start_of(name)
+    names = ("chassis.x", "chassis.y", "chassis.wz", "speed")
+    with zipfile.ZipFile(write_ssp(tmp_path / "system.ssp", parts, wires, start)) as archive:
         archive.extractall(tmp_path / "ssp")
-    execution = CosimExecution.from_ssp_file(str(tmp_path / "ssp"), round(1e9 * step))
-    observer = CosimObserver.create_last_value()
+    execution = execution_of(str(tmp_path / "ssp"), round(1e9 * step))
     execution.add_observer(observer)
-    assert execution.step(100)
-    with CoupledFmus(parts, case.wires, step=step, order="at once") as system:
+    assert execution.step(count)
+    with CoupledFmus(parts, wires, step=step, order="at once") as system:
         system.initialise(**start)
-        for _ in range(100):
+        before = system.read([f"car.{n}" for n in names])
+        for _ in range(count):
             system.step()
         own = system.read([f"car.{n}" for n in names])
         places = [system.fmu("car").variables[n].valueReference for n in names]
     index = execution.slave_index_from_instance_name("car")
-    assert list(observer.last_real_values(index, places)) == pytest.approx(own, rel=1e-10)
-    assert own[1] > 12.05
+    assert list(observer.last_real_values(index, places)) == pytest.approx(own, rel=1e-9, abs=1e-11)
+    assert own[0] > before[0] + 2.0
 
 
 @pytest.mark.slow
@@ -203,6 +227,34 @@ def test_a_slip_controller_stops_the_car_sooner_than_locked_wheels_do() -> None:
         assert columns["car.speed"][-1] < 0.1
         ways.append(float(np.ptp(columns["car.chassis.x"])))
     assert ways[1] < 0.9 * ways[0]
+
+
+@pytest.mark.slow
+def test_on_split_friction_the_car_is_steered_while_it_brakes() -> None:
+    """With locked wheels it turns round."""
+    free, locked = (run("brakes on split friction", 0.004, on=on) for on in (True, False))
+    assert free["car.speed"][-1] < 0.1
+    assert locked["car.speed"][-1] < 0.5
+    assert np.abs(free["car.chassis.yaw"]).max() < 0.15
+    assert np.abs(free["car.chassis.y"]).max() < 0.5
+    assert np.abs(locked["car.chassis.yaw"]).max() > 1.5
+    assert np.ptp(free["car.chassis.x"]) < 0.95 * np.ptp(locked["car.chassis.x"])
+
+
+@pytest.mark.slow
+def test_yaw_control_passes_the_sine_with_dwell_in_which_the_car_spins() -> None:
+    """Limits of FMVSS 126: yaw rate over its peak 35 % and 20 % 1 and 1.75 s after the steering; 1.83 m aside."""
+    end = 0.5 + 1.0 / 0.7 + 0.5
+    left = []
+    for on in (True, False):
+        columns = run("yaw control", 0.004, on=on)
+        times = 0.004 * np.arange(len(columns["car.chassis.wz"]))
+        peak = columns["car.chassis.wz"][(times > 1.0) & (times < end)].min()
+        left.append([np.interp(end + late, times, columns["car.chassis.wz"]) / peak for late in (1.0, 1.75)])
+        assert np.interp(0.5 + 1.07, times, columns["car.chassis.y"]) > 1.83
+    assert abs(left[0][0]) < 0.35
+    assert abs(left[0][1]) < 0.20
+    assert min(left[1]) > 0.5, "without control it does not stop turning"
 
 
 @pytest.mark.slow

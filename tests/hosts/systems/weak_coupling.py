@@ -1,11 +1,7 @@
-"""How far cars wired to copies of their own parts in second FMUs are from the closed car, over the communication step.
-
-python -m tests.hosts.systems.weak_coupling [PICTURE]
-"""
+"""How far cars wired to parts in second FMUs are from the same as one model, over the communication step."""
 
 from __future__ import annotations
 
-import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,6 +17,7 @@ from hosts.fmu.built_fmu import fmu_of_car
 from hosts.systems import CoupledFmus
 from hosts.systems.coupled import Inputs, Order
 from mbs.vehicle import load
+from tests.hosts.systems import trailer
 from tests.hosts.systems.fmus.second_road import ANSWER
 from tests.hosts.systems.fmus.second_tyres import READ
 from tests.vehicle import test_road_port
@@ -45,6 +42,8 @@ class Case:
         Wheel loads, as ``part.variable``.
     inputs : dict
         Of the driver, held over the run; `throttle` of the closed car may follow a schedule.
+    path : (str, str)
+        What is compared at the end, as ``part.variable``.
     """
 
     car: str
@@ -53,16 +52,19 @@ class Case:
     wires: Wires
     loads: tuple[str, ...]
     inputs: dict[str, float]
+    path: tuple[str, str] = ("car.chassis.x", "car.chassis.y")
     throttle: Callable[[float], float] | None = None
 
 
 CAR_LOADS = tuple(f"car.wheel_{w}.Fz" for w in WHEELS)
+NO_TORQUE = {f"point_hitch.M{c}": 0.0 for c in "xyz"}
 CASES = {
     "drive": Case(
         *("prototype", "torque", "second_drive"),
         {f"partner.omega_{s}": f"car.wheel_R{s}.omega" for s in "LR"}
         | {f"car.wheel_R{s}.drive_torque": "partner.torque" for s in "LR"},
-        *(CAR_LOADS, {"steering": 0.1, "wheel_FL.drive_torque": 0.0, "wheel_FR.drive_torque": 0.0}, throttle_at),
+        *(CAR_LOADS, {"steering": 0.1, "wheel_FL.drive_torque": 0.0, "wheel_FR.drive_torque": 0.0}),
+        throttle=throttle_at,
     ),
     "road": Case(
         *("hatchback", "road", "second_road"),
@@ -75,6 +77,15 @@ CASES = {
         {f"partner.wheel_{w}.{n}": f"car.wheel_{w}.{n}" for w in WHEELS for n in READ}
         | {f"car.wheel_{w}.{n}": f"partner.wheel_{w}.{n}" for w in WHEELS for n in HUB},
         *(tuple(f"partner.wheel_{w}.load" for w in WHEELS), {"steering": 0.2}),
+    ),
+    "trailer": Case(
+        *("hatchback", "forces=earth", "ball"),
+        {f"partner.car.{b}{c}": f"car.point_hitch.{a}{c}" for a, b in (("", "p"), ("v", "v")) for c in "xyz"}
+        | {f"partner.trailer.{a}{c}": f"trailer.hitch.{a}{c}" for a in "pv" for c in "xyz"}
+        | {f"car.point_hitch.F{c}": f"partner.car.F{c}" for c in "xyz"}
+        | {f"trailer.hitch.F{c}": f"partner.trailer.F{c}" for c in "xyz"},
+        *((*CAR_LOADS, "trailer.load_L", "trailer.load_R"), {"steering": 0.2, "throttle": 0.3} | NO_TORQUE),
+        path=("trailer.trailer.x", "trailer.trailer.y"),
     ),
 }
 
@@ -91,19 +102,43 @@ def car_fmu(car: str, ports: str) -> Path:
     return fmu_of_car(car, lambda text: None, ports=ports)
 
 
+def parts_of(name: str) -> dict[str, Path]:
+    """The FMUs of a case."""
+    case, partner = CASES[name], partner_fmu(CASES[name].partner)
+    if name == "trailer":
+        return trailer.fmus() | {"partner": partner}
+    return {"car": car_fmu(case.car, case.ports), "partner": partner}
+
+
+def start_of(name: str) -> dict[str, float]:
+    """Start values of the parts of a case."""
+    case = CASES[name]
+    movable = [part for part in ("car", "trailer") if part in parts_of(name)]
+    return {f"{part}.initial.speed": SPEED for part in movable} | {f"car.{n}": x for n, x in case.inputs.items()}
+
+
+def closed_system(name: str) -> mbs.System:
+    """The same as one model."""
+    if name == "trailer":
+        return trailer.with_trailer()
+    return test_road_port.closed() if name == "road" else mbs.compile(load(CASES[name].car).model())
+
+
 @cache
 def closed(name: str) -> tuple[np.ndarray, np.ndarray]:
     """Wheel loads and way of the closed car at every inner step."""
     case = CASES[name]
-    system = test_road_port.closed() if name == "road" else mbs.compile(load(case.car).model())
+    system = closed_system(name)
     names = [entry["name"] for entry in system.meta["inputs"]]
     given = {n: x for n, x in case.inputs.items() if n in names}
     s = mbs.Simulation(system, pose=mbs.Pose(speed=SPEED), inputs=given)
+    own = CAR_LOADS if name == "tyre" else case.loads
+    read, path = ([n.partition(".")[2] for n in names] for names in (own, case.path))
     loads, ways, row = [], [], np.array([s.instance.get_input(i) for i in range(len(names))])
     for k in range(round(TIME / INNER) + 1):
         now = s.sensors
-        loads.append([now[f"wheel_{w}.Fz"] for w in WHEELS])
-        ways.append([now["chassis.x"], now["chassis.y"]])
+        loads.append([now[n] for n in read])
+        ways.append([now[n] for n in path])
         if case.throttle is not None:
             if k == 0:
                 s.set_input("throttle", case.throttle(0.0))
@@ -117,15 +152,13 @@ def coupled(
 ) -> tuple[float, float, list[str]]:
     """Error of the wheel loads, rms over their mean, and of the path over its length; what was said."""
     case = CASES[name]
-    parts = {"car": car_fmu(case.car, case.ports), "partner": partner_fmu(case.partner)}
-    with CoupledFmus(parts, case.wires, step=step, order=order, inputs=inputs) as system:
-        start = {"car.initial.speed": SPEED} | {f"car.{n}": x for n, x in case.inputs.items()}
-        system.initialise(**start)
-        rows = system.run(TIME, (*case.loads, "car.chassis.x", "car.chassis.y"))
+    with CoupledFmus(parts_of(name), case.wires, step=step, order=order, inputs=inputs) as system:
+        system.initialise(**start_of(name))
+        rows = system.run(TIME, (*case.loads, *case.path))
         messages = system.messages
     loads, ways = (values[:: round(step / INNER)] for values in closed(name))
-    load = np.sqrt(np.mean((rows[1:, :4] - loads[1:]) ** 2)) / loads.mean()
-    path = np.linalg.norm(rows[-1, 4:] - ways[-1]) / np.linalg.norm(ways[-1] - ways[0])
+    load = np.sqrt(np.mean((rows[1:, :-2] - loads[1:]) ** 2)) / loads.mean()
+    path = np.linalg.norm(rows[-1, -2:] - ways[-1]) / np.linalg.norm(ways[-1] - ways[0])
     return float(load), float(path), messages
 
 
@@ -141,7 +174,7 @@ Errors = dict[tuple[str, str, str], list[tuple[float, float]]]
 
 def chart(errors: Errors, file: Path) -> None:
     """Errors of the wheel loads over the communication step, a panel a part."""
-    figure = Figure(figsize=(9.0, 3.4), layout="constrained")
+    figure = Figure(figsize=(11.0, 3.4), layout="constrained")
     for panel, name in zip(figure.subplots(1, len(CASES), sharey=True), CASES, strict=True):
         for order, inputs in WAYS:
             loads = [100.0 * load for load, _ in errors[name, order, inputs]]
@@ -170,7 +203,3 @@ def main(picture: str = "") -> None:
             print(f"| {name} | {order} | {inputs} | {cells} | {rate:.1f} |", flush=True)
     if picture:
         chart(errors, Path(picture))
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])
