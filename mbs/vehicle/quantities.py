@@ -155,6 +155,7 @@ AssistanceFactor = Annotated[float, Quantity("1", 0.1, 60.0, zero=True, change="
 AssistanceTorque = Annotated[float, Quantity("N.m", 0.5, 400.0, zero=True, change="tunable")]
 OneOrZero = Annotated[float, Quantity("1", 1.0, 1.0, zero=True, change="fixed")]
 RackPerTurn = Annotated[float, Quantity("m", 0.01, 0.3, change="fixed")]
+PinionPerTurn = Annotated[float, Quantity("m", 0.01, 0.3)]
 SteerPerMoment = Annotated[float, Quantity("rad/(N.m)", 2e-6, 9e-4)]
 SteerPerForce = Annotated[float, Quantity("rad/N", -1e-4, 1e-4)]
 LossTime = Annotated[float, Quantity("s", 1e-4, 0.05)]
