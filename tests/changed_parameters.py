@@ -71,6 +71,7 @@ def changes(
     pose: mbs.Pose | None = None,
     t_end: float = 1.0,
     h: float = 0.005,
+    same: float = SAME,
 ) -> list[Change]:
     """Change parameters: a few at a time, and those of a run that differs again, until one is left.
 
@@ -93,6 +94,8 @@ def changes(
         Of a System that floats.
     t_end, h : float
         Of the runs, s.
+    same : float
+        Difference from a rebuilt System up to which a group is not divided.
     """
     plan = (dict(inputs or {}), pose, round(t_end / h), h)
     base = kernel_run(system, {}, *plan)
@@ -106,10 +109,10 @@ def changes(
         run = kernel_run(system, given, *plan)
         of_rebuilt = difference(run, kernel_run(rebuilt(given), {}, *plan))
         of_fmu = None if fmu is None else difference(fmu_run(fmu, given, *plan), run)
-        same = of_rebuilt <= SAME and not of_fmu
-        if same or len(group) == 1 or all([compare(group[::2]), compare(group[1::2])]):
+        well = of_rebuilt <= same and not of_fmu
+        if well or len(group) == 1 or all([compare(group[::2]), compare(group[1::2])]):
             differences.update(dict.fromkeys(group, (of_rebuilt, of_fmu)))
-        return same
+        return well
 
     for k in range(groups := -(-len(wanted) // TOGETHER)):
         compare(wanted[k::groups])

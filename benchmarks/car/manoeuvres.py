@@ -30,7 +30,15 @@ RISE_BEGINS, RISE_ENDS, GRADE = 20.0, 25.0, 0.1  # m, m, dz/dx behind
 OTHER_ROAD = ("brake_on_slope",)  # not the road of the FMU
 INITIAL = "initial."
 PROTOTYPE = "prototype"
-CARS = (PROTOTYPE, "hatchback", "saloon")
+CARS = (
+    PROTOTYPE,
+    "hatchback",
+    "saloon",
+    "commonroad_escort",
+    "commonroad_320i",
+    "commonroad_vanagon",
+    "ferrari_250_lm",
+)
 
 
 def load(name: str, car: str = PROTOTYPE) -> Manoeuvre:

@@ -57,6 +57,7 @@ from mbs.compiler.tabled import (
 )
 from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
 from mbs.compiler.tree import tree_arrays
+from mbs.compiler.written_inertias import inertia_arrays, inertia_cliques
 from mbs.model.equation import Equation
 from mbs.model.model import Model
 from mbs.system.drawing import Drawing
@@ -129,7 +130,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     order = fronts.order
     new = np.argsort(order)
     mass = mass[order][:, order].tocsr()
-    mass = with_room(mass, [new[c].tolist() for c in payload_cliques(model, full)])
+    mass = with_room(mass, [new[c].tolist() for c in payload_cliques(model, full) + inertia_cliques(model, full)])
     mass.sort_indices()
     arrays = RowArrays(rows, new)
 
@@ -177,6 +178,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         **channel_arrays(model),
         **payload_arrays(model, signals),
         **armature_arrays(model, full, new),
+        **inertia_arrays(model, signals),
         **flexible_arrays(model, full, new, locate),
         **tabled_arrays(model, known.seen, new),
         **pose_arrays(model, natural, remaining, of_z, q[new], order),
@@ -242,6 +244,7 @@ def _symbolic(
     cliques += [row.columns() for row in rows]
     behind, nz = columns_of(model, known.seen), mass.shape[0]
     cliques += [spread(clique, behind, nz) for clique in element_cliques(model, known.seen)]
-    cliques += flexible_cliques(model, full) + payload_cliques(model, full) + tabled_cliques(model, known.seen)
+    cliques += flexible_cliques(model, full) + payload_cliques(model, full) + inertia_cliques(model, full)
+    cliques += tabled_cliques(model, known.seen)
     pattern = clique_pattern(mass.shape[0], cliques)
     return build_fronts(pattern, fill_reducing_order(pattern)), (pattern.nnz + mass.shape[0]) // 2

@@ -165,8 +165,10 @@ def channel_arrays(model: Model) -> Arrays:
         pointer([1] * len(model.payloads)),
         pointer([1] * len(model.switches)),
         pointer([int(k in written) for k in range(len(model.armatures))]),
+        pointer([len(body.reals) for body in model.written_inertias]),
+        pointer([1 if s.type == SensorType.MASS else s.factors for s in model.sensors]),
     )
-    targets = [[(t, int(starts[t][k]) + i, s, o) for t, k, i, s, o in p.targets] for p in model.parameters]
+    targets = [[(t, int(starts[t][k]) + i, *line) for t, k, i, *line in p.targets] for p in model.parameters]
     flat = [t for group in targets for t in group]
     return {
         "input_start": np.array([i.start for i in model.inputs], dtype=float),
@@ -186,5 +188,6 @@ def channel_arrays(model: Model) -> Arrays:
         "par_index": np.array([t[1] for t in flat], dtype=np.int64),
         "par_scale": np.array([t[2] for t in flat], dtype=float),
         "par_offset": np.array([t[3] for t in flat], dtype=float),
+        "par_inverse": np.array([t[4] for t in flat if any(u[4] for u in flat)], dtype=np.int64),
         "par_fixed": np.array([not p.tunable for p in model.parameters], dtype=np.int64),
     }

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.compiler.armatures import refuse_in_trees
+from mbs.compiler import armatures, written_inertias
 from mbs.compiler.natural import choose
 from mbs.compiler.spanning_tree import (
     MOST_JOINTS,
@@ -67,7 +67,8 @@ def tree_arrays(
             raise NoTreeError(
                 f"{len(moving)} joints and {rows} rows of loops are many for {len(remaining)} coordinates"
             )
-        refuse_in_trees(model)
+        armatures.refuse_in_trees(model)
+        written_inertias.refuse_in_trees(model)
         arrays = {
             "parent": [g.parent.number for g in moving if g.parent is not None],
             "slides": [int(g.slides) for g in moving],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,12 +12,13 @@ from mbs.common.checks import Vector, array, capital, direction, is_number, mapp
 from mbs.common.errors import ModelError
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.model.body import Body, Ground, PointMass
-from mbs.model.carried import Payload
+from mbs.model.carried import Payload, WrittenInertia
 from mbs.model.core import ModelCore
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.inertia import inertia_matrix
 from mbs.model.payload import new_payload
 from mbs.model.ports import PortedBody
+from mbs.model.written_inertia import new_written_inertia
 
 SIZES = (1e-12, 1e8)
 """Radii of gyration, m."""
@@ -123,6 +124,38 @@ class BodyVocabulary(ModelCore):
             The body is the ground or has no such point, or `point` is drawn elsewhere.
         """
         return new_payload(self, name, self.owned(body, f"The payload {shown(name)}"), position, mass, point)
+
+    def written_inertia(
+        self,
+        name: str,
+        point: AffineVector,
+        axes: Sequence[AffineVector],
+        *,
+        mass: float,
+        com: ArrayLike,
+        inertia: ArrayLike,
+    ) -> WrittenInertia:
+        """Let parameters write mass, centre of mass and inertia of a body, which has them as drawn already.
+
+        What they change acts in every method at `point` and `axes`, as a payload does. A parameter writes to its
+        ``mass``, ``com_x``, ``com_y``, ``com_z``, ``xx``, ``yy``, ``zz``, ``xy``, ``xz`` or ``yz`` and is fixed.
+
+        Parameters
+        ----------
+        name : str
+            For the targets of parameters.
+        point : AffineVector
+            The centre of mass as drawn, of the body, m.
+        axes : sequence of AffineVector
+            Three vectors of the body that are the axes of the drawing there.
+        mass : float
+            kg, as drawn.
+        com : array_like, shape (3,)
+            In earth axes in the reference configuration, m.
+        inertia : array_like, shape (3,) or (3, 3)
+            About the centre of mass, along these axes, kg m2.
+        """
+        return new_written_inertia(self, name, point, axes, mass, com, inertia)
 
     def flexible_body(
         self, name: str, reduced: ReducedBody, *, origin: ArrayLike = (0.0, 0.0, 0.0), axes: ArrayLike | None = None

@@ -36,6 +36,27 @@ class Payload:
     shared: bool = False
 
 
+INERTIA_REALS = ("mass", "com_x", "com_y", "com_z", "xx", "yy", "zz", "xy", "xz", "yz")
+"""As in the System: kg, m in the drawing, and entries of the inertia tensor about the centre of mass, kg m2."""
+
+
+@dataclass(frozen=True)
+class WrittenInertia:
+    """Mass that a body has as drawn, and what carries its change; made by `Model.written_inertia`.
+
+    Attributes
+    ----------
+    vectors : tuple of AffineVector
+        The centre of mass as drawn, and the axes x, y and z, as expressions of coordinates.
+    reals : tuple of float
+        In the order of `INERTIA_REALS`.
+    """
+
+    name: str
+    vectors: tuple[AffineVector, AffineVector, AffineVector, AffineVector]
+    reals: tuple[float, ...]
+
+
 @dataclass(frozen=True)
 class Spin(Coordinate):
     """A wheel on its carrier.

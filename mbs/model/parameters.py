@@ -9,8 +9,8 @@ from typing import TypeAlias
 from mbs.common.checks import array, flag, not_negative, not_zero, number, positive, shown, text, whole
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
-from mbs.kernel.header.enumerations import GuideType, ParameterTarget
-from mbs.model.carried import Payload
+from mbs.kernel.header.enumerations import GuideType, ParameterTarget, SensorType
+from mbs.model.carried import INERTIA_REALS, Payload, WrittenInertia
 from mbs.model.core import ModelCore
 from mbs.model.payload import REALS as PAYLOAD_REALS
 from mbs.model.records import Armature, Guide, Parameter
@@ -20,23 +20,39 @@ GUIDE_REALS = {
     GuideType.OF_INPUT: _OF_INPUT,
     GuideType.OF_TWO_INPUTS: _OF_INPUT | {"gain_2": number, "low": number, "high": number},
 }
-Owner: TypeAlias = "ElementRecord | Guide | Payload | Armature | str | tuple[str, int]"
-"""An element, a guide, a payload, an armature or the name of one; or ("road", number)."""
-Target: TypeAlias = "tuple[Owner, str | int, float] | tuple[Owner, str | int, float, float]"
-"""Owner, its real, scale, and an offset if there is one."""
+Owner: TypeAlias = (
+    "ElementRecord | Guide | Payload | Armature | WrittenInertia | str | tuple[str, int] | tuple[str, str]"
+)
+"""An element, a guide, a payload, an armature, a written inertia or the name of one; or ("road", number) or ("sensor",
+name)."""
+Target: TypeAlias = (
+    "tuple[Owner, str | int, float] | tuple[Owner, str | int, float, float] | "
+    "tuple[Owner, str | int, float, float, bool]"
+)
+"""Owner, its real, scale, an offset if there is one, and whether the scale is divided by the value."""
+
+
+_SCALED = (SensorType.GUIDE, SensorType.GUIDE_EXCESS, SensorType.REACTION_PRODUCTS)
+_AT_THE_START = (
+    ParameterTarget.PAYLOAD,
+    ParameterTarget.SWITCH,
+    ParameterTarget.ARMATURE,
+    ParameterTarget.INERTIA,
+)
 
 
 @dataclass(frozen=True)
 class _Target:
     """Where a value goes, and what checks it there."""
 
-    where: tuple[int, int, int, float, float]
+    where: tuple[int, int, int, float, float, bool]
     what: str
     check: Callable[[object, str], float]
 
     def written(self, value: float) -> float:
         """What the parameter writes."""
-        return value * self.where[3] + self.where[4]
+        *_, scale, offset, inverse = self.where
+        return (scale / value if inverse else value * scale) + offset
 
 
 def new_parameter(
@@ -93,7 +109,7 @@ def _span(works: object, what: str) -> tuple[float, float]:
 def _moving(what: str, found: Sequence[_Target]) -> None:
     """A mass that changed while it moves would take momentum from nowhere, rows that are turned on are an impact."""
     for target in found:
-        if target.where[0] in (ParameterTarget.PAYLOAD, ParameterTarget.SWITCH, ParameterTarget.ARMATURE):
+        if target.where[0] in _AT_THE_START:
             raise ModelError(
                 f"The {what} writes {target.what}, which cannot change while it moves; it must be fixed, tunable=False."
             )
@@ -111,7 +127,7 @@ def _written_once(model: ModelCore, what: str, found: Sequence[_Target]) -> None
 
 def _target(model: ModelCore, what: str, given: Target) -> _Target:
     """One target of a parameter."""
-    if not isinstance(given, (list, tuple)) or len(given) not in (3, 4):
+    if not isinstance(given, (list, tuple)) or len(given) not in (3, 4, 5):
         raise ModelError(
             f"A target of {what} must be (element or guide, name of its real, scale) or the same with an offset, not "
             f"{shown(given)}."
@@ -119,10 +135,13 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
     owner, real, scale = given[:3]
     line = (
         not_zero(scale, f"The scale of {what}"),
-        number(given[3], f"The offset of {what}") if len(given) == 4 else 0.0,
+        number(given[3], f"The offset of {what}") if len(given) > 3 else 0.0,
+        flag(given[4], f"The inverse of {what}") if len(given) > 4 else False,
     )
     if isinstance(owner, tuple) and len(owner) == 2 and owner[0] == "road":
         return _road(model, what, owner[1], real, line)
+    if isinstance(owner, tuple) and len(owner) == 2 and owner[0] == "sensor":
+        return _sensor(model, what, owner[1], real, line)
     owner_name = getattr(owner, "name", owner)
     for index, element in enumerate(model.elements):
         if element.name == owner_name:
@@ -145,6 +164,10 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
     for k, armature in enumerate(model.armatures):
         if armature.name == owner_name and real == "ratio":
             return _Target((ParameterTarget.ARMATURE, k, 0, *line), f"the ratio of armature '{owner_name}'", positive)
+    for k, body in enumerate(model.written_inertias):
+        if body.name == owner_name and real in INERTIA_REALS:
+            i = INERTIA_REALS.index(str(real))
+            return _Target((ParameterTarget.INERTIA, k, i, *line), f"the {real} of inertia '{owner_name}'", number)
     for k, switch in enumerate(model.switches):
         if switch.name == owner_name and real == "on":
             return _Target((ParameterTarget.SWITCH, k, 0, *line), f"the switch '{owner_name}'", _on_or_off)
@@ -154,13 +177,25 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
     )
 
 
+def _sensor(model: ModelCore, what: str, name: object, real: str | int, line: tuple[float, float, bool]) -> _Target:
+    """A factor of a sensor, by its number."""
+    for k, sensor in enumerate(model.sensors):
+        if sensor.name == name and sensor.type in _SCALED:
+            i = whole(real, f"The number of the factor of sensor '{name}' for {what}", 0, sensor.factors - 1)
+            return _Target((ParameterTarget.SENSOR, k, i, *line), f"factor {i} of sensor '{name}'", number)
+    raise ModelError(
+        f"The {what} writes {shown(real)} of sensor {shown(name)}, but the model has no sensor of that name that has "
+        "factors."
+    )
+
+
 def _on_or_off(value: object, what: str) -> float:
     if value not in (0.0, 1.0):
         raise ModelError(f"{what} is {shown(value)}; it must be 1, on, or 0, off.")
     return float(value == 1.0)
 
 
-def _road(model: ModelCore, what: str, number_of: object, real: str | int, line: tuple[float, float]) -> _Target:
+def _road(model: ModelCore, what: str, number_of: object, real: str | int, line: tuple[float, float, bool]) -> _Target:
     """A real of a road, by its name or its number."""
     k = whole(number_of, f"The road of {what}", 0)
     if k >= len(model.roads):

@@ -115,14 +115,14 @@ class Guide:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that writes value * scale + offset to data of elements, guides, roads, payloads, armatures, or a switch.
+    """A number that writes value * scale + offset to data of elements, guides, roads, payloads and others.
 
     Parameters
     ----------
     value, min, max : float
         As compiled, and its limits.
     targets : tuple of (int, int, int, float, float)
-        Family, index in the family, index of the real, scale, offset.
+        Family, index in the family, index of the real, scale, offset, whether the scale is divided by the value.
     tunable : bool
         Whether it may be set while the model moves.
     works : (float, float), optional
@@ -135,7 +135,7 @@ class Parameter:
     max: float
     unit: str
     description: str
-    targets: tuple[tuple[int, int, int, float, float], ...]
+    targets: tuple[tuple[int, int, int, float, float, bool], ...]
     tunable: bool = True
     works: tuple[float, float] | None = None
 

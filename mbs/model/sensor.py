@@ -53,3 +53,8 @@ class Sensor:
     display_unit: str = ""
     notice: str = ""
     computed: bool = True
+
+    @property
+    def factors(self) -> int:
+        """Number of its reals, the mass of all bodies left out."""
+        return len(self.terms) or len(self.reals)

@@ -16,7 +16,7 @@ from mbs.vehicle.ports import Ports
 from mbs.vehicle.quantities import Quantity
 from mbs.vehicle.section import Section
 
-Target: TypeAlias = "tuple[Owner, str | int, float, float]"
+Target: TypeAlias = "tuple[Owner, str | int, float, float, bool]"
 
 
 @dataclass
@@ -27,6 +27,8 @@ class _Tied:
     name: str
     quantity: Quantity
     value: float
+    part: str = ""
+    late: bool = False
     targets: list[Target] = field(default_factory=list)
 
 
@@ -114,6 +116,9 @@ class CarBuilder:
         offset: float = 0.0,
         *,
         value: float | None = None,
+        part: str = "",
+        inverse: bool = False,
+        late: bool = False,
     ) -> None:
         """Let a number of the file be a parameter of the model that writes a real of an element, guide or road.
 
@@ -130,15 +135,24 @@ class CarBuilder:
             The value times `scale` plus `offset` is written.
         value : float, optional
             In the model, where it is not that of the file.
+        part : str
+            Of a field with several numbers, as "x": the parameter has it behind its name.
+        inverse : bool
+            Whether `scale` over the value is written, in place of their product.
+        late : bool
+            Whether it comes behind the parameters of the road, as all that came later do.
         """
         quantity = section.quantity(name)
         assert quantity is not None, f"{section.key(name)} is no quantity"
         assert quantity.change is not None, f"{section.key(name)} is of a type that does not change"
         start = getattr(section, name) if value is None else value
-        tied = self._tied.setdefault(section.key(name), _Tied(section, name, quantity, start))
-        tied.targets.append((owner, real, scale, offset))
+        path = section.key(name) + (f".{part}" if part else "")
+        tied = self._tied.setdefault(path, _Tied(section, name, quantity, start, part, late))
+        tied.targets.append((owner, real, scale, offset, inverse))
 
-    def parameters(self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]]) -> None:
+    def parameters(
+        self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]], *, late: bool = False
+    ) -> None:
         """Write what was tied into the model.
 
         Parameters
@@ -147,16 +161,22 @@ class CarBuilder:
             Place of a key path in the file's type.
         works : mapping of str to (float, float)
             By key path, between which values the car works.
+        late : bool
+            Those that come late, in place of all others.
         """
-        for path, tied in sorted(self._tied.items(), key=lambda item: order(item[0])):
-            q = tied.quantity
+
+        def place(item: tuple[str, _Tied]) -> int:
+            return order(item[1].section.key(item[1].name))
+
+        for path, tied in sorted(((p, t) for p, t in self._tied.items() if t.late == late), key=place):
+            q, text = tied.quantity, type(tied.section).model_fields[tied.name].description or ""
             self.m.parameter(
                 path,
                 tied.value,
                 q.least,
                 q.high,
                 q.unit,
-                type(tied.section).model_fields[tied.name].description or "",
+                f"{tied.part}: {text}" if tied.part else text,
                 targets=tied.targets,
                 tunable=q.change == "tunable",
                 works=works.get(path),

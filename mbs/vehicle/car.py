@@ -29,6 +29,7 @@ from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.frame_joints import JointFinder
 from mbs.vehicle.chassis.frame_mass import check_mass
 from mbs.vehicle.chassis.ground_contact import ground_contact
+from mbs.vehicle.chassis.written import write_inertia
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import settled
 from mbs.vehicle.checks.working import working_ranges
@@ -168,6 +169,7 @@ class Car(CarContent):
         """Add all parts of the car to an empty model."""
         m = b.m
         b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
+        write_inertia(b, self.chassis)
         for name, payload in self.payload.items():
             payload.build(b, name, fidelity)
         (steered, front), (_, rear) = self.tabled(b) if fidelity is Fidelity.TABLE else self.mechanism(b)
@@ -180,11 +182,13 @@ class Car(CarContent):
         if self.ports.forces is not None:
             force_ports(b, self, self.ports.forces)
         self.aerodynamics.build(b, self.vehicle.reference_point, axles, wind_port(b))
-        b.parameters(self.order, working_ranges(self))
+        works = working_ranges(self)
+        b.parameters(self.order, works)
         frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in axles.items())
         if self.ports.road is None:
             self.road.parameters(m, road, b.road, ", ".join(frictions))
         self._outputs(b, steered, spins, fidelity)
+        b.parameters(self.order, works, late=True)
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
         m.put_off(partial(tabled_shapes if fidelity is Fidelity.TABLE else car_shapes, b, self, spins))

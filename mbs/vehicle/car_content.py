@@ -163,12 +163,12 @@ class CarContent(Section):
 
     def values(self) -> dict[str, float]:
         """Numbers that a finished FMU of the car has as parameters, by key path."""
-        found = {}
+        found: dict[str, float] = {}
         for section in sections_of(self):
             for field in type(section).model_fields:
                 quantity, value = section.quantity(field), getattr(section, field)
                 if quantity is not None and quantity.change is not None and value is not None:
-                    found[section.key(field)] = float(value)
+                    found |= section.numbers(field)
         return found
 
     def order(self, path: str) -> int:

@@ -10,6 +10,10 @@ import numpy as np
 
 from mbs.common.checks import shown
 from mbs.vehicle.errors import CarFileError
+from mbs.vehicle.section import AXES, PRODUCTS
+
+PARTS = {part: str(k) for parts in (AXES, PRODUCTS) for k, part in enumerate(parts)}
+"""Places in a list by the names that parameters have behind the field's."""
 
 
 def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: str) -> dict[str, Any]:
@@ -37,7 +41,8 @@ def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: st
         table: Any = new
         for k, key in enumerate(tables):
             if isinstance(table, dict):
-                table = table.setdefault(key, {})
+                of_list = k + 1 == len(tables) and last in PRODUCTS
+                table = table.setdefault(key, [0.0] * len(PRODUCTS) if of_list else {})
             else:
                 table = table[_place(table, key, tables[:k], what)]
             if not isinstance(table, (dict, list)):
@@ -52,7 +57,8 @@ def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: st
 
 
 def _place(table: list[Any], key: str, tables: list[str], what: str) -> int:
-    """Index of an element of a list."""
+    """Index of an element of a list, by its number or as parameters call it."""
+    key = PARTS.get(key, key)
     if not key.isdigit() or int(key) >= len(table):
         where = ".".join(tables)
         raise CarFileError(f"{what}: {where}.{key} is not known; {where} is a list of {len(table)}, counted from 0.")

@@ -9,6 +9,9 @@ from pydantic import BaseModel, ConfigDict, PrivateAttr
 
 from mbs.vehicle.quantities import Quantity
 
+AXES, PRODUCTS = ("x", "y", "z"), ("xy", "xz", "yz")
+"""Names of the numbers of a point or of moments of inertia, and of products of inertia."""
+
 
 class Section(BaseModel):
     """Base of all tables of a car file: no other keys than its own, and it cannot be changed.
@@ -42,6 +45,20 @@ class Section(BaseModel):
                 if isinstance(item, Quantity):
                     return item
         return None
+
+    def numbers(self, field: str) -> dict[str, float]:
+        """Numbers of a field by the names of parameters; those of a list have a part behind the field's name.
+
+        Parameters
+        ----------
+        field : str
+            One with a quantity, whose value is not None.
+        """
+        value, path = getattr(self, field), self.key(field)
+        if not isinstance(value, tuple):
+            return {path: float(value)}
+        parts = PRODUCTS if field == "products" else AXES
+        return {f"{path}.{part}": float(number) for part, number in zip(parts, value, strict=True)}
 
     def locate(self, path: str) -> None:
         """Tell this section and those in it where they stand; done once by the reader.

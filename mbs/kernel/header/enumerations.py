@@ -31,6 +31,7 @@ class Status(IntEnum):
     WHEEL_IN_ROAD = 22
     BAD_NORMAL = 23
     BEYOND_TABLE = 24
+    BAD_INERTIA = 25
 
 
 class Update(IntEnum):
@@ -78,6 +79,8 @@ class ParameterTarget(IntEnum):
     PAYLOAD = 3
     SWITCH = 4
     ARMATURE = 5
+    INERTIA = 6
+    SENSOR = 7
 
 
 class GuideType(IntEnum):

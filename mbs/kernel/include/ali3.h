@@ -45,6 +45,7 @@ typedef enum {
   ALI3_WHEEL_IN_ROAD,     /* the centre of a wheel is deep in a grid road; see ali3_wheel_in_road */
   ALI3_BAD_NORMAL,        /* the inputs of a road at a port give no normal; see ali3_is_road_normal */
   ALI3_BEYOND_TABLE,      /* a coordinate is beyond a table of it by more than the spacing of its points */
+  ALI3_BAD_INERTIA,       /* parameters give a body an inertia that no distribution of mass has */
   ALI3_STATUS_COUNT
 } ali3_status;
 

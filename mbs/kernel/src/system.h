@@ -7,7 +7,7 @@
 
 /* The arrays of a System file: C type, item type number, name; first those that it need not have: without them nothing
  * is known of assembly modes or of a start in equilibrium, no guide has two inputs, all parameters are tunable and
- * without offset, and there are neither payloads nor armatures whose ratio may change. `drawing` is for those who draw: the kernel does not read it. */
+ * without offset and write multiples, and there are neither payloads nor armatures or bodies whose inertia may change. `drawing` is for those who draw: the kernel does not read it. */
 /* clang-format off */
 #define ALI3_OPTIONAL_ARRAYS(X) \
   X(unsigned char, 3, drawing) \
@@ -19,6 +19,7 @@
   X(double, 2, payload_mass) X(int32_t, 1, payload_signal) X(double, 2, payload_gravity) \
   X(int32_t, 1, tree_payload_body) X(double, 2, tree_payload_place) \
   X(int32_t, 1, armature_col) X(double, 2, armature_inertia) X(double, 2, armature_ratio) \
+  X(double, 2, inertia_real) X(int32_t, 1, inertia_signal) X(double, 2, inertia_gravity) X(int32_t, 1, par_inverse) \
   X(int32_t, 1, guide_second) \
   X(int32_t, 1, tabled_size) X(int32_t, 1, tabled_frame) X(int32_t, 1, tabled_param) X(double, 2, tabled_axis) \
   X(double, 2, tabled_coef) X(double, 2, tabled_mass) X(double, 2, tabled_gravity) \
@@ -65,6 +66,8 @@
   ALI3_OPTIONAL_ARRAYS(X)
 /* clang-format on */
 
+enum { ALI3_INERTIA_REALS = 10, ALI3_INERTIA_SIGNALS = 12 }; /* of a body whose inertia parameters write */
+
 enum { /* par_target: what a parameter writes to */
        ALI3_TARGET_ELEMENT = 0,
        ALI3_TARGET_GUIDE,
@@ -72,6 +75,8 @@ enum { /* par_target: what a parameter writes to */
        ALI3_TARGET_PAYLOAD,
        ALI3_TARGET_SWITCH,
        ALI3_TARGET_ARMATURE,
+       ALI3_TARGET_INERTIA,
+       ALI3_TARGET_SENSOR,
        ALI3_TARGET_COUNT
 };
 

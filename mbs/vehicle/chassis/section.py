@@ -9,10 +9,11 @@ from pydantic import Discriminator, Field, Tag
 from mbs.vehicle.chassis.frames import Frame
 from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import (
+    ChassisMass,
     Coefficient,
     HysteresisLoss,
     Inertia,
-    Mass,
+    MassCentre,
     Point,
     ProductOfInertia,
     SmallLength,
@@ -44,9 +45,9 @@ class GroundContact(Section):
 class Chassis(Section):
     """Chassis with all that is fixed to it."""
 
-    mass: Mass
+    mass: ChassisMass
     """Mass without payloads."""
-    com: Point
+    com: tuple[MassCentre, MassCentre, MassCentre]
     """Centre of mass as drawn."""
     inertia: tuple[Inertia, Inertia, Inertia]
     """Moments of inertia about the axes x, y and z through the centre of mass."""

@@ -24,6 +24,7 @@ from mbs.vehicle.quantities import (
     ColumnStiffness,
     OneOrZero,
     PartMass,
+    PinionPerTurn,
     RackFriction,
     SteeringFriction,
     SteeringWheelInertia,
@@ -46,6 +47,8 @@ class Column(RackSection):
 
     kind: Literal["column"]
     """Names this template."""
+    rack_per_turn: PinionPerTurn
+    """Travel of the rack per turn of the steering wheel."""
     rack_mass: PartMass
     """Mass of the rack."""
     rack_friction: RackFriction = 0.0

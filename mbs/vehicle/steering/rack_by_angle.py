@@ -15,6 +15,7 @@ from mbs.vehicle.quantities import PrescribedFriction
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
 from mbs.vehicle.steering.rack_section import COLUMN_STICK, RackSection
+from mbs.vehicle.steering.ratio import tie_ratio
 from mbs.vehicle.steering.steered import RACK, Steered, tie_rods
 
 
@@ -91,5 +92,7 @@ class RackByAngle(RackSection):
             )
             if demand is not None:
                 demand_outputs(m, demand, rack, 1.0 / per_radian)
+            if self.friction == 0.0:  # with friction the ratio is in an equation, which no parameter writes
+                tie_ratio(b, self, rack, way)
 
         return Steered(end, outputs, torque_outputs, travel)

@@ -18,6 +18,7 @@
 #include "../state/inputs.h"
 #include "../state/road_files.h"
 #include "../state/vectors.h"
+#include "../system/loading.h"
 
 /* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
 static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
@@ -42,6 +43,8 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
 ali3_status ali3_initialise(ali3_instance *in, double t0) {
   const ali3_report none = {0};
   if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
+  for (int64_t k = 0; k < in->system->n_inertia_real; k += ALI3_INERTIA_REALS)
+    if (!ali3_inertia_possible(in->inertia_real + k)) return ALI3_BAD_INERTIA;
   in->report = none;
   ali3_roads_forgive(in);
   ali3_vectors_copy(in, &in->start, &in->now);

@@ -136,6 +136,8 @@ static double value_mass(const ali3_instance *in, const int32_t *v, const double
   double sum = real[0];
   (void)v;
   for (int64_t k = 0; k < in->system->n_payload_mass; k++) sum += in->payload_mass[k];
+  for (int64_t k = 0; k < in->system->n_inertia_real; k += ALI3_INERTIA_REALS)
+    sum += in->inertia_real[k] - in->system->inertia_real[k];
   return sum;
 }
 
@@ -246,7 +248,7 @@ void ali3_sensors_evaluate(const ali3_instance *in, double *out) {
     ali3_tabled_extend(in, in->now.q, in->now.qd, in->now.qdd, true);
   }
   for (int32_t i = 0; i < S->size.ns; i++)
-    out[i] = value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], S->sen_real + S->sen_real_ptr[i]);
+    out[i] = value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], in->sen_real + S->sen_real_ptr[i]);
 }
 
 /* Sensors and coordinates as a row of a record; either may be NULL. */

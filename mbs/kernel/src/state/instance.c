@@ -42,6 +42,8 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_BAD_NORMAL] = "the normal of a road at a port must be a unit vector that points up",
       [ALI3_WHEEL_IN_ROAD] = "the centre of a wheel is below the road, where its contact is lost",
       [ALI3_BEYOND_TABLE] = "a coordinate has left the table of what it moves",
+      [ALI3_BAD_INERTIA] =
+          "the parameters give a body moments of inertia that are not positive, or one above the other two",
   };
   return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
 }
@@ -152,6 +154,8 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->road_real, S->road_real, S->n_road_real);
   copy(in->payload_mass, S->payload_mass, S->n_payload_mass);
   copy(in->armature_ratio, S->armature_ratio, S->n_armature_ratio);
+  copy(in->inertia_real, S->inertia_real, S->n_inertia_real);
+  copy(in->sen_real, S->sen_real, S->n_sen_real);
   for (int32_t g = 0; g < S->size.ng; g++)
     if (ali3_guide_filters(S->guide_type[g])) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
   for (int32_t r = 0; r < S->nr; r++) {

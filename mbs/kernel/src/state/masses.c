@@ -1,6 +1,7 @@
 /* Masses of an instance. The points of payloads are signals p = C q + c, so that a payload of mass m adds m C'C to the
- * mass matrix, m C'g to the force of gravity and -m g.c to its energy. What turns r times as fast as a coordinate adds
- * J r^2 there; the matrix of the System has it with the ratio r of the drawing. Whatever reads masses reads these sums. */
+ * mass matrix, m C'g to the force of gravity and -m g.c to its energy. A body whose inertia parameters write has it in the
+ * matrix of the System as drawn; the change of its moments over (1, place) adds in the same way, between signals. What
+ * turns r times as fast as a coordinate adds J r^2 there; the matrix of the System has it with the ratio r of the drawing. Whatever reads masses reads these sums. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +10,9 @@
 #include "../tree/tree.h"
 #include "masses.h"
 
-static bool changes(const ali3_system *s) { return s->n_payload_mass > 0 || s->n_armature_ratio > 0; }
+static bool changes(const ali3_system *s) {
+  return s->n_payload_mass > 0 || s->n_armature_ratio > 0 || s->n_inertia_real > 0;
+}
 
 /* Memory of the sums, where something changes them. */
 void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
@@ -17,6 +20,7 @@ void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t nq = loaded ? (size_t)s->size.nq : 0;
   in->payload_mass = ali3_pool_array(p, (size_t)s->n_payload_mass);
   in->armature_ratio = ali3_pool_array(p, (size_t)s->n_armature_ratio);
+  in->inertia_real = ali3_pool_array(p, (size_t)s->n_inertia_real);
   in->own_masses.val = ali3_pool_array(p, loaded ? (size_t)s->size.nnz_mass : 0);
   in->own_masses.front = ali3_pool_array(p, loaded ? (size_t)s->size.front_size : 0);
   in->own_masses.floor = ali3_pool_array(p, nq);
@@ -54,6 +58,51 @@ static void add(ali3_instance *in, int32_t signal, double mass, double g) {
   in->gravity_const -= mass * g * S->sig_const[signal];
 }
 
+/* A moment of mass between the signals of two vectors. */
+static void couple(ali3_instance *in, int32_t one, int32_t other, double moment) {
+  const ali3_system *S = in->system;
+  for (int32_t a = S->sig_ptr[one]; a < S->sig_ptr[one + 1]; a++) {
+    const int32_t row = S->sig_col[a], start = S->mass_ptr[row], n = S->mass_ptr[row + 1] - start;
+    for (int32_t b = S->sig_ptr[other]; b < S->sig_ptr[other + 1]; b++)
+      in->own_masses.val[start + ali3_find(S->mass_col + start, n, S->sig_col[b])] +=
+          moment * (S->sig_val[a] * S->sig_val[b]);
+  }
+}
+
+/* Moments of a body over (1, place from `origin`): mass, mass times place, and second moments tr(I) / 2 - I of its
+ * inertia about the centre of mass, moved to the origin. */
+static void moments(const double *real, const double *origin, double out[4][4]) {
+  static const int product[3][3] = {{4, 7, 8}, {7, 5, 9}, {8, 9, 6}};
+  const double half = 0.5 * (real[4] + real[5] + real[6]);
+  out[0][0] = real[0];
+  for (int i = 0; i < 3; i++) {
+    const double arm = real[1 + i] - origin[i];
+    out[0][1 + i] = out[1 + i][0] = real[0] * arm;
+    for (int j = 0; j < 3; j++)
+      out[1 + i][1 + j] = (i == j ? half : 0.0) - real[product[i][j]] + real[0] * arm * (real[1 + j] - origin[j]);
+  }
+}
+
+/* What the inertia of body k changes, nothing where it is that of the System. */
+static void weigh(ali3_instance *in, int64_t k) {
+  const ali3_system *S = in->system;
+  const double *old = S->inertia_real + k * ALI3_INERTIA_REALS, *now = in->inertia_real + k * ALI3_INERTIA_REALS;
+  const int32_t *signal = S->inertia_signal + k * ALI3_INERTIA_SIGNALS;
+  double before[4][4], after[4][4];
+  if (memcmp(old, now, ALI3_INERTIA_REALS * sizeof(double)) == 0) return;
+  moments(old, old + 1, before);
+  moments(now, old + 1, after);
+  for (int v = 0; v < 4; v++)
+    for (int x = 0; x < 3; x++) {
+      const int32_t own = signal[3 * v + x];
+      const double first = (after[0][v] - before[0][v]) * S->inertia_gravity[x];
+      for (int w = 0; w < 4; w++) couple(in, own, signal[3 * w + x], after[v][w] - before[v][w]);
+      for (int32_t a = S->sig_ptr[own]; a < S->sig_ptr[own + 1]; a++)
+        in->own_masses.gravity[S->sig_col[a]] += first * S->sig_val[a];
+      in->gravity_const -= first * S->sig_const[own];
+    }
+}
+
 /* What the ratio of an armature changes, nothing where it is that of the System. */
 static void turn(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->system;
@@ -72,7 +121,7 @@ static void carry(ali3_instance *in) {
     for (int32_t b = in->system->tree_payload_body[k]; b > 0; b = T->parent[b]) carried[b] += in->payload_mass[k];
 }
 
-/* After payloads or ratios have changed. */
+/* After payloads, ratios or inertias have changed. */
 void ali3_masses_apply(ali3_instance *in) {
   const ali3_system *S = in->system;
   const ali3_masses *own = &in->own_masses;
@@ -85,5 +134,6 @@ void ali3_masses_apply(ali3_instance *in) {
     if (in->payload_mass[i / 3] > 0.0)
       add(in, S->payload_signal[i], in->payload_mass[i / 3], S->payload_gravity[i % 3]);
   for (int64_t k = 0; k < S->n_armature_ratio; k++) turn(in, k);
+  for (int64_t k = 0; k < S->n_inertia_real / ALI3_INERTIA_REALS; k++) weigh(in, k);
   ali3_mass_in_fronts(S, own->val, own->front, own->floor, own->floor_inverse, own->missing);
 }

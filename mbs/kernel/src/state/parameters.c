@@ -1,4 +1,4 @@
-/* Parameters of an instance: what they write to its copies of the data of elements, guides, roads, payloads and armatures, and
+/* Parameters of an instance: what they write to its copies of the data of elements, guides, roads, payloads, armatures, bodies and sensors, and
  * the switches with which it starts. */
 #include "parameters.h"
 #include "../instance.h"
@@ -7,16 +7,18 @@
 
 /* What a parameter of a value writes to its target k. */
 double ali3_parameter_writes(const ali3_system *S, int64_t k, double value) {
-  const double product = S->par_scale[k] * value;
+  const bool inverse = S->n_par_inverse > 0 && S->par_inverse[k];
+  const double product = inverse ? S->par_scale[k] / value : S->par_scale[k] * value;
   return S->n_par_offset > 0 ? product + S->par_offset[k] : product;
 }
 
 static void write(ali3_instance *in, int32_t p) {
   const ali3_system *S = in->system;
   double *target[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = in->el_real,  [ALI3_TARGET_GUIDE] = in->guide_real,
-      [ALI3_TARGET_ROAD] = in->road_real,   [ALI3_TARGET_PAYLOAD] = in->payload_mass,
-      [ALI3_TARGET_SWITCH] = in->switch_on, [ALI3_TARGET_ARMATURE] = in->armature_ratio};
+      [ALI3_TARGET_ELEMENT] = in->el_real,      [ALI3_TARGET_GUIDE] = in->guide_real,
+      [ALI3_TARGET_ROAD] = in->road_real,       [ALI3_TARGET_PAYLOAD] = in->payload_mass,
+      [ALI3_TARGET_SWITCH] = in->switch_on,     [ALI3_TARGET_ARMATURE] = in->armature_ratio,
+      [ALI3_TARGET_INERTIA] = in->inertia_real, [ALI3_TARGET_SENSOR] = in->sen_real};
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
     target[S->par_target[k]][S->par_index[k]] = ali3_parameter_writes(S, k, in->parameter[p]);
 }
@@ -24,9 +26,10 @@ static void write(ali3_instance *in, int32_t p) {
 /* The check of target k, or with k = -1 of all data. */
 static const char *check(const ali3_instance *in, int64_t k) {
   const double *const data[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = in->el_real,  [ALI3_TARGET_GUIDE] = in->guide_real,
-      [ALI3_TARGET_ROAD] = in->road_real,   [ALI3_TARGET_PAYLOAD] = in->payload_mass,
-      [ALI3_TARGET_SWITCH] = in->switch_on, [ALI3_TARGET_ARMATURE] = in->armature_ratio};
+      [ALI3_TARGET_ELEMENT] = in->el_real,      [ALI3_TARGET_GUIDE] = in->guide_real,
+      [ALI3_TARGET_ROAD] = in->road_real,       [ALI3_TARGET_PAYLOAD] = in->payload_mass,
+      [ALI3_TARGET_SWITCH] = in->switch_on,     [ALI3_TARGET_ARMATURE] = in->armature_ratio,
+      [ALI3_TARGET_INERTIA] = in->inertia_real, [ALI3_TARGET_SENSOR] = in->sen_real};
   return k < 0 ? ali3_check_data(in->system, data) : ali3_check_target(in->system, k, data);
 }
 
@@ -72,8 +75,9 @@ ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value) {
   if (in->initialised && in->system->n_par_fixed > 0 && in->system->par_fixed[index]) return ALI3_FIXED_PARAMETER;
   const ali3_status status = take(in, index, value);
   if (status != ALI3_OK) take(in, index, before);
-  const bool masses =
-      writes_to(in->system, index, ALI3_TARGET_PAYLOAD) || writes_to(in->system, index, ALI3_TARGET_ARMATURE);
+  const bool masses = writes_to(in->system, index, ALI3_TARGET_PAYLOAD) ||
+                      writes_to(in->system, index, ALI3_TARGET_ARMATURE) ||
+                      writes_to(in->system, index, ALI3_TARGET_INERTIA);
   if (status == ALI3_OK && masses) ali3_masses_apply(in);
   if (status == ALI3_OK && writes_to(in->system, index, ALI3_TARGET_SWITCH)) ali3_parameters_switch(in);
   return status;

@@ -98,20 +98,23 @@ static ali3_status check_fixed(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_indices(m, "par_fixed", s->par_fixed, s->n_par_fixed, 0, 2));
   for (int32_t p = 0; p < s->size.np; p++)
     for (int32_t k = s->par_ptr[p]; k < s->par_ptr[p + 1]; k++)
-      if (s->par_target[k] >= ALI3_TARGET_PAYLOAD && (s->n_par_fixed == 0 || !s->par_fixed[p]))
+      if (s->par_target[k] >= ALI3_TARGET_PAYLOAD && s->par_target[k] != ALI3_TARGET_SENSOR &&
+          (s->n_par_fixed == 0 || !s->par_fixed[p]))
         return ali3_bad(m, "parameter %d writes %s and is not fixed", (int)p,
-                        s->par_target[k] == ALI3_TARGET_PAYLOAD  ? "the mass of a payload"
-                        : s->par_target[k] == ALI3_TARGET_SWITCH ? "a switch"
-                                                                 : "the ratio of an armature");
+                        s->par_target[k] == ALI3_TARGET_PAYLOAD   ? "the mass of a payload"
+                        : s->par_target[k] == ALI3_TARGET_SWITCH  ? "a switch"
+                        : s->par_target[k] == ALI3_TARGET_INERTIA ? "the inertia of a body"
+                                                                  : "the ratio of an armature");
   return ALI3_OK;
 }
 
 static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   const int32_t np = s->size.np;
   const int64_t length[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = s->n_el_real,     [ALI3_TARGET_GUIDE] = s->n_guide_real,
-      [ALI3_TARGET_ROAD] = s->n_road_real,      [ALI3_TARGET_PAYLOAD] = s->n_payload_mass,
-      [ALI3_TARGET_SWITCH] = s->n_switch_start, [ALI3_TARGET_ARMATURE] = s->n_armature_ratio};
+      [ALI3_TARGET_ELEMENT] = s->n_el_real,      [ALI3_TARGET_GUIDE] = s->n_guide_real,
+      [ALI3_TARGET_ROAD] = s->n_road_real,       [ALI3_TARGET_PAYLOAD] = s->n_payload_mass,
+      [ALI3_TARGET_SWITCH] = s->n_switch_start,  [ALI3_TARGET_ARMATURE] = s->n_armature_ratio,
+      [ALI3_TARGET_INERTIA] = s->n_inertia_real, [ALI3_TARGET_SENSOR] = s->n_sen_real};
   CHECK(ali3_check_length(m, "par_min", s->n_par_min, np));
   CHECK(ali3_check_length(m, "par_max", s->n_par_max, np));
   CHECK(ali3_check_length(m, "par_index", s->n_par_index, s->n_par_target));
@@ -121,6 +124,11 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_indices(m, "par_target", s->par_target, s->n_par_target, 0, ALI3_TARGET_COUNT));
   for (int64_t k = 0; k < s->n_par_target; k++)
     CHECK(ali3_check_indices(m, "par_index", s->par_index + k, 1, 0, length[s->par_target[k]]));
+  if (s->n_par_inverse != 0) CHECK(ali3_check_length(m, "par_inverse", s->n_par_inverse, s->n_par_target));
+  for (int32_t p = 0; s->n_par_inverse != 0 && p < np; p++)
+    for (int32_t k = s->par_ptr[p]; k < s->par_ptr[p + 1]; k++)
+      if (s->par_inverse[k] && !(s->par_min[p] > 0.0))
+        return ali3_bad(m, "parameter %d writes its inverse and may be %g; it must be above 0", (int)p, s->par_min[p]);
   for (int32_t p = 0; p < np; p++)
     if (!(s->par_min[p] <= s->par_value[p] && s->par_value[p] <= s->par_max[p]))
       return ali3_bad(m, "parameter %d is %g, outside its range", (int)p, s->par_value[p]);
@@ -160,6 +168,23 @@ static const char *check_ratio(double ratio) {
   return ratio > 0.0 && ratio - ratio == 0.0 ? NULL : "the ratio of an armature must be a number above 0";
 }
 
+/* No principal moment is above the sum of the two others: tr(I) / 2 - I has no negative value. */
+bool ali3_inertia_possible(const double *real) {
+  const double half = 0.5 * (real[4] + real[5] + real[6]);
+  const double x = half - real[4], y = half - real[5], z = half - real[6], xy = real[7], xz = real[8], yz = real[9];
+  const double least = -1e-9 * half;
+  const double det = x * (y * z - yz * yz) - xy * (xy * z + yz * xz) - xz * (xy * yz + y * xz);
+  return half > 0.0 && x >= least && y >= least && z >= least && x * y - xy * xy >= least * half &&
+         x * z - xz * xz >= least * half && y * z - yz * yz >= least * half && det >= least * half * half;
+}
+
+/* Of its moments one is set after the other: what they are together is checked at a start. */
+static const char *check_inertia(const double *real) {
+  for (int i = 0; i < ALI3_INERTIA_REALS; i++)
+    if (!(real[i] - real[i] == 0.0)) return "the inertia of a body must be numbers";
+  return real[0] > 0.0 ? NULL : "the mass of a body must be above 0";
+}
+
 static const char *check_switch(double on) {
   return on == 0.0 || on == 1.0 ? NULL : "a parameter writes to a switch what is neither 0 nor 1";
 }
@@ -171,6 +196,8 @@ const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_
   for (int32_t k = 0; text == NULL && k < s->nr; k++) text = check_road(s, k, data[ALI3_TARGET_ROAD]);
   for (int64_t k = 0; text == NULL && k < s->n_payload_mass; k++) text = check_payload(data[ALI3_TARGET_PAYLOAD][k]);
   for (int64_t k = 0; text == NULL && k < s->n_armature_ratio; k++) text = check_ratio(data[ALI3_TARGET_ARMATURE][k]);
+  for (int64_t k = 0; text == NULL && k < s->n_inertia_real; k += ALI3_INERTIA_REALS)
+    text = check_inertia(data[ALI3_TARGET_INERTIA] + k);
   const double *on = data[ALI3_TARGET_SWITCH]; /* those of a file are 0 or 1 */
   for (int32_t k = 0; text == NULL && on != NULL && k < s->size.n_switch; k++) text = check_switch(on[k]);
   return text;
@@ -196,6 +223,9 @@ const char *ali3_check_target(const ali3_system *s, int64_t k, const double *con
   if (family == ALI3_TARGET_GUIDE) return check_guide(s, owner(s->guide_real_ptr, s->size.ng, index), data[family]);
   if (family == ALI3_TARGET_ROAD) return check_road(s, owner(s->road_real_ptr, s->nr, index), data[family]);
   if (family == ALI3_TARGET_PAYLOAD) return check_payload(data[family][index]);
+  if (family == ALI3_TARGET_SENSOR) return NULL;
+  if (family == ALI3_TARGET_INERTIA)
+    return check_inertia(data[family] + index / ALI3_INERTIA_REALS * ALI3_INERTIA_REALS);
   return family == ALI3_TARGET_SWITCH ? check_switch(data[family][index]) : check_ratio(data[family][index]);
 }
 
@@ -206,6 +236,7 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(check_signals(s, m));
   CHECK(ali3_check_payloads(s, m));
   CHECK(ali3_check_armatures(s, m));
+  CHECK(ali3_check_inertias(s, m));
   CHECK(check_guides_and_roads(s, m));
   CHECK(check_parameters(s, m));
   CHECK(ali3_check_fronts(s, m));
@@ -219,11 +250,10 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(ali3_check_modes(s, m));
   CHECK(ali3_check_start(s, m));
   CHECK(ali3_check_ported(s, m));
-  const double *const data[ALI3_TARGET_COUNT] = {[ALI3_TARGET_ELEMENT] = s->el_real,
-                                                 [ALI3_TARGET_GUIDE] = s->guide_real,
-                                                 [ALI3_TARGET_ROAD] = s->road_real,
-                                                 [ALI3_TARGET_PAYLOAD] = s->payload_mass,
-                                                 [ALI3_TARGET_ARMATURE] = s->armature_ratio};
+  const double *const data[ALI3_TARGET_COUNT] = {
+      [ALI3_TARGET_ELEMENT] = s->el_real,         [ALI3_TARGET_GUIDE] = s->guide_real,
+      [ALI3_TARGET_ROAD] = s->road_real,          [ALI3_TARGET_PAYLOAD] = s->payload_mass,
+      [ALI3_TARGET_ARMATURE] = s->armature_ratio, [ALI3_TARGET_INERTIA] = s->inertia_real};
   const char *text = ali3_check_data(s, data);
   return text == NULL ? ALI3_OK : ali3_bad(m, "%s", text);
 }
