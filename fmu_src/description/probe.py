@@ -103,9 +103,12 @@ class _Tries:
             self.share = _SHARES[k % len(_SHARES)]
             values = {i: self._random(i, rng) for i in self.settable}
             starts.append(self._start(kernel, values))
-            for group in groups:
-                other = self._start(kernel, values | {i: self._random(i, rng) for i in group})
-                shown[tuple(group)] |= starts[-1] is not None and other is not None
+            changes = [{i: self._random(i, rng) for i in group} for group in groups]
+            if starts[-1] is None:  # there is nothing to compare with
+                continue
+            for group, change in zip(groups, changes, strict=True):
+                other = self._start(kernel, values | change)
+                shown[tuple(group)] |= other is not None
                 for i in group:
                     self._compare(self.initial, i, starts[-1], other)
         unknown = {i for group, known in shown.items() if not known for i in group}
