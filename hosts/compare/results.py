@@ -63,7 +63,7 @@ def paths_of(options: argparse.Namespace) -> dict[str, Path]:
 def write_outcome(
     options: argparse.Namespace, task: Task, outcome: Outcome, paths: Mapping[str, Path]
 ) -> Sequence[Path]:
-    """Write all files of a comparison."""
+    """Write all files of a comparison; gives those that were written."""
     title = f"{options.fmu.stem} and {options.log.name}"
     write_signals(outcome.before, outcome.after, paths[".csv"])
     write_picture(comparison_figure(outcome.before, outcome.after, title, task.inputs), paths[".png"])
@@ -77,7 +77,7 @@ def write_outcome(
         write_parameter_set(parameters, paths[".ssv"], as_built=False)
     if ".json" in paths:
         write_json(_record(outcome, task), paths[".json"])
-    return list(paths.values())
+    return [file for kind, file in paths.items() if kind != ".ssv" or outcome.fit is not None]
 
 
 def _record(outcome: Outcome, task: Task) -> dict[str, Any]:

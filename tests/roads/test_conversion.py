@@ -291,3 +291,13 @@ def test_what_is_drawn_is_the_road():
     assert heights[x < 3.0].min() == heights[x <= 3.0].max() == pytest.approx(0.1)
     assert np.all(heights[x > 3.0] == -0.1)
     assert shown(GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((9000, 3))))[0].shape == (1800,)
+
+
+@pytest.mark.parametrize("kind", ["toml", "road"])
+@pytest.mark.parametrize("option", ["frictions", "origin", "spacing", "height_range", "friction_range"])
+def test_options_of_a_grid_are_refused_where_the_file_says_all(tmp_path, kind, option):
+    (tmp_path / "a.toml").write_text('kind = "plane"\nfriction = 0.8\n')
+    write_road(GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((4, 4)), 0.8), tmp_path / "a.road")
+    assert read_road(tmp_path / f"a.{kind}") is not None
+    with pytest.raises(RoadFileError, match=rf"a\.{kind} says all of its road itself; {option} goes with a grid"):
+        read_road(tmp_path / f"a.{kind}", **{option: 0.7 if option == "frictions" else (1.0, 2.0)})

@@ -64,6 +64,7 @@ class TestCommand:
         said = capsys.readouterr()
         assert said.err.endswith("stopped by Ctrl-C\n")
         assert "drive.html" in said.out
+        assert "drive.ssv" not in said.out
         assert "The fit was stopped after " in (tmp_path / "drive.html").read_text()
         assert not (tmp_path / "drive.ssv").exists()
 
