@@ -9,11 +9,10 @@ from mbs.vehicle.shapes.looks import CAST, Anchor, Looks, inboard
 from mbs.vehicle.side import Side
 
 HUB = 0.055, 0.030  # m: length and radius of the hub of a small car
-DISC = 0.62, 0.012  # radius of the brake disc over that of the tyre, thickness, m
 
 
 def knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], arm: Anchor | None) -> None:
-    """Draw hub and arms on the carrier, the brake disc on the wheel.
+    """Draw hub and arms on the carrier; a wheel has its brake disc.
 
     Parameters
     ----------
@@ -32,7 +31,3 @@ def knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], a
     looks.cylinder(carrier, (inboard(hub, 0.02), centre), radius)
     if arm is not None:
         looks.tube((carrier, hub), arm, radius=0.013, **CAST)
-    spin, (share, thickness) = looks.spins[side.wheel], DISC
-    place = inboard(centre, 0.45 * length)
-    disc = share * (axle.tyre.bottoming_radius - 0.01)
-    looks.cylinder(spin, (place, inboard(place, thickness)), 1.25 * disc, material="steel", color="#71767d")

@@ -33,6 +33,17 @@ def fmu(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest
     return build
 
 
+@pytest.fixture(scope="module")
+def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Sledges whose drives are recorded."""
+    folder = tmp_path_factory.mktemp("fmus")
+    made = {}
+    for function in ("sledge", "switched"):
+        name, system = load_scene(f"{_SCENES[function]}:{function}")
+        made[function] = build_fmu(system, name, folder, [fmpy.platform])
+    return made
+
+
 class FakeClock:
     """Time passes only where it is told to; a sleep may wake late."""
 

@@ -1,0 +1,273 @@
+"""Recordings as files: readable after a kill, refused in words, shown by the commands and moving."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ali3.running import module_command
+from hosts.common.errors import HostError
+from hosts.common.options import Wishes
+from hosts.recordings.recorded_drive import read_recording
+from hosts.recordings.recorded_view import recorded_view
+from hosts.recordings.recording import Recorder
+from hosts.recordings.replay import replay
+from hosts.recordings.tables import joined
+from hosts.recordings.to_manoeuvre import to_manoeuvre
+from hosts.simulator.command import main
+from hosts.view.view_sources import RunWishes, recordings_of
+from tests.hosts.simulator.recorded_sledge import TABLES, Drive, whole_drive
+
+WRITER = """
+import sys
+from pathlib import Path
+from hosts.recordings.recording import Recorder
+recorder = Recorder(Path(sys.argv[1]), ["u", "y"], {}, dict(
+    fmu="car.fmu", guid="g", inputs=1, step=0.002, start={}), sys.argv[2])
+recorder._describe()
+recorder.event(0.0, "told", "begun", epoch=0)
+told = False
+for k in range(10**9):
+    recorder.row(k, 0.002 * k, 0, [0.5, k * 1.0])
+    if recorder._written >= 4000 and not told:
+        told = True
+        print(recorder._written, flush=True)
+"""
+
+
+@TABLES
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no SIGKILL")
+def test_a_killed_program_leaves_its_recording(tmp_path: Path, table: str) -> None:
+    """What was written when it was killed, in the middle of whatever it did, is there."""
+    folder = tmp_path / "drive"
+    program = subprocess.Popen(
+        [sys.executable, "-c", WRITER, str(folder), table], stdout=subprocess.PIPE, cwd=Path(__file__).parents[3]
+    )
+    assert program.stdout is not None
+    written = int(program.stdout.readline())
+    os.kill(program.pid, signal.SIGKILL)
+    program.wait()
+    program.stdout.close()
+    drive = read_recording(folder)
+    assert drive.notes == [f"{folder} was not closed: what was driven in its last seconds may be lost."]
+    rows = drive.rows()
+    assert len(rows) >= written >= 4000
+    assert rows.values[:, 1].tolist() == list(range(len(rows)))
+    assert rows.steps.tolist() == list(range(len(rows)))
+    assert drive.events[0]["text"] == "begun"
+    if table == "csv":  # the last line is cut off in the middle
+        file = folder / "inputs_outputs.csv"
+        file.write_bytes(file.read_bytes().rpartition(b"\n")[0][:-3])
+        assert len(drive.rows()) == len(rows) - 1
+
+
+def test_what_is_held_is_written_after_two_seconds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [100.0]
+    monkeypatch.setattr("hosts.recordings.recording.clock.monotonic", lambda: now[0])
+    meta = {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.01, "start": {}}
+    recorder = Recorder(tmp_path / "drive", ["u"], {}, meta)
+    recorder.row(0, 0.0, 0, [1.0])
+    assert len(read_recording(tmp_path / "drive").rows()) == 0
+    now[0] += 2.1
+    recorder.row(1, 0.01, 0, [2.0])
+    assert read_recording(tmp_path / "drive").rows().values.tolist() == [[1.0], [2.0]]
+    recorder.close()
+
+
+def test_every_bit_survives_both_tables(tmp_path: Path) -> None:
+    values = [[0.1, -0.0, np.nan], [5e-324, np.inf, 1.0 / 3.0], [1e300, -1e-17, 2.0**53 + 2.0]]
+    meta = {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.01, "start": {}}
+    for table in ("parquet", "csv"):
+        with Recorder(tmp_path / table, ["u", "a", "b"], {"a": "m"}, meta, table) as recorder:
+            for k, row in enumerate(values):
+                recorder.row(k, 0.1 * k, 0, row)
+        rows = read_recording(tmp_path / table).rows()
+        assert rows.values.tobytes() == np.array(values).tobytes()
+        assert rows.time.tolist() == [0.0, 0.1, 0.2]
+    import pyarrow.parquet as pq
+
+    schema = pq.read_schema(tmp_path / "parquet" / "inputs_outputs.parquet")
+    assert schema.names == ["time", "count", "epoch", "u", "a", "b"]
+    assert schema.field("a").metadata == {b"unit": b"m"}
+
+
+def test_without_pyarrow_the_table_is_text_and_that_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hosts.recordings.recording.find_spec", lambda name: None)
+    meta = {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.01, "start": {}}
+    with Recorder(tmp_path / "drive", ["u"], {}, meta) as recorder:
+        recorder.row(0, 0.0, 0, [1.0])
+    assert recorder.told[0].startswith("The recording is written as CSV")
+    assert 'pip install "ali3[simulator]"' in recorder.told[0]
+    assert read_recording(tmp_path / "drive").rows().values.tolist() == [[1.0]]
+
+
+@pytest.mark.slow
+def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Path) -> None:
+    folder = whole_drive(fmus["sledge"], tmp_path / "drive")
+    meta = json.loads((folder / "recording.json").read_text())
+
+    def refused(**other: Any) -> str:
+        (folder / "recording.json").write_text(json.dumps(meta | other))
+        with pytest.raises(HostError) as error:
+            replay(read_recording(folder))
+        return str(error.value)
+
+    assert "its format is not 'ALi3 recording'" in refused(format="x")
+    assert "version 3; this program reads 1 and 2" in refused(version=3)
+    assert "does not say the columns" in refused(columns=None)
+    assert "does not say by 'every' how many steps lie between two values" in refused(every=[0, 1])
+    assert "does not say by 'every' and 'left_out' what of the columns is recorded" in refused(every=[1])
+    values = len(meta["columns"])
+    assert f"a row has {values} values; recording.json names 1 columns" in refused(columns=["steering"], every=[1])
+    assert "was recorded from gone.fmu, which is not there any more; name the FMU" in refused(fmu="gone.fmu")
+    assert "lacks variables of the recording" in refused(columns=["x", *meta["columns"][1:]])
+    (folder / "recording.json").write_text("{")
+    with pytest.raises(HostError, match="is no JSON file"):
+        read_recording(folder)
+    with pytest.raises(HostError, match="has no recording.json; name the folder of a recording"):
+        read_recording(tmp_path)
+    (folder / "recording.json").write_text(json.dumps(meta))
+    (folder / "inputs_outputs.parquet").write_bytes(b"PAR1 and no more")
+    with pytest.raises(HostError, match="cannot be read as Parquet"):
+        read_recording(folder).rows()
+    with pytest.raises(HostError, match="holds a recording already"):
+        Recorder(folder, ["u"], {}, meta)
+
+
+def test_a_row_that_is_missing_is_told(fmus: dict[str, Path], tmp_path: Path) -> None:
+    drive = Drive(fmus["sledge"], tmp_path / "drive", None, {})
+    drive.steps(10)
+    row, drive.recorder.row = drive.recorder.row, lambda *_: None  # type: ignore[method-assign]
+    drive.steps(3)
+    drive.recorder.row = row  # type: ignore[method-assign]
+    drive.steps(5)
+    drive.close()
+    recorded = read_recording(tmp_path / "drive")
+    assert len(recorded.rows()) == 16
+    for use in (replay, to_manoeuvre):
+        with pytest.raises(HostError, match="3 rows are missing after step 10"):
+            use(recorded, tmp_path / "m.csv") if use is to_manoeuvre else use(recorded)
+
+
+def test_another_build_of_the_fmu_is_told(fmus: dict[str, Path], tmp_path: Path, capfd: Any) -> None:
+    folder = whole_drive(fmus["sledge"], tmp_path / "drive")
+    meta = json.loads((folder / "recording.json").read_text())
+    (folder / "recording.json").write_text(json.dumps(meta | {"guid": "{another}"}))
+    assert main(["--recording", str(folder), "--replay"]) == 0
+    told = capfd.readouterr().out
+    assert "was recorded from another build of the FMU: its GUID is {another}" in told
+    assert "183 rows, the same bits in all of them" in told
+
+
+def test_the_command_shows_repeats_and_makes_a_manoeuvre(
+    fmus: dict[str, Path], tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    folder = whole_drive(fmus["sledge"], tmp_path / "drive")
+    assert main(["--recording", str(folder)]) == 0
+    shown = capfd.readouterr().out
+    for text in (
+        "183 in steps of 0.01 s with 3 inputs",
+        "initial.speed=6.0",
+        "plane",
+        "seed",
+        "upright at 0.16 s: again",
+    ):
+        assert text in shown
+    out = tmp_path / "m.csv"
+    assert main(["--recording", str(folder), "--save-manoeuvre", str(out), "--from", "0.3"]) == 0
+    assert capfd.readouterr().out == f"written: {out}, {tmp_path / 'm.state'}\n"
+    assert main(["--recording", str(folder), "--save-manoeuvre", str(tmp_path / "m.txt")]) == 2
+    assert "give it the suffix .csv" in capfd.readouterr().err
+    rows = (folder / "inputs_outputs.parquet").read_bytes()
+    assert rows
+    command = module_command("ali3", "simulator", "--recording", str(tmp_path), "--replay")
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+
+
+def test_options_of_driving_are_refused_beside_a_recording(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    for option in (
+        ["--world", "hills"],
+        ["--step", "0.001"],
+        ["--headless"],
+        ["--set", "road.friction=0.5"],
+        ["--record", "x"],
+        ["--json", "x.json"],
+        ["--seed", "3"],
+        ["--fidelity", "1"],
+    ):
+        assert main(["--recording", str(tmp_path), *option]) == 2
+        told = capfd.readouterr().err
+        assert f"{option[0]} is for driving; with --recording nothing is driven, so leave it out." in told
+
+
+def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], tmp_path: Path) -> None:
+    folder = whole_drive(fmus["sledge"], tmp_path / "drive")
+    wishes = RunWishes(None, None, None, Wishes([], []))
+    (recording,), told = recordings_of([folder], None, wishes)
+    assert told == []
+    assert recording.scene is not None
+    assert len(recording.t) == 183
+    assert recording.t[-1] == pytest.approx(1.73)
+    assert np.all(np.diff(recording.t) >= 0.0)
+    assert "reset 2 times, rewind 6 times, upright 1 times" in recording.notes[-1]
+    meta = json.loads((folder / "recording.json").read_text())
+    (folder / "recording.json").write_text(json.dumps(meta | {"fmu": "gone.fmu"}))
+    with pytest.raises(HostError, match="gone.fmu, which is not there any more; name it by --geometry FMU"):
+        recordings_of([folder], None, wishes)
+    (recording,), _ = recordings_of([folder], fmus["sledge"], wishes)
+    assert recording.scene is not None
+
+
+def test_a_view_draws_straight_between_outputs_and_flexible_parts_rigid(
+    fmus: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = read_recording(whole_drive(fmus["sledge"], tmp_path / "all"))
+    drawn, other, amplitude = whole.names[3:6]
+    every = dict.fromkeys(whole.inputs, 1) | {drawn: 2, other: 6}
+    folder = whole_drive(fmus["sledge"], tmp_path / "drive", None, every)
+    scene = {"flexible": [{"amplitudes": [amplitude], "computed": "computed"}]}
+    monkeypatch.setattr("hosts.recordings.recorded_view.scene_of", lambda fmu, start: scene)
+    made: dict[str, Any] = {}
+
+    def recording(scene: Any, t: Any, columns: Any, units: Any, name: str) -> SimpleNamespace:
+        made.update(t=t, columns=columns)
+        return SimpleNamespace(notes=[])
+
+    monkeypatch.setattr("hosts.recordings.recorded_view.Recording", recording)
+    shown, _ = recorded_view(folder, "drive")
+    rows, all_rows = read_recording(folder).rows(), joined(list(whole.blocks()), 0)
+    values = rows.values[:, list(every).index(other)]
+    for k in range(int(rows.epoch[-1]) + 1):
+        part = rows.epoch == k
+        known = part & np.isfinite(values)
+        straight = np.interp(made["t"][part], made["t"][known], values[known])
+        assert np.array_equal(made["columns"][other][part], straight)
+    keys = list(zip(all_rows.steps, all_rows.epoch, strict=True))
+    there = [keys.index(key) for key in zip(rows.steps, rows.epoch, strict=True)]
+    column = rows.values[:, list(every).index(drawn)]
+    known = np.isfinite(column)
+    assert np.array_equal(column[known], all_rows.values[there, whole.names.index(drawn)][known])
+    assert np.array_equal(made["columns"][drawn][known], column[known])
+    monkeypatch.setattr("hosts.recordings.recorded_view._MOST_VALUES", 60 * len(every))
+    recorded_view(folder, "drive")
+    assert len(made["t"]) == len(read_recording(folder).rows(2))  # thinned: every value that is left stays
+    thin = read_recording(folder).rows(2).values[:, list(every).index(drawn)]
+    assert np.array_equal(made["columns"][drawn], thin)
+    assert not made["columns"][amplitude].any()
+    assert not made["columns"]["computed"].any()
+    assert f"such as {whole.names[5]}; --interval records all" in shown.notes[0]
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)

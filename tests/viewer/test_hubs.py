@@ -1,0 +1,95 @@
+"""Wheels of the cars: looked at along the axle, no two surfaces of different looks lie within a millimetre."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import mbs
+from mbs.vehicle import car_names, load
+from viewer.gltf.parts import Parts
+from viewer.poses import FramePoses, conjugate, rotated
+
+LEAST = 1e-3
+"""m: nearer surfaces flicker in each other."""
+FACING = 0.7
+PLACES = [[r * np.cos(a), r * np.sin(a)] for r in np.linspace(0.05, 0.9, 16) for a in np.linspace(0.1, 6.3, 29)]
+
+
+def facing(scene: dict[str, Any], wheel: dict[str, Any]) -> list[tuple[str, NDArray[np.float64]]]:
+    """Looks and corners of what faces along the axle of a wheel, m; z outwards from its centre."""
+    columns: dict[str, NDArray[np.float64]] = {}
+    for frame in scene["frames"].values():
+        for names, values in zip(
+            (frame.get("position"), frame.get("quaternion")), frame.get("start", []), strict=False
+        ):
+            columns |= {name: np.array([value]) for name, value in zip(names, values, strict=True)}
+        columns |= {frame[key]: np.zeros(1) for key in ("angle", "way") if key in frame}
+    parts = Parts(FramePoses(scene, columns, 1), scene)
+    for shape in scene["shapes"]:
+        parts.add(shape)
+    own, carrier = wheel["frame"], scene["frames"][wheel["frame"]]["parent"]
+    pose = parts.poses.of(own)
+    out = np.sign(scene["frames"][own]["at"][1])
+    found = []
+    for frame, _, meshes in parts.fixed:
+        if frame not in (own, carrier):
+            continue
+        here = parts.poses.of(frame)
+        for solid, look in meshes:
+            earth = here.position + rotated(np.repeat(here.quaternion, len(solid.positions), axis=0), solid.positions)
+            back = np.repeat(conjugate(pose.quaternion), len(earth), axis=0)
+            x, y, z = rotated(back, earth - pose.position).T
+            corners = np.column_stack([x, z, out * y])[solid.triangles]
+            normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            size = np.linalg.norm(normals, axis=1)
+            found += [
+                (f"{look.name} {look.color}", triangle)
+                for triangle in corners[np.abs(normals[:, 2]) > FACING * np.maximum(size, 1e-15)]
+                if np.abs(triangle[:, 2]).max() < wheel["width"]
+            ]
+    return found
+
+
+def too_near(surfaces: list[tuple[str, NDArray[np.float64]]], radius: float) -> set[tuple[str, str, int]]:
+    """Pairs of looks that lie less than a millimetre apart somewhere, and the larger of their places, mm."""
+    places = radius * np.array(PLACES)
+    along: list[list[tuple[float, bool, str]]] = [[] for _ in places]
+    for look, (a, b, c) in surfaces:
+        low, high = np.minimum(np.minimum(a, b), c)[:2], np.maximum(np.maximum(a, b), c)[:2]
+        near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
+        (ux, uy), (vx, vy) = b[:2] - a[:2], c[:2] - a[:2]
+        turn = ux * vy - uy * vx
+        for k in near if turn else ():
+            dx, dy = places[k] - a[:2]
+            s, t = (dx * vy - dy * vx) / turn, (ux * dy - uy * dx) / turn
+            if s >= 0.0 and t >= 0.0 and s + t <= 1.0:
+                along[k].append((a[2] + s * (b[2] - a[2]) + t * (c[2] - a[2]), bool(turn > 0.0), look))
+    found = set()
+    for hits in along:
+        hits.sort()
+        for low, high in pairwise(hits):
+            if low[2] != high[2] and low[1] == high[1] and high[0] - low[0] < LEAST:
+                found.add((low[2], high[2], round(1e3 * high[0])))
+    assert sum(map(len, along)) > 2 * len(places), "lines meet the wheel"
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", car_names())
+def test_no_surfaces_of_a_hub_flicker(name: str) -> None:
+    scene = mbs.compile(load(name).model()).scene
+    wheels = [shape for shape in scene["shapes"] if shape["kind"] == "wheel"]
+    assert {
+        wheel["frame"]: too_near(facing(scene, wheel), wheel["rim"]) for wheel in wheels if "L" in wheel["frame"]
+    } == {wheel["frame"]: set() for wheel in wheels if "L" in wheel["frame"]}
+
+
+def test_a_disc_half_a_millimetre_behind_another_is_found() -> None:
+    disc = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
+    three = [("steel", disc), ("rim", disc + np.array([0.0, 0.0, 5e-4])), ("paint", disc - np.array([0.0, 0.0, 2e-3]))]
+    assert too_near(three, 0.3) == {("steel", "rim", 0)}
