@@ -27,6 +27,8 @@ class Brake:
     """Factor on max_torque, so that a total torque and a balance may be parameters."""
     hand_torque: NotNegative = 0.0
     """Torque at full hand brake, N m; that of the pedal is added to it."""
+    side: NotNegative = 1.0
+    """Factor on the share, so that brakes that differ from left to right may be a parameter."""
 
     @staticmethod
     def for_wheel(max_torque: float, radius: float, spin_inertia: float, travel: float = 0.9e-3) -> Brake:

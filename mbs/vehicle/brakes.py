@@ -9,7 +9,7 @@ from mbs.model.carried import Spin
 from mbs.model.records import Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
-from mbs.vehicle.quantities import Balance, BrakeTorque, HandBrakeTorque, StickStiffness
+from mbs.vehicle.quantities import Balance, BrakeSide, BrakeTorque, HandBrakeTorque, StickStiffness
 from mbs.vehicle.section import Section
 
 LARGEST_TORQUE, LARGEST_PRESSURE = 1e4, 4e7  # N m, Pa: ends of the ranges of the ports
@@ -31,6 +31,8 @@ class Brakes(Section):
     """Share of the front wheel in it."""
     hand_torque: HandBrakeTorque = 0.0
     """Torque on each rear wheel at full hand brake."""
+    side: BrakeSide = 0.0
+    """Half of the difference of the pedal's torques left and right over their mean; above 0 braking turns left."""
     front: AxleBrakes
     """Brakes of the front wheels."""
     rear: AxleBrakes
@@ -56,6 +58,7 @@ class Brakes(Section):
         stiffness = (self.rear if behind else self.front).stick_stiffness
         damping = 2.0 * math.sqrt(stiffness * spin_inertia)
         share = 1.0 - self.balance if behind else self.balance
+        left = 1.0 if corner.side.wheel.endswith("L") else -1.0
         by_size, per_unit = b.ports.brakes is not None, 1.0
         if b.ports.brakes == "pressure":
             per_unit = 1.0 / b.ports.full_pressure
@@ -63,12 +66,14 @@ class Brakes(Section):
         if b.ports.brakes == "torque":
             torque = share = 1.0
         channel = self._port(b, corner.side.wheel) if by_size else b.inputs["brake"]
-        brake = Brake(torque, stiffness, damping, share, self.hand_torque if behind else 0.0)
+        side = 1.0 if b.ports.brakes == "torque" else 1.0 + left * self.side
+        brake = Brake(torque, stiffness, damping, share, self.hand_torque if behind else 0.0, side)
         hand = b.inputs["hand_brake"].index if behind else None
         name = f"brake {corner.side.wheel}"
         element = b.m.add(brake.record(name, spin.f, spin.g, spin.coordinate, channel.index, hand, by_size=by_size))
         if b.ports.brakes != "torque":
             b.tie(self, "torque", element, "max_torque", per_unit)
             b.tie(self, "balance", element, "share", -1.0 if behind else 1.0, 1.0 if behind else 0.0)
+            b.tie(self, "side", element, "side", left, 1.0)
         if behind:
             b.tie(self, "hand_torque", element, "hand_torque")

@@ -167,16 +167,16 @@ def test_bad_brakes_are_refused() -> None:
     assert "input that does not exist" in (brake_element().check(n_inputs=0) or "")
 
 
-def two_pedals(share: float = 1.0, hand_torque: float = 0.0, hand: int | None = 1) -> Element:
+def two_pedals(share: float = 1.0, hand_torque: float = 0.0, hand: int | None = 1, side: float = 1.0) -> Element:
     f, g, spin = vectors(3, 3, 1)
-    given = replace(BRAKE, share=share, hand_torque=hand_torque)
+    given = replace(BRAKE, share=share, hand_torque=hand_torque, side=side)
     return Element(given.record("brake", f, g, spin[0], 0, hand))
 
 
 def test_the_torque_is_the_share_of_the_pedals_and_that_of_the_hand_brake() -> None:
-    element = two_pedals(0.3, 200.0)
+    element = two_pedals(0.3, 200.0, side=1.25)
     for pedal, hand in ((1.0, 0.0), (0.0, 1.0), (0.5, 0.25), (3.0, 9.0), (-1.0, -1.0)):
-        bound = 0.3 * TORQUE * min(max(pedal, 0.0), 1.0) + 200.0 * min(max(hand, 0.0), 1.0)
+        bound = 0.3 * 1.25 * TORQUE * min(max(pedal, 0.0), 1.0) + 200.0 * min(max(hand, 0.0), 1.0)
         for rate in (30.0, -30.0):
             u, ud = signals_of(rate)
             r = element(u, ud, [0.0, 0.0], 0.01, inputs=[pedal, hand])
@@ -206,7 +206,11 @@ def test_the_hand_brake_holds_alone() -> None:
 
 def test_bad_shares_and_hand_brakes_are_refused() -> None:
     f, g, spin = vectors(3, 3, 1)
-    for change, words in (({"share": -0.1}, "share of the brake 'FL' is -0.1"), ({"hand_torque": -1.0}, "hand torque")):
+    for change, words in (
+        ({"share": -0.1}, "share of the brake 'FL' is -0.1"),
+        ({"hand_torque": -1.0}, "hand torque"),
+        ({"side": -1.0}, "side of the brake"),
+    ):
         with pytest.raises(ValueError, match=words):
             replace(BRAKE, **change).record("FL", f, g, spin[0], 0)
     with pytest.raises(ValueError, match="hand brake of the brake 'FL' is -2"):
@@ -216,5 +220,5 @@ def test_bad_shares_and_hand_brakes_are_refused() -> None:
     real = list(element.element.real)
     element.element = replace(element.element, real=[*real[:3], -1.0, real[4]])
     assert "share" in (element.check() or "")
-    with pytest.raises(AssertionError, match="5 and two inputs"):
+    with pytest.raises(AssertionError, match="6 and two inputs"):
         Element(replace(element.element, real=real[:3]))

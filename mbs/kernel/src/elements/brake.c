@@ -2,8 +2,8 @@
  * Signals: f (3), g (3) orthonormal on the carrier with f x g along the axis, chi with chi' = Omega the absolute rate
  * about it.
  * Reals: largest torque N m, stick stiffness N m/rad, stick damping N m s/rad; then the share of the torque that is this
- * wheel's and the largest torque of the hand brake N m, or none. Integers: input (0..1); that of the hand brake or -1,
- * where there are five reals; then 1 where the input is not a pedal but any size that is not negative, as a torque or a
+ * wheel's, the largest torque of the hand brake N m and a factor of this side of the car on the share, or none.
+ * Integers: input (0..1); that of the hand brake or -1, where there are six reals; then 1 where the input is not a pedal but any size that is not negative, as a torque or a
  * pressure, or none. States: wind-up z rad, z' rad/s.
  * Outputs: torque on the wheel N m, 1 while sticking, relative rate w rad/s, power of the torque W.
  *
@@ -15,7 +15,7 @@
 #include "element.h"
 #include "element_math.h"
 
-enum { MAX_TORQUE, STICK_STIFFNESS, STICK_DAMPING, PLAIN, SHARE = PLAIN, HAND_TORQUE, BRAKE_REALS };
+enum { MAX_TORQUE, STICK_STIFFNESS, STICK_DAMPING, PLAIN, SHARE = PLAIN, HAND_TORQUE, SIDE, BRAKE_REALS };
 enum { PEDAL, HAND, PEDALS, BY_SIZE = PEDALS, BRAKE_INTEGERS };
 
 /* What the pads can hold: both pedals press them. */
@@ -25,7 +25,7 @@ static real capacity(const ali3_element_args *a) {
   const real *p = a->real, pedal = ali3_clamp(a->input[a->integer[PEDAL]], none, most);
   if (a->nreal == PLAIN) return p[MAX_TORQUE] * pedal;
   const real hand = ali3_clamp(ali3_input_or_zero(a->input, a->integer[HAND]), none, all);
-  return p[MAX_TORQUE] * p[SHARE] * pedal + p[HAND_TORQUE] * hand;
+  return p[MAX_TORQUE] * p[SHARE] * p[SIDE] * pedal + p[HAND_TORQUE] * hand;
 }
 
 static void evaluate(ali3_element_args *a) {
@@ -65,14 +65,14 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
                          int32_t n_inputs, int32_t n_roads) {
   (void)nsig, (void)n_roads;
   if (!(nreal == PLAIN && nint == 1) && !(nreal == BRAKE_REALS && (nint == PEDALS || nint == BRAKE_INTEGERS)))
-    return "a brake has 3 numbers and an input, or 5 and two inputs, and may say that the first is no pedal";
+    return "a brake has 3 numbers and an input, or 6 and two inputs, and may say that the first is no pedal";
   if (integer[PEDAL] < 0 || integer[PEDAL] >= n_inputs ||
       (nint > 1 && (integer[HAND] < -1 || integer[HAND] >= n_inputs)))
     return "a brake names an input that does not exist";
   if (nint == BRAKE_INTEGERS && integer[BY_SIZE] != 0 && integer[BY_SIZE] != 1)
     return "whether the input of a brake is no pedal must be 0 or 1";
-  if (nreal == BRAKE_REALS && (real[SHARE] < 0.0 || real[HAND_TORQUE] < 0.0))
-    return "the share and the torque of the hand brake of a brake must not be negative";
+  if (nreal == BRAKE_REALS && (real[SHARE] < 0.0 || real[HAND_TORQUE] < 0.0 || real[SIDE] < 0.0))
+    return "the share, the torque of the hand brake and the factor of the side of a brake must not be negative";
   if (real[MAX_TORQUE] < 0.0) return "the largest torque of a brake must not be negative";
   if (!(real[STICK_STIFFNESS] > 0.0 && real[STICK_DAMPING] > 0.0))
     return "stick stiffness and damping of a brake must be positive";
