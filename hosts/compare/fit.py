@@ -18,7 +18,8 @@ from hosts.compare.fit_result import Fit, Found, Start
 from hosts.compare.left_out import FEWEST, Parts, clustered_covariance, left_out, without_each
 from hosts.compare.log import Signal
 from hosts.compare.noise import computed_noise, difference_steps, measured_noise
-from hosts.compare.residuals import RefusedError, Residuals, Unknown
+from hosts.compare.residuals import RefusedError, Residuals
+from hosts.compare.unknown import Unknown
 from hosts.driving.result import Result
 
 Jacobian = Callable[[NDArray[np.float64]], NDArray[np.float64]]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.compare.residuals import Unknown
+from hosts.compare.unknown import Unknown
 
 
 @dataclass(frozen=True)

@@ -16,77 +16,16 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.compare.curve import Curve
 from hosts.compare.log import Signal
+from hosts.compare.unknown import Unknown
 from hosts.driving.result import Result
 
 Array = NDArray[np.float64]
-NUISANCES = ("delay", "delays", "drift", "bias", "gain")
 _SECANT = 1e-3  # of a range: over finer steps shifts of gears and the kinks of stops hide where the residuals go down
 _REFUSED = 1e3  # residual where the FMU refuses a step: far worse than any fit
 
 
 class RefusedError(HostError):
     """The FMU refuses steps where derivatives are wanted."""
-
-
-@dataclass(frozen=True)
-class Unknown:
-    """A number that is sought.
-
-    Parameters
-    ----------
-    scale : float
-        By how much it typically changes.
-    signal : str
-        Whose it is; empty: of the FMU, or of all signals.
-    kind : str
-        ``parameter``, or one of delay, drift, bias, gain.
-    """
-
-    name: str
-    unit: str
-    start: float
-    low: float
-    high: float
-    scale: float
-    signal: str = ""
-    kind: str = "parameter"
-
-
-def nuisances(
-    wanted: Sequence[str], outputs: Mapping[str, Signal], delays: Mapping[str, float], longest: float
-) -> list[Unknown]:
-    """The unknowns of sensors and clocks.
-
-    Parameters
-    ----------
-    wanted : sequence of str
-        Of `NUISANCES`.
-    delays : mapping of str to float
-        First guesses, s; "" for that in common.
-    longest : float
-        Largest delay, s.
-    """
-    for name in wanted:
-        if name not in NUISANCES:
-            raise HostError(f"--nuisance: '{name}' is not known; known are {', '.join(NUISANCES)}.")
-    if "delay" in wanted and "delays" in wanted:
-        raise HostError("--nuisance: 'delay' is one of all signals and 'delays' one of each; take one of them.")
-    interval = min(s.interval for s in outputs.values())
-    length = max(float(s.time[-1]) for s in outputs.values())
-    found = []
-    names = ("",) if "delay" in wanted else tuple(outputs) if "delays" in wanted else ()
-    for n in names:
-        guess, reach = delays.get(n, 0.0), longest + abs(delays.get(n, 0.0))
-        found.append(Unknown(f"{n}.delay".lstrip("."), "s", guess, -reach, reach, interval, n, "delay"))
-    if "drift" in wanted:
-        found.append(Unknown("drift", "1", 0.0, -0.05, 0.05, interval / length, "", "drift"))
-    for n, s in outputs.items():
-        spread = max(float(np.std(s.values)), 1e-12)
-        if "bias" in wanted:
-            found.append(Unknown(f"{n}.bias", s.unit, 0.0, -np.inf, np.inf, 0.1 * spread, n, "bias"))
-        if "gain" in wanted:
-            found.append(Unknown(f"{n}.gain", "1", 1.0, 0.1, 10.0, 0.1, n, "gain"))
-    return found
 
 
 @dataclass

@@ -77,7 +77,7 @@ WAYS = {
         "--soak": "hosts.soak.soak",
     },
     "catalogue": {**EVERY, **CAR, **ALIASES},
-    "compare": {**EVERY, **CAR, **ALIASES},
+    "compare": {**EVERY, **CAR, **ALIASES, "--fit": "hosts.compare.fitting"},
     "study": {
         **EVERY,
         **CAR,

@@ -20,7 +20,7 @@ MOST = {
     "simulator, all of it": 16050,
     "check": 5800,
     "catalogue": 8350,
-    "compare": 9650,
+    "compare": 8900,
     "study": 7750,
     "study --run": 8350,
     "study, all of it": 16050,

@@ -59,7 +59,7 @@ class TestCommand:
             simulate({"spring.stiffness": 120.0})
             raise KeyboardInterrupt
 
-        monkeypatch.setattr("hosts.compare.perform.fit", stopped)
+        monkeypatch.setattr("hosts.compare.fitting.fit", stopped)
         assert main([str(tuned), str(log), "--out", str(tmp_path), "--fit", "spring.stiffness"]) == 130
         said = capsys.readouterr()
         assert said.err.endswith("stopped by Ctrl-C\n")

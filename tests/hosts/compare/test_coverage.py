@@ -11,8 +11,8 @@ from pendulum import END, measured, measured_pull, motion
 
 from hosts.compare.fit import Fit, fit, overlapping
 from hosts.compare.replay import Replay, inputs_of
-from hosts.compare.residuals import Unknown, nuisances
 from hosts.compare.stretches import Stretch
+from hosts.compare.unknown import Unknown, nuisances
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 

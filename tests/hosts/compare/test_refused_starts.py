@@ -11,7 +11,7 @@ from hosts.common.errors import HostError
 from hosts.compare.fit import fit
 from hosts.compare.fit_words import fit_notes
 from hosts.compare.log import Signal
-from hosts.compare.residuals import Unknown
+from hosts.compare.unknown import Unknown
 from hosts.driving.result import Result
 
 RATE, REFUSED = 2.0, 3.0

@@ -1,0 +1,101 @@
+"""The fit of ``ali3 compare --fit``: what is sought is checked, sought, and the FMU with it held against the log."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ali3.bars import bar
+from hosts.common.numbers import Value
+from hosts.compare.comparison import Comparison, compare
+from hosts.compare.curve import Curve, SensedCurve
+from hosts.compare.fit import fit, overlapping
+from hosts.compare.fit_result import Fit
+from hosts.compare.left_out import parts_of
+from hosts.compare.replay import Replay
+from hosts.compare.task import Task
+from hosts.compare.unknown import NUISANCES, Unknown, nuisances
+from hosts.compare.wanted import fit_step, wanted_parameters
+from hosts.compare.words import with_unit
+from hosts.driving.result import Result
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is to be fitted, checked before anything is driven.
+
+    Parameters
+    ----------
+    coarse : dict of str to float
+        The inner step of the FMU while it is fitted, where one is asked for.
+    """
+
+    parameters: list[Unknown]
+    nuisances: list[str]
+    coarse: dict[str, Value]
+
+
+def wanted(options: argparse.Namespace, task: Task) -> Wanted:
+    """What the options name; a note where an initial speed is not sought."""
+    names = [n.strip() for n in options.nuisance.split(",") if n.strip()]
+    nuisances(names, task.outputs, {}, options.longest_delay)  # their names
+    begin = task.stretches[0].manoeuvre.start  # as set, or as measured
+    sought = [t.partition("=")[0].strip() for t in options.fit]
+    if not task.windowed and "initial.speed" in begin and "initial.speed" not in (*task.set_values, *sought):
+        task.notes.append(
+            "initial.speed is as measured in the first tenth of a second; its error goes into what is fitted: "
+            "--fit initial.speed=LOW:HIGH finds it too."
+        )
+    parameters = wanted_parameters(options.fit, task.parameters, begin)
+    return Wanted(parameters, names, fit_step(options.fit_step, task.parameters))
+
+
+def fitted(
+    options: argparse.Namespace, task: Task, replay: Replay, before: Comparison, wanted: Wanted
+) -> tuple[Fit, Comparison]:
+    """What fits best, and the comparison with it."""
+    if not replay.check_reset():
+        print("note: the FMU does not repeat itself to the last bit.")
+    outputs = {n: task.outputs[n] for n in before.signals}
+    guesses = _delays(before, wanted.nuisances)
+    outputs = overlapping(outputs, task.end, options.skip, guesses)
+    unknowns = [*wanted.parameters, *nuisances(wanted.nuisances, outputs, guesses, options.longest_delay)]
+    with bar(desc="fit", unit="run") as shown:
+
+        def simulate(values: Mapping[str, float]) -> Result | None:
+            shown.update()
+            result = replay.run(wanted.coarse | dict(values))
+            complete = not result.failed_steps and all(math.isfinite(float(result[n].sum())) for n in outputs)
+            return result if complete else None
+
+        found = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.stretches))
+        best = replay.run(dict(found.parameters))
+    if wanted.coarse:
+        apart = replay.run(wanted.coarse | found.parameters)
+        told = [
+            f"{n} by {with_unit(float(np.sqrt(np.mean((apart[n] - best[n]) ** 2))), s.unit)}"
+            for n, s in outputs.items()
+        ]
+        task.notes.append(
+            f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
+            f"the fitted FMU differ on the root mean square: {', '.join(told)}."
+        )
+        print(f"note: {task.notes[-1]}")
+    curves = {n: SensedCurve(Curve(best, n), *found.sensor(n)) for n in outputs}
+    return found, compare(outputs, curves, options.longest_delay, options.skip)
+
+
+def _delays(before: Comparison, wanted: list[str]) -> dict[str, float]:
+    """First guesses of the delays that are sought; that of all signals under the empty name and under each."""
+    assert set(wanted) <= set(NUISANCES)
+    common = before.common.delay if math.isfinite(before.common.delay) else 0.0
+    if "delay" in wanted:
+        return {"": common} | dict.fromkeys(before.signals, common)
+    if "delays" in wanted:
+        own = {n: s.alignment.delay for n, s in before.signals.items()}
+        return {n: d if math.isfinite(d) else common for n, d in own.items()}
+    return {}
