@@ -123,10 +123,12 @@ struct ali3_system {
   bool senses_rows; /* a sensor reads multipliers or violations */
   /* derived at load, in one block */
   void *derived;
-  int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q */
+  int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q; of a row of
+                                   triples the terms of three entries in turn */
   double *hess_val;
   double *row_round; /* round-off of the violation at the reference position, m */
-  unsigned char *row_wide; /* 1: the row fills most of its front */
+  unsigned char *row_wide;     /* 1: the row fills most of its front */
+  unsigned char *row_triples;  /* 1: its coordinates are points and directions, three neighbours each */
   ali3_term *quad;             /* as quad_* */
   ali3_angle_term *angle;      /* as angle_a */
   int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;

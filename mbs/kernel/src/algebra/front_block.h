@@ -5,6 +5,7 @@
 
 #include "../instance.h"
 #include "real.h"
+#include "stretch.h"
 
 enum { PANEL = 4 };
 
@@ -30,16 +31,13 @@ static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate
 
 /* x becomes L^-1 x in the pivots, reduced by them in the rest; two columns at a time. */
 static inline void ali3_front_forward(const real *block, real *restrict x, int32_t n_pivot, int32_t n) {
-  int32_t p = 0;
+  int64_t p = 0;
   for (; p + 1 < n_pivot; p += 2) {
-    const real *restrict a = block + (int64_t)p * n, *restrict b = a + n;
+    const real *restrict a = block + p * n, *restrict b = a + n;
     const real first = x[p], second = x[p + 1] - a[p + 1] * first;
     x[p + 1] = second;
-    for (int32_t i = p + 2; i < n; i++) x[i] -= a[i] * first + b[i] * second;
+    ali3_take_two(x + p + 2, a + p + 2, first, b + p + 2, second, n - p - 2);
   }
-  if (p < n_pivot) {
-    const real *restrict a = block + (int64_t)p * n, first = x[p];
-    for (int32_t i = p + 1; i < n; i++) x[i] -= a[i] * first;
-  }
+  if (p < n_pivot) ali3_add_multiple(x + p + 1, block + p * n + p + 1, -x[p], n - p - 1);
 }
 #endif

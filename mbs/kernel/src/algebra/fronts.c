@@ -72,39 +72,26 @@ ali3_status ali3_factorise(ali3_instance *in, real *F) {
   return ALI3_OK;
 }
 
-/* Sum of column and x from `from` on, in two sums so that additions need not wait for each other. */
-static real product(const real *restrict column, const real *restrict x, int32_t from, int32_t n) {
-  real even = {0}, odd = {0};
-  int32_t i = from;
-  for (; i + 1 < n; i += 2) {
-    even += column[i] * x[i];
-    odd += column[i + 1] * x[i + 1];
-  }
-  if (i < n) even += column[i] * x[i];
-  return even + odd;
-}
-
 /* b becomes the solution. */
 void ali3_solve(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
-  real *x = in->local;
+  real *restrict x = in->local;
   ALI3_COUNT(in, solves);
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
     const int32_t *idx = S->front_idx + S->front_ptr[f];
     for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
-    const real *block = F + S->front_off[f];
-    ali3_front_forward(block, x, n_pivot, n);
-    for (int32_t p = 0; p < n_pivot; p++) x[p] *= block[(int64_t)p * n + p];
+    ali3_front_forward(F + S->front_off[f], x, n_pivot, n);
     for (int32_t i = 0; i < n; i++) b[idx[i]] = x[i];
   }
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {
     const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
     const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-    const real *block = F + S->front_off[f];
     for (int32_t i = 0; i < n; i++) x[i] = b[idx[i]];
-    for (int32_t p = n_pivot - 1; p >= 0; p--) {
-      x[p] -= product(block + (int64_t)p * n, x, p + 1, n);
+    const real *block = F + S->front_off[f];
+    for (int64_t p = n_pivot - 1; p >= 0; p--) {
+      const real *column = block + p * n;
+      x[p] = x[p] * column[p] - ali3_product_in_two(column + p + 1, x + p + 1, n - p - 1);
       b[first + p] = x[p];
     }
   }

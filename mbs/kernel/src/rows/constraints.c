@@ -3,6 +3,7 @@
 
 #include "../algebra/elementary.h"
 #include "../algebra/real.h"
+#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "constraints.h"
 #include "switch_rows.h"
@@ -35,6 +36,20 @@ static inline real rate_of(const real *qd, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
 }
 
+/* Adds the terms of three neighbouring entries of Phi_q to them. */
+static inline void add_terms(const ali3_system *S, int32_t i, const real *q, real entry[3]) {
+  const int32_t *col = S->hess_col + S->hess_ptr[i], *end = S->hess_col + S->hess_ptr[i + 3];
+  const double *hess = S->hess_val + S->hess_ptr[i];
+  real x = entry[0], y = entry[1], z = entry[2];
+  ALI3_SHORT
+  for (; col < end; col += 3, hess += 3) {
+    x += hess[0] * q[col[0]];
+    y += hess[1] * q[col[1]];
+    z += hess[2] * q[col[2]];
+  }
+  entry[0] = x, entry[1] = y, entry[2] = z;
+}
+
 /* w = h s^power and its two rates. */
 static real guide_factor(const ali3_guide_term *g, const real *s) {
   const real v = s[g->guide];
@@ -58,7 +73,17 @@ void ali3_constraints(ali3_instance *in, const real *q, const real *s, real *Phi
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
-    for (int32_t i = ptr[k]; i < ptr[k + 1]; i++) {
+    int32_t i = ptr[k];
+    for (; S->row_triples[k] && i < ptr[k + 1]; i += 3) {
+      const double *lin = row_lin + i;
+      const real *v = q + col[i];
+      real entry[3] = {ali3_same(lin[0]), ali3_same(lin[1]), ali3_same(lin[2])};
+      add_terms(S, i, q, entry);
+      for (int d = 0; d < 3; d++) J[i + d] = entry[d];
+      const real both[3] = {entry[0] + lin[0], entry[1] + lin[1], entry[2] + lin[2]};
+      value = ali3_triple_sum(value, both, v);
+    }
+    for (; i < ptr[k + 1]; i++) {
       const double lin = row_lin[i];
       real sum = ali3_same(lin);
       for (int32_t t = hess_ptr[i]; t < hess_ptr[i + 1]; t++) sum += hess[t] * q[hess_col[t]];
@@ -116,7 +141,13 @@ void ali3_constraint_gamma(ali3_instance *in, const real *q, const real *qd, con
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
-    for (int32_t i = ptr[k]; i < ptr[k + 1]; i++) {
+    int32_t i = ptr[k];
+    for (; S->row_triples[k] && i < ptr[k + 1]; i += 3) {
+      real entry[3] = {ali3_same(0.0), ali3_same(0.0), ali3_same(0.0)};
+      add_terms(S, i, qd, entry);
+      value = ali3_triple_sum(value, entry, qd + col[i]);
+    }
+    for (; i < ptr[k + 1]; i++) {
       real sum = {0};
       for (int32_t t = hess_ptr[i]; t < hess_ptr[i + 1]; t++) sum += hess[t] * qd[hess_col[t]];
       value += sum * qd[col[i]];
@@ -185,6 +216,25 @@ void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real 
   }
 }
 
+/* Three columns of weight J' J, of entries j to j + 2 of a row of triples that ends before `end`. */
+static inline void add_triple(real *block, int64_t n, const real *J, int32_t j, int32_t end, const int32_t *loc,
+                              double weight) {
+  const real x = weight * J[j], y = weight * J[j + 1], z = weight * J[j + 2];
+  real *restrict a = block + loc[j] * n, *restrict b = a + n, *restrict c = b + n;
+  const int32_t own = loc[j];
+  a[own] += x * J[j];
+  a[own + 1] += x * J[j + 1];
+  a[own + 2] += x * J[j + 2];
+  b[own + 1] += y * J[j + 1];
+  b[own + 2] += y * J[j + 2];
+  c[own + 2] += z * J[j + 2];
+  for (int32_t i = j + 3; i < end; i += 3) {
+    ali3_triple_add(a + loc[i], J + i, x);
+    ali3_triple_add(b + loc[i], J + i, y);
+    ali3_triple_add(c + loc[i], J + i, z);
+  }
+}
+
 /* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are
  * contiguous. */
 void ali3_rows_square(ali3_instance *in, const real *J, double weight, real *F) {
@@ -194,6 +244,10 @@ void ali3_rows_square(ali3_instance *in, const real *J, double weight, real *F) 
   for (int32_t k = 0; k < S->size.nc; k++) {
     const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = ptr[k + 1];
     real *block = F + S->front_off[f];
+    if (S->row_triples[k]) {
+      for (int32_t j = ptr[k]; j < end; j += 3) add_triple(block, n, J, j, end, loc, weight);
+      continue;
+    }
     if (S->row_wide[k]) {
       const int32_t last = loc[end - 1] + 1;
       for (int32_t i = loc[ptr[k]]; i < last; i++) spread[i] = ali3_same(0.0);
@@ -232,7 +286,9 @@ void ali3_rows_times(const ali3_system *S, const real *J, const real *x, real *o
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
   for (int32_t k = 0; k < S->size.nc; k++) {
     real sum = {0};
-    for (int32_t i = ptr[k]; i < ptr[k + 1]; i++) sum += J[i] * x[col[i]];
+    int32_t i = ptr[k];
+    for (; S->row_triples[k] && i < ptr[k + 1]; i += 3) sum = ali3_triple_sum(sum, J + i, x + col[i]);
+    for (; i < ptr[k + 1]; i++) sum += J[i] * x[col[i]];
     out[k] = sum;
   }
 }
@@ -242,6 +298,8 @@ void ali3_rows_transposed(const ali3_system *S, const real *J, const real *w, re
   memset(out, 0, (size_t)S->size.nq * sizeof *out);
   for (int32_t k = 0; k < S->size.nc; k++) {
     const real weight = w[k];
-    for (int32_t i = ptr[k]; i < ptr[k + 1]; i++) out[col[i]] += J[i] * weight;
+    int32_t i = ptr[k];
+    for (; S->row_triples[k] && i < ptr[k + 1]; i += 3) ali3_triple_add(out + col[i], J + i, weight);
+    for (; i < ptr[k + 1]; i++) out[col[i]] += J[i] * weight;
   }
 }

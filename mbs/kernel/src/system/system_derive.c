@@ -16,7 +16,7 @@
 #include "pool.h"
 #include "sensor_types.h"
 
-enum { MAX_SIGNAL_ENTRIES = 1 << 26 };
+enum { MAX_SIGNAL_ENTRIES = 1 << 26, TRIPLE = 3, MOST_TERMS = 32 };
 
 static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   const size_t nq = (size_t)s->size.nq, ne = (size_t)s->size.ne, na = (size_t)s->n_angle_row;
@@ -25,6 +25,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->hess_val = ali3_pool_items(p, 2 * (size_t)s->n_quad_a, sizeof(double));
   s->row_round = ali3_pool_items(p, (size_t)s->size.nc, sizeof(double));
   s->row_wide = ali3_pool_items(p, (size_t)s->size.nc, 1);
+  s->row_triples = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->quad = ali3_pool_items(p, (size_t)s->n_quad_a, sizeof *s->quad);
   s->angle = ali3_pool_items(p, (size_t)s->n_angle_a, sizeof *s->angle);
   s->angle_theta_col = ali3_pool_items(p, na, sizeof(int32_t));
@@ -123,6 +124,31 @@ static void derive_round(ali3_system *s) {
   for (int64_t i = 0; i < s->n_velocity_row; i++) s->row_round[s->velocity_row[i]] = 0.0; /* no positions in it */
 }
 
+/* Whether the coordinates of row k are triples of neighbours, of which each has as many terms as the others. */
+static bool in_triples(const ali3_system *s, int32_t k) {
+  const int32_t *ptr = s->hess_ptr, *col = s->row_col, end = s->row_ptr[k + 1];
+  if ((end - s->row_ptr[k]) % TRIPLE != 0) return false;
+  for (int32_t i = s->row_ptr[k]; i < end; i += TRIPLE) {
+    const int32_t terms = ptr[i + 1] - ptr[i];
+    if (terms > MOST_TERMS || ptr[i + 2] - ptr[i + 1] != terms || ptr[i + 3] - ptr[i + 2] != terms) return false;
+    if (col[i + 1] != col[i] + 1 || col[i + 2] != col[i] + 2) return false;
+  }
+  return true;
+}
+
+/* The terms of three entries from `first` on, one after the other, in turn. */
+static void interleave(ali3_system *s, int32_t first, int32_t terms) {
+  int32_t col[TRIPLE * MOST_TERMS];
+  double val[TRIPLE * MOST_TERMS];
+  memcpy(col, s->hess_col + first, (size_t)(TRIPLE * terms) * sizeof *col);
+  memcpy(val, s->hess_val + first, (size_t)(TRIPLE * terms) * sizeof *val);
+  for (int32_t t = 0; t < terms; t++)
+    for (int32_t i = 0; i < TRIPLE; i++) {
+      s->hess_col[first + TRIPLE * t + i] = col[i * terms + t];
+      s->hess_val[first + TRIPLE * t + i] = val[i * terms + t];
+    }
+}
+
 /* The products of the rows once more, sorted by the entry of Phi_q they add to. */
 static void derive_hessian(ali3_system *s) {
   memset(s->hess_ptr, 0, ((size_t)s->n_row_col + 1) * sizeof(int32_t));
@@ -146,6 +172,9 @@ static void derive_hessian(ali3_system *s) {
   for (int32_t k = 0; k < s->size.nc; k++) {
     const int32_t f = s->row_front[k], n = s->front_ptr[f + 1] - s->front_ptr[f];
     s->row_wide[k] = 2 * (s->row_ptr[k + 1] - s->row_ptr[k]) > n && n > 8;
+    s->row_triples[k] = in_triples(s, k);
+    for (int32_t i = s->row_ptr[k]; s->row_triples[k] && i < s->row_ptr[k + 1]; i += TRIPLE)
+      interleave(s, s->hess_ptr[i], s->hess_ptr[i + 1] - s->hess_ptr[i]);
   }
 }
 

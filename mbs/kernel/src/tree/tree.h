@@ -4,6 +4,7 @@
  * lanes have no branches and no dependence from body to body, recursions along the tree have little arithmetic. */
 #ifndef ALI3_TREE_H
 #define ALI3_TREE_H
+#include "../algebra/stretch.h"
 #include "../instance.h"
 
 enum { ALI3_MOST_JOINTS = 64, ALI3_LANES = 66, ALI3_MOST_CUT_ROWS = 64, ALI3_MOST_ANGLES = 64 };
@@ -12,10 +13,8 @@ typedef double ali3_lanes[ALI3_LANES];
 /* Before a loop whose rounds do not depend on each other; never before a sum, which it would allow to be reordered. */
 #if defined(__clang__)
 #define ALI3_FOR_LANES _Pragma("clang loop vectorize(assume_safety) interleave(disable) unroll(disable)")
-#define ALI3_SHORT _Pragma("clang loop unroll(disable) vectorize(disable)")
 #else
 #define ALI3_FOR_LANES
-#define ALI3_SHORT
 #endif
 
 struct ali3_tree {

@@ -1,0 +1,63 @@
+/* Numbers that lie side by side, two at a time, which compilers turn into one instruction. Each has the bits that it has
+ * alone, and sums are added up in the order of the numbers. */
+#ifndef ALI3_STRETCH_H
+#define ALI3_STRETCH_H
+#include <stdint.h>
+
+#include "real.h"
+
+/* Before a loop that is short or already written for two numbers. */
+#if defined(__clang__)
+#define ALI3_SHORT _Pragma("clang loop unroll(disable) vectorize(disable)")
+#else
+#define ALI3_SHORT
+#endif
+
+/* y += a x */
+static inline void ali3_add_multiple(real *restrict y, const real *restrict x, real a, int64_t n) {
+  int64_t i = 0;
+  ALI3_SHORT
+  for (; i + 1 < n; i += 2) {
+    y[i] += a * x[i];
+    y[i + 1] += a * x[i + 1];
+  }
+  if (i < n) y[i] += a * x[i];
+}
+
+/* y -= a x + b z */
+static inline void ali3_take_two(real *restrict y, const real *restrict x, real a, const real *restrict z, real b,
+                                 int64_t n) {
+  int64_t i = 0;
+  ALI3_SHORT
+  for (; i + 1 < n; i += 2) {
+    y[i] -= x[i] * a + z[i] * b;
+    y[i + 1] -= x[i + 1] * a + z[i + 1] * b;
+  }
+  if (i < n) y[i] -= x[i] * a + z[i] * b;
+}
+
+/* x y in two sums, by turns, so that additions need not wait for each other */
+static inline real ali3_product_in_two(const real *restrict x, const real *restrict y, int64_t n) {
+  real even = {0}, odd = {0};
+  int64_t i = 0;
+  ALI3_SHORT
+  for (; i + 1 < n; i += 2) {
+    even += x[i] * y[i];
+    odd += x[i + 1] * y[i + 1];
+  }
+  if (i < n) even += x[i] * y[i];
+  return even + odd;
+}
+
+/* Three numbers, the components of a point or a direction. */
+static inline real ali3_triple_sum(real sum, const real *x, const real *y) {
+  return sum + x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+
+/* y += a x of three numbers */
+static inline void ali3_triple_add(real *restrict y, const real *restrict x, real a) {
+  y[0] += a * x[0];
+  y[1] += a * x[1];
+  y[2] += a * x[2];
+}
+#endif
