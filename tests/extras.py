@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from ali3.commands import COMMANDS
 from ali3.extras import extras
+from tests.urdf.robots import UR5, write_urdf
 
 ROOT = Path(__file__).resolve().parents[1]
 UV = shutil.which("uv")
@@ -107,6 +108,7 @@ READERS = (
         "shutil.copy(f, f'deck{{f.suffix}}'); read_calculix('deck.inp')",
         ("bar.inp", "bar.sti", "bar.mas", "bar.dof"),
     ),
+    Reader("urdf", "from mbs.urdf import read_urdf; read_urdf('{}')", ("arm.urdf",)),
 )
 
 OF_THE_CLONE = {
@@ -269,6 +271,7 @@ def _make_files(folder: Path) -> None:
     lines = [f"GRID,{i + 1},,{x},{y},{z}" for i, (x, y, z) in enumerate(nodes)]
     (folder / "bar.bdf").write_text("\n".join(lines) + "\n")
     op4.write(str(folder / "bar.op4"), {"KGG": _springs(nodes), "MGG": np.eye(24)}, binary=False)
+    write_urdf(UR5, folder / "arm.urdf")
     good = [file for file in folder.iterdir() if file.is_file()]
     noise = np.random.default_rng(1).bytes(2000)
     for how in ("cut", "empty", "text", "bytes"):

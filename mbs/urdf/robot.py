@@ -1,0 +1,281 @@
+"""URDF files as models (reader: yourdfpy, extra `urdf`): links as bodies, joints as joints with torques or guides."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PPoly
+from scipy.spatial.transform import Rotation
+
+from ali3.extras import missing_module
+from ali3.near_names import did_you_mean
+from mbs.common.errors import ModelError
+from mbs.elements.body_force import BodyForce
+from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+from mbs.flexible.foreign_file import read_foreign
+from mbs.model.body import Body
+from mbs.model.coordinate import Coordinate
+from mbs.model.model import Model
+from mbs.model.perpendicular import perpendicular
+
+Pose = NDArray[np.float64]
+TURNING, FREE = ("revolute", "continuous"), 1e9  # N m: range of the torque of a joint without a limit
+
+
+class UrdfWarning(UserWarning):
+    """A URDF file says what the model has not."""
+
+
+@dataclass
+class Robot:
+    """A robot as a model, to which tools, loads, sensors and forces may be added.
+
+    Attributes
+    ----------
+    model : Model
+        Its inputs are ``JOINT.torque``, N m, or ``JOINT.force``, N, unless the joint has a guide; its sensors
+        ``JOINT.angle`` and ``JOINT.rate``, ``JOINT.position`` and ``JOINT.speed``, and of guides ``JOINT.torque``.
+    bodies : dict of str to Body
+        By the names of links; links that are fixed to each other are one body, the ground where they are fixed to it.
+    poses : dict of str to ndarray, shape (4, 4)
+        Of the frames of links in earth axes in the reference configuration, m.
+    angles : dict of str to Coordinate
+        Of turning joints, rad, as the file counts them.
+    """
+
+    model: Model
+    bodies: dict[str, Body] = field(default_factory=dict)
+    poses: dict[str, Pose] = field(default_factory=dict)
+    angles: dict[str, Coordinate] = field(default_factory=dict)
+
+
+def read_urdf(
+    path: str | Path,
+    *,
+    at: Mapping[str, float] | None = None,
+    guides: Mapping[str, PPoly] | None = None,
+    floating: bool = False,
+) -> Robot:
+    """Read a URDF file; meshes, colours and transmissions are not read.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of the file, without xacro.
+    at : mapping of str to float, optional
+        Values of joints where the model is drawn, and starts, rad or m; by default 0.
+    guides : mapping of str to PPoly, optional
+        Motions of turning joints over time, rad, of degree five or less: their torques are then read, not given.
+    floating : bool
+        The root is free; else it is fixed to the ground.
+
+    Returns
+    -------
+    Robot
+        Limits of position and velocity are not in the model: nothing stops a joint. Torques and forces have the
+        limits of effort; damping acts on turning joints.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, the package is missing, a joint is planar, floating or follows another one, a moving
+        link has no mass, a name is none of a joint.
+
+    Warns
+    -----
+    UrdfWarning
+        Of friction, and of damping of sliding joints, which the model has not.
+    """
+    file = Path(path)
+    urdf = _read(file)
+    at, guides = dict(at or {}), dict(guides or {})
+    joints: dict[str, Any] = {j.name: j for j in urdf.joints if j.type != "fixed"}
+    for name in (*at, *guides):
+        if name not in joints:
+            known = f"the joints that move are {', '.join(joints)}"
+            raise ModelError(f"{file.name}: there is no joint '{name}'{did_you_mean(name, joints, known)}")
+    for name, joint in joints.items():
+        if joint.type not in (*TURNING, "prismatic"):
+            raise ModelError(
+                f"{file.name}: the joint '{name}' is {joint.type}; revolute, continuous and prismatic are read."
+            )
+        if joint.mimic is not None:
+            raise ModelError(
+                f"{file.name}: the joint '{name}' follows '{joint.mimic.joint}' (mimic), which is not read."
+            )
+        if name in guides and joint.type == "prismatic":
+            raise ModelError(f"{file.name}: the joint '{name}' is prismatic; guides move turning joints.")
+    at |= {name: float(motion(0.0)) for name, motion in guides.items()}
+    robot = Robot(Model(urdf.name or file.stem))
+    robot.model.floating = floating
+    below = _tree(urdf, file.name)
+    _place(robot, below, at)
+    _bodies(robot, urdf, below, floating, file.name)
+    for name, joint in joints.items():
+        _joint(robot, joint, at.get(name, 0.0), guides.get(name))
+    _tell_left_out(joints.values(), file.name)
+    return robot
+
+
+def _read(file: Path) -> Any:
+    def reader(path: Path) -> Any:
+        import yourdfpy
+
+        quiet = {"build_scene_graph": False, "load_meshes": False, "load_collision_meshes": False}
+        return yourdfpy.URDF.load(str(path), **quiet).robot
+
+    try:
+        import yourdfpy  # noqa: F401
+    except ModuleNotFoundError as error:
+        raise ModelError(f"URDF files are read with yourdfpy. {missing_module(error, 'urdf')}") from error
+    found = read_foreign(file, reader)
+    if not found.links:
+        raise ModelError(f"{file.name} has no links; it is no URDF file.")
+    return found
+
+
+def _tree(urdf: Any, what: str) -> dict[str, Any]:
+    """The joint above each link, None of the root; from the root on."""
+    links = [link.name for link in urdf.links]
+    above: dict[str, Any] = dict.fromkeys(links)
+    for joint in urdf.joints:
+        for end in (joint.parent, joint.child):
+            if end not in above:
+                raise ModelError(f"{what}: the joint '{joint.name}' joins the link '{end}', which is not in the file.")
+        if above[joint.child] is not None:
+            raise ModelError(f"{what}: the link '{joint.child}' is the child of two joints.")
+        above[joint.child] = joint
+    roots = [name for name in links if above[name] is None]
+    if len(roots) != 1:
+        raise ModelError(f"{what}: {len(roots)} links are no child of a joint; a robot has one root.")
+    ordered: dict[str, Any] = {roots[0]: None}
+    while len(ordered) < len(links):
+        more = {n: j for n, j in above.items() if n not in ordered and j is not None and j.parent in ordered}
+        if not more:
+            raise ModelError(f"{what}: its joints make a ring.")
+        ordered |= more
+    return ordered
+
+
+def _place(robot: Robot, below: Mapping[str, Any], at: Mapping[str, float]) -> None:
+    """Poses of the links at the values of the joints."""
+    for name, joint in below.items():
+        if joint is None:
+            robot.poses[name] = np.eye(4)
+            continue
+        moved, value = np.eye(4), at.get(joint.name, 0.0)
+        if joint.type in TURNING:
+            moved[:3, :3] = Rotation.from_rotvec(value * _axis(joint)).as_matrix()
+        elif joint.type == "prismatic":
+            moved[:3, 3] = value * _axis(joint)
+        robot.poses[name] = robot.poses[joint.parent] @ _pose(joint.origin) @ moved
+
+
+def _bodies(robot: Robot, urdf: Any, below: Mapping[str, Any], floating: bool, what: str) -> None:
+    """A body for all links that are fixed to each other."""
+    groups: dict[str, str] = {}
+    for name, joint in below.items():
+        groups[name] = groups[joint.parent] if joint is not None and joint.type == "fixed" else name
+    links, root = {link.name: link for link in urdf.links}, next(iter(below))
+    for group in dict.fromkeys(groups.values()):
+        if group == root and not floating:
+            body = robot.model.ground
+        else:
+            mass, com, inertia = _mass([(links[n], robot.poses[n]) for n, g in groups.items() if g == group])
+            if mass <= 0.0:
+                raise ModelError(f"{what}: the link '{group}', and what is fixed to it, has no mass and cannot move.")
+            body = robot.model.body(group, mass=mass, com=com, inertia=inertia)
+        robot.bodies |= {n: body for n, g in groups.items() if g == group}
+
+
+def _mass(parts: Iterable[tuple[Any, Pose]]) -> tuple[float, Pose, Pose]:
+    """Mass, centre and inertia about it of several links together, earth axes."""
+    found = []
+    for link, pose in parts:
+        if link.inertial is not None and link.inertial.mass:
+            own = pose @ _pose(link.inertial.origin)
+            tensor = own[:3, :3] @ np.asarray(link.inertial.inertia, float) @ own[:3, :3].T
+            found.append((float(link.inertial.mass), own[:3, 3], tensor))
+    mass = sum(m for m, _, _ in found)
+    if mass <= 0.0:
+        return 0.0, np.zeros(3), np.zeros((3, 3))
+    com = sum((m * c for m, c, _ in found), np.zeros(3)) / mass
+    inertia = np.zeros((3, 3))
+    for m, c, tensor in found:
+        arm = c - com
+        inertia += tensor + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return mass, com, inertia
+
+
+def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None) -> None:
+    """A joint with what moves it and what reads it."""
+    m, name, frame = robot.model, joint.name, robot.poses[joint.child]
+    first, second = robot.bodies[joint.parent], robot.bodies[joint.child]
+    point, axis = frame[:3, 3], frame[:3, :3] @ _axis(joint)
+    effort = float(joint.limit.effort or 0.0) if joint.limit is not None else 0.0
+    most = effort if effort > 0.0 else FREE
+    if joint.type == "prismatic":
+        m.prismatic(name, second, first, axis=axis, point=point)
+        along = first.vector(axis)
+        base = robot.poses[joint.parent] @ _pose(joint.origin)
+        way = second.point(point) - first.point(base[:3, 3])
+        force = m.input(f"{name}.force", min=-most, max=most, unit="N", description=f"force along the joint '{name}'")
+        across = perpendicular(axis)
+        for body, sign in ((second, 1.0), (first, -1.0)):
+            if not body.is_ground:
+                axes = [first.vector(sign * axis), *(first.vector(v) for v in across)]
+                record = BodyForce([force.index, None, None]).record(f"{name} on {body.name}", body.point(point), axes)
+                m.add(record)
+        m.sense_vector(f"{name}.position", way, [along], description=f"of the joint '{name}'")
+        m.sense_vector(f"{name}.speed", way, [along], order=1, description=f"of the joint '{name}'")
+        return
+    m.revolute(name, first, second, point=point, axis=axis)
+    angle = robot.angles[name] = m.relative_angle(f"{name} angle", first, second, axis=axis, zero=value)
+    if guide is not None:
+        motor = m.drive(f"{name} drive", angle, m.guide_time(f"{name} guide", guide, unit="rad"))
+        m.sense_joint(f"{name}.torque", motor, "drive", unit="N.m", description=f"that moves the joint '{name}'")
+    else:
+        text = f"torque of the joint '{name}'"
+        m.torque_on(
+            f"{name} motor", angle, input=m.input(f"{name}.torque", min=-most, max=most, unit="N.m", description=text)
+        )
+    damping = _loss(joint, "damping")
+    if damping:
+        m.add(ScalarSpringDamper(0.0, damping).record(f"{name} damping", angle.affine))
+    m.sense_coordinate(f"{name}.angle", angle, description=f"of the joint '{name}'")
+    m.sense_coordinate(f"{name}.rate", angle, order=1, description=f"of the joint '{name}'")
+
+
+def _tell_left_out(joints: Iterable[Any], what: str) -> None:
+    left = []
+    for joint in joints:
+        friction, damping = _loss(joint, "friction"), _loss(joint, "damping")
+        if friction:
+            left.append(f"friction of '{joint.name}', {friction:g}")
+        if damping and joint.type == "prismatic":
+            left.append(f"damping of '{joint.name}', {damping:g} N s/m")
+    if left:
+        text = f"{what}: the model is without {'; '.join(left)}. Add elements of mbs.elements for them."
+        warnings.warn(text, UrdfWarning, stacklevel=3)
+
+
+def _loss(joint: Any, kind: str) -> float:
+    return 0.0 if joint.dynamics is None else float(getattr(joint.dynamics, kind) or 0.0)
+
+
+def _axis(joint: Any) -> Pose:
+    axis = np.array([1.0, 0.0, 0.0]) if joint.axis is None else np.asarray(joint.axis, float)
+    size = float(np.linalg.norm(axis))
+    if not 0.0 < size < np.inf:
+        raise ModelError(f"The axis of the joint '{joint.name}' is {axis.tolist()}; it must have a direction.")
+    return np.asarray(axis / size)
+
+
+def _pose(origin: Any) -> Pose:
+    return np.eye(4) if origin is None else np.asarray(origin, float)

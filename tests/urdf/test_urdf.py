@@ -1,0 +1,154 @@
+"""Robots from URDF files: torques against Pinocchio's inverse dynamics, closed forms, what is refused or left out."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.interpolate import PPoly
+
+import mbs
+from mbs import ModelError
+from mbs.urdf import UrdfWarning, read_urdf
+from tests.urdf.robots import NONE, ROBOTS, Link, states, write_urdf
+
+DATA = Path(__file__).parents[1] / "data" / "urdf"
+ROD = Link(NONE, NONE, (0.0, 1.0, 0.0), 2.0, (0.3, 0.0, 0.0), (0.01, 0.0, 0.0, 0.06, 0.0, 0.06))
+LINK = (
+    '<link name="{}"><inertial><mass value="{}"/>'
+    '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>'
+)
+JOINT = (
+    '<joint name="{0}" type="{1}"><parent link="{2}"/><child link="{3}"/><axis xyz="0.6 0 0.8"/>'
+    '<limit lower="0" upper="1" effort="50" velocity="1"/>{4}</joint>'
+)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_torques_are_those_of_the_inverse_dynamics_of_pinocchio(name: str, tmp_path: Path) -> None:
+    """Eight states, angles up to 2.5 rad, rates up to 2 rad/s, accelerations up to 8 rad/s2."""
+    file = write_urdf(ROBOTS[name], tmp_path / f"{name}.urdf")
+    wanted = np.loadtxt(DATA / f"{name}_rnea.csv", delimiter=",")
+    assert wanted.shape == (8, len(ROBOTS[name]))
+    for state, torques in zip(states(name), wanted, strict=True):
+        guides = {
+            f"joint_{k}": PPoly(np.array([[qdd / 2.0], [qd], [q]]), [0.0, 1.0])
+            for k, (q, qd, qdd) in enumerate(state.T, 1)
+        }
+        robot = read_urdf(file, guides=guides)
+        now = mbs.Simulation(mbs.compile(robot.model)).sensors
+        found = np.array([now[f"{joint}.torque"] for joint in guides])
+        assert np.abs(found - torques).max() < 1e-9 * np.abs(torques).max()
+        assert [now[f"{joint}.angle"] for joint in guides] == pytest.approx(state[0])
+        assert [now[f"{joint}.rate"] for joint in guides] == pytest.approx(state[1])
+
+
+def test_a_rod_swings_as_a_pendulum_does_and_its_motor_holds_it(tmp_path: Path) -> None:
+    """About y the rod along x falls by positive angles; m g l = 2 * 9.81 * 0.3 N m, I + m l2 = 0.24 kg m2."""
+    file = write_urdf([ROD], tmp_path / "rod.urdf")
+    moment, inertia = 2.0 * 9.81 * 0.3, 0.06 + 2.0 * 0.3**2
+    for start in (0.0, 0.7):
+        s = mbs.Simulation(mbs.compile(read_urdf(file, at={"joint_1": start}).model))
+        s.set_input("joint_1.torque", -moment * np.cos(start))
+        s.step(0.001, 500)
+        assert s.sensors["joint_1.angle"] == pytest.approx(start, abs=1e-9)
+        s.set_input("joint_1.torque", 0.0)
+        s.step(0.001, 1)
+        s.step(0.0005, 300)
+        angle, rate = s.sensors["joint_1.angle"], s.sensors["joint_1.rate"]
+        assert 0.5 * inertia * rate**2 == pytest.approx(moment * (np.sin(angle) - np.sin(start)), rel=1e-3)
+        assert rate > 1.0
+
+
+def test_links_that_are_fixed_are_one_body_with_mass_and_inertia_of_both(tmp_path: Path) -> None:
+    """A second rod beyond the tool: I + m l2 of both, by Steiner."""
+    extra = LINK.format("load", 0.5) + (
+        '<joint name="grip" type="fixed"><parent link="tool"/><child link="load"/><origin xyz="0.4 0 -0.1"/></joint>'
+    )
+    robot = read_urdf(write_urdf([ROD], tmp_path / "rod.urdf", extra))
+    assert robot.bodies["load"] is robot.bodies["link_1"] is robot.bodies["tool"]
+    assert robot.poses["load"][:3, 3] == pytest.approx([0.4, 0.0, 0.0])
+    s = mbs.Simulation(mbs.compile(robot.model))
+    s.step(0.0005, 2)
+    inertia = 0.06 + 2.0 * 0.3**2 + 1.0 + 0.5 * 0.4**2
+    assert s.sensors["joint_1.rate"] == pytest.approx(0.001 * 9.81 * (2.0 * 0.3 + 0.5 * 0.4) / inertia, rel=1e-5)
+
+
+def test_a_slide_moves_by_its_force_with_its_reaction(tmp_path: Path) -> None:
+    """Free, without gravity: two masses part with F (1/m1 + 1/m2), and their centre stays."""
+    text = LINK.format("a", 2.0) + LINK.format("b", 3.0) + JOINT.format("slide", "prismatic", "a", "b", "")
+    file = tmp_path / "slide.urdf"
+    file.write_text(f'<robot name="slide">{text}</robot>', encoding="utf-8")
+    robot = read_urdf(file, at={"slide": 0.25}, floating=True)
+    robot.model.gravity = np.zeros(3)
+    for link in "ab":
+        robot.model.sense_position(link, robot.bodies[link], None, "x")
+    s = mbs.Simulation(mbs.compile(robot.model), inputs={"slide.force": 12.0})
+    first = s.sensors
+    assert first["slide.position"] == pytest.approx(0.25)
+    s.step(0.01, 50)
+    way = 0.5 * 12.0 * (1.0 / 2.0 + 1.0 / 3.0) * 0.5**2
+    now = s.sensors
+    assert now["slide.position"] - 0.25 == pytest.approx(way, rel=1e-9)
+    assert now["slide.speed"] == pytest.approx(2.0 * way / 0.5, rel=1e-9)
+    assert 2.0 * (now["a"] - first["a"]) + 3.0 * (now["b"] - first["b"]) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_damping_turns_and_what_is_left_out_is_told(tmp_path: Path) -> None:
+    """A rod about its vertical axis loses its rate as exp(-c t / I)."""
+    dynamics = '<dynamics damping="0.5" friction="0.1"/>'
+    text = '<link name="a"/>' + LINK.format("b", 1.0) + JOINT.format("turn", "continuous", "a", "b", dynamics)
+    text += LINK.format("c", 1.0) + JOINT.format("slide", "prismatic", "b", "c", '<dynamics damping="0.3"/>')
+    file = tmp_path / "damped.urdf"
+    file.write_text(f'<robot name="damped">{text.replace("0.6 0 0.8", "0 0 1")}</robot>', encoding="utf-8")
+    words = "without friction of 'turn', 0.1; damping of 'slide', 0.3 N s/m"
+    with pytest.warns(UrdfWarning, match=words):
+        robot = read_urdf(file)
+    robot.model.initial_rate(robot.angles["turn"], 2.0)
+    s = mbs.Simulation(mbs.compile(robot.model), inputs={"slide.force": 9.81})
+    s.step(0.002, 500)
+    assert s.sensors["turn.rate"] == pytest.approx(2.0 * np.exp(-0.5 / 2.0), rel=1e-5)
+    assert s.sensors["slide.position"] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (LINK.format("b", 1.0) + JOINT.format("j", "planar", "a", "b", ""), "the joint 'j' is planar"),
+        (LINK.format("b", 0.0) + JOINT.format("j", "revolute", "a", "b", ""), "the link 'b', and what is fixed to it"),
+        (LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "c", ""), "joins the link 'c', which is not"),
+        (LINK.format("b", 1.0), "2 links are no child of a joint"),
+        (
+            LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", '<mimic joint="k" multiplier="2"/>'),
+            "follows 'k'",
+        ),
+        (
+            LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", "").replace("0.6 0 0.8", "0 0 0"),
+            "it must have a direction",
+        ),
+    ],
+)
+def test_what_is_no_robot_is_one_sentence(text: str, words: str, tmp_path: Path) -> None:
+    file = tmp_path / "robot.urdf"
+    file.write_text(f'<robot name="r"><link name="a"/>{text}</robot>', encoding="utf-8")
+    with pytest.raises(ModelError, match=words):
+        read_urdf(file)
+
+
+@pytest.mark.parametrize("text", ["", "no robot", "<robot name='r'>", "<robot name='r'></robot>", "<a/>"])
+def test_what_is_no_urdf_file_is_one_sentence(text: str, tmp_path: Path) -> None:
+    file = tmp_path / "robot.urdf"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(ModelError, match=r"robot\.urdf"):
+        read_urdf(file)
+
+
+def test_names_that_are_none_and_a_missing_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = write_urdf([ROD], tmp_path / "rod.urdf")
+    with pytest.raises(ModelError, match="there is no joint 'joint_2'; did you mean 'joint_1'"):
+        read_urdf(file, at={"joint_2": 1.0})
+    monkeypatch.setitem(sys.modules, "yourdfpy", None)
+    with pytest.raises(ModelError, match=r'pip install "ali3\[urdf\]"'):
+        read_urdf(file)
