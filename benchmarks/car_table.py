@@ -1,10 +1,10 @@
 """One table of all cars against their references: ``python -m benchmarks.car_table [--write] [--json FILE]``.
 
-Of each car, over the manoeuvres that it has references of (`benchmarks.car_references`), with steps of 5 ms: the largest
-error of the path over its length and of a wheel load over the largest one, each with its manoeuvre; the manoeuvres
-outside of 1 % and 3 %, and the step that keeps them inside; times real time of the slowest manoeuvre, by processor time;
-instructions of a step of the slalom, where valgrind is installed. ``--write`` puts the rows of these cars into
-`benchmarks/data/car_table.json`, and the table of all cars in that file into `docs/cars.md`.
+Of each car, over the manoeuvres that it has references of (`benchmarks.car_references`), with steps of 5 ms: the
+largest error of the path over its length and of a wheel load over the largest one, each with its manoeuvre; the
+manoeuvres outside of 1 % and 3 %, and the step that keeps them inside; times real time of the slowest manoeuvre, by
+processor time; instructions of a step of the slalom, where valgrind is installed. ``--write`` puts the rows of these
+cars into `benchmarks/data/car_table.json`, and the table of all cars in that file into `docs/cars.md`.
 """
 
 from __future__ import annotations
