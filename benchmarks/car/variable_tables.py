@@ -203,7 +203,8 @@ def _names(members: Sequence[Shown], part: str) -> str:
 def _words(members: Sequence[Shown], causality: str, part: str) -> str:
     """The second cell of a row of the overview."""
     known = _WORDS.get(_WHEEL.sub("", part))
-    if known is not None and (part, causality) != ("solver", "parameter") and causality != "input":
+    only_outputs = part in ("solver", "chassis") and causality == "parameter"
+    if known is not None and not only_outputs and causality != "input":
         return known
     told = [_plain(s).partition(";")[0] + ("" if s.variable.unit == "1" else f", {s.variable.unit}") for s in members]
     kinds = [s.variable.variability for s in members]

@@ -176,7 +176,7 @@ class CarBuilder:
                 q.least,
                 q.high,
                 q.unit,
-                f"{tied.part}: {text}" if tied.part else text,
+                f"{text.removesuffix('.')}, {tied.part}." if tied.part else text,
                 targets=tied.targets,
                 tunable=q.change == "tunable",
                 works=works.get(path),
