@@ -53,6 +53,7 @@ OPTIONS: dict[str, Option] = {
     "arrows": Option(_bool, "True or False", "whether forces are drawn"),
     "arrow_scale": Option(_number(1e-3, 1e3), "a number from 0.001 to 1000", "length of the arrows"),
     "stress": Option(_bool, "True or False", "whether flexible parts have the colours of their stress"),
+    "closed": Option(_bool, "True or False", "whether bodies hide the frame in them"),
     "deformation": Option(_number(0.0, 1e6), "a number from 0 on", "factor of the drawn deformation"),
     "theme": Option(lambda v: v in ("auto", "light", "dark"), "'auto', 'light' or 'dark'", "colours of the page"),
     "controls": Option(_bool, "True or False", "whether there is anything but the drawing"),

@@ -168,6 +168,8 @@ class MeshShape(Placed):
     mesh: Name
     at: Vector = (0.0, 0.0, 0.0)
     axes: Axes | None = None
+    cover: bool = False
+    """Whether it hides what is within; a page makes it see-through when it is asked to."""
 
 
 class Spring(Shape):

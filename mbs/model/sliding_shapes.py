@@ -75,6 +75,7 @@ class SlidingVocabulary(ShapeVocabulary):
         color: str | None = None,
         material: str | None = None,
         opacity: float = 1.0,
+        cover: bool = False,
     ) -> Shape:
         """A mesh that was computed, as `shape` with the kind "mesh" for one from a file.
 
@@ -90,6 +91,8 @@ class SlidingVocabulary(ShapeVocabulary):
             Of the mesh.
         color, material, opacity
             As of `shape`.
+        cover : bool
+            Whether it hides what is within, and pages can make it see-through.
         """
         what = f"mesh '{named(name, 'a mesh')}'"
         places = array(positions, (None, 3), f"the positions of {what}")
@@ -104,6 +107,8 @@ class SlidingVocabulary(ShapeVocabulary):
         self._shapes.pop()
         looks = {k: v for k, v in ball.fields.items() if k not in ("radius", "at")}
         at = self._local(ball.owner, np.zeros(self.dimension), f"the origin of {what}")
+        if cover:
+            looks["cover"] = True
         mesh: dict[str, Any] = {"at": at, "positions": places, "triangles": corners, "file": name}
         self._shapes.append(Shape("mesh", ball.owner, looks | mesh))
         return self._shapes[-1]

@@ -139,9 +139,8 @@ def test_the_body_is_as_the_file_says(car: str, body: str, shell: int, tubes: in
     shapes = scene(car, body)["shapes"]
     meshes = [shape for shape in shapes if shape["kind"] == "mesh"]
     assert len(meshes) == shell
-    assert all(
-        (shape.get("opacity", 1.0) < 0.5) is (body == "clear" or shape["name"] == "none") for shape in meshes[::2]
-    )
+    assert all(shape.get("cover", False) is (body == "clear") for shape in meshes)
+    assert all(shape.get("opacity", 1.0) == 1.0 for shape in meshes[::2])
     assert len([shape for shape in shapes if shape.get("name") == FRAME]) >= tubes
 
 

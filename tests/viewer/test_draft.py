@@ -7,6 +7,7 @@ import pytest
 
 from mbs import compile
 from mbs.scenes import prototype_car
+from mbs.vehicle import load
 from tests.viewer.hand_world import scenery, terrain
 
 MOST_CALLS, MOST_TRIANGLES = 60, 50_000
@@ -15,6 +16,13 @@ MOST_CALLS, MOST_TRIANGLES = 60, 50_000
 @pytest.fixture(scope="module")
 def car():
     return compile(prototype_car.build()).scene | {"roads": [terrain()], "scenery": scenery()}
+
+
+@pytest.fixture(scope="module")
+def hatchback():
+    """With the bodies of its flexible frame, which its cover hides."""
+    scene = compile(load("hatchback").model(fidelity="dynamic")).scene
+    return scene | {"roads": [terrain()], "scenery": scenery()}
 
 
 def _cost(drawn):
@@ -95,3 +103,22 @@ def test_what_is_driven_is_drafted_by_the_processor_and_only_that(drawn, car):
     assert drawn.ask("view.look.quality") == "low"
     with pytest.raises(Exception, match="There is no quality 'ugly'; there are high, low, draft, auto"):
         drawn.ask("view.set({ quality: 'ugly' })")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("quality", ["low", "draft"])
+def test_a_closed_car_hides_its_frame_until_it_is_opened(drawn, hatchback, quality):
+    drawn.show(hatchback, camera="side", quality=quality)
+    closed = drawn.picture()
+    calls, triangles = _cost(drawn)
+    blue = lambda picture: ((picture[..., 2] > 3 * picture[..., 0]) & (picture[..., 2] > 60)).sum()  # noqa: E731
+    assert drawn.ask("view.has.closed")
+    assert blue(closed) > 1500, "it is a car of solid blue panels"
+    if quality == "draft":
+        assert calls < MOST_CALLS
+        assert triangles < MOST_TRIANGLES
+    drawn.ask("view.set({ closed: false })")
+    opened = drawn.picture()
+    assert blue(opened) < 0.4 * blue(closed)
+    drawn.ask("view.set({ closed: true })")
+    assert np.abs(drawn.picture() - closed).max() <= 2, "closed as before"

@@ -58,7 +58,8 @@ class Chassis(Section):
     accelerometers: dict[Name, Point] = Field(default_factory=dict)
     """Accelerometers by name."""
     body: Literal["auto", "open", "clear", "closed"] = "auto"
-    """How the body is drawn: open (none), clear (the frame shows), closed; auto: open with a frame of tubes."""
+    """How the body is drawn: open (none), clear (the key x of pages makes it see-through), closed; auto: open with a
+    frame of tubes."""
     frame: Frame | None = None
     """Flexible frame; without it the chassis is rigid and has no stresses."""
     ground_contact: GroundContact | None = None

@@ -17,16 +17,16 @@ from mbs.vehicle.shapes.loft import interpolated, loft
 from mbs.vehicle.shapes.looks import ACCENT, DARK, Looks, Paint
 
 GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
-LAMP: Paint = {"material": "glass", "color": "#eef4ff"}
+LAMP: Paint = {"material": "plastic", "color": "#eef4ff"}
 TAIL_LAMP: Paint = {"material": "plastic", "color": "#a3101c"}
 Detail: TypeAlias = "tuple[float, float, float, tuple[float, float, float], Paint]"
 """Place over the length, the half width and the height; size, m; looks."""
 LAMPS: tuple[Detail, ...] = (
-    (0.972, 0.62, 0.41, (0.10, 0.30, 0.09), LAMP),
+    (0.987, 0.56, 0.335, (0.10, 0.28, 0.09), LAMP),
     (0.012, 0.70, 0.53, (0.06, 0.22, 0.16), TAIL_LAMP),
 )
 TRIM: tuple[Detail, ...] = (
-    (0.985, 0.30, 0.24, (0.08, 0.50, 0.10), DARK),
+    (0.993, 0.30, 0.235, (0.08, 0.50, 0.10), DARK),
     (0.660, 1.06, 0.66, (0.10, 0.16, 0.10), ACCENT),
 )
 # place from the rear end over the length; height of the deck over that of the car, half width over the largest
@@ -189,19 +189,17 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     Parameters
     ----------
     clear : bool
-        Whether one sees through it, onto the frame in it.
+        Whether pages can make it see-through, onto the frame in it.
     """
     car, chassis, m = looks.car, looks.chassis, looks.m
     shell = BodyShell(car)
-    panels, glass = (ACCENT | {"opacity": 0.30}, GLASS | {"opacity": 0.18}) if clear else (ACCENT, GLASS)
-    m.mesh_shape(chassis, *shell.lower_body(), name="body", **panels)
-    m.mesh_shape(chassis, *shell.windows(), name="windows", **glass)
-    m.mesh_shape(chassis, *shell.panel(), name="roof", **panels)
+    m.mesh_shape(chassis, *shell.lower_body(), name="body", cover=clear, **ACCENT)
+    m.mesh_shape(chassis, *shell.windows(), name="windows", cover=clear, **GLASS)
+    m.mesh_shape(chassis, *shell.panel(), name="roof", cover=clear, **ACCENT)
     half = 0.5 * car.vehicle.width
-    if not clear:
-        x0, x1 = (float(shell.place(share)) for share in (0.03, 0.96))
-        floor = SILL * car.front.tyre.radius + 0.03
-        m.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
+    x0, x1 = (float(shell.place(share)) for share in (0.03, 0.96))
+    floor = SILL * car.front.tyre.radius + 0.03
+    m.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
     lower, upper = shell.edge(
         np.concatenate([np.linspace(PANEL[1], ROOF[-1][0], 7), [PILLAR], np.linspace(0.04, PANEL[0], 7)])
     )
@@ -211,7 +209,7 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
         lines = [upper[:7] * mirror, np.array([lower[7], upper[7]]) * mirror, upper[8:] * mirror, rail * mirror]
         for line in lines:
             looks.tube(*((chassis, point) for point in line), radius=0.019 / looks.scale, **ACCENT)
-        _details(looks, shell, side, LAMPS if clear else (*LAMPS, *TRIM))
+        _details(looks, shell, side, (*LAMPS, *TRIM))
 
 
 def _details(looks: Looks, shell: BodyShell, side: float, details: Sequence[Detail]) -> None:

@@ -105,7 +105,7 @@ export function gamepadPanel(gamepad, inputs) {
 
 /**
  * What the pictures show beside shapes.
- * @param {{arrows?: boolean, stress?: boolean, deformation?: boolean}[]} has - What each picture can.
+ * @param {{arrows?: boolean, stress?: boolean, deformation?: boolean, closed?: boolean}[]} has - What each picture can.
  * @param {(wishes: Data) => void} set - Told what a person wants, as `SceneView.set` has it.
  * @param {string} [quality] - That is chosen at first.
  * @returns {HTMLElement}
@@ -115,9 +115,9 @@ export function picturePanel(has, set, quality = "auto") {
   const levels = ["auto", "high", "low", "draft"].map((level) => [level, `quality ${level}`]);
   /** @type {HTMLElement[]} */
   const lines = [select("quality", "how finely the picture is drawn", levels, (wish) => set({ quality: wish }), quality)];
-  for (const [what, words] of [["arrows", "forces as arrows"], ["stress", "colours of stress"]]) {
+  for (const [what, words] of [["arrows", "forces as arrows"], ["stress", "colours of stress"], ["closed", "body closed (X)"]]) {
     if (!can(what)) continue;
-    const box = el("input", { type: "checkbox", checked: what === "stress", data: `show ${what}` });
+    const box = el("input", { type: "checkbox", checked: what !== "arrows", data: `show ${what}` });
     box.addEventListener("change", () => set({ [what]: box.checked }));
     lines.push(el("label.a3-control", {}, box, words));
     set({ [what]: box.checked });

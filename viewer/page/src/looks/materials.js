@@ -5,9 +5,13 @@ import looks from "../../../looks.json" with { type: "json" };
 /** @type {Object<string, Data>} */
 const KINDS = looks.materials;
 
+/** Opacity of open covers: of panels and of glass. */
+const OPEN = [0.3, 0.18];
+
 /** Makes and keeps the materials of a scene. */
 export class Materials {
   #made = new Map();
+  #covers = new Map();
 
   /** @param {{ghost?: boolean, tint?: string, opacity?: number}} [options] a ghost is see-through and of one tint */
   constructor(options = {}) {
@@ -15,19 +19,19 @@ export class Materials {
   }
 
   /**
-   * @param {{material?: string, color?: string, opacity?: number}} shape
+   * @param {{material?: string, color?: string, opacity?: number, cover?: boolean}} shape a cover hides what is within
    * @param {string} [other] kind of material where the shape names none
    * @param {{double?: boolean}} [sides] seen from both sides
    */
   of(shape, other = "plastic", { double = false } = {}) {
     const kind = KINDS[shape.material] ? shape.material : other;
-    return this.named(kind, shape.color, shape.opacity, double);
+    return this.named(kind, shape.color, shape.opacity, double, shape.cover);
   }
 
-  /** @param {string} kind @param {string} [color] @param {number} [opacity] @param {boolean} [double] */
-  named(kind, color, opacity, double = false) {
+  /** @param {string} kind @param {string} [color] @param {number} [opacity] @param {boolean} [double] @param {boolean} [cover] */
+  named(kind, color, opacity, double = false, cover = false) {
     const { ghost, tint } = this.options;
-    const key = [kind, color, opacity, double].join("|");
+    const key = [kind, color, opacity, double, cover].join("|");
     if (!this.#made.has(key)) {
       const { opacity: own = 1, clearcoat, clearcoatRoughness, ...look } = KINDS[kind];
       if (ghost) Object.assign(look, { color: tint ?? "#3f7fd0", metalness: 0, roughness: 0.9 });
@@ -36,10 +40,25 @@ export class Materials {
       const coated = clearcoat && !ghost;
       const material = coated ? new THREE.MeshPhysicalMaterial({ ...look, clearcoat, clearcoatRoughness }) : new THREE.MeshStandardMaterial(look);
       material.side = double ? THREE.DoubleSide : THREE.FrontSide;
+      if (cover) this.#covers.set(material, { solid, open: kind === "glass" ? OPEN[1] : OPEN[0] });
       if (solid < 1) Object.assign(material, { transparent: true, opacity: solid, depthWrite: false });
       this.#made.set(key, material);
     }
     return this.#made.get(key);
+  }
+
+  /** Whether there is anything that hides what is within. */
+  get covered() {
+    return this.#covers.size > 0;
+  }
+
+  /** Covers are solid, or seen through. @param {boolean} closed */
+  cover(closed) {
+    for (const [material, { solid, open }] of this.#covers) {
+      const opacity = closed ? solid : open;
+      Object.assign(material, { opacity, transparent: opacity < 1, depthWrite: opacity === 1, needsUpdate: true });
+      delete material.userData.opacity;
+    }
   }
 
   /** Through glass one sees better from within. @param {boolean} within */
@@ -54,5 +73,6 @@ export class Materials {
   dispose() {
     for (const material of this.#made.values()) material.dispose();
     this.#made.clear();
+    this.#covers.clear();
   }
 }

@@ -27,6 +27,7 @@ export function playerKeys(player, signal) {
     f: () => player.fullScreen(),
     l: () => player.loop(!clock.loop),
     p: () => player.has.path && player.set({ path: !player.look.path }),
+    x: () => player.has.closed && player.set({ closed: !player.look.closed }),
     s: () => player.side(!player.sideOpen),
     Escape: () => player.settings.toggle(false),
   };

@@ -52,6 +52,7 @@ export class Player {
       stress: this.options.stress ?? true,
       deformation: this.options.deformation ?? 1,
       path: this.options.path ?? true,
+      closed: this.options.closed ?? true,
     };
     this.samplers = runs.map((run) => new Sampler(run));
     this.themeName = this.options.theme ?? "auto";
@@ -145,7 +146,7 @@ export class Player {
     return "";
   }
 
-  /** @param {{arrows?: boolean, arrowScale?: number, stress?: boolean, deformation?: number, path?: boolean}} look */
+  /** @param {{arrows?: boolean, arrowScale?: number, stress?: boolean, deformation?: number, path?: boolean, closed?: boolean}} look */
   set(look) {
     Object.assign(this.look, look);
     this.view?.set?.(look);

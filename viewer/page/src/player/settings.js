@@ -54,6 +54,7 @@ export class Settings {
       factor("length of the arrows", "arrowScale", 0.1, 10);
     }
     if (player.has.path) this.shown.path = check("path over the ground (p)", look.path, (path) => player.set({ path }));
+    if (player.has.closed) this.shown.closed = check("body closed (x)", look.closed, (closed) => player.set({ closed }));
     if (player.has.stress) this.shown.stress = check("colours of the stress", look.stress, (stress) => player.set({ stress }));
     if (player.has.deformation) {
       const deform = factor("deformation", "deformation", 1, 1000);

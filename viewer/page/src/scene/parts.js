@@ -40,6 +40,7 @@ export class Parts {
     this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []));
     this.group.add(this.arrows.group);
     for (const carrier of this.carriers.values()) join(carrier);
+    this.close(true);
     for (const { name, why } of scene.missing ?? []) this.tell(`'${name}' is not drawn: ${why.replace(/\.$/, "")}.`);
   }
 
@@ -100,6 +101,13 @@ export class Parts {
       stand(lookup === null ? null : roadUnder(tyre, lookup, this.frames.pose(frame)));
     }
     this.arrows.update(lookup, this.frames, this.tell);
+  }
+
+  /** Covers hide what is within, the flexible bodies too. @param {boolean} closed */
+  close(closed) {
+    this.closed = closed && this.materials.covered;
+    this.materials.cover(closed);
+    for (const { object } of this.flexible) object.visible = !this.closed;
   }
 
   /** Puts everything to its place relative to the origin of the picture. @param {number[]} origin earth position */

@@ -122,13 +122,14 @@ export class SceneView {
     this.cameras?.stand(way);
   }
 
-  /** What a scene has that `set` can change. @returns {{arrows: boolean, stress: boolean, deformation: boolean}} */
+  /** What a scene has that `set` can change. @returns {{arrows: boolean, stress: boolean, deformation: boolean, closed: boolean}} */
   get has() {
     const { arrows, flexible } = this.parts;
     return {
       arrows: arrows.list.length > 0,
       stress: flexible.some(({ bending }) => bending.stress !== null),
       deformation: flexible.length > 0,
+      closed: this.parts.materials.covered,
     };
   }
 
@@ -150,16 +151,18 @@ export class SceneView {
    * @param {boolean} [wish.stress] colours of stress
    * @param {number} [wish.stressMost] the stress at the end of the colours, in its unit; 0: the largest so far
    * @param {number} [wish.deformation] displacements of flexible bodies are drawn so many times
+   * @param {boolean} [wish.closed] bodies hide what is within
    * @param {boolean} [wish.words] sentences over the picture
    * @param {"high" | "low" | "draft" | "auto"} [wish.quality]
    */
-  set({ arrows, arrowScale, stress, stressMost, deformation, words, quality }) {
+  set({ arrows, arrowScale, stress, stressMost, deformation, closed, words, quality }) {
     const { parts } = this;
     if (arrows !== undefined) parts.arrows.shown = new Set(arrows === true ? this.arrowNames : arrows || []);
     if (arrowScale !== undefined) parts.arrows.factor = arrowScale;
     if (stress !== undefined) parts.bending.coloured = stress;
     if (stressMost !== undefined) parts.bending.most = stressMost;
     if (deformation !== undefined) for (const { bending } of [parts, ...this.ghosts]) bending.factor = deformation;
+    if (closed !== undefined) for (const each of [parts, ...this.ghosts]) each.close(closed);
     if (words !== undefined) this.notes.words(words);
     if (quality !== undefined) this.look?.choose(quality);
     this.update(this.lookup);
@@ -172,7 +175,7 @@ export class SceneView {
     const { unit: name, limit, limitName } = stressed[0]?.bending ?? {};
     const known = stressed.some((body) => body.stressed);
     const state = { known, most: bending.most || 1, unit: name, limit, limitName, factor: bending.factor };
-    this.legends.put("stress", stressed.length > 0 && bending.coloured ? state : null, stressLegend);
+    this.legends.put("stress", stressed.length > 0 && bending.coloured && !this.parts.closed ? state : null, stressLegend);
     const units = [...new Set(arrows.now.map((force) => force.unit))];
     const scales = units.map((of) => ({ unit: of, ...arrows.scaleOf(of), colour: arrows.colourOf(of) }));
     this.legends.put("arrows", scales.length > 0 ? scales : null, arrowLegend);

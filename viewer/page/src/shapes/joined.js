@@ -11,7 +11,7 @@ export function join(carrier) {
   const toCarrier = carrier.matrixWorld.clone().invert();
   const kinds = new Map();
   carrier.traverse((part) => {
-    if (!(part instanceof THREE.Mesh) || part.userData.alone || part.material.transparent) return;
+    if (!(part instanceof THREE.Mesh) || part.userData.alone || part.userData.cover || part.material.transparent) return;
     const key = `${part.material.uuid} ${part.castShadow} ${part.receiveShadow}`;
     kinds.set(key, [...(kinds.get(key) ?? []), part]);
   });

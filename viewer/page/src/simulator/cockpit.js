@@ -193,6 +193,7 @@ export class Cockpit {
       help: () => this.help.toggle(),
       levers: () => this._root.classList.toggle("a3-touching"),
       arrows: () => this._flip("arrows", "This car has no forces to be drawn."),
+      body: () => this._flip("closed", "This car has no body that could be opened."),
       stress: () => this._flip("stress", "This car computes no stress; fidelities above rigid do."),
     };
   }

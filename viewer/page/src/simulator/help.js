@@ -15,6 +15,7 @@ const KEYS = [
   ["U", "set upright"],
   ["Home", "reset: begin again"],
   ["F, B", "forces as arrows, colours of stress (where the car has them)"],
+  ["X", "body closed, or see-through onto its frame (where the car has one)"],
   ["M", "sound on or off"],
   ["T", "levers for fingers"],
   ["G", "panels: devices, report, picture"],

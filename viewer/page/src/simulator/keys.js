@@ -11,7 +11,7 @@ import { KEYS as CAMERAS } from "./views.js";
 export function simulatorKeys(hands, act, speed, signal) {
   const acts = {
     p: act.toggle, ".": act.step, Home: act.reset, u: act.upright, l: act.slow, c: act.nextCamera, m: act.mute,
-    f: act.arrows, b: act.stress, t: act.levers, g: act.panels, h: act.help, "/": act.help, "?": act.help,
+    f: act.arrows, b: act.stress, x: act.body, t: act.levers, g: act.panels, h: act.help, "/": act.help, "?": act.help,
     Backspace: ({ shiftKey }) => act.rewind(REWINDS[shiftKey ? 1 : 0]),
     ...Object.fromEntries(Object.entries(CAMERAS).map(([code, name]) => [code, () => act.camera(name)])),
   }; // prettier-ignore

@@ -38,7 +38,7 @@ export class Panels {
     this._devices.show(devices);
   }
 
-  /** A switch of the picture, as if it was clicked at. @param {"arrows" | "stress"} what @returns {boolean} Whether there is one. */
+  /** A switch of the picture, as if it was clicked at. @param {"arrows" | "stress" | "closed"} what @returns {boolean} Whether there is one. */
   flip(what) {
     /** @type {HTMLElement | null | undefined} */
     const box = this.picture?.querySelector(`[data-a3="show ${what}"]`);

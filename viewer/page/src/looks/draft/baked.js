@@ -10,8 +10,8 @@ const FINEST = 1.5e-3;
 /** Cameras do not see this layer. */
 const UNSEEN = 1;
 
-/** Whether a mesh is drawn by itself: see-through, or of a form that changes. @param {THREE.Mesh} mesh */
-const stays = (mesh) => /** @type {THREE.Material} */ (mesh.material).transparent || mesh.userData.alone;
+/** Whether a mesh is drawn by itself: see-through, or of a form or a look that changes. @param {THREE.Mesh} mesh */
+const stays = (mesh) => /** @type {THREE.Material} */ (mesh.material).transparent || mesh.userData.alone || mesh.userData.cover;
 
 /** Numbers of a mesh in the axes of a group. @param {THREE.Mesh} mesh @param {THREE.Matrix4} toGroup */
 function surfaceOf(mesh, toGroup) {
@@ -98,7 +98,11 @@ export function baked(parts, light, extent) {
     /** After the parts have their places. */
     follow() {
       parts.group.updateMatrixWorld(true);
-      for (const [own, twin] of twins) twin.opacity = own.opacity;
+      for (const [own, twin] of twins) {
+        const { opacity, transparent, depthWrite } = own;
+        if (twin.transparent !== transparent) twin.needsUpdate = true;
+        Object.assign(twin, { opacity, transparent, depthWrite });
+      }
       for (const { id, object } of drawn) {
         let shown = true;
         for (let at = object; at !== null && at !== parts.group; at = at.parent) shown &&= at.visible;
