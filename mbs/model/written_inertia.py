@@ -29,6 +29,8 @@ def new_written_inertia(
         raise ModelError(f"The {what} needs a spatial model.")
     m = positive(mass, f"The mass of {what}")
     tensor = inertia_matrix(inertia, 3, f"the inertia of {what}")
+    if not isinstance(axes, (list, tuple)) or len(axes) != 3 or not all(isinstance(a, AffineVector) for a in axes):
+        raise ModelError(f"The axes of {what} are {shown(axes)}; they must be three vectors of a body.")
     x, y, z = (model.expressions(axis, f"The {what}") for axis in axes)
     (xx, xy, xz), (_, yy, yz), (_, _, zz) = tensor.tolist()
     place = vector(com, 3, f"the centre of mass of {what}").tolist()

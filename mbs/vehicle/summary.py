@@ -76,9 +76,11 @@ def parameter_table(car: Car) -> str:
     values = car.values()
     for section in sections_of(car):
         for field in type(section).model_fields:
-            q, path = section.quantity(field), section.key(field)
-            if q is not None and path in values:
-                when = "while driving" if q.change == "tunable" else "before the start"
+            q = section.quantity(field)
+            if q is None or getattr(section, field) is None:
+                continue
+            when = "while driving" if q.change == "tunable" else "before the start"
+            for path in section.numbers(field) if q.change is not None else ():
                 rows.append((path, f"{values[path]:g}", q.unit, f"{q.least:g}", f"{q.high:g}", when))
     widths = [max(len(row[k]) for row in rows) for k in range(5)]
     return "\n".join("  ".join([*(row[k].ljust(widths[k]) for k in range(5)), row[5]]) for row in rows)

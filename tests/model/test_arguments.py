@@ -147,6 +147,14 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
         "com": X,
         "inertia": (1.0, 1.0, 1.0),
     },
+    "written_inertia": lambda b: {
+        "name": "new",
+        "point": b.arm.point(X),
+        "axes": [b.arm.vector(axis) for axis in np.eye(3)],
+        "mass": 1.0,
+        "com": X,
+        "inertia": (1.0, 1.0, 1.0),
+    },
     "tabled_number": lambda b: {
         "name": "new",
         "parameters": [b.travel],

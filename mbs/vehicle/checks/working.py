@@ -59,6 +59,7 @@ def working_ranges(car: CarContent) -> Ranges:
         _put(found, car.brakes, "torque", *(0.5 * part * torque for part in BRAKED))  # that of one side
         _put(found, car.drive, "max_torque", *(part * torque / car.drive.torque_ratio for part in DRIVEN))
         _of_air(found, car.aerodynamics, loads)
+        _put(found, car.chassis, "mass", 0.0, car.chassis.mass + more / GRAVITY)
         for payload in car.payload.values():
             _put(found, payload, "mass", 0.0, payload.mass + more / GRAVITY)
     return found
