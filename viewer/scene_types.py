@@ -305,10 +305,21 @@ class Tyre(Part):
     forces: Names
 
 
+class Slips(Part):
+    """Columns that marks, dust and sound of a tyre read, where they are not called as the tyre is."""
+
+    slip: Name | None = None
+    slip_angle: Name | None = None
+    omega: Name | None = None
+    speed: Name | None = None
+    """Of the vehicle."""
+
+
 class TyreArrow(Arrow):
     """The force of the road on a wheel."""
 
     tyre: Tyre
+    slips: Slips | None = None
 
 
 def _arrow_kind(value: Any) -> str | None:

@@ -41,8 +41,21 @@ def with_other_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]) 
         for key in ("shapes", "arrows", "flexible")
     } | {"roads": scene["roads"]}
     called = {key: [_called(part, named) for part in parts] for key, parts in kept.items()}
+    called["arrows"] = [
+        arrow | _slips(ours, named) for arrow, ours in zip(called["arrows"], kept["arrows"], strict=True)
+    ]
     focus = "" if scene["focus"] in lost else scene["focus"]
     return {**scene, **called, "frames": made, "missing": missing, "focus": focus}
+
+
+def _slips(arrow: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
+    """What of a tyre has another name: its slips and speeds, by which marks, dust and sound go; SI units only."""
+    if "tyre" not in arrow:
+        return {}
+    wheel = arrow["tyre"]["contact"][0].rpartition(".")[0]
+    ours = {key: f"{wheel}.{key}" for key in ("slip", "slip_angle", "omega")} | {"speed": "speed"}
+    slips = {key: named[name].name for key, name in ours.items() if name in named and named[name].scale == 1.0}
+    return {"slips": slips} if slips else {}
 
 
 def _called(part: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:

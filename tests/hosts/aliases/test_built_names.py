@@ -14,6 +14,7 @@ from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import find_aliases
 from hosts.fmu.built_fmu import build_fmu
 from hosts.fmu.fmu import described
+from hosts.fmu.geometry import scene_of
 from hosts.fmu.variables import Variables
 
 CAR = ("--car", "prototype", "--fidelity", "0")
@@ -49,3 +50,19 @@ def test_a_car_under_other_names_is_driven_through_its_alias_file(names: str, ma
     assert np.ptp(one["chassis.yaw"]) > 0.3
     for name in NAMES:
         assert two[name] == pytest.approx(one[name], rel=1e-7, abs=1e-9 * np.max(np.abs(one[name]))), name
+
+
+@pytest.mark.slow
+def test_marks_of_tyres_know_the_slips_of_a_car_under_other_names(made_once: Made) -> None:
+    folder = made_once("rigid_carmaker", lambda folder: build_fmu("a car", (*CAR, "--names", "carmaker"), folder))
+    theirs = next(folder.glob("*.fmu"))
+    names = Variables(described(theirs)).names
+    scene = scene_of(theirs)
+    assert scene is not None
+    tyres = [arrow for arrow in scene["arrows"] if "tyre" in arrow]
+    assert len(tyres) == 4
+    for arrow in tyres:
+        wheel = arrow["name"][-2:]
+        assert arrow["slips"]["slip"] == f"Car.LongSlip{wheel}"
+        assert arrow["slips"]["slip_angle"] == f"Car.SlipAngle{wheel}"
+        assert set(arrow["slips"].values()) <= set(names)

@@ -160,8 +160,8 @@ const wheelShapes = ["RR", "FL"].map((wheel) => ({ kind: "wheel", frame: `wheel 
 
 test("a tyre under other names has its own wheel, or none, and not the first", () => {
   const arrows = ["FL", "RR"].map((wheel) => ({ tyre: renamed(wheel) }));
-  const seen = tyresOf({ arrows, shapes: wheelShapes }).map(({ prefix, shape }) => [prefix, shape?.frame]);
-  assert.deepEqual(seen, [["wheel_FL", "wheel FL"], ["wheel_RR", "wheel RR"]]); // prettier-ignore
+  const seen = tyresOf({ arrows, shapes: wheelShapes }).map(({ slips, shape }) => [slips.slip, shape?.frame]);
+  assert.deepEqual(seen, [["wheel_FL.slip", "wheel FL"], ["wheel_RR.slip", "wheel RR"]]); // prettier-ignore
   const strange = { ...tyre("Tyre[1]") };
   assert.equal(tyresOf({ arrows: [{ tyre: strange }], shapes: wheelShapes })[0].shape, undefined);
   assert.equal(tyresOf({ arrows: [{ tyre: strange }], shapes: wheelShapes.slice(1) })[0].shape, wheelShapes[1]);
@@ -172,6 +172,21 @@ test("slips that are not there are told", () => {
   assert.match(new Wheels(scene, { columns: ["Car.LongSlipFL"] }).problem, /no numbers wheel_FL.slip, wheel_FL.slip_angle, so these tyres/);
   assert.equal(new Wheels(scene, { columns: ["wheel_FL.slip", "wheel_FL.slip_angle"] }).problem, "");
   assert.equal(new Wheels(scene).problem, "");
+});
+
+test("slips under other names are read where the scene has their names", () => {
+  const slips = { slip: "Car.LongSlipFL", slip_angle: "Car.SlipAngleFL", omega: "Car.WheelSpd_FL", speed: "Car.v" };
+  const wheels = new Wheels({ arrows: [{ tyre: renamed("FL"), slips }], shapes: wheelShapes }, { columns: Object.values(slips) });
+  assert.equal(wheels.problem, "");
+  const values = { "Car.LongSlipFL": -0.5, "Car.SlipAngleFL": 0.02, "Car.WheelSpd_FL": 10, "Car.v": 12, "Car.FzFL": 2000 };
+  /** @type {Record<string, number>} */
+  const level = {};
+  const { list } = wheels;
+  list[0].tyre.normal.forEach((name, k) => (level[name] = [0, 0, 1][k]));
+  list[0].tyre.axis.forEach((name, k) => (level[name] = [0, 1, 0][k]));
+  const [found] = wheels.contacts((name) => values[name] ?? level[name] ?? 0);
+  assert.deepEqual([found.touching, found.slip, found.speed], [true, -0.5, 12]);
+  assert.ok(found.use > 1, "it leaves a mark");
 });
 
 test("the pitch of an engine is that of its firings, and it idles", () => {

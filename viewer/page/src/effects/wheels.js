@@ -34,8 +34,8 @@ export class Wheels {
   constructor(scene, options = {}) {
     this.limits = { ...LIMITS, ...options.limits };
     this.surface = options.surface ?? surfaceOf(scene);
-    this.list = tyresOf(scene).map(({ tyre, prefix, shape }) => {
-      return { tyre, prefix, frame: shape?.frame, width: shape?.width ?? 0.18, radius: shape?.radius ?? 0.3 };
+    this.list = tyresOf(scene).map(({ tyre, slips, shape }) => {
+      return { tyre, slips, frame: shape?.frame, width: shape?.width ?? 0.18, radius: shape?.radius ?? 0.3 };
     });
     /** One sentence where a scene has no tyres, or their slips are not among the columns, else empty. */
     this.problem = this.list.length > 0 ? this.#lacking(options.columns) : "The scene has no tyres, so there are no marks and no dust.";
@@ -43,27 +43,27 @@ export class Wheels {
 
   /** @param {string[] | undefined} columns */
   #lacking(columns) {
-    const lacks = this.list.flatMap(({ prefix }) => ["slip", "slip_angle"].map((end) => `${prefix}.${end}`).filter((name) => !columns?.includes(name)));
+    const lacks = this.list.flatMap(({ slips: { slip, slip_angle: angle } }) => [slip, angle].filter((name) => !columns?.includes(name)));
     if (columns === undefined || lacks.length === 0) return "";
     return `There are no numbers ${[...new Set(lacks)].join(", ")}, so these tyres leave no marks, throw up no dust and are not heard.`;
   }
 
   /** @param {(name: string) => number | undefined} lookup @returns {Contact[]} one a wheel */
   contacts(lookup) {
-    const speed = Math.abs(lookup("speed") ?? 0);
+    const speed = Math.abs(lookup(this.list[0]?.slips.speed) ?? 0);
     return this.list.map((wheel) => this.#contact(wheel, lookup, speed));
   }
 
-  #contact({ tyre, prefix, width, radius }, lookup, speed) {
+  #contact({ tyre, slips, width, radius }, lookup, speed) {
     const [at, normal, axis] = [tyre.contact, tyre.normal, tyre.axis].map((names) => names.map((name) => lookup(name)));
     const load = lookup(tyre.forces[2]);
-    const [slip, angle] = [lookup(`${prefix}.slip`), lookup(`${prefix}.slip_angle`)];
+    const [slip, angle] = [lookup(slips.slip), lookup(slips.slip_angle)];
     const none = { touching: false, at, normal, side: [0, 1, 0], load: 0, use: 0, slip: 0, sliding: 0, speed: 0, surface: "asphalt", width, radius };
     if (!finite([...at, ...normal, ...axis, load, slip, angle]) || load < LIGHT) return none;
     const ahead = unit(cross(axis, normal));
     const side = ahead && unit(cross(normal, ahead));
     if (!side) return none;
-    const rolling = Math.abs(lookup(`${prefix}.omega`) ?? 0) * radius;
+    const rolling = Math.abs(lookup(slips.omega) ?? 0) * radius;
     const fastest = Math.max(speed, rolling);
     const sliding = Math.hypot(slip * fastest, Math.sin(angle) * speed);
     return {

@@ -3,20 +3,21 @@ import { dot, finite, rotate, subtract, transpose, unit } from "./math.js";
 
 /**
  * @param {Data} scene
- * @returns {{tyre: Data, prefix: string, shape: Data | undefined}[]} of each arrow of a tyre its columns, what their names begin
- *   with, and the wheel of that name, else the only one; undefined where no wheel of several has it
+ * @returns {{tyre: Data, slips: Record<string, string>, shape: Data | undefined}[]} of each arrow of a tyre its columns, those of its
+ *   slips and speeds, and the wheel of that name, else the only one; undefined where no wheel of several has it
  */
 export function tyresOf(scene) {
   const shapes = (scene.shapes ?? []).filter(({ kind }) => kind === "wheel");
   const bare = (name) => name.replace(/\W|_/g, "");
   return (scene.arrows ?? [])
     .filter(({ tyre }) => tyre !== undefined)
-    .map(({ tyre }) => {
+    .map(({ tyre, slips }) => {
       // Under the names of another program columns of one tyre can begin differently.
       const prefixes = [tyre.forces, tyre.contact].map(([name]) => name.replace(/\.[^.]*$/, ""));
       const shapeOf = (prefix) => shapes.find(({ frame }) => bare(frame) === bare(prefix));
       const prefix = prefixes.find(shapeOf) ?? prefixes[0];
-      return { tyre, prefix, shape: shapeOf(prefix) ?? (shapes.length === 1 ? shapes[0] : undefined) };
+      const usual = { slip: `${prefix}.slip`, slip_angle: `${prefix}.slip_angle`, omega: `${prefix}.omega`, speed: "speed" };
+      return { tyre, slips: { ...usual, ...slips }, shape: shapeOf(prefix) ?? (shapes.length === 1 ? shapes[0] : undefined) };
     });
 }
 

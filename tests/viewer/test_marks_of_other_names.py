@@ -1,0 +1,51 @@
+"""Tyre marks of a run whose columns have the names of another program."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hosts.fmu.built_fmu import build_fmu
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.geometry import scene_of
+from viewer.page_file import write_page
+from viewer.recording import Recording
+
+STEP, STEPS = 0.002, 600
+
+
+def braked(fmu: Path, names: str) -> Recording:
+    """Full braking from 20 m/s."""
+    with Fmu(fmu) as car:
+        inputs, outputs = car.names("input"), car.names("output")
+        car.initialise({"initial.speed": 20.0})
+        held = car.start_values(inputs)
+        held[inputs.index({"carmaker": "DM.Brake"}.get(names, "brake"))] = 1.0
+        car.setter(inputs)(held.tolist())
+        read = car.getter(outputs)
+        rows = [list(read())]
+        for k in range(STEPS):
+            car.step(STEP * k, STEP)
+            rows.append(list(read()))
+    values = np.array(rows)
+    columns = {name: values[:, k] for k, name in enumerate(outputs)}
+    return Recording(scene_of(fmu), STEP * np.arange(STEPS + 1), columns, name=names)
+
+
+@pytest.mark.slow
+def test_a_run_with_the_names_of_carmaker_leaves_the_marks_of_ours(chromium: Any, tmp_path: Path) -> None:
+    counts = []
+    for names in ("", "carmaker"):
+        folder = tmp_path / (names or "ours")
+        build_fmu("a car", ("--car", "prototype", "--fidelity", "0", *(("--names", names) if names else ())), folder)
+        write_page(folder / "page.html", braked(next(folder.glob("*.fmu")), names or "ours"), options={"time": 1.0})
+        page = chromium.new_page(viewport={"width": 320, "height": 180})
+        page.goto((folder / "page.html").as_uri())
+        page.evaluate("async () => { await player.ready; }")
+        assert page.evaluate("player.player.drawnRuns[0].traces.marks.problem") == ""
+        counts.append(page.evaluate("player.player.drawnRuns[0].traces.marks.count"))
+        page.close()
+    assert counts[0] == counts[1] > 50
