@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from dataclasses import replace as replace_of
 from pathlib import Path
 from typing import Any
 
@@ -19,10 +20,12 @@ from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.pages import DOCS, replace, table
 from benchmarks.shared.tables import print_table
+from benchmarks.validation import two_track
+from benchmarks.validation.bank import bank_of
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
 from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within
-from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, read_drive
+from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, read_drive
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import LATERAL, YAW, Judged, judge
 from benchmarks.validation.published import full_throttle, published_rows
@@ -76,7 +79,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--no-parts", action="store_true", help="without the cars that lack a part")
     options = parser.parse_args(arguments)
     drive = read_drive(options.file, options.log_aliases)
-    simple = [fit(model, BODY, drive) for model in watched(MODELS)]
+    drive = _banked(drive, FITTED)
+    models = [m for m in (*MODELS, *two_track.MODELS) if drive.bank.size or not m.bank]
+    simple = [fit(model, BODY, drive) for model in watched(models)]
 
     def judged(settings: dict[str, float], brief: bool) -> Judged:
         return judge(options.car, options.file, options.car_aliases, {"step_size": STEP} | settings, brief)
@@ -87,7 +92,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     lacking = [_of_car(name, part, 0, drive) for name, part in parts.items()]
     best = min((f for f in simple if np.isfinite(f.lateral)), key=lambda f: f.windows)
     over = _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive)
-    swapped = fit(best.model, BODY, drive, JUDGED, FITTED)
+    swapped = fit(best.model, BODY, _banked(drive, JUDGED), JUDGED, FITTED)
     folds = _folds(best, swapped)
     others = published_rows(*full_throttle(options.car, {"step_size": STEP})) if options.published else []
     print_table(rows, COLUMNS)
@@ -109,6 +114,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         chosen = simple[CHART_MODEL]
         draw(drive, car.time, car.path, chosen.path, chosen.model.name, options.chart)
     return 0
+
+
+def _banked(drive: Drive, seconds: Spans) -> Drive:
+    """With the bank of the road from the accelerometer of some seconds; as it is where that cannot tell it."""
+    try:
+        return replace_of(drive, bank=bank_of(drive, seconds).by_place)
+    except ValueError as error:
+        print(f"note: no bank of the road, and no model that knows it. {error}")
+        return drive
 
 
 def _of_bicycle(f: Fitted, drive: Drive) -> dict[str, Any]:

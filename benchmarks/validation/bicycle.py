@@ -68,11 +68,23 @@ class Model:
     forces : callable or None
         Lateral forces of both axles over the mass from slip angles (front, rear), ax and the numbers; None: the yaw
         rate follows the steering angle at once, by ``understeer``.
+    simulate : callable, optional
+        In place of the `simulate` of a bicycle.
+    bank, open : bool
+        Whether it knows the bank of the road; whether its differential is open. Of a model with its own `simulate`.
     """
 
     name: str
     unknowns: tuple[Unknown, ...]
     forces: Callable[[Body, Array, Array, Array, Mapping[str, Array]], tuple[Array, Array]] | None = None
+    simulate: Callable[..., tuple[Array, Array]] | None = None
+    bank: bool = False
+    open: bool = False
+
+    @property
+    def moves_across(self) -> bool:
+        """Whether it has a lateral velocity."""
+        return self.forces is not None or self.simulate is not None
 
 
 def _loads(body: Body, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
@@ -100,29 +112,30 @@ def _saturating(curve: Callable[[Array], Array]) -> Callable[..., tuple[Array, A
 
 
 def _degressive(body: Body, af: Array, ar: Array, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
-    """Forces along `_root` where stiffness and grip go with less than the load, at the height of the car file."""
+    """Forces along `root` where stiffness and grip go with less than the load, at the height of the car file."""
     found = []
     still, moved = _loads(body, np.float64(0.0), {}), _loads(body, ax, {"height": np.float64(HEIGHT)})
     for axle, slip, at_rest, load in zip(("front", "rear"), (af, ar), still, moved, strict=True):
         share = load / at_rest
         most = p[f"{axle} grip"] * (1.0 - p["grip lost by load"] * (share - 1.0)) * load
         stiffness = p[f"{axle} stiffness"] * share ** p["exponent of stiffness"]
-        found.append(-most * _root(stiffness * slip / most))
+        found.append(-most * root(stiffness * slip / most))
     return found[0], found[1]
 
 
-def _root(x: Array) -> Array:
+def root(x: Array) -> Array:
+    """A curve from slope one to one, that of the slip over the force it reaches."""
     return x / np.sqrt(1.0 + x * x)
 
 
 _UNDERSTEER = Unknown("understeer", "s2/m", -0.01, 0.02)
-_STIFFNESS = Unknown("front stiffness", "N/rad", 2e4, 6e5), Unknown("rear stiffness", "N/rad", 2e4, 2e6)
+STIFFNESS = Unknown("front stiffness", "N/rad", 2e4, 6e5), Unknown("rear stiffness", "N/rad", 2e4, 2e6)
 _LINEAR = Unknown("front stiffness", "N/rad", 2e4, 3e5), Unknown("rear stiffness", "N/rad", 2e4, 4e5)
 _GRIP = (Unknown("grip", "1", 0.8, 2.5),)
-_GRIPS = Unknown("front grip", "1", 0.8, 2.5), Unknown("rear grip", "1", 0.8, 2.5)
+GRIPS = Unknown("front grip", "1", 0.8, 2.5), Unknown("rear grip", "1", 0.8, 2.5)
 _OFFSET = Unknown("steering offset", "rad", -0.02, 0.02)
 _HEIGHT = Unknown("height", "m", 0.0, 1.2)
-_INERTIA = Unknown("yaw inertia factor", "1", 0.3, 2.0)
+INERTIA = Unknown("yaw inertia factor", "1", 0.3, 2.0)
 _PLACE = Unknown("centre of mass to the left", "m", -0.2, 0.2)
 _BY_LOAD = Unknown("exponent of stiffness", "1", 0.0, 1.0), Unknown("grip lost by load", "1", 0.0, 0.8)
 _FACTOR = Unknown("steering factor", "1", 0.6, 1.3)
@@ -132,29 +145,27 @@ MODELS = (
     Model("kinematic", ()),
     Model("steady understeer", (_UNDERSTEER,)),
     Model("linear bicycle", _LINEAR, _linear),
-    Model("saturating bicycle, tanh", (*_STIFFNESS, *_GRIP, _OFFSET), _saturating(np.tanh)),
-    Model("x/sqrt(1 + x2), two grips, yaw inertia", (*_STIFFNESS, *_GRIPS, _OFFSET, _INERTIA), _saturating(_root)),
-    Model(
-        "tanh, two grips, longitudinal load transfer", (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT), _saturating(np.tanh)
-    ),
+    Model("saturating bicycle, tanh", (*STIFFNESS, *_GRIP, _OFFSET), _saturating(np.tanh)),
+    Model("x/sqrt(1 + x2), two grips, yaw inertia", (*STIFFNESS, *GRIPS, _OFFSET, INERTIA), _saturating(root)),
+    Model("tanh, two grips, longitudinal load transfer", (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT), _saturating(np.tanh)),
     Model(
         "the same and steering factor, steering by ax",
-        (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT, _FACTOR, _BY_BRAKING),
+        (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT, _FACTOR, _BY_BRAKING),
         _saturating(np.tanh),
     ),
     Model(
         "load transfer, centre of mass beside the middle",
-        (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT, _PLACE),
-        _saturating(_root),
+        (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT, _PLACE),
+        _saturating(root),
     ),
     Model(
         "the same and yaw inertia",
-        (*_STIFFNESS, *_GRIPS, _OFFSET, _HEIGHT, _PLACE, _INERTIA),
-        _saturating(_root),
+        (*STIFFNESS, *GRIPS, _OFFSET, _HEIGHT, _PLACE, INERTIA),
+        _saturating(root),
     ),
     Model(
         "the same with the height of the car file, tyres degressive",
-        (*_STIFFNESS, *_GRIPS, _OFFSET, _PLACE, _INERTIA, *_BY_LOAD),
+        (*STIFFNESS, *GRIPS, _OFFSET, _PLACE, INERTIA, *_BY_LOAD),
         _degressive,
     ),
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -39,6 +39,10 @@ class Drive:
         Of the centre of mass in axes of the car, y to the left, m/s.
     yaw_rate : ndarray of shape (n,)
         rad/s.
+    ay : ndarray of shape (n,)
+        As the accelerometer shows it, m/s2; empty where it is not needed.
+    bank : ndarray of shape (n,)
+        Lateral acceleration by the weight on a banked road, positive to the left, m/s2; empty where it is not known.
     """
 
     time: Array
@@ -46,6 +50,8 @@ class Drive:
     vx: Array
     vy: Array
     yaw_rate: Array
+    ay: Array = field(default_factory=lambda: np.zeros(0))
+    bank: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def interval(self) -> float:
@@ -107,4 +113,5 @@ def read_drive(file: Path, aliases: Path) -> Drive:
         column("chassis.vx", "m/s"),
         column("chassis.vy", "m/s"),
         column("chassis.wz", "rad/s"),
+        column("chassis.ay", "m/s2") if "chassis.ay" in form.columns else np.zeros(0),
     )

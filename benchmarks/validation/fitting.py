@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +58,11 @@ def begins(drive: Drive, seconds: Spans) -> NDArray[np.intp]:
     return np.array([round((t - drive.time[0]) / drive.interval) for t in times], dtype=np.intp)
 
 
+def drive_of(model: Model, *given: Any) -> tuple[Array, Array]:
+    """Lateral velocity and yaw rate of a model, by its own `simulate` or that of a bicycle."""
+    return (model.simulate or simulate)(model, *given)
+
+
 def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others: Spans = JUDGED) -> Fitted:
     """Fit a model in the windows of some seconds, and judge it in those of others.
 
@@ -67,7 +73,7 @@ def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others:
 
     def both(numbers: Array, rows: NDArray[np.intp]) -> tuple[Array, Array]:
         samples = rows[:, None] + np.arange(steps + 1)
-        vy, rate = simulate(model, body, drive, rows, steps, numbers)
+        vy, rate = drive_of(model, body, drive, rows, steps, numbers)
         return vy - drive.vy[samples], rate - drive.yaw_rate[samples]
 
     rows = begins(drive, seconds)
@@ -76,7 +82,7 @@ def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others:
         """Of shape (k, n); a model without lateral velocity has that of its yaw rate alone."""
         across, turning = (e.reshape(len(e), -1) for e in both(numbers, rows))
         turning = turning / SCALES[0]
-        return turning if model.forces is None else np.hstack([turning, across / SCALES[1]])
+        return np.asarray(np.hstack([turning, across / SCALES[1]]) if model.moves_across else turning)
 
     def residuals(p: Array) -> Array:
         return np.nan_to_num(errors(p[None])[0], nan=1e3)
@@ -95,8 +101,8 @@ def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others:
     numbers = min(results, key=lambda r: float(r.cost)).x if results else np.zeros(0)
     judged = begins(drive, others)
     samples = judged[:, None] + np.arange(steps + 1)
-    vy, rate = (found[0] for found in simulate(model, body, drive, judged, steps, numbers[None]))
-    path = simulate(model, body, drive, np.array([0]), len(drive.time) - 1, numbers[None])[1][0, 0]
+    vy, rate = (found[0] for found in drive_of(model, body, drive, judged, steps, numbers[None]))
+    path = drive_of(model, body, drive, np.array([0]), len(drive.time) - 1, numbers[None])[1][0, 0]
     turning = rate - drive.yaw_rate[samples]
     return Fitted(
         model,

@@ -1,4 +1,4 @@
-"""Engine, converter, automatic gears and open differential."""
+"""Engine, converter, automatic gears and differential."""
 
 from __future__ import annotations
 
@@ -52,6 +52,8 @@ class AutomaticDrive:
     """Least time between shifts, s."""
     ramp: NotNegative = 0.2
     """Duration of a shift, s."""
+    locking: NotNegative = 0.0
+    """Share of the torque by which the slower wheel can have more than the faster one; 0: an open differential."""
     ratios: Sequence[float] = (10.5, 5.9, 4.0)
     """Total ratio of each gear, first gear first."""
     reverse_ratio: Positive = 10.0
@@ -134,9 +136,12 @@ class AutomaticDrive:
             (
                 Output("engine_speed", "rad/s", "speed of the engine", display_unit="rpm"),
                 Output("gear", "1", "gear engaged" + (", -1: reverse, 0: neutral" if of_selector else ""), whole=True),
-                Output("wheel_torque", "N m", "torque on each of the two wheels"),
+                Output(
+                    "wheel_torque", "N m", "torque on each of the two wheels, the mean where the differential locks"
+                ),
                 Output("engine_torque", "N m", "torque of the engine"),
                 *(Output(f"{side}_power", "W", f"power on the {side} wheel") for side in ("left", "right")),
+                *(Output(f"{side}_torque", "N m", f"torque on the {side} wheel") for side in ("left", "right")),
             ),
         )
 

@@ -177,8 +177,9 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
     for w, spin in spins.items():
         if car.ports.torque is None and w[0].lower() == car.drive.wheels[0]:
             text = "torque of the drive on the wheel about its axis, positive forward"
-            m.sense_element(f"wheel_{w}.drive_torque", "drive", "wheel_torque", description=text)
             side = "left" if w[1] == "L" else "right"
+            torque = f"{side}_torque" if car.drive.kind == "automatic" else "wheel_torque"
+            m.sense_element(f"wheel_{w}.drive_torque", "drive", torque, description=text)
             m.sense_element(f"wheel_{w}.drive_power", "drive", f"{side}_power")
         if car.ports.torque is not None:
             m.sense_element(f"wheel_{w}.drive_power", f"port drive {w}", "power")

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import gzip
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from benchmarks.validation import fitting
-from benchmarks.validation.bicycle import MODELS, Body, simulate
+from benchmarks.validation import fitting, two_track
+from benchmarks.validation.bank import bank_of
+from benchmarks.validation.bicycle import MODELS, Body, Model, simulate
 from benchmarks.validation.drive import Drive, read_drive
 from hosts.common.errors import HostError
 
@@ -104,3 +106,51 @@ def test_a_packed_log_is_read_by_its_alias_file(tmp_path: Path) -> None:
     (tmp_path / "a.toml").write_text('[time]\nname = "t"\n[signals]\n"chassis.vx" = "v"\n', encoding="utf-8")
     with pytest.raises(HostError, match=r"has no 'wheel_FL\.steer'"):
         read_drive(tmp_path / "log.csv.gz", tmp_path / "a.toml")
+
+
+def test_two_tracks_turn_where_brakes_and_drive_differ_from_side_to_side(drive: Drive) -> None:
+    """Moments of forces along by their levers; of the drive by load, those of a car that already turns."""
+    by_load, opened = (two_track.MODELS[k] for k in (1, 0))
+    speeds, zero = 40.0 - 4.0 * drive.time, np.zeros_like(drive.time)
+    numbers = {"front stiffness": 1e-6, "rear stiffness": 1e-6, "front grip": 1.0, "rear grip": 1.0}
+    numbers |= {"yaw inertia factor": 1.0, "brake side": 0.1, "exponent of stiffness": 0.5}
+    braked = Drive(drive.time, zero, speeds, zero, zero)
+
+    def turned(model: Model, given: Drive, **changed: float) -> float:
+        p = np.array([[(numbers | changed)[u.name] for u in model.unknowns]])
+        return float(two_track.simulate(model, BODY, given, np.array([0]), 50, p)[1][0, 0, 50])
+
+    moment = 0.1 * 4.0 * BODY.mass * 0.5 * two_track.TRACK
+    for model in (by_load, opened):
+        assert turned(model, braked) == pytest.approx(moment * 50 * H / BODY.yaw_inertia, rel=1e-6)
+    driven = Drive(drive.time, zero, 20.0 + 4.0 * drive.time, zero, zero + 0.2)
+    first = turned(by_load, driven, **{"brake side": 0.0}) - 0.2
+    assert turned(opened, driven, **{"brake side": 0.0}) == pytest.approx(0.2)
+    assert first > 0.01  # the outer wheels carry more and push more: a left turn is pushed to the left
+
+
+def test_the_bank_of_the_road_is_found_by_place_and_moves_the_car(drive: Drive) -> None:
+    """Laps of 2200 m on a road that is banked by place; the sensor rolls by 3 % of the acceleration."""
+    time = np.arange(0.0, 190.0, H)
+    v = 31.0 + 3.0 * np.sin(0.13 * time)
+    way = np.concatenate([[0.0], np.cumsum(0.5 * H * (v[1:] + v[:-1]))])
+    phase = 2.0 * np.pi * way / 2200.0
+    rate = v * 4e-3 * (np.sin(phase) + np.sin(3.0 * phase) + 0.7 * np.cos(7.0 * phase))
+    true = 0.4 * np.sin(2.0 * phase) - 0.2 * np.cos(4.0 * phase)
+    banked = Drive(time, 0.0 * v, v, 0.0 * v, rate, 1.03 * rate * v - true)
+    found = bank_of(banked)
+    assert found.lap == pytest.approx(2200.0, abs=2.0)
+    assert found.roll_share == pytest.approx(0.03, abs=0.01)
+    assert found.unseen == 0.0
+    inside = (time > 5.0) & (time < 185.0)
+    for estimate in (found.by_sensor, found.by_place):
+        assert np.sqrt(np.mean((estimate - true)[inside] ** 2)) < 0.08
+    noise = np.random.default_rng(5).normal(size=len(time))
+    elsewhere = Drive(time, 0.0 * v, v, 0.0 * v, 0.1 * noise, noise)
+    with pytest.raises(ValueError, match="does not repeat its path"):
+        bank_of(elsewhere)
+    model = two_track.MODELS[2]
+    p = np.array([[1e-6, 1e-6, 1.0, 1.0, 1.0, 0.0, 0.5]])
+    slope = Drive(drive.time, 0.0 * drive.time, 20.0 + 0.0 * drive.time, 0.0 * drive.time, 0.0 * drive.time)
+    moved = two_track.simulate(model, BODY, replace(slope, bank=0.5 + 0.0 * drive.time), np.array([0]), 100, p)[0]
+    assert moved[0, 0, 100] == pytest.approx(0.5, rel=1e-6)  # m/s after a second

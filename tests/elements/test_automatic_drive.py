@@ -43,6 +43,35 @@ def test_both_wheels_get_the_same_torque_and_the_frame_its_reaction() -> None:
     assert r.f @ ud == pytest.approx(2.0 * torque * relative, rel=1e-12)
 
 
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_a_locking_differential_takes_torque_from_the_faster_wheel_and_loses_power(direction: float) -> None:
+    u, ud = signals_of(30.0 + 0.4 * direction, 30.0 - 0.4 * direction)
+    plain, locked = (drive_element(replace(DRIVE, locking=share))(u, ud, inputs=[0.7]) for share in (0.0, 0.6))
+    torque = plain.out["wheel_torque"]
+    x = 0.8 / 0.5
+    moved = 0.6 * torque * x / np.sqrt(1.0 + x * x) * direction
+    assert locked.f[:2] == pytest.approx([torque - moved, torque + moved], rel=1e-12)
+    assert np.array_equal(locked.f[2:], plain.f[2:])  # the frame carries no more
+    assert [locked.out["left_torque"], locked.out["right_torque"]] == pytest.approx(locked.f[:2], rel=1e-12)
+    power = locked.out["left_power"] + locked.out["right_power"]
+    assert power == pytest.approx(locked.f @ ud, rel=1e-12)
+    assert power == pytest.approx(plain.f @ ud - 0.8 * abs(moved), rel=1e-12)
+    alike = drive_element(replace(DRIVE, locking=0.6))(*signals_of(30.0, 30.0), inputs=[0.7])
+    assert alike.f[0] == alike.f[1]
+
+
+def test_the_tangent_of_a_locking_differential_is_the_slope_of_its_torque() -> None:
+    element = drive_element(replace(DRIVE, locking=0.6))
+    u, ud = signals_of(30.1, 29.9)
+    step = 1e-5 * np.array([1.0, -1.0, *6 * [0.0]])
+    low, high = (element(u, ud + s * step, inputs=[0.7]).f for s in (-1.0, 1.0))
+    slope = (high - low)[0] / 4e-5  # over the difference of the rates
+    S = element(u, ud, None, 0.01, 0.005, 0.0, [0.7]).S
+    across = 0.25 * (S[0, 0] - S[0, 1] - S[1, 0] + S[1, 1])
+    assert slope < 0.0
+    assert across == pytest.approx(-0.005 * slope, rel=1e-3)
+
+
 def test_stall_torque_creep_and_top_speed() -> None:
     element = drive_element()
     stall = element(*signals_of(0.0, 0.0), inputs=[1.0]).out

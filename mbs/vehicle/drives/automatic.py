@@ -1,4 +1,4 @@
-"""Engine, torque converter, automatic gears and open differential."""
+"""Engine, torque converter, automatic gears and differential."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from mbs.vehicle.quantities import (
     AngularSpeed,
     CreepTorque,
     Fraction,
+    Locking,
     MotorPower,
     Ratio,
     RatioFactor,
@@ -77,6 +78,8 @@ class Automatic(Section):
     """Least time between shifts."""
     ramp: Time = 0.2
     """Duration of a shift."""
+    locking: Locking = 0.0
+    """Share of the torque by which the slower driven wheel can have more than the faster; 0: open differential."""
 
     def faults(self) -> Iterator[str]:
         """Gears and speeds are in order."""
@@ -128,7 +131,7 @@ class Automatic(Section):
             text = "forward gear that is asked for; 0: as the drive shifts by itself"
             request = b.port("gear_request", 0.0, float(len(self.ratios)), "1", text, whole=True).index
         element = b.m.add(drive.record("drive", left, right, z, x, *inputs, request))
-        for name in ("max_torque", "max_power"):
+        for name in ("max_torque", "max_power", "locking"):
             b.tie(self, name, element, name)
         for k, ratio in enumerate(self.ratios):
             b.tie(self, "ratio_factor", element, f"ratio_{k + 1}", ratio)

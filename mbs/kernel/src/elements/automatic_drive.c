@@ -1,10 +1,12 @@
-/* Engine, torque converter, automatic gears and open differential: equal torques on two wheels, reaction on the frame
- * that carries them.
+/* Engine, torque converter, automatic gears and differential: equal torques on two wheels, reaction on the frame that
+ * carries them. A differential that locks moves up to half of LOCKING times the whole torque from the faster wheel to
+ * the slower one, along x/sqrt(1 + x^2) of the difference of their rates over LOCKING_RATE.
  * Signals: chi of the left and right wheel (absolute rates about the axis f x g), f (3), g (3) orthonormal on the
  * frame.
  * Reals: see the enum, then one total ratio per gear, tallest last. Integers: throttle input (0..1), number of gears.
  * States: gear, gear before the last shift, time since it, mean wheel rate at the start of the step. Outputs: engine
- * speed rad/s, gear, torque per wheel N m, engine torque N m, power on the left and right wheel W.
+ * speed rad/s, gear, mean torque per wheel N m, engine torque N m, power on the left and right wheel W,
+ * torque on the left and right wheel N m.
  * With a selector its input is a third integer, ratio of reverse, engage speed and engage time are three more reals, and
  * the states of selector.h follow. Reverse is one gear, with the torque of a first gear of its ratio turned round.
  * A fourth integer is an input that asks for a forward gear, 0: as the drive shifts by itself. A shift that is asked for
@@ -36,12 +38,14 @@ enum {
   DOWN_OPEN,
   DWELL,
   RAMP,
+  LOCKING,
   RATIOS
 };
 enum { REVERSE_RATIO, ENGAGE_SPEED, ENGAGE_TIME, OF_SELECTOR }; /* behind the ratios */
 enum { STATES = 4 };
 #define LIMITER_WIDTH 0.05 /* of the limit speed */
 #define LONG_AGO 1e3 /* s */
+#define LOCKING_RATE 0.5 /* rad/s */
 #define BARELY 1e-6 /* of the stall speed: round-off of a car at rest */
 /* Bits of the pieces of its law: the turbine turns forward, the converter raises the torque, the largest power or the
  * limit of speed holds; from GEARS on the gear, 0 for none, one more than there are for reverse. */
@@ -120,6 +124,18 @@ static double selected(ali3_element_args *a, double ratio, double *slope, double
   return sign * share * total;
 }
 
+/* Moves up to a torque from the faster wheel to the slower one. */
+static void lock(ali3_element_args *a, double most) {
+  const double x = (a->ud[0] - a->ud[1]) / LOCKING_RATE, w = sqrt(1.0 + x * x), moved = most * x / w;
+  const double b[8] = {1.0, -1.0};
+  for (int i = 0; i < 2; i++) {
+    a->f[i] -= moved * b[i];
+    a->out[6 + i] -= moved * b[i];
+    a->out[4 + i] -= moved * b[i] * (a->ud[i] - frame_rate(a));
+  }
+  if (a->S) ali3_add_outer(a->S, 8, a->wC * most / (LOCKING_RATE * w * w * w), b);
+}
+
 static void evaluate(ali3_element_args *a) {
   const double *p = a->real, *ratios = p + RATIOS;
   const int gears = a->integer[1], gear = gear_of(a->y_old[0], gears), before = gear_of(a->y_old[1], gears);
@@ -142,7 +158,11 @@ static void evaluate(ali3_element_args *a) {
   a->out[1] = direction > 0 ? gear : direction;
   a->out[2] = 0.5 * total;
   a->out[3] = engine;
-  for (int i = 0; i < 2; i++) a->out[4 + i] = 0.5 * total * (a->ud[i] - frame_rate(a));
+  for (int i = 0; i < 2; i++) {
+    a->out[4 + i] = 0.5 * total * (a->ud[i] - frame_rate(a));
+    a->out[6 + i] = 0.5 * total;
+  }
+  if (p[LOCKING] > 0.0) lock(a, 0.5 * p[LOCKING] * fabs(total));
 }
 
 /* Wheel rates of the shift up and down from a gear. */
@@ -233,6 +253,6 @@ const ali3_element_type ali3_automatic_drive = {
     .nint = -1,
     .nstate = -1,
     .states = states,
-    .nout = 6,
+    .nout = 8,
     .check = check,
 };

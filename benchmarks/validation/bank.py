@@ -1,0 +1,101 @@
+"""Bank of the road from the accelerometer: at each second, or by place from the seconds that models are fitted on.
+
+A sensor of the lateral acceleration feels the tyres and not the weight: on a road that falls to the left by an angle b
+it shows the acceleration less g sin b, and, as the body rolls, a share of the acceleration more.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import butter, sosfiltfilt
+
+from benchmarks.validation.drive import FITTED, Drive, Spans
+
+Array = NDArray[np.float64]
+CUT_OFF = 1.0  # Hz, of what is taken as the road
+PIECE = 10.0  # m of the track, over which the map is a mean
+_SHORTEST, _LONGEST = 1000.0, 6000.0  # m, of a lap
+_LIKE, _NEARLY = 0.9, 0.02  # correlation of curvatures of the same place, and below the best
+
+
+@dataclass(frozen=True)
+class Bank:
+    """Lateral acceleration by the weight on the banked road, positive to the left, m/s2.
+
+    Parameters
+    ----------
+    by_sensor : ndarray of shape (n,)
+        At each sample of the drive, from that sample: what is judged knows the accelerometer of the judged seconds.
+    by_place : ndarray of shape (n,)
+        At each sample, by where the car is in its lap: from the fitted seconds alone.
+    roll_share : float
+        Of the acceleration, in the sensor's signal beside it.
+    lap : float
+        m.
+    repeated : float
+        Correlation of `by_sensor` with itself a lap later.
+    unseen : float
+        Share of the lap without a fitted second.
+    """
+
+    by_sensor: Array
+    by_place: Array
+    roll_share: float
+    lap: float
+    repeated: float
+    unseen: float
+
+
+def bank_of(drive: Drive, seconds: Spans = FITTED) -> Bank:
+    """Find the bank of the road of a drive in laps.
+
+    Parameters
+    ----------
+    seconds : tuple of (float, float)
+        From which the share of the roll and the map are taken, s.
+
+    Raises
+    ------
+    ValueError
+        The log has no accelerometer, or the drive does not come to the same places again.
+    """
+    if not drive.ay.size:
+        raise ValueError("The log has no lateral acceleration, 'chassis.ay'.")
+    sections = butter(2, CUT_OFF, fs=1.0 / drive.interval, output="sos")
+    moved, felt = (
+        sosfiltfilt(sections, a) for a in (np.gradient(drive.vy, drive.interval) + drive.yaw_rate * drive.vx, drive.ay)
+    )
+    inside = drive.inside(seconds)
+    columns = np.column_stack([moved, np.ones_like(moved)])
+    share = np.linalg.lstsq(columns[inside], (felt - moved)[inside], rcond=None)[0]
+    by_sensor = -(felt - moved - columns @ share)
+    way = drive.interval * np.concatenate([[0.0], np.cumsum(0.5 * (drive.vx[1:] + drive.vx[:-1]))])
+    lap = _lap(way, drive.yaw_rate / np.maximum(drive.vx, 5.0))
+    count = round(lap / PIECE)
+    piece = ((way % lap) / lap * count).astype(np.intp) % count
+    passed = np.bincount(piece[inside], minlength=count)
+    seen = np.flatnonzero(passed)
+    means = np.bincount(piece[inside], by_sensor[inside], count)[seen] / passed[seen]
+    middle = (seen + 0.5) * lap / count
+    by_place = np.interp(way % lap, middle, means, period=lap)
+    later = np.interp(way + lap, way, by_sensor, right=np.nan)
+    both = np.isfinite(later)
+    repeated = float(np.corrcoef(by_sensor[both], later[both])[0, 1])
+    return Bank(by_sensor, by_place, float(share[0]), lap, repeated, 1.0 - len(seen) / count)
+
+
+def _lap(way: Array, curvature: Array) -> float:
+    """Length of a lap, m: the shift after which the curvature of the path is most like itself."""
+    even = np.interp(np.arange(0.0, way[-1]), way, curvature)
+    shifts = np.arange(int(_SHORTEST), int(min(_LONGEST, way[-1] - _SHORTEST)))
+    alike = np.array([np.corrcoef(even[:-k], even[k:])[0, 1] for k in shifts])
+    if not alike.max() > _LIKE:
+        raise ValueError(
+            f"The drive does not repeat its path: the best correlation of its curvature is {alike.max():.2f}."
+        )
+    near = np.flatnonzero(alike > alike.max() - _NEARLY)
+    first = near[near <= near[0] + _SHORTEST / 2.0]  # one lap, where there is room for several
+    return float(shifts[first[np.argmax(alike[first])]])

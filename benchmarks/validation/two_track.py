@@ -1,0 +1,85 @@
+"""A two-track model: loads of four wheels, brakes that differ from left to right, drive forces by load."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.validation.bicycle import AIR, GRIPS, HEIGHT, INERTIA, STIFFNESS, Body, G, Model, Unknown, root
+from benchmarks.validation.drive import Drive
+
+Array = NDArray[np.float64]
+TRACK = 1.345  # m, mean of both axles
+BALANCE = 0.70  # of the brakes: as assumed in the file of the car
+_LEAST = 50.0  # N, of a wheel that would lift
+
+
+def simulate(
+    model: Model, body: Body, drive: Drive, begins: NDArray[np.intp], steps: int, numbers: Array
+) -> tuple[Array, Array]:
+    """Drive the model by the measured angle of the wheels at the measured speed, as `bicycle.simulate`.
+
+    Notes
+    -----
+    Loads move with ax and with what the tyres give across, both at the height of the car file, half of the latter in
+    front. Stiffness goes with a power of the load, forces follow x/sqrt(1 + x^2). Drive forces are shared in proportion
+    to the loads: both wheels of the axle then slip alike, as with a differential that locks.
+    """
+    rows = begins[:, None] + np.arange(steps + 1)
+    steer, vx, ax = drive.steer[rows], drive.vx[rows], drive.ax[rows]
+    bank = drive.bank[rows] if model.bank else np.zeros(rows.shape)
+    p = {u.name: numbers[:, k, None] for k, u in enumerate(model.unknowns)}
+    locked = 0.0 if model.open else 1.0
+    still = body.mass * G / body.wheelbase / 2.0 * np.array([body.rear, body.front])
+
+    def change(k: int, vy: Array, r: Array) -> tuple[Array, Array]:
+        v, a = vx[:, k], ax[:, k]
+        along = body.mass * a + 0.5 * AIR * body.drag_area * v**2
+        brake, pull = np.minimum(along, 0.0), np.maximum(along, 0.0)
+        pitched = body.mass * a * HEIGHT / body.wheelbase / 2.0
+        rolled = body.mass * (r * v - bank[:, k]) * HEIGHT / TRACK / 2.0
+        across, turning = np.zeros_like(vy), np.zeros_like(vy)
+        for axle, x, sign in (("front", body.front, -1.0), ("rear", -body.rear, 1.0)):
+            at_rest = still[0 if sign < 0.0 else 1]
+            loads = [np.maximum(at_rest + sign * pitched - side * rolled, _LEAST) for side in (1.0, -1.0)]
+            angle = steer[:, k] if axle == "front" else np.zeros_like(v)
+            share = BALANCE if axle == "front" else 1.0 - BALANCE
+            for side, load in zip((1.0, -1.0), loads, strict=True):
+                y = 0.5 * side * TRACK
+                slip = np.arctan2(vy + x * r, v - r * y) - angle
+                most = p[f"{axle} grip"] * load
+                stiffness = 0.5 * p[f"{axle} stiffness"] * (load / at_rest) ** p["exponent of stiffness"]
+                fy = -most * root(stiffness * slip / most)
+                fx = 0.5 * share * brake * (1.0 + side * p["brake side"])
+                if axle == "rear":
+                    fx = fx + 0.5 * pull * (1.0 + locked * (2.0 * load / (loads[0] + loads[1]) - 1.0))
+                to_left, forward = fy * np.cos(angle) + fx * np.sin(angle), fx * np.cos(angle) - fy * np.sin(angle)
+                across = across + to_left
+                turning = turning + x * to_left - y * forward
+        inertia = body.yaw_inertia * p["yaw inertia factor"]
+        return across / body.mass - v * r + bank[:, k], turning / inertia
+
+    shape = (len(numbers), len(begins), steps + 1)
+    vy, r = np.empty(shape), np.empty(shape)
+    vy[..., 0], r[..., 0] = drive.vy[begins], drive.yaw_rate[begins]
+    h = drive.interval
+    for k in range(steps):
+        v0, r0 = vy[..., k], r[..., k]
+        a, b = change(k, v0, r0)
+        c, d = change(k + 1, v0 + h * a, r0 + h * b)
+        vy[..., k + 1], r[..., k + 1] = v0 + 0.5 * h * (a + c), r0 + 0.5 * h * (b + d)
+    return vy, r
+
+
+_NUMBERS = (
+    *STIFFNESS,
+    *GRIPS,
+    INERTIA,
+    Unknown("brake side", "1", -0.5, 0.5),
+    Unknown("exponent of stiffness", "1", 0.0, 1.2),
+)
+MODELS = (
+    Model("two tracks, open differential, brakes to the side", _NUMBERS, simulate=simulate, open=True),
+    Model("two tracks, drive by load, brakes to the side", _NUMBERS, simulate=simulate),
+    Model("the same and bank by place", _NUMBERS, simulate=simulate, bank=True),
+)
