@@ -160,7 +160,8 @@ class _Run:
         driven, told = len(system.arrays["gterm_row"]) > 0, list(self.told_at_start)
         if report is not None and accuracy.balance_says(report, METHOD, driven):
             told.append((AccuracyWarning, f"{accuracy.balance_text(report)} The result is wrong; take shorter steps."))
-        told += [(AccuracyWarning, report.coarse_text)] if report is not None and report.coarse_text else []
+        if report is not None:
+            told += [(AccuracyWarning, text) for text in (report.coarse_text, report.quick_text) if text]
         told += [(BranchWarning, run.branch_change)] if run.branch_change else []
         told += [(BendingWarning, self.simulation.bending.message)] if self.simulation.bending.message else []
         wall = self.simulation.instance.rim_text()
@@ -210,7 +211,8 @@ def simulate_many(
     -----
     AccuracyWarning, BranchWarning, BendingWarning, ParameterWarning, RoadWarning
         As `simulate`, with the number of the variant. No run is repeated: where the energy balance is kept, nothing is
-        known of the error but `Trajectory.accuracy` and `Report.coarse_event`, of which it is warned.
+        known of the error but `Trajectory.accuracy`, and `Report.coarse_event` and `Report.quick_change`, which are
+        warned of.
 
     Raises
     ------

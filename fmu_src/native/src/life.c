@@ -58,7 +58,7 @@ static void start_values(slave *s) {
   s->last_step = SLAVE_OK;
   s->made.n = 0;
   slave_forget_refusal(s);
-  s->outputs_fresh = s->uncomputed_said = s->overturned_said = s->rim_said = s->coarse_said = false;
+  s->outputs_fresh = s->uncomputed_said = s->overturned_said = s->rim_said = s->coarse_said = s->stop_said = false;
   memset(s->pending, 0, t->n_known);
   memset(s->said, 0, t->n_known);
   memset(s->slope, 0, 2 * t->n_known * SLAVE_MOST_ORDERS * sizeof(double)); /* and made_slope */

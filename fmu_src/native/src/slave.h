@@ -144,7 +144,7 @@ struct slave {
   bool outputs_fresh, followed; /* followed: with what the follower computes */
   bool uncomputed_said; /* that an output was read which is not computed, once a run */
   /* once a run: that the vehicle lies upside down, that a rim was pressed in, that a contact was too quick */
-  bool overturned_said, rim_said, coarse_said;
+  bool overturned_said, rim_said, coarse_said, stop_said;
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
   size_t step_reference, iterations_reference;

@@ -72,6 +72,17 @@ static slave_status watch_events(slave *s, const ali3_report *report) {
       report->coarse_time, 100.0 * report->coarse_event, 0.5 * s->value[s->step_reference]);
 }
 
+/* The same of a wheel that drops onto the metal of its rebound stop. */
+static slave_status watch_stops(slave *s, const ali3_report *r) {
+  if (s->stop_said || !(r->quick_change > 0.0)) return SLAVE_OK;
+  s->stop_said = true;
+  return slave_say(s, SLAVE_WARNING,
+                   "At %.4g s a wheel dropped onto the metal of its rebound stop too hard for the step: by its tangent "
+                   "the force of the stop changes by %.0f N in a step, where the largest force is %.0f N, and loads "
+                   "may be off by more than 5 %%. Run again with a step_size of %.2g s. This is said once.",
+                   r->quick_time, r->quick_change, r->largest_force, r->quick_step);
+}
+
 static slave_status larger(slave_status a, slave_status b) { return a > b ? a : b; }
 
 slave_status slave_watch(slave *s) {
@@ -79,7 +90,8 @@ slave_status slave_watch(slave *s) {
   if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   const slave_status modes = watch_modes(s, &report), energy = watch_energy(s, &report);
   const slave_status rims = larger(watch_rims(s, &report), watch_events(s, &report));
-  return larger(larger(modes, energy), larger(rims, watch_limit(s, &report)));
+  const slave_status limits = larger(watch_stops(s, &report), watch_limit(s, &report));
+  return larger(larger(modes, energy), larger(rims, limits));
 }
 
 void slave_watch_outputs(slave *s) {

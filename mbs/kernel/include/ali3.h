@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 6
+#define ALI3_STATE_VERSION 7
 
 typedef enum {
   ALI3_OK = 0,
@@ -122,6 +122,11 @@ typedef struct {
   double event_miss, event_squares, event_path, event_left;
   /* Systems with roads: the largest of these misses over its path that says a step is too long, 0: none; and when, s */
   double coarse_event, coarse_time;
+  /* Systems with roads: largest force of a tyre, a contact or a spring with end stops, N; where a rebound stop was hit
+   * too hard for the step, by how much its force changes in the worst one by its tangent, N, 0: nowhere; when the first
+   * began, s; a step that would do, s. The same of a hit that is not judged yet, its step and the time left of it, s */
+  double largest_force, quick_change, quick_time, quick_step;
+  double hit_change, hit_time, hit_h, hit_left;
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */

@@ -61,6 +61,16 @@ void ali3_end_stops_between(const double *p, int progressive, double l0, double 
   between(&law[1], 1.0, l0 - rebound, l1 - rebound, rate, t);
 }
 
+double ali3_rebound_change(const double *p, int progressive, double l0, double l1) {
+  const double beyond = fmax(l0, l1) - p[ALI3_REBOUND_LENGTH];
+  if (!(beyond > 0.0)) return 0.0;
+  ali3_contact_law law[2];
+  laws(p, progressive, law);
+  double slope = 0.0, energy = 0.0;
+  ali3_contact_force(&law[1], beyond, &slope, &energy);
+  return slope * fabs(l1 - l0);
+}
+
 const char *ali3_end_stops_check(const double *p, int progressive) {
   if (p[ALI3_BUMP_STIFFNESS] < 0.0 || p[ALI3_REBOUND_STIFFNESS] < 0.0)
     return "the stiffness of a spring's stops must not be negative";

@@ -33,6 +33,9 @@ void ali3_end_stops_at(const real *p, int progressive, real length, real rate, a
 /* Adds their mean over a step from length l0 to l1, with the slopes by the length and rate of its middle. */
 void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t);
 
+/* By how much the force of the rebound stop changes from l0 to l1 by its tangent at the longer of both, N. */
+double ali3_rebound_change(const double *p, int progressive, double l0, double l1);
+
 /* NULL or one sentence. */
 const char *ali3_end_stops_check(const double *p, int progressive);
 #endif

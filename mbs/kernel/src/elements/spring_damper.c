@@ -52,6 +52,10 @@ static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
          (progressive(nreal) && (loss[0] != 0.0 || loss[1] != 0.0));
 }
 
+static double rebound(const double *real, int32_t nreal, double from, double to) {
+  return ali3_rebound_change(real + STOPS, progressive(nreal), from, to);
+}
+
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
   (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
@@ -70,6 +74,7 @@ const ali3_element_type ali3_spring_damper = {
     .discrete = discrete,
     .conservative = true,
     .lossy = lossy,
+    .rebound = rebound,
     .nsig = -1,
     .nreal = -1,
     .nout = 4,

@@ -8,6 +8,7 @@
 #include "../method.h"
 #include "coarse_event.h"
 #include "energy_balance.h"
+#include "quick_stop.h"
 
 static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its round-off as no error of the energy */
 
@@ -56,7 +57,9 @@ void ali3_balance_motion(ali3_instance *in, double h, double speed, double chang
   report->speed_peak = fmax(report->speed_peak, sqrt(speed));
   report->velocity_path += sqrt(change);
   report->predictor_path += sqrt(miss);
-  if (in->system->nr > 0) ali3_coarse_event(in, h, sqrt(change), sqrt(miss));
+  if (in->system->nr == 0) return;
+  ali3_quick_stop(in, h);
+  ali3_coarse_event(in, h, sqrt(change), sqrt(miss));
 }
 
 /* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
@@ -93,4 +96,12 @@ void ali3_balance_restore(ali3_report *report, const ali3_report *before) {
   report->event_left = before->event_left;
   report->coarse_event = before->coarse_event;
   report->coarse_time = before->coarse_time;
+  report->largest_force = before->largest_force;
+  report->quick_change = before->quick_change;
+  report->quick_time = before->quick_time;
+  report->quick_step = before->quick_step;
+  report->hit_change = before->hit_change;
+  report->hit_time = before->hit_time;
+  report->hit_h = before->hit_h;
+  report->hit_left = before->hit_left;
 }
