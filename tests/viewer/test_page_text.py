@@ -149,7 +149,7 @@ def test_the_notes_are_returned_and_stand_in_the_page(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        ({"sped": 1.0}, "no option 'sped'; did you mean 'speed'?"),
+        ({"sped": 1.0}, "no option 'sped'; did you mean 'speed'"),
         ({"speed": 100.0}, "'speed' of the player is 100.0; it must be a number from 0.05 to 10."),
         ({"speed": True}, "must be a number"),
         ({"speed": float("nan")}, "must be a number"),
