@@ -72,7 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--log-aliases", type=Path, default=HERE / "ferrari_250_lm_log.toml", metavar="FILE", help="of the log as it is"
     )
     parser.add_argument(
-        "--car-aliases", type=Path, default=HERE / "ferrari_250_lm.toml", metavar="FILE", help="with fitted offsets"
+        "--car-aliases", type=Path, default=HERE / "ferrari_250_lm_log.toml", metavar="FILE", help="with fitted offsets"
     )
     parser.add_argument("--page", action="store_true", help="write the tables of docs/validation.md")
     parser.add_argument("--no-published", dest="published", action="store_false", help="without figures of others")
