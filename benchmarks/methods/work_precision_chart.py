@@ -22,11 +22,16 @@ KERNEL = {
     TITLES["radau_5"]: ("#009E73", "*"),
 }
 """Colours of Okabe and Ito, and wine of Tol, the same in every chart; methods that are not here are in the tables."""
-OTHERS = {"classical": ("#777777", ":"), "exudyn": ("#444444", "--"), "mujoco": ("#999999", "--")}
+OTHERS = {
+    "classical": ("#777777", ":"),
+    "exudyn": ("#444444", "--"),
+    "mujoco": ("#999999", "--"),
+    "pinocchio": ("#bbbbbb", "--"),
+}
 MARKERS = "osD^vPX"
 CONTROLLED = {controlled(title): style for title, style in KERNEL.items()}
 """Runs to a tolerance: the same colours, dash-dotted with open marks."""
-PANELS = {"wall_s": ("kernel", "exudyn", "mujoco"), "factorizations": ("kernel", "classical")}
+PANELS = {"wall_s": ("kernel", "exudyn", "mujoco", "pinocchio"), "factorizations": ("kernel", "classical")}
 """What is compared: times of compiled programs, factorizations of the methods that count them."""
 
 

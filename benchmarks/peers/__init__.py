@@ -6,7 +6,11 @@ import importlib
 import importlib.util
 from types import ModuleType
 
-NAMES = {"exudyn": "benchmarks.peers.exudyn_peer", "mujoco": "benchmarks.peers.mujoco_peer"}
+NAMES = {
+    "exudyn": "benchmarks.peers.exudyn_peer",
+    "mujoco": "benchmarks.peers.mujoco_peer",
+    "pinocchio": "benchmarks.peers.pinocchio_peer",
+}
 
 
 def available() -> tuple[dict[str, ModuleType], list[str]]:
