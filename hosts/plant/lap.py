@@ -41,8 +41,8 @@ class ProvingGroundLap(_CarEnvironment):
     offset from the middle of the road m, heading from its direction rad, speed m/s, yaw rate rad/s, sideslip rad,
     steering as it is now, curvature of the road at `AHEAD` 1/m. Reward a step: the way made along the road over 20 m/s,
     less the time, s; over a lap its sum is 82.8 s less the lap time, which `info["lap_time"]` has at its end. An
-    episode ends with the lap, or where the middle of the car is beside the road, which costs 20 s; it is truncated
-    after `seconds`.
+    episode ends with the lap, or where the middle of the car is beside the road or the solver refuses a step, either of
+    which costs 20 s; it is truncated after `seconds`.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class ProvingGroundLap(_CarEnvironment):
 
     AHEAD = (5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 110.0)
     PACE = 20.0  # m/s at which the reward is none
-    OUT = 20.0  # s that the end beside the road costs
+    OUT = 20.0  # s that an end before the lap costs
 
     def __init__(
         self,
@@ -101,7 +101,7 @@ class ProvingGroundLap(_CarEnvironment):
         if lap:  # the line is crossed within the step
             told["lap_time"] = self.car.time - (self.driven - self.lane.length) / max(made, 1e-9) * self.car.step_length
         out = abs(float(seen[0])) > 0.5 * self.lane.width
-        reward = (self.driven - before) / self.PACE - self.car.step_length - self.OUT * out
+        reward = (self.driven - before) / self.PACE - self.car.step_length - self.OUT * (out or bool(refused))
         return seen, reward, bool(lap or out or refused), self._steps >= self._most, told
 
     def _observed(self) -> Floats:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
+from hosts.fmu.fmu import StepRefusedError
 from hosts.plant.lap import LapDriver, ProvingGroundLap, ring
 from mbs.worlds.make_world import read_world
 from mbs.worlds.world import WORLDS
@@ -96,3 +97,20 @@ def test_the_driver_makes_a_lap(rigid_fmu: Path) -> None:
     assert told["lap_time"] == pytest.approx(made.lane.length / 20.0, rel=0.02)
     assert total == pytest.approx(made.lane.length / 20.0 - told["lap_time"], abs=0.05)
     made.close()
+
+
+@pytest.mark.slow
+def test_a_refused_step_ends_the_lap_and_costs_what_the_end_beside_the_road_does(monkeypatch) -> None:
+    with gymnasium.make(LAP, road=LEVEL) as made:
+        lap = made.unwrapped
+        lap.reset(seed=1)
+
+        def refuse(inputs: np.ndarray) -> None:
+            raise StepRefusedError("the solver cannot")
+
+        monkeypatch.setattr(lap.car, "step", refuse)
+        _, reward, ended, cut, told = lap.step(np.zeros(2, np.float32))
+    assert told["refused"] == "the solver cannot"
+    assert ended
+    assert not cut
+    assert reward == pytest.approx(-lap.OUT - lap.car.step_length)
