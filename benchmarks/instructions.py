@@ -12,24 +12,21 @@ import json
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
-
-import numpy as np
+from typing import Any
 
 from ali3.running import run_command
 from benchmarks.car import manoeuvres
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.instructions import by_function, instructions
+from benchmarks.shared.instructions import by_function
 from benchmarks.shared.machine import describe
+from benchmarks.shared.scene_instructions import SOURCE, Scene, command_of, measure
 from benchmarks.shared.tables import print_table
-from hosts.driving.manoeuvre import Manoeuvre
-from mbs import Settings, Simulation, System, compile
+from mbs import Settings, System, compile
 from mbs.kernel import build
 from mbs.scenes import bricard, double_four_bar, flyball, kerb_test, prototype_car, spatial_chain
 
-SOURCE = Path(__file__).parent / "shared" / "c" / "run_system.c"
 TABLE = Path(__file__).parent / "data" / "instructions.json"
 COLUMNS = {
     "scene": "",
@@ -44,16 +41,6 @@ LEAST = 0.01
 """Share of the instructions from which on a function is named."""
 MOST = 1.03
 """Ratio to the table from which on a step is dearer."""
-
-
-class Scene(NamedTuple):
-    """What is counted: the first `steps` of `step` seconds."""
-
-    name: str
-    step: float
-    steps: int
-    system: Callable[[], System]
-    manoeuvre: str = ""
 
 
 def _flexible() -> System:
@@ -129,49 +116,6 @@ def shares(scene: Scene, program: Path, folder: Path) -> list[dict[str, Any]]:
     most = {name: count / total for name, count in found.items() if count > LEAST * total}
     most["all others"] = 1.0 - sum(most.values())
     return [{"function": name, "share": share} for name, share in most.items()]
-
-
-def command_of(scene: Scene, program: Path, folder: Path) -> list[str]:
-    """The program with its arguments; its files are written."""
-    system = scene.system()
-    files = [folder / name for name in ("system", "state", "inputs")]
-    if scene.manoeuvre:
-        manoeuvre = manoeuvres.load(scene.manoeuvre)
-        parameters, pose = manoeuvres.start_of(manoeuvre, system)
-        inputs = input_rows(manoeuvre, system, scene.step * np.arange(scene.steps + 1))
-        names = [entry["name"] for entry in system.meta["inputs"]]
-        start = Simulation(system, inputs=dict(zip(names, inputs[0], strict=True)), parameters=parameters, pose=pose)
-    else:
-        inputs, start = np.empty((1, 0)), Simulation(system)
-    contents = (system.to_bytes(drawing=False), start.save(), inputs[1:].astype("<f8").tobytes())
-    for file, data in zip(files, contents, strict=True):
-        file.write_bytes(data)
-    return [str(program), *map(str, files), repr(scene.step), str(scene.steps)]
-
-
-def measure(scene: Scene, program: Path, folder: Path) -> dict[str, Any]:
-    """A row of the table."""
-    command = command_of(scene, program, folder)
-    still = [*command[:-1], "0"]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    status, *counts = map(int, said.split())
-    if status != 0:
-        raise RuntimeError(f"A step of the scene {scene.name!r} was refused (status {status}).")
-    whole, before = instructions(command), instructions(still)
-    row: dict[str, Any] = {"scene": scene.name, "step_ms": 1e3 * scene.step, "steps": scene.steps}
-    row |= {k: n / scene.steps for k, n in zip(("iterations", "factorizations", "solves"), counts, strict=True)}
-    found = None if whole is None or before is None else round((whole - before) / scene.steps)
-    return row | {"instructions": found}
-
-
-def input_rows(manoeuvre: Manoeuvre, system: System, times: np.ndarray) -> np.ndarray:
-    """Values of all inputs of a System at these times, a row each."""
-    signals = manoeuvres.inputs_of(manoeuvre, system)
-    columns = []
-    for entry in system.meta["inputs"]:
-        signal = signals.get(entry["name"], entry["start"])
-        columns.append(np.interp(times, *signal) if isinstance(signal, tuple) else np.full(len(times), signal))
-    return np.array(columns, float).T
 
 
 def compared(rows: Sequence[dict[str, Any]], table: dict[str, Any]) -> list[str]:

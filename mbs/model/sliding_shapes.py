@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.common.checks import array, named, shown
+from mbs.common.checks import array, flag, named, shown
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.shapes import Owner, Shape, ShapeVocabulary, Turning
@@ -107,7 +107,7 @@ class SlidingVocabulary(ShapeVocabulary):
         self._shapes.pop()
         looks = {k: v for k, v in ball.fields.items() if k not in ("radius", "at")}
         at = self._local(ball.owner, np.zeros(self.dimension), f"the origin of {what}")
-        if cover:
+        if flag(cover, f"the cover of {what}"):
             looks["cover"] = True
         mesh: dict[str, Any] = {"at": at, "positions": places, "triangles": corners, "file": name}
         self._shapes.append(Shape("mesh", ball.owner, looks | mesh))

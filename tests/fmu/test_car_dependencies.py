@@ -46,7 +46,7 @@ def test_initial_derivatives(prototype_fmu: Path, host: HostMaker, kerb: float) 
     if kerb == 0.0:
         assert ("initial.x", "wheel_FR.Fz") in seen
     full = len(outputs) * (len(settable) - 1)
-    assert sum(len(reach[n]) for n in outputs) < 0.7 * full  # sparse
+    assert sum(len(reach[n]) for n in outputs) < 0.8 * full  # sparse: what the chassis weighs reaches most
 
 
 def test_derivatives_of_a_step(prototype_fmu: Path, host: HostMaker) -> None:

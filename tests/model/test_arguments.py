@@ -306,6 +306,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
         "color": "#c03020",
         "material": "paint",
         "opacity": 0.5,
+        "cover": True,
     },
     "notice": lambda b: {"sensor": b.sensor, "text": "The arm is away"},
     "add": lambda b: {"element": Drag(1.0).record("new", b.arm.point(X))},

@@ -17,7 +17,7 @@ from mbs.vehicle.linkages.curve_grid import write_curve_table
 from mbs.vehicle.linkages.linkage import Linkage
 
 Mass: TypeAlias = "tuple[float, NDArray[np.float64], NDArray[np.float64]]"
-LIGHT = {"mass": 0.2, "inertia": [0.002, 0.002, 0.002]}
+LIGHT = {"mass": 0.3, "inertia": [0.002, 0.002, 0.002]}
 CARRIERS = ("upright", "half")
 
 

@@ -324,7 +324,7 @@ PATHS = {
     "front.stiffness": "front.stiffness is not known; 'stiffness' stands at ",
     "front.spring.stiffness.x": "front.spring.stiffness.x is not known; front.spring.stiffness is 12360.0, which has",
     "front.wheel.centre.3": "front.wheel.centre.3 is not known; front.wheel.centre is a list of 3, counted from 0.",
-    "front.wheel.centre.x": "front.wheel.centre.x is not known; front.wheel.centre is a list of 3",
+    "front.wheel.centre.w": "front.wheel.centre.w is not known; front.wheel.centre is a list of 3",
     "front..stiffness": "'front..stiffness' is no key path",
     "": "'' is no key path",
     7: "7 is no key path",
