@@ -19,11 +19,11 @@ from typing import Any
 from ali3.files import write_text
 from ali3.running import run_command
 from benchmarks.car import accuracy, manoeuvres, trajectories
+from benchmarks.car.scene_instructions import SOURCE, Scene
+from benchmarks.car.scene_instructions import measure as count
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.pages import DOCS, Row, replace, table
-from benchmarks.shared.scene_instructions import SOURCE, Scene
-from benchmarks.shared.scene_instructions import measure as count
 from mbs import Settings
 from mbs.kernel import build
 

@@ -18,10 +18,10 @@ from typing import Any
 
 from ali3.running import run_command
 from benchmarks.car import manoeuvres
+from benchmarks.car.scene_instructions import SOURCE, Scene, command_of, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.instructions import by_function
 from benchmarks.shared.machine import describe
-from benchmarks.shared.scene_instructions import SOURCE, Scene, command_of, measure
 from benchmarks.shared.tables import print_table
 from mbs import Settings, System, compile
 from mbs.kernel import build

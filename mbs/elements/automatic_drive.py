@@ -53,7 +53,7 @@ class AutomaticDrive:
     ramp: NotNegative = 0.2
     """Duration of a shift, s."""
     locking: NotNegative = 0.0
-    """Part of the torque, 0 to 1, by which the slower wheel can have more than the faster one; 0: an open differential."""
+    """Part of the torque, 0 to 1, by which the slower wheel can have more than the faster one; 0: open."""
     ratios: Sequence[float] = (10.5, 5.9, 4.0)
     """Total ratio of each gear, first gear first."""
     reverse_ratio: Positive = 10.0

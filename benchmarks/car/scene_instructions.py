@@ -14,7 +14,7 @@ from benchmarks.shared.instructions import instructions
 from hosts.driving.manoeuvre import Manoeuvre
 from mbs import Simulation, System
 
-SOURCE = Path(__file__).parent / "c" / "run_system.c"
+SOURCE = Path(__file__).parents[1] / "shared" / "c" / "run_system.c"
 
 
 class Scene(NamedTuple):
