@@ -7,6 +7,7 @@ with its alias file and car. Simple models are fitted on the same seconds as the
 from __future__ import annotations
 
 import sys
+import tempfile
 from collections.abc import Sequence
 from dataclasses import replace as replace_of
 from pathlib import Path
@@ -22,6 +23,7 @@ from benchmarks.shared.pages import DOCS, replace, table
 from benchmarks.shared.tables import print_table
 from benchmarks.validation import two_track
 from benchmarks.validation.bank import bank_of
+from benchmarks.validation.banked_log import write_banked
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
 from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within
@@ -36,7 +38,7 @@ PAGE = DOCS / "validation.md"
 BODY = Body(
     982.0, 1605.0, 1.33, 1.07, 0.55
 )  # of the publication that the car file names; inertia of a box of its outline
-FITTED_NUMBERS = 10  # marked [F] in the files of the car and its tyres and, of the sensor, in that of the log
+FITTED_NUMBERS = 8  # marked [F] in the file of the car
 COLUMNS = {
     "model": "",
     "numbers": "d",
@@ -53,6 +55,8 @@ AIMS = {"understeer angle": 0.3, "sideslip": 0.5}  # deg, of the mean difference
 PARTS = (
     ("steering three times as stiff", {"steering.stiffness": 400.0}),
     ("without anti-roll bars", {"front.anti_roll_bar.factor": 0.02, "rear.anti_roll_bar.factor": 0.02}),
+    ("open differential", {"drive.locking": 0.0}),
+    ("brakes alike on both sides", {"brakes.side": 0.0}),
     ("without the driver, who sits on the right", {"payload.driver.mass": 0.0}),
     ("inner steps of 10 ms", {"step_size": 0.01}),
 )
@@ -72,7 +76,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--log-aliases", type=Path, default=HERE / "ferrari_250_lm_log.toml", metavar="FILE", help="of the log as it is"
     )
     parser.add_argument(
-        "--car-aliases", type=Path, default=HERE / "ferrari_250_lm_log.toml", metavar="FILE", help="with fitted offsets"
+        "--car-aliases", type=Path, default=HERE / "ferrari_250_lm_log.toml", metavar="FILE", help="for the car"
+    )
+    parser.add_argument(
+        "--banked-car", metavar="FMU", help="the car with --ports forces=vehicle: driven with the bank of the road too"
     )
     parser.add_argument("--page", action="store_true", help="write the tables of docs/validation.md")
     parser.add_argument("--no-published", dest="published", action="store_false", help="without figures of others")
@@ -89,6 +96,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     car = judged({}, brief=False)
     parts = {} if options.no_parts else {name: judged(values, brief=True) for name, values in PARTS}
     rows = [_of_bicycle(f, drive) for f in simple] + [_of_car("multibody car", car, FITTED_NUMBERS, drive)]
+    if options.banked_car and drive.bank.size:
+        with tempfile.TemporaryDirectory() as folder:
+            given = write_banked(Path(folder), options.file, options.car_aliases, drive.bank, BODY.mass)
+            banked = judge(options.banked_car, *given, {"step_size": STEP})
+        rows.append(_of_car("multibody car, bank by place", banked, FITTED_NUMBERS, drive))
     lacking = [_of_car(name, part, 0, drive) for name, part in parts.items()]
     best = min((f for f in simple if np.isfinite(f.lateral)), key=lambda f: f.windows)
     over = _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive)
@@ -101,7 +113,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print_table(told, columns)
     for note in car.notes:
         print(f"note: {note}")
-    record = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking}
+    record: dict[str, Any] = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking}
     record |= {"curves": over, "published": others, "folds": folds}
     save_rows(options.json, describe("validation", Settings(), **record), rows)
     if options.page:
@@ -148,7 +160,12 @@ def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[s
     found = {name: curves(drive, BODY.wheelbase, *predicted) for name, predicted in models.items()}
     rows = []
     for k, c in enumerate(next(iter(found.values()))):
-        row = {"quantity": c.quantity, "ay, g": c.acceleration, "seconds": c.seconds, "measured": c.measured}
+        row: dict[str, Any] = {
+            "quantity": c.quantity,
+            "ay, g": c.acceleration,
+            "seconds": c.seconds,
+            "measured": c.measured,
+        }
         rows.append(row | {"spread": c.spread} | {name: own[k].difference for name, own in found.items()})
     return [row for row in rows if row["seconds"] >= ENOUGH]
 

@@ -78,7 +78,8 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief:
             return json.loads(record.read_text(encoding="utf-8")), out / f"{log.stem}.csv"
 
         others, file = run("others", *windows, "--seconds", text_of(JUDGED))
-        predicted = tuple(_in_windows(*_signal(file, name), len(others["windows"])) for name in _COLUMNS)
+        across, turning = (_in_windows(*_signal(file, name), len(others["windows"])) for name in _COLUMNS)
+        predicted = across, turning
         departed = [f"{w['begin']:g} s ({w['departed']})" for w in others["windows"] if w["departed"]]
         told = _rms(others, YAW), _rms(others, LATERAL), departed, others["bins"]
         if brief:

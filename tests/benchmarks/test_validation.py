@@ -12,9 +12,12 @@ from scipy.integrate import solve_ivp
 
 from benchmarks.validation import fitting, two_track
 from benchmarks.validation.bank import bank_of
+from benchmarks.validation.banked_log import PORT, write_banked
 from benchmarks.validation.bicycle import MODELS, Body, Model, simulate
 from benchmarks.validation.drive import Drive, read_drive
 from hosts.common.errors import HostError
+from hosts.compare.log_aliases import read_log_aliases
+from hosts.compare.log_file import read_log
 
 BODY = Body(1000.0, 1500.0, 1.3, 1.1)
 STIFFNESS, GRIP, OFFSET = (80e3, 120e3), 1.1, 0.002
@@ -154,3 +157,17 @@ def test_the_bank_of_the_road_is_found_by_place_and_moves_the_car(drive: Drive) 
     slope = Drive(drive.time, 0.0 * drive.time, 20.0 + 0.0 * drive.time, 0.0 * drive.time, 0.0 * drive.time)
     moved = two_track.simulate(model, BODY, replace(slope, bank=0.5 + 0.0 * drive.time), np.array([0]), 100, p)[0]
     assert moved[0, 0, 100] == pytest.approx(0.5, rel=1e-6)  # m/s after a second
+
+
+@pytest.mark.parametrize("name", ["drive.csv", "drive.csv.gz"])
+def test_a_log_gets_the_bank_of_the_road_as_a_force(tmp_path: Path, name: str) -> None:
+    text = b"time [s],vx [m/s]\n0.0,20\n0.01,21\n"
+    log, aliases = tmp_path / name, tmp_path / "drive.toml"
+    log.write_bytes(gzip.compress(text) if name.endswith(".gz") else text)
+    aliases.write_text('[time]\nname = "time"\n[signals]\n"chassis.vx" = { name = "vx", unit = "m/s" }\n', "utf-8")
+    file, names = write_banked(tmp_path, log, aliases, np.array([0.5, -0.25]), 1000.0)
+    form = read_log_aliases(names)
+    assert form.columns[PORT].unit == "N"
+    read = read_log(file, form.form)
+    assert read.numbers(form.columns[PORT].name).tolist() == [500.0, -250.0]
+    assert read.numbers("vx").tolist() == [20.0, 21.0]
