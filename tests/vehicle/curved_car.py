@@ -32,7 +32,7 @@ def light_armed(name: str) -> Car:
                 carrier["mass"] += part["mass"] - LIGHT["mass"]
                 part |= LIGHT
         if "torsional_stiffness" in data[axle]["suspension"]:  # a table has no cross-beam
-            data[axle]["suspension"]["torsional_stiffness"] = 50.0
+            data[axle]["suspension"]["torsional_stiffness"] = 25.0
             data[axle].pop("anti_roll_bar", None)
     return car_from(data, load(name).folder, name)
 

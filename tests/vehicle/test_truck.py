@@ -86,4 +86,4 @@ def test_a_truck_of_10_t_moves_as_the_car_that_it_is_similar_to():
     ):
         one, other = (run[name] for run in runs)
         assert np.abs(one).max() > 0.5 * size, name
-        np.testing.assert_allclose(other / factor, one, atol=2e-4 * size, err_msg=name)
+        np.testing.assert_allclose(other / factor, one, atol=2.5e-4 * size, err_msg=name)
