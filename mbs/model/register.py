@@ -63,13 +63,22 @@ class Register:
         what = f"model '{self.name}'"
         self.dimension = whole(dimension, f"The dimension of {what}", 2, 3)
         fall = np.array([0.0, -9.81]) if self.dimension == 2 else np.array([0.0, 0.0, -9.81])
-        self.gravity: Vector = fall if gravity is None else vector(gravity, self.dimension, f"the gravity of {what}")
+        self.gravity = fall if gravity is None else gravity
         self.length = None if length is None else positive(length, f"The length of {what}")
         self.coordinates: list[CoordinateInfo] = []
         self._names: set[tuple[str, str]] = set()
         self._undo: list[Callable[[], None]] | None = None
         self._looks: list[Callable[[], None]] = []
         self._drawings: list[weakref.ref[Later[Any]]] = []
+
+    @property
+    def gravity(self) -> Vector:
+        """Acceleration of gravity, shape (dimension,), m/s2."""
+        return self._gravity
+
+    @gravity.setter
+    def gravity(self, given: ArrayLike) -> None:
+        self._gravity: Vector = vector(given, self.dimension, f"the gravity of model '{self.name}'")
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)

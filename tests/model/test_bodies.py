@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from mbs import Model, ModelError
+from mbs import Model, ModelError, compile, simulate
 
 ROUND_OFF = 1e-12
 
@@ -107,3 +107,15 @@ def test_a_body_of_another_model_is_refused():
         m.spherical("ball", body, stranger, point=(0, 0, 0))
     with pytest.raises(ModelError, match="belongs to model"):
         other.initial_velocity(body, linear=(1, 0, 0))
+
+
+def test_gravity_may_be_changed_and_is_checked():
+    model = Model("moon", dimension=2)
+    model.gravity = (0, -1.62)
+    body = model.body("stone", mass=2.0, com=(0.0, 0.0), inertia=0.1)
+    model.sense_position("height", body, (0.0, 0.0), "y", description="Height of the stone")
+    run = simulate(compile(model), 1.0, 0.01)
+    assert run["height"][-1] == pytest.approx(-0.81, abs=1e-9)
+    with pytest.raises(ModelError, match="gravity of model 'moon' has shape"):
+        model.gravity = (0, 0, -9.81)
+    assert model.gravity.tolist() == [0.0, -1.62]
