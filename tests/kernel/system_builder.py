@@ -19,6 +19,7 @@ REALS = {
     "tree_angle_sign", "tree_angle_inertia",
     "static_value", "static_q", "payload_mass", "payload_gravity", "tree_payload_place", "ported_val",
     "ported_const", "armature_inertia", "armature_ratio", "tabled_axis", "tabled_coef", "tabled_mass", "tabled_gravity",
+    "inertia_real", "inertia_gravity",
 }  # fmt: skip
 INTS = {
     "mass_ptr", "mass_col", "mass_pos", "row_ptr", "row_col", "row_front", "row_loc", "quad_ptr", "quad_a", "quad_b",
