@@ -216,7 +216,33 @@ def simulate(
         turning = body.front * across - body.rear * rear + along * p.get("centre of mass to the left", np.float64(0.0))
         return (across + rear) / body.mass - vx[:, k] * r, turning / inertia
 
-    shape = (len(numbers), len(begins), steps + 1)
+    return heun(change, drive, begins, steps, len(numbers))
+
+
+def heun(
+    change: Callable[[int, Array, Array], tuple[Array, Array]],
+    drive: Drive,
+    begins: NDArray[np.intp],
+    steps: int,
+    sets: int,
+) -> tuple[Array, Array]:
+    """Lateral velocity and yaw rate by Heun's method with a step a sample, from what was measured.
+
+    Parameters
+    ----------
+    change : callable
+        Their rates, m/s2 and rad/s2, at a sample of the windows.
+    begins : ndarray of shape (w,)
+        Samples at which windows begin.
+    sets : int
+        Sets of numbers.
+
+    Returns
+    -------
+    vy, yaw_rate : ndarray of shape (sets, w, steps + 1)
+        m/s, rad/s.
+    """
+    shape = (sets, len(begins), steps + 1)
     vy, r = np.empty(shape), np.empty(shape)
     vy[..., 0], r[..., 0] = drive.vy[begins], drive.yaw_rate[begins]
     h = drive.interval

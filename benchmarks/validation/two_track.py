@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.validation.bicycle import AIR, GRIPS, HEIGHT, INERTIA, STIFFNESS, Body, G, Model, Unknown, root
+from benchmarks.validation.bicycle import AIR, GRIPS, HEIGHT, INERTIA, STIFFNESS, Body, G, Model, Unknown, heun, root
 from benchmarks.validation.drive import Drive
 
 Array = NDArray[np.float64]
@@ -59,16 +59,7 @@ def simulate(
         inertia = body.yaw_inertia * p["yaw inertia factor"]
         return across / body.mass - v * r + bank[:, k], turning / inertia
 
-    shape = (len(numbers), len(begins), steps + 1)
-    vy, r = np.empty(shape), np.empty(shape)
-    vy[..., 0], r[..., 0] = drive.vy[begins], drive.yaw_rate[begins]
-    h = drive.interval
-    for k in range(steps):
-        v0, r0 = vy[..., k], r[..., k]
-        a, b = change(k, v0, r0)
-        c, d = change(k + 1, v0 + h * a, r0 + h * b)
-        vy[..., k + 1], r[..., k + 1] = v0 + 0.5 * h * (a + c), r0 + 0.5 * h * (b + d)
-    return vy, r
+    return heun(change, drive, begins, steps, len(numbers))
 
 
 _NUMBERS = (
