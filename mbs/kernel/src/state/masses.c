@@ -1,7 +1,8 @@
 /* Masses of an instance. The points of payloads are signals p = C q + c, so that a payload of mass m adds m C'C to the
- * mass matrix, m C'g to the force of gravity and -m g.c to its energy. A body whose inertia parameters write has it in the
- * matrix of the System as drawn; the change of its moments over (1, place) adds in the same way, between signals. What
- * turns r times as fast as a coordinate adds J r^2 there; the matrix of the System has it with the ratio r of the drawing. Whatever reads masses reads these sums. */
+ * mass matrix, m C'g to the force of gravity and -m g.c to its energy. A body whose inertia parameters write has it in
+ * the matrix of the System as drawn; the change of its moments over (1, place) adds in the same way, between signals.
+ * What turns r times as fast as a coordinate adds J r^2 there; the matrix of the System has it with the ratio r of the
+ * drawing. Whatever reads masses reads these sums. */
 #include <math.h>
 #include <string.h>
 

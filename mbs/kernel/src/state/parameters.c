@@ -1,5 +1,5 @@
-/* Parameters of an instance: what they write to its copies of the data of elements, guides, roads, payloads, armatures, bodies and sensors, and
- * the switches with which it starts. */
+/* Parameters of an instance: what they write to its copies of the data of elements, guides, roads, payloads, armatures,
+ * bodies and sensors, and the switches with which it starts. */
 #include "parameters.h"
 #include "../instance.h"
 #include "../system/loading.h"
@@ -12,24 +12,33 @@ double ali3_parameter_writes(const ali3_system *S, int64_t k, double value) {
   return S->n_par_offset > 0 ? product + S->par_offset[k] : product;
 }
 
+/* The data of an instance that parameters write, by target. */
+typedef struct {
+  double *of[ALI3_TARGET_COUNT];
+} targets;
+
+static targets targets_of(const ali3_instance *in) {
+  return (targets){{[ALI3_TARGET_ELEMENT] = in->el_real,
+                    [ALI3_TARGET_GUIDE] = in->guide_real,
+                    [ALI3_TARGET_ROAD] = in->road_real,
+                    [ALI3_TARGET_PAYLOAD] = in->payload_mass,
+                    [ALI3_TARGET_SWITCH] = in->switch_on,
+                    [ALI3_TARGET_ARMATURE] = in->armature_ratio,
+                    [ALI3_TARGET_INERTIA] = in->inertia_real,
+                    [ALI3_TARGET_SENSOR] = in->sen_real}};
+}
+
 static void write(ali3_instance *in, int32_t p) {
   const ali3_system *S = in->system;
-  double *target[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = in->el_real,      [ALI3_TARGET_GUIDE] = in->guide_real,
-      [ALI3_TARGET_ROAD] = in->road_real,       [ALI3_TARGET_PAYLOAD] = in->payload_mass,
-      [ALI3_TARGET_SWITCH] = in->switch_on,     [ALI3_TARGET_ARMATURE] = in->armature_ratio,
-      [ALI3_TARGET_INERTIA] = in->inertia_real, [ALI3_TARGET_SENSOR] = in->sen_real};
+  const targets target = targets_of(in);
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
-    target[S->par_target[k]][S->par_index[k]] = ali3_parameter_writes(S, k, in->parameter[p]);
+    target.of[S->par_target[k]][S->par_index[k]] = ali3_parameter_writes(S, k, in->parameter[p]);
 }
 
 /* The check of target k, or with k = -1 of all data. */
 static const char *check(const ali3_instance *in, int64_t k) {
-  const double *const data[ALI3_TARGET_COUNT] = {
-      [ALI3_TARGET_ELEMENT] = in->el_real,      [ALI3_TARGET_GUIDE] = in->guide_real,
-      [ALI3_TARGET_ROAD] = in->road_real,       [ALI3_TARGET_PAYLOAD] = in->payload_mass,
-      [ALI3_TARGET_SWITCH] = in->switch_on,     [ALI3_TARGET_ARMATURE] = in->armature_ratio,
-      [ALI3_TARGET_INERTIA] = in->inertia_real, [ALI3_TARGET_SENSOR] = in->sen_real};
+  const targets target = targets_of(in);
+  const double *const *data = (const double *const *)target.of;
   return k < 0 ? ali3_check_data(in->system, data) : ali3_check_target(in->system, k, data);
 }
 
