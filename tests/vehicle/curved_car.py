@@ -17,7 +17,7 @@ from mbs.vehicle.linkages.curve_grid import write_curve_table
 from mbs.vehicle.linkages.linkage import Linkage
 
 Mass: TypeAlias = "tuple[float, NDArray[np.float64], NDArray[np.float64]]"
-LIGHT = {"mass": 0.3, "inertia": [0.002, 0.002, 0.002]}
+LIGHT = {"mass": 0.2, "inertia": [0.002, 0.002, 0.002]}
 CARRIERS = ("upright", "half")
 
 
@@ -32,7 +32,7 @@ def light_armed(name: str) -> Car:
                 carrier["mass"] += part["mass"] - LIGHT["mass"]
                 part |= LIGHT
         if "torsional_stiffness" in data[axle]["suspension"]:  # a table has no cross-beam
-            data[axle]["suspension"]["torsional_stiffness"] = 25.0
+            data[axle]["suspension"]["torsional_stiffness"] = 20.0
             data[axle].pop("anti_roll_bar", None)
     return car_from(data, load(name).folder, name)
 

@@ -57,7 +57,7 @@ def drive(system: System, seconds: float = 1.5) -> Any:
     return simulate(system, seconds, 0.005, inputs=SWERVE, pose=Pose(speed=15.0))
 
 
-@pytest.mark.parametrize(("name", "angle"), [("saloon", 1e-5), ("hatchback", 2.5e-4), ("prototype", 1.5e-5)])
+@pytest.mark.parametrize(("name", "angle"), [("saloon", 1e-5), ("hatchback", 1e-4), ("prototype", 1e-5)])
 def test_it_drives_as_the_links_that_its_tables_come_from(name: str, angle: float, content: dict, folder: Path) -> None:
     """A swerve with the brakes on; the cross-beam of the hatchback is a bar whose lever does not turn."""
     car = car_from(content[name], folder / name, name)
@@ -68,11 +68,11 @@ def test_it_drives_as_the_links_that_its_tables_come_from(name: str, angle: floa
     assert gap.max() < 1e-4 * links["chassis.x"][-1]
     for wheel in WHEELS:
         change = np.ptp(links[f"wheel_{wheel}.Fz"])
-        assert np.abs(curves[f"wheel_{wheel}.Fz"] - links[f"wheel_{wheel}.Fz"]).max() < 1.5e-3 * change  # mass of links
+        assert np.abs(curves[f"wheel_{wheel}.Fz"] - links[f"wheel_{wheel}.Fz"]).max() < 1e-3 * change
         for name_of in ("steer", "inclination"):
             assert np.abs(curves[f"wheel_{wheel}.{name_of}"] - links[f"wheel_{wheel}.{name_of}"]).max() < angle
         force = np.ptp(links[f"spring_{wheel}.force"])
-        assert np.abs(curves[f"spring_{wheel}.force"] - links[f"spring_{wheel}.force"]).max() < 2e-3 * force
+        assert np.abs(curves[f"spring_{wheel}.force"] - links[f"spring_{wheel}.force"]).max() < 1e-3 * force
     rack = np.abs(links["steering_rack_force"]).max()
     assert np.abs(curves["steering_rack_force"] - links["steering_rack_force"]).max() < 1e-3 * rack
 
