@@ -64,12 +64,15 @@ constexpr const char *PLATFORM = "linux64", *SUFFIX = ".so";
 class Library {
 public:
   explicit Library(const std::filesystem::path &file) {
+    if (!std::filesystem::exists(file))
+      throw std::runtime_error("The FMU has no library for " + std::string(PLATFORM) + ": " + file.string() +
+                               " is not there.");
 #if defined(_WIN32)
     handle = reinterpret_cast<void *>(LoadLibraryW(file.wstring().c_str()));
 #else
     handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
 #endif
-    if (handle == nullptr) throw std::runtime_error(file.string() + " cannot be loaded.");
+    if (handle == nullptr) throw std::runtime_error(file.string() + " cannot be loaded: " + reason() + ".");
   }
   Library(const Library &) = delete;
   Library &operator=(const Library &) = delete;
@@ -91,6 +94,13 @@ public:
   }
 
 private:
+  static std::string reason() {
+#if defined(_WIN32)
+    return "error " + std::to_string(GetLastError()) + " of Windows";
+#else
+    return dlerror();
+#endif
+  }
   void *handle;
 };
 

@@ -79,7 +79,7 @@ def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[st
 
 
 def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
-    """Build a native FMU for this machine.
+    """Build a native FMU, for this machine unless the options name other platforms.
 
     Parameters
     ----------
@@ -93,9 +93,8 @@ def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
     HostError
         With the words of the build.
     """
-    always = ("--kind", "native", "--platforms", "this", "--out", str(folder))
     try:
-        run_module("ali3", "build", *options, *always)
+        run_module("ali3", "build", "--kind", "native", "--platforms", "this", *options, "--out", str(folder))
     except HostError as error:
         raise HostError(f"The FMU of {what} cannot be built: {error}") from None
 

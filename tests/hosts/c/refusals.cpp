@@ -1,4 +1,4 @@
-// What the header refuses, a line each: refusals FOLDER_OF_AN_UNPACKED_FMU
+// What the header refuses, a line each: refusals FOLDER_OF_AN_UNPACKED_FMU EMPTY_FOLDER
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -14,8 +14,15 @@ static void refused(const std::function<void()> &act) {
 }
 
 int main(int, char **argument) {
+  namespace files = std::filesystem;
   fmu::Fmu car(argument[1]);
   refused([&] { fmu::Fmu none("nowhere"); });
+  const files::path other = files::path(argument[2]) / "other", library = other / "binaries" / fmu::detail::PLATFORM;
+  files::create_directories(library);
+  files::copy_file(files::path(argument[1]) / "modelDescription.xml", other / "modelDescription.xml");
+  refused([&] { fmu::Fmu none(other); });
+  std::ofstream(library / (std::string("Prototype") + fmu::detail::SUFFIX)) << "no library";
+  refused([&] { fmu::Fmu none(other); });
   refused([&] { car.set("stering", 1.0); });
   refused([&] { car.set("steering", "left"); });
   refused([&] { car.set("selector", 0.5); });
