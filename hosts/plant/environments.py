@@ -19,7 +19,7 @@ Floats = NDArray[np.float32]
 _WHEELS = ("FL", "FR", "RL", "RR")
 
 
-class _CarEnvironment(gymnasium.Env[Floats, Floats]):
+class CarEnvironment(gymnasium.Env[Floats, Floats]):
     """What the environments share: a car, its start, its step.
 
     An episode that the car's solver refuses to go on with is terminated; `info["refused"]` has its words then.
@@ -48,12 +48,47 @@ class _CarEnvironment(gymnasium.Env[Floats, Floats]):
         self.car.read(self._reads, self._now)
         return ""
 
+    def _within(self, seen: NDArray[np.float64]) -> Floats:
+        """An observation, held within its space."""
+        box = self.observation_space
+        assert isinstance(box, spaces.Box)
+        held: Floats = np.clip(seen, box.low, box.high).astype(np.float32)
+        return held
+
     def close(self) -> None:
         """Free the car."""
         self.car.close()
 
 
-class LaneKeeping(_CarEnvironment):
+class LaneEnvironment(CarEnvironment):
+    """What the environments on a lane share: where the car is on it, and what it sees of it ahead.
+
+    Observation: offset from the middle of the lane m, heading from its direction rad, speed m/s, yaw rate rad/s,
+    sideslip rad, steering as it is now, curvature of the lane at `AHEAD` 1/m.
+    """
+
+    AHEAD: tuple[float, ...]
+
+    def __init__(self, car: Car, lane: Lane, seconds: float, most: tuple[float, float]) -> None:
+        """A lane, and the largest offset m and speed m/s of an observation."""
+        super().__init__(car, ("chassis.x", "chassis.y", "chassis.yaw", "speed", "chassis.wz", "sideslip"), seconds)
+        self.lane = lane
+        high = np.array([most[0], np.pi, most[1], 10.0, np.pi, 1.0, *len(self.AHEAD) * [1.0]], np.float32)
+        self.observation_space = spaces.Box(-high, high, dtype=np.float32)
+        self._steering = 0.0
+
+    def _start(self, seed: int | None, **ranges: tuple[float, float]) -> None:
+        super()._start(seed, **ranges)
+        self.lane.forget()
+        self._steering = 0.0
+
+    def _observed(self) -> Floats:
+        x, y, yaw, speed, yaw_rate, sideslip = self._now
+        offset, heading, curvature = self.lane.sense(x, y, yaw, self.AHEAD)
+        return self._within(np.array([offset, heading, speed, yaw_rate, sideslip, self._steering, *curvature]))
+
+
+class LaneKeeping(LaneEnvironment):
     """Keep the middle of the lane of a double lane change by the steering, at a speed that is held roughly.
 
     Action: steering, -1 to 1, positive to the left. Observation: offset from the middle of the lane m, heading from its
@@ -80,22 +115,15 @@ class LaneKeeping(_CarEnvironment):
         seconds: float = 8.0,
         step: float = 0.02,
     ) -> None:
-        inputs = ("steering", "throttle")
-        reads = ("chassis.x", "chassis.y", "chassis.yaw", "speed", "chassis.wz", "sideslip")
-        super().__init__(Car(car, step=step, inputs=inputs), reads, seconds)
-        width = self.car.fmu.constants().get("vehicle.width", 1.6)
-        self.lane = Lane.of_course(course_of("iso_3888_1", width), 200.0)
+        made = Car(car, step=step, inputs=("steering", "throttle"))
+        width = made.fmu.constants().get("vehicle.width", 1.6)
+        super().__init__(made, Lane.of_course(course_of("iso_3888_1", width), 200.0), seconds, most=(5.0, 60.0))
         self._speed = speed
         self.action_space = spaces.Box(-1.0, 1.0, (1,), np.float32)
-        high = np.array([5.0, np.pi, 60.0, 10.0, np.pi, 1.0, *len(self.AHEAD) * [1.0]], np.float32)
-        self.observation_space = spaces.Box(-high, high, dtype=np.float32)
-        self._steering = 0.0
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """A start in the first lane; see `gymnasium.Env.reset`."""
         self._start(seed, **{"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.02, 0.02)})
-        self.lane.forget()
-        self._steering = 0.0
         return self._observed(), {}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
@@ -108,21 +136,11 @@ class LaneKeeping(_CarEnvironment):
         share = float(seen[0]) / (0.5 * self.lane.width)
         reward = 1.0 - share**2 - 0.01 * (steering - before) ** 2
         out = abs(share) > 1.0
-        ended = self._steps >= self._most or self._way >= self.lane.length - 1.0
+        ended = self._steps >= self._most or self.lane.way >= self.lane.length - 1.0
         return seen, reward, bool(out or refused), bool(ended), {"refused": refused} if refused else {}
 
-    def _observed(self) -> Floats:
-        x, y, yaw, speed, yaw_rate, sideslip = self._now
-        offset, heading, curvature = self.lane.sense(x, y, yaw, self.AHEAD)
-        self._way = self.lane.way
-        seen = np.array([offset, heading, speed, yaw_rate, sideslip, self._steering, *curvature])
-        box = self.observation_space
-        assert isinstance(box, spaces.Box)
-        held: Floats = np.clip(seen, box.low, box.high).astype(np.float32)
-        return held
 
-
-class AntiLockBraking(_CarEnvironment):
+class AntiLockBraking(CarEnvironment):
     """Stop on a slippery road by the torques of the four brakes, straight and short.
 
     Action: share of the torque that a driver in need asks of the brake of each wheel, 0 to 1, in the order FL, FR, RL,
@@ -181,10 +199,7 @@ class AntiLockBraking(_CarEnvironment):
         return self._observed(), reward, bool(ended or refused), self._steps >= self._most, told
 
     def _observed(self) -> Floats:
-        box = self.observation_space
-        assert isinstance(box, spaces.Box)
-        held: Floats = np.clip(self._now[:11], box.low, box.high).astype(np.float32)
-        return held
+        return self._within(self._now[:11])
 
 
 gymnasium.register("ali3/LaneKeeping-v0", entry_point="hosts.plant.environments:LaneKeeping")

@@ -14,7 +14,7 @@ from hosts.driving.course import Course
 from hosts.driving.driver import CONSTANTS
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.plant.car import Car
-from hosts.plant.environments import Floats, _CarEnvironment
+from hosts.plant.environments import Floats, LaneEnvironment
 from hosts.plant.lane import Lane
 
 STRAIGHT, RADIUS, BEGIN, WIDTH = 640.0, 60.0, -20.0, 12.0
@@ -34,7 +34,7 @@ def ring() -> Lane:
     return Lane(points, WIDTH)
 
 
-class ProvingGroundLap(_CarEnvironment):
+class ProvingGroundLap(LaneEnvironment):
     """Drive a lap of the ring of the proving ground, 1657 m with a banked curve, a hill and a flat curve, to the left.
 
     Action: steering, -1 to 1, positive to the left; pedal, -1 the whole brake to 1 the whole throttle. Observation:
@@ -70,21 +70,16 @@ class ProvingGroundLap(_CarEnvironment):
     ) -> None:
         if road is None:
             road = str(make_world("proving_ground", lambda line: None).road)
-        reads = ("chassis.x", "chassis.y", "chassis.yaw", "speed", "chassis.wz", "sideslip")
         made = Car(car, step=step, inputs=("steering", "throttle", "brake"), parameters={"road.file": road})
-        super().__init__(made, reads, seconds)
-        self.lane = ring()
+        super().__init__(made, ring(), seconds, most=(20.0, 90.0))
         self._speed = speed
         self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
-        high = np.array([20.0, np.pi, 90.0, 10.0, np.pi, 1.0, *len(self.AHEAD) * [1.0]], np.float32)
-        self.observation_space = spaces.Box(-high, high, dtype=np.float32)
-        self._steering = self._way = self.driven = 0.0
+        self._way = self.driven = 0.0
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """A flying start at x = 0; see `gymnasium.Env.reset`."""
         self._start(seed, **{"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.01, 0.01)})
-        self.lane.forget()
-        self._steering = self.driven = 0.0
+        self.driven = 0.0
         seen = self._observed()
         self._way = self.lane.way
         return seen, {}
@@ -103,15 +98,6 @@ class ProvingGroundLap(_CarEnvironment):
         out = abs(float(seen[0])) > 0.5 * self.lane.width
         reward = (self.driven - before) / self.PACE - self.car.step_length - self.OUT * (out or bool(refused))
         return seen, reward, bool(lap or out or refused), self._steps >= self._most, told
-
-    def _observed(self) -> Floats:
-        x, y, yaw, speed, yaw_rate, sideslip = self._now
-        offset, heading, curvature = self.lane.sense(x, y, yaw, self.AHEAD)
-        seen = np.array([offset, heading, speed, yaw_rate, sideslip, self._steering, *curvature])
-        box = self.observation_space
-        assert isinstance(box, spaces.Box)
-        held: Floats = np.clip(seen, box.low, box.high).astype(np.float32)
-        return held
 
 
 class _Straightened(Course):
