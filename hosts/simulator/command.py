@@ -17,7 +17,6 @@ from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
 
 if TYPE_CHECKING:
-    from hosts.driving.manoeuvre import Manoeuvre
     from hosts.simulator.car import Car
     from hosts.simulator.preparation import Asked, Prepared
     from hosts.simulator.run_report import RunReport
@@ -136,11 +135,11 @@ def _check(options: argparse.Namespace) -> None:
         raise HostError("Inputs are given by --manoeuvre and by --seed; give one of them.")
 
 
-def _asked(options: argparse.Namespace, manoeuvre: Manoeuvre | None = None) -> Asked:
+def _asked(options: argparse.Namespace) -> Asked:
     from hosts.simulator.preparation import Asked
 
     names = ("fmu", "world", "place", "fidelity", "aliases", "record")
-    return Asked(**{name: getattr(options, name) for name in names}, wishes=wishes(options), manoeuvre=manoeuvre)
+    return Asked(**{name: getattr(options, name) for name in names}, wishes=wishes(options))
 
 
 def _started(options: argparse.Namespace, prepared: Prepared) -> Car:
@@ -179,13 +178,13 @@ def _reported(car: Car, options: argparse.Namespace, report: RunReport) -> Itera
 def _alone(options: argparse.Namespace, begin: float) -> int:
     """Without a page; the run ends by itself."""
     from hosts.simulator.aliased_car import AliasedCar
-    from hosts.simulator.headless import headless_driver, manoeuvre_of, run_headless
+    from hosts.simulator.headless import headless_driver, manoeuvre_of, run_headless, with_start_of
     from hosts.simulator.preparation import prepare
     from hosts.simulator.run_report import RunReport
 
     manoeuvre = manoeuvre_of(options.manoeuvre)
     report = RunReport(begin)
-    prepared = prepare(_asked(options, manoeuvre), report.tell)
+    prepared = prepare(with_start_of(_asked(options), manoeuvre), report.tell)
     report.prepared(prepared, options.step)
     seconds = options.stop_time if options.stop_time is not None else manoeuvre.stop_time if manoeuvre else 0.0
     with _started(options, prepared) as started:

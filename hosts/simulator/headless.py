@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Protocol
 
 from ali3.bars import bar as bar_of
 from hosts.common.errors import HostError
 from hosts.driving.driver import Driver, make_driver
-from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import ACTS, SENSES
 from hosts.driving.wild_driver import WildDriver
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.simulator.aliased_car import AliasedCar
+from hosts.simulator.preparation import Asked
 
 _PERIOD = 0.005
 _BAR = "{n:.1f} of {total:.1f} s simulated |{bar}| {elapsed}<{remaining}"
@@ -68,6 +70,13 @@ class OfManoeuvre:
 def manoeuvre_of(given: str | None) -> Manoeuvre | None:
     """The manoeuvre that ``--manoeuvre`` names, if it was given; see `load_manoeuvre`."""
     return None if given is None else load_manoeuvre(given)
+
+
+def with_start_of(asked: Asked, manoeuvre: Manoeuvre | None) -> Asked:
+    """What is asked for, with the start values of a manoeuvre, if there is one."""
+    if manoeuvre is None:
+        return asked
+    return replace(asked, manoeuvre=manoeuvre.name, start=lambda names: with_names_of(manoeuvre, names).start)
 
 
 def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | None) -> HeadlessDriver:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +14,6 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import ROAD, Wishes
 from hosts.common.world_files import DEFAULT_WORLD, World, make_world, no_world
-from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.description_record import description_record
@@ -45,8 +44,10 @@ class Asked:
         Of ``--set`` and ``--parameters``.
     record : Path, optional
         Folder.
-    manoeuvre : Manoeuvre, optional
-        Its start values come first.
+    manoeuvre : str
+        Its name; empty: none is driven.
+    start : callable
+        Start values of the manoeuvre, which come first, for the names of the variables that there are.
     """
 
     fmu: Path | None
@@ -56,7 +57,8 @@ class Asked:
     wishes: Wishes
     aliases: Path | None
     record: Path | None
-    manoeuvre: Manoeuvre | None = None
+    manoeuvre: str = ""
+    start: Callable[[Collection[str]], Mapping[str, Value]] = lambda names: {}
 
 
 @dataclass(frozen=True)
@@ -204,8 +206,6 @@ def _settings(asked: Asked, aliases: Aliases, variables: Variables, world: World
     if ITERATIONS in variables.names:
         settings.add_numbers({ITERATIONS: _MOST_ITERATIONS}, "real time")
     settings.add_numbers(start, f"the world {world.name}")
-    if asked.manoeuvre is not None:
-        manoeuvre = with_names_of(asked.manoeuvre, variables.names)
-        settings.add_numbers(manoeuvre.start, f"{START_OF}{manoeuvre.name}")
+    settings.add_numbers(asked.start(variables.names), f"{START_OF}{asked.manoeuvre}")
     settings.add_wishes(asked.wishes, asked.fidelity)
     return settings

@@ -140,6 +140,27 @@ def test_lines_have_at_most_120_characters():
     assert not long, "\n".join(long)
 
 
+def test_decisions_are_listed_by_their_headings():
+    folder = ROOT / "docs" / "decisions"
+    files = sorted(folder.glob("[0-9]*.md"))
+    rows = [
+        f"| [{int(file.name[:4])}]({file.name}) | {TEXTS[file].splitlines()[0].partition('. ')[2]} |" for file in files
+    ]
+    listed = TEXTS[folder / "README.md"].splitlines()
+    assert [line for line in listed if line.startswith("| [")] == rows
+    assert [TEXTS[file].split(". ", 1)[0] for file in files] == [f"# {int(file.name[:4])}" for file in files]
+
+
+def test_the_log_of_changes_has_each_heading_once():
+    releases = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
+    for release in releases:
+        names = re.findall(r"^### (.*)$", release, re.MULTILINE)
+        assert len(set(names)) == len(names), release[:20]
+        for part in re.split(r"^### ", release, flags=re.MULTILINE)[1:]:
+            kinds = re.findall(r"^#### (.*)$", part, re.MULTILINE)
+            assert len(set(kinds)) == len(kinds), part[:40]
+
+
 def test_linked_headings_exist():
     missing = []
     for file, text in TEXTS.items():

@@ -16,7 +16,7 @@ MOST = {
     "run": 4000,
     "run, all of it": 6750,
     "view": 950,
-    "simulator": 9050,
+    "simulator": 8900,
     "simulator, all of it": 16050,
     "check": 5800,
     "catalogue": 8350,
