@@ -21,6 +21,8 @@ from hosts.systems.wires import Wire, wires_of
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 _COMMON, _STRUCTURE = f"{{{_SSP}Common}}", f"{{{_SSP}Description}}"
+SET = "start"
+"""Name of the parameter set of each part: Ecos applies those of one name, which it is asked for."""
 
 
 def write_ssp(
@@ -69,7 +71,7 @@ def write_ssp(
         for part, fmu in fmus.items():
             if values := _values(part, fmu, start):
                 made = content[f"resources/{part}.ssv"] = folder / f"{part}.ssv"
-                write_parameter_set(ParameterSet(part, values, {}), made, as_built=False)
+                write_parameter_set(ParameterSet(SET, values, {}), made, as_built=False)
         document = _document(name or file.stem, fmus, wires, content)
         with whole_file(file) as whole, zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr("SystemStructure.ssd", document)
