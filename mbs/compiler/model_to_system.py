@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -57,6 +57,7 @@ from mbs.compiler.tabled import (
 )
 from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
 from mbs.compiler.tree import tree_arrays
+from mbs.compiler.written_axes import axis_arrays, axis_cliques, axis_room
 from mbs.compiler.written_inertias import inertia_arrays, inertia_cliques
 from mbs.model.equation import Equation
 from mbs.model.model import Model
@@ -130,7 +131,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     order = fronts.order
     new = np.argsort(order)
     mass = mass[order][:, order].tocsr()
-    mass = with_room(mass, [new[c].tolist() for c in payload_cliques(model, full) + inertia_cliques(model, full)])
+    mass = with_room(mass, [new[c].tolist() for c in _added_mass(model, full)])
     mass.sort_indices()
     arrays = RowArrays(rows, new)
 
@@ -152,7 +153,8 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
 
     gravity = full_gravity(model)
     behind = [[int(new[j]) for j in places] for places in columns_of(model, known.seen)]
-    signals = Signals(known.seen, np.concatenate([new, np.arange(nz, nz + len(behind))]))
+    places = np.concatenate([new, np.arange(nz, nz + len(behind))])
+    signals = Signals(known.seen, places, axis_room(model, known.seen))
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
     tree, no_tree = tree_arrays(model, signals, remaining, new)
@@ -179,6 +181,7 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
         **payload_arrays(model, signals),
         **armature_arrays(model, full, new),
         **inertia_arrays(model, signals),
+        **axis_arrays(model, signals, known.seen, new),
         **flexible_arrays(model, full, new, locate),
         **tabled_arrays(model, known.seen, new),
         **pose_arrays(model, natural, remaining, of_z, q[new], order),
@@ -235,6 +238,11 @@ def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equat
     return linear, others
 
 
+def _added_mass(model: Model, full: Sequence[Affine]) -> list[list[int]]:
+    """Coordinates of z (before ordering) between which parameters change the mass matrix."""
+    return payload_cliques(model, full) + inertia_cliques(model, full) + axis_cliques(model, full)
+
+
 def _symbolic(
     model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, known: Dependents
 ) -> tuple[Fronts, int]:
@@ -243,8 +251,14 @@ def _symbolic(
     cliques: list[list[int]] = [[int(i), int(j)] for i, j in zip(entries.row, entries.col, strict=True) if i > j]
     cliques += [row.columns() for row in rows]
     behind, nz = columns_of(model, known.seen), mass.shape[0]
-    cliques += [spread(clique, behind, nz) for clique in element_cliques(model, known.seen)]
     cliques += flexible_cliques(model, full) + payload_cliques(model, full) + inertia_cliques(model, full)
     cliques += tabled_cliques(model, known.seen)
-    pattern = clique_pattern(mass.shape[0], cliques)
-    return build_fronts(pattern, fill_reducing_order(pattern)), (pattern.nnz + mass.shape[0]) // 2
+
+    def pattern_with(room: Mapping[int, frozenset[int]]) -> sparse.csc_matrix:
+        return clique_pattern(nz, cliques + [spread(c, behind, nz) for c in element_cliques(model, known.seen, room)])
+
+    drawn = pattern_with({})
+    if not model.written_axes:
+        return build_fronts(drawn, fill_reducing_order(drawn)), (drawn.nnz + nz) // 2
+    cliques += axis_cliques(model, full)  # what turns the axes of wheels has room; the order is that without
+    return build_fronts(pattern_with(axis_room(model, known.seen)), fill_reducing_order(drawn)), (drawn.nnz + nz) // 2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,9 +26,12 @@ Arrays = dict[str, NDArray[Any]]
 class Signals:
     """Affine signals over z in elimination order, each stored once."""
 
-    def __init__(self, full: Sequence[Affine], new: NDArray[np.int64]) -> None:
+    def __init__(
+        self, full: Sequence[Affine], new: NDArray[np.int64], room: Mapping[int, frozenset[int]] | None = None
+    ) -> None:
         self._full = full
         self._new = new
+        self._room = room or {}  # coordinates that an expression must have, by its identity; it then is a signal alone
         self._known: dict[tuple[Any, ...], int] = {}
         self._seen: dict[int, tuple[Affine, int]] = {}  # by identity; kept, so that no other one gets it
         self.rows: list[tuple[list[int], list[float], float]] = []
@@ -37,7 +40,9 @@ class Signals:
         """Number of the signal of an expression of full coordinates."""
         seen = self._seen.get(id(expression))
         if seen is None:
-            seen = self._seen[id(expression)] = expression, self.number_of_z(substitute(expression, self._full))
+            z, room = substitute(expression, self._full), self._room.get(id(expression))
+            number = self.number_of_z(z) if room is None else self._alone(z, room)
+            seen = self._seen[id(expression)] = expression, number
         return seen[1]
 
     def number_of_z(self, z: Affine) -> int:
@@ -48,6 +53,11 @@ class Signals:
             self._known[key] = len(self.rows)
             self.rows.append(([c for c, _ in pairs], [v for _, v in pairs], z.constant))
         return self._known[key]
+
+    def _alone(self, z: Affine, room: frozenset[int]) -> int:
+        pairs = sorted((int(self._new[j]), z.terms.get(j, 0.0)) for j in room | set(z.terms))
+        self.rows.append(([c for c, _ in pairs], [v for _, v in pairs], z.constant))
+        return len(self.rows) - 1
 
     def arrays(self) -> Arrays:
         """The `sig_` arrays."""
@@ -70,13 +80,13 @@ def ragged(name: str, groups: Sequence[Sequence[float]], dtype: type, stem: str 
     return {f"{stem or name}_ptr": pointer([len(g) for g in groups]), name: np.array(flat, dtype=dtype)}
 
 
-def element_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
-    """Coordinates (before ordering) that each element couples in the tangent."""
+def element_cliques(model: Model, full: Sequence[Affine], room: Mapping[int, frozenset[int]]) -> list[list[int]]:
+    """Coordinates (before ordering) that each element couples in the tangent; `room` as that of `Signals`."""
     found = []
     for element in model.elements:
         if not element.tangent:
             continue
-        found.append(sorted({j for s in element.signals for j in substitute(s, full).terms}))
+        found.append(sorted({j for s in element.signals for j in room.get(id(s)) or substitute(s, full).terms}))
     return found
 
 
@@ -167,6 +177,7 @@ def channel_arrays(model: Model) -> Arrays:
         pointer([int(k in written) for k in range(len(model.armatures))]),
         pointer([len(body.reals) for body in model.written_inertias]),
         pointer([1 if s.type == SensorType.MASS else s.factors for s in model.sensors]),
+        pointer([len(axis.reals) for axis in model.written_axes]),
     )
     targets = [[(t, int(starts[t][k]) + i, *line) for t, k, i, *line in p.targets] for p in model.parameters]
     flat = [t for group in targets for t in group]

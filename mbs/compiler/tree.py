@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.compiler import armatures, written_inertias
+from mbs.compiler import armatures, written_axes, written_inertias
 from mbs.compiler.natural import choose
 from mbs.compiler.spanning_tree import (
     MOST_JOINTS,
@@ -69,6 +69,7 @@ def tree_arrays(
             )
         armatures.refuse_in_trees(model)
         written_inertias.refuse_in_trees(model)
+        written_axes.refuse_in_trees(model)
         arrays = {
             "parent": [g.parent.number for g in moving if g.parent is not None],
             "slides": [int(g.slides) for g in moving],

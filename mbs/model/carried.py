@@ -67,9 +67,11 @@ class Spin(Coordinate):
     Attributes
     ----------
     centre, axis, f, g : AffineVector
-        Wheel centre and unit vectors of the carrier with axis = f x g.
+        Wheel centre and unit vectors of the carrier with axis = f x g; nothing else has the expressions of these.
     rolling_radius : float
         Radius, m, that gives the spin of a pose with a speed (positive speed along +x); 0: none.
+    drawn : tuple of tuple of float
+        f, g and axis in the drawing.
     """
 
     carrier: Body
@@ -78,13 +80,49 @@ class Spin(Coordinate):
     f: AffineVector
     g: AffineVector
     spin_inertia: float
+    diametral_inertia: float
     rolling_radius: float
-    axis_reference: tuple[float, ...]
+    drawn: tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
+
+    @property
+    def axis_reference(self) -> tuple[float, ...]:
+        """The axis in the drawing."""
+        return self.drawn[2]
 
     @property
     def coordinate(self) -> Affine:
         """The spin coordinate; its rate is the absolute axial angular velocity, rad/s."""
         return self.affine
+
+
+AXIS_REALS = ("azimuth", "elevation")
+"""As in the System, rad: of the axis about the vertical from y, and above the level, in the drawing."""
+
+
+@dataclass(frozen=True)
+class WrittenAxis:
+    """Direction that the axis of a wheel has as drawn, and what turns it; made by `Model.written_axis`.
+
+    Attributes
+    ----------
+    frame : tuple of AffineVector
+        Axes of the drawing, as vectors of the carrier.
+    reals : (float, float)
+        In the order of `AXIS_REALS`.
+    leaning : float
+        Growth of the rolling radius by one over the cosine of the elevation, m.
+    """
+
+    name: str
+    spin: Spin
+    frame: tuple[AffineVector, AffineVector, AffineVector]
+    reals: tuple[float, float]
+    leaning: float
+
+    @property
+    def vectors(self) -> tuple[AffineVector, AffineVector, AffineVector]:
+        """f, g and the axis of the wheel."""
+        return self.spin.f, self.spin.g, self.spin.axis
 
 
 @dataclass(frozen=True)

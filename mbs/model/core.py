@@ -11,7 +11,7 @@ from mbs.common.checks import instance_of, shown
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import Road
-from mbs.model.carried import Payload, Spin, WrittenInertia
+from mbs.model.carried import Payload, Spin, WrittenAxis, WrittenInertia
 from mbs.model.joints.joint import Joint
 from mbs.model.records import Ahead, Armature, Constant, Guide, Input, Parameter, RoadFileParameter, Switch
 from mbs.model.register import Register
@@ -49,6 +49,7 @@ class ModelCore(Register):
         self.sensors: list[Sensor] = []
         self.payloads: list[Payload] = []
         self.written_inertias: list[WrittenInertia] = []
+        self.written_axes: list[WrittenAxis] = []
         self.parameters: list[Parameter] = []
         self.constants: list[Constant] = []
         self.with_ports = None
@@ -74,6 +75,7 @@ class ModelCore(Register):
             self.guides,
             self.payloads,
             self.written_inertias,
+            self.written_axes,
         )
         return tuple(len(part) for part in parts)
 

@@ -14,7 +14,7 @@ from mbs.model.air import AirVocabulary
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
 from mbs.model.body import Body
-from mbs.model.carried import SlidingPoint, Spin
+from mbs.model.carried import SlidingPoint, Spin, WrittenAxis
 from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.constants import new_constant
 from mbs.model.coordinate import Coordinate
@@ -33,6 +33,7 @@ from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.model.spin import spin
 from mbs.model.table_vocabulary import TableVocabulary
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
+from mbs.model.written_axis import new_written_axis
 
 
 class Model(
@@ -213,6 +214,27 @@ class Model(
             The model is planar, the carrier is not rigid, or no wheel has these inertias.
         """
         return spin(self, name, carrier, centre, axis, mass, spin_inertia, diametral_inertia, rolling_radius)
+
+    def written_axis(self, spin: Spin, *, leaning: float = 0.0) -> WrittenAxis:
+        """Let parameters turn the axis of a wheel on its carrier, about the centre of the wheel.
+
+        A parameter writes to its ``azimuth``, the angle of the axis about the vertical of the drawing from y to -x, or
+        its ``elevation`` above the level there, both in rad, and is fixed. Steps cost nothing while both are as drawn.
+
+        Parameters
+        ----------
+        spin : Spin
+            What `Model.spin` returned.
+        leaning : float
+            By how much its rolling radius grows with 1 over the cosine of the elevation, m: a hub that stays at its
+            height is farther from where a leaning wheel stands.
+
+        Raises
+        ------
+        ModelError
+            The axis stands upright.
+        """
+        return new_written_axis(self, spin, leaning)
 
     def anti_roll_bar(
         self,

@@ -10,10 +10,11 @@ from mbs.common.checks import array, flag, not_negative, not_zero, number, posit
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import GuideType, ParameterTarget, SensorType
-from mbs.model.carried import INERTIA_REALS, Payload, WrittenInertia
+from mbs.model.carried import AXIS_REALS, INERTIA_REALS, Payload, WrittenAxis, WrittenInertia
 from mbs.model.core import ModelCore
 from mbs.model.payload import REALS as PAYLOAD_REALS
 from mbs.model.records import Armature, Guide, Parameter
+from mbs.model.written_axis import STEEPEST
 
 _OF_INPUT: dict[str, Callable[[object, str], float]] = {"frequency": positive, "gain": number, "start": number}
 GUIDE_REALS = {
@@ -21,10 +22,11 @@ GUIDE_REALS = {
     GuideType.OF_TWO_INPUTS: _OF_INPUT | {"gain_2": number, "low": number, "high": number},
 }
 Owner: TypeAlias = (
-    "ElementRecord | Guide | Payload | Armature | WrittenInertia | str | tuple[str, int] | tuple[str, str]"
+    "ElementRecord | Guide | Payload | Armature | WrittenInertia | WrittenAxis | str | tuple[str, int] | "
+    "tuple[str, str]"
 )
-"""An element, a guide, a payload, an armature, a written inertia or the name of one; or ("road", number) or ("sensor",
-name)."""
+"""An element, a guide, a payload, an armature, a written inertia or axis, or the name of one; or ("road", number) or
+("sensor", name)."""
 Target: TypeAlias = (
     "tuple[Owner, str | int, float] | tuple[Owner, str | int, float, float] | "
     "tuple[Owner, str | int, float, float, bool]"
@@ -38,6 +40,7 @@ _AT_THE_START = (
     ParameterTarget.SWITCH,
     ParameterTarget.ARMATURE,
     ParameterTarget.INERTIA,
+    ParameterTarget.AXIS,
 )
 
 
@@ -168,6 +171,10 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
         if body.name == owner_name and real in INERTIA_REALS:
             i = INERTIA_REALS.index(str(real))
             return _Target((ParameterTarget.INERTIA, k, i, *line), f"the {real} of inertia '{owner_name}'", number)
+    for k, axis in enumerate(model.written_axes):
+        if axis.name == owner_name and real in AXIS_REALS:
+            i = AXIS_REALS.index(str(real))
+            return _Target((ParameterTarget.AXIS, k, i, *line), f"the {real} of axis '{owner_name}'", _direction)
     for k, switch in enumerate(model.switches):
         if switch.name == owner_name and real == "on":
             return _Target((ParameterTarget.SWITCH, k, 0, *line), f"the switch '{owner_name}'", _on_or_off)
@@ -187,6 +194,13 @@ def _sensor(model: ModelCore, what: str, name: object, real: str | int, line: tu
         f"The {what} writes {shown(real)} of sensor {shown(name)}, but the model has no sensor of that name that has "
         "factors."
     )
+
+
+def _direction(value: object, what: str) -> float:
+    angle = number(value, what)
+    if abs(angle) > STEEPEST:
+        raise ModelError(f"{what} is {angle:g} rad; it must be between {-STEEPEST:g} and {STEEPEST:g} rad.")
+    return angle
 
 
 def _on_or_off(value: object, what: str) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import direction, not_negative, positive, vector
 from mbs.common.errors import ModelError
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
@@ -12,6 +13,11 @@ from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.perpendicular import perpendicular
+
+
+def _own(vector: AffineVector) -> AffineVector:
+    """The same, told apart from equal vectors of the carrier that do not turn with the axis."""
+    return AffineVector(tuple(Affine(c.terms, c.constant) for c in vector.components))
 
 
 def spin(
@@ -55,12 +61,11 @@ def spin(
         "rad",
         carrier,
         carrier.point(c),
-        carrier.vector(e),
-        carrier.vector(x),
-        carrier.vector(y),
+        *(_own(carrier.vector(v)) for v in (e, x, y)),
         I_s,
+        I_d,
         radius,
-        tuple(e),
+        (tuple(x), tuple(y), tuple(e)),
     )
     model.add(GyroscopicSpin(I_s).record(f"{name}.gyroscopic", new.f, new.g, new.affine))
     model.spins.append(new)

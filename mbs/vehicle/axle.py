@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -15,7 +16,6 @@ from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.hub_port import hub_port
 from mbs.vehicle.quantities import PartMass, Point, WheelInertia
 from mbs.vehicle.section import Section
-from mbs.vehicle.side import Side
 from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
 from mbs.vehicle.suspensions import Suspension
 from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar
@@ -24,6 +24,7 @@ from mbs.vehicle.suspensions.curves import Curves
 from mbs.vehicle.tyre import TMeasy
 from mbs.vehicle.tyre_by_file import MagicFormula
 
+MOST_CAMBER = 0.2  # rad, the end of its range
 LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the front axle is a rear one
 
 
@@ -94,9 +95,8 @@ class Axle(Section):
             Of the car.
         """
         if self.by_curves is not None:
-            x, _, z = self.wheel.centre
-            *_, up = self.alignment.axes(Side("front", "left", 1.0))
-            self.by_curves.open(folder, Hub(self.wheel.centre, z / up[2], -1.0 if x < -LEAST_WHEELBASE else 1.0))
+            ahead = -1.0 if self.wheel.centre[0] < -LEAST_WHEELBASE else 1.0
+            self.by_curves.open(folder, Hub(self.wheel.centre, ahead))
 
     def faults(self) -> Iterator[str]:
         """The anti-roll bar hangs on a part that is there; a table reaches to the stops."""
@@ -163,6 +163,11 @@ class Axle(Section):
             spin_inertia=self.wheel.spin_inertia,
             diametral_inertia=self.wheel.diametral_inertia,
         )
+        by_lean = 1.0 / math.cos(MOST_CAMBER) - 1.0  # a secant: most tyres are linear in it
+        upright, leaned = (self.tyre.rolling_radius(self.wheel.centre[2] * (1.0 + grown)) for grown in (0.0, by_lean))
+        written = b.m.written_axis(spin, leaning=(leaned - upright) / by_lean)
+        for name, real in (("toe", "azimuth"), ("camber", "elevation")):
+            b.tie(self.alignment, f"{name}_{corner.side.name}", written, real, -corner.side.sign, late=True)
         if b.ports.tyre is not None:
             hub_port(b, w, spin)
             return spin

@@ -44,7 +44,7 @@ def test_the_page_of_the_system_file_is_what_the_headers_say():
 def test_numbers_known_from_the_documents():
     assert (Status.OK, Status.BAD_ARGUMENT, Status.BRANCH_CHANGED) == (0, 1, 17)
     assert (SolverValue.ITERATIONS, SolverValue.STATUS, SolverValue.ENERGY_BALANCE) == (0, 5, 7)
-    targets = ["ELEMENT", "GUIDE", "ROAD", "PAYLOAD", "SWITCH", "ARMATURE", "INERTIA", "SENSOR"]
+    targets = ["ELEMENT", "GUIDE", "ROAD", "PAYLOAD", "SWITCH", "ARMATURE", "INERTIA", "SENSOR", "AXIS"]
     assert [t.name for t in ParameterTarget] == targets
     assert list(ParameterTarget) == list(range(len(targets)))
     assert (SensorType.SIGNAL, SensorType.ELEMENT_OUTPUT, SensorType.WORK) == (0, 8, 19)

@@ -90,6 +90,24 @@ def test_cars_by_table_have_the_bits_of_single_runs(width: int) -> None:
             assert compare(many, single, together, 0.01, 30) == (0, {Status.OK})
 
 
+@pytest.mark.parametrize("fidelity", [0, 10])
+def test_lanes_with_the_same_axes_of_wheels_advance_together(fidelity: int) -> None:
+    """Those of the drawing or others; lanes with different ones make each step alone."""
+
+    def cars(toes: list[float]) -> list[Simulation]:
+        compiled, pose = car_system(fidelity) if fidelity else car_system(), Pose(speed=20.0)
+        return [Simulation(compiled, parameters={"front.alignment.toe_left": toe}, pose=pose) for toe in toes]
+
+    many = Many(prepared(cars([0.0])[0].system)[0], WIDTHS[0])
+    ends = []
+    for toes, alone in (([0.0, 0.0], 0), ([0.02, 0.02], 0), ([0.02, 0.03], 40), ([0.0, 0.02], 40), ([0.0, 0.0], 0)):
+        together = cars(toes)
+        assert compare(many, cars(toes), together, 0.005, 20) == (alone, {Status.OK})
+        ends.append(together[0].sensors["wheel_FL.Fy"])
+    assert ends[0] == ends[3] == ends[4]
+    assert ends[1] == ends[2] != ends[0]
+
+
 def test_lanes_have_roads_of_their_own(tmp_path: Path) -> None:
     """From files: a grid, which each lane asks alone, beside planes and a kerb, in any number of lanes."""
     heights = 0.02 * np.sin(np.arange(60.0 * 40.0)).reshape(60, 40)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
-from mbs import Pose, compile, simulate
+from mbs import Pose, Simulation, compile, simulate
 from mbs.vehicle import load
 from mbs.vehicle.car import Car
 from mbs.vehicle.errors import CarFileError
@@ -106,3 +107,32 @@ def test_the_held_car_has_its_contacts_on_the_ground(car):
 def test_an_angle_in_degrees_is_refused():
     with pytest.raises(CarFileError, match=r"front\.alignment\.toe_left.*between -0\.2 and 0\.2 rad"):
         load("hatchback").changed({"front.alignment.toe_left": 1.5})
+
+
+AXLES = {
+    "double wishbones": ("prototype", Fidelity.RIGID),
+    "tables of links": ("prototype", Fidelity.TABLE),
+    "MacPherson struts and twist beam": ("hatchback", Fidelity.RIGID),
+    "Magic Formula": ("saloon", Fidelity.RIGID),
+    "curves": ("commonroad_escort", Fidelity.RIGID),
+}
+
+
+@pytest.mark.parametrize("name", AXLES)
+def test_angles_that_parameters_write_are_those_of_the_car_built_so(name):
+    """At rest, where the equilibrium is another, and on the road; without them the numbers are those of the file."""
+    car_name, fidelity = AXLES[name]
+    car = load(car_name)
+    written = compile(car.model(fidelity=fidelity))
+    built = compile(car.changed(ANGLES).model(fidelity=fidelity))
+    for pose, most in ((None, 1e-9), (Pose(speed=20.0), 2e-6)):  # the start of a drive has other round-off
+        one, two, old = (
+            Simulation(system, parameters=values, pose=pose).run(0.3, 0.005)
+            for system, values in ((written, ANGLES), (built, {}), (written, {}))
+        )
+        for signal in one:
+            if not signal.startswith("solver."):
+                size = max(1.0, float(np.max(np.abs(two[signal]))))
+                assert np.max(np.abs(one[signal] - two[signal])) < most * size, signal
+        assert np.max(np.abs(one["wheel_RL.axis_x"] - old["wheel_RL.axis_x"])) > 1e-4
+        assert pose is None or np.max(np.abs(one["wheel_RL.Fy"] - old["wheel_RL.Fy"])) > 50.0

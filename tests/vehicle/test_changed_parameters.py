@@ -33,6 +33,8 @@ BODY = {
     "chassis.inertia.": 1.01,
     "chassis.products.": 1.0,
     "steering.rack_per_turn": 1.1,
+    "front.alignment.": 0.01,
+    "rear.alignment.": 0.01,
 }
 """By the begin of the name: a factor, or what is added; the frame of a car allows no more."""
 MANOEUVRES: dict[str, dict[str, Any]] = {

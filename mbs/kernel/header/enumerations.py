@@ -81,6 +81,7 @@ class ParameterTarget(IntEnum):
     ARMATURE = 5
     INERTIA = 6
     SENSOR = 7
+    AXIS = 8
 
 
 class GuideType(IntEnum):

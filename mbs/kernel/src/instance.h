@@ -43,7 +43,11 @@ typedef struct {
 } ali3_rule;
 
 struct ali3_instance {
-  const ali3_system *system;
+  const ali3_system *system; /* base, or turned where axes are not as drawn */
+  const ali3_system *base; /* as loaded */
+  ali3_system *turned; /* axes.c: with coefficients and moments of mass of its own */
+  double *turned_val, *turned_const, *turned_entry, *turned_mass, *turned_speed;
+  ali3_tabled *turned_tabled;
   void (*release)(void *block);
   ali3_settings settings;
   ali3_report report;
@@ -67,7 +71,7 @@ struct ali3_instance {
   double *input, *input_work, *parameter, *input_middle;
   const double *force_input; /* inputs that elements use: input, or input_middle where the middle is evaluated */
   double *el_real, *guide_real, *road_real, *payload_mass, *switch_on, *armature_ratio, *inertia_real,
-      *sen_real; /* copies that parameters write to */
+      *axis_real, *sen_real; /* copies that parameters write to */
   /* masses.c: mass matrix as mass_val and as the start of every tangent, what else the System has of it, gravity; those
    * of the System where nothing changes them */
   const double *mass_val, *front_mass, *mass_floor, *mass_floor_inverse, *mass_missing, *gravity_force;

@@ -7,7 +7,7 @@
 
 /* The arrays of a System file: C type, item type number, name; first those that it need not have: without them nothing
  * is known of assembly modes or of a start in equilibrium, no guide has two inputs, all parameters are tunable and
- * without offset and write multiples, and there are neither payloads nor armatures or bodies whose inertia may change. `drawing` is for those who draw: the kernel does not read it. */
+ * without offset and write multiples, and there are neither payloads nor armatures, bodies whose inertia or wheels whose axis may change. `drawing` is for those who draw: the kernel does not read it. */
 /* clang-format off */
 #define ALI3_OPTIONAL_ARRAYS(X) \
   X(unsigned char, 3, drawing) \
@@ -20,6 +20,8 @@
   X(int32_t, 1, tree_payload_body) X(double, 2, tree_payload_place) \
   X(int32_t, 1, armature_col) X(double, 2, armature_inertia) X(double, 2, armature_ratio) \
   X(double, 2, inertia_real) X(int32_t, 1, inertia_signal) X(double, 2, inertia_gravity) X(int32_t, 1, par_inverse) \
+  X(double, 2, axis_real) X(double, 2, axis_vector) X(double, 2, axis_inertia) X(int32_t, 1, axis_frame) \
+  X(int32_t, 1, axis_signal) X(int32_t, 1, axis_table) X(int32_t, 1, axis_spin) X(double, 2, axis_rolling) \
   X(int32_t, 1, guide_second) \
   X(int32_t, 1, tabled_size) X(int32_t, 1, tabled_frame) X(int32_t, 1, tabled_param) X(double, 2, tabled_axis) \
   X(double, 2, tabled_coef) X(double, 2, tabled_mass) X(double, 2, tabled_gravity) \
@@ -67,6 +69,7 @@
 /* clang-format on */
 
 enum { ALI3_INERTIA_REALS = 10, ALI3_INERTIA_SIGNALS = 12 }; /* of a body whose inertia parameters write */
+enum { ALI3_AXIS_REALS = 2, ALI3_AXIS_SIGNALS = 9 }; /* of a wheel whose axis parameters write */
 
 enum { /* par_target: what a parameter writes to */
        ALI3_TARGET_ELEMENT = 0,
@@ -77,6 +80,7 @@ enum { /* par_target: what a parameter writes to */
        ALI3_TARGET_ARMATURE,
        ALI3_TARGET_INERTIA,
        ALI3_TARGET_SENSOR,
+       ALI3_TARGET_AXIS,
        ALI3_TARGET_COUNT
 };
 
@@ -123,6 +127,8 @@ struct ali3_system {
   bool senses_rows; /* a sensor reads multipliers or violations */
   /* derived at load, in one block */
   void *derived;
+  ali3_system *turned; /* turned.c: with room for all directions of axes that parameters write; NULL: there are none */
+  void *lean; /* the arrays of this one, which has none */
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q; of a row of
                                    triples the terms of three entries in turn */
   double *hess_val;
@@ -165,4 +171,7 @@ struct ali3_system {
 };
 
 enum { ALI3_TRIAD_ITEMS = 11, ALI3_MOST_TRIADS = 15 }; /* of mode_triad: 9 signals, kind, ring; of a loop */
+
+/* Of the System as loaded and that of instances with other axes the one that needs no less memory. */
+static inline const ali3_system *ali3_widest_system(const ali3_system *s) { return s->turned != NULL ? s->turned : s; }
 #endif

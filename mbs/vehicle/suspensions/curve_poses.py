@@ -21,14 +21,11 @@ class Hub:
     ----------
     centre : (float, float, float)
         Of the left wheel, m.
-    radius : float
-        From the centre to the ground, m.
     ahead : float
         1 of a front wheel, -1 of a rear one, which lengthens the wheelbase as it goes back.
     """
 
     centre: Point
-    radius: float
     ahead: float
 
 
@@ -139,7 +136,8 @@ def _motion(table: CurveTable, name: str, sign: float, hub: Hub) -> tuple[Array,
     axes = axes_of(steer, inclination) @ pitched(pitch - pitch[i, k])
     rotations = axes @ axes[i, k].T
     up = axes_of(steer, inclination)[..., 2]
-    contact = -hub.radius * (up - up[i, k])  # of the contact centre less that of the wheel's
+    radius = hub.centre[2] / up[i, k, 2]
+    contact = -radius * (up - up[i, k])  # of the contact centre less that of the wheel's
     drawn = np.array([hub.centre[0], sign * hub.centre[1], hub.centre[2]])
     centres = np.zeros((*steer.shape, 3))
     centres[..., 2] = np.broadcast_to(table.travel[:, None], steer.shape)

@@ -16,12 +16,15 @@
 #include "../methods/whole_step.h"
 #include "../rows/guides.h"
 #include "../sensors/sensors.h"
+#include "../state/axes.h"
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
 
 struct ali3_many {
   ali3_lane_group group;
+  const ali3_system *base; /* as loaded */
+  bool apart; /* the lanes have not all the same axes of wheels */
   ali3_lane_step *step;
   void (*release)(void *block);
 };
@@ -29,7 +32,7 @@ struct ali3_many {
 int32_t ali3_widest_lanes(void) { return ali3_processor_lanes(); }
 
 size_t ali3_many_size(const ali3_system *s, int32_t width) {
-  return s == NULL || width < 2 ? 0 : sizeof(ali3_many) + ali3_group_bytes(s, width);
+  return s == NULL || width < 2 ? 0 : sizeof(ali3_many) + ali3_group_bytes(ali3_widest_system(s), width);
 }
 
 ali3_status ali3_many_new(const ali3_system *s, int32_t width, ali3_many **out) {
@@ -41,7 +44,8 @@ ali3_status ali3_many_new(const ali3_system *s, int32_t width, ali3_many **out) 
   ali3_many *many = (ali3_many *)block;
   many->release = s->memory.release;
   many->step = ali3_lane_step_of(width);
-  many->group.system = s;
+  many->base = s;
+  many->group.system = ali3_widest_system(s);
   many->group.width = width;
   ali3_group_place(&many->group, block + sizeof *many);
   *out = many;
@@ -132,7 +136,7 @@ static void step_together(ali3_many *many, int32_t n, const bool *going, bool ap
 static ali3_status gather(ali3_many *many, int32_t n, ali3_lane *lane, double h) {
   ali3_lane_group *g = &many->group;
   for (int32_t l = 0; l < n; l++) {
-    if (lane[l].instance == NULL || lane[l].instance->system != g->system) return ALI3_BAD_ARGUMENT;
+    if (lane[l].instance == NULL || lane[l].instance->base != many->base) return ALI3_BAD_ARGUMENT;
     for (int32_t k = 0; k < l; k++)
       if (lane[k].instance == lane[l].instance) return ALI3_BAD_ARGUMENT;
     if (memcmp(&lane[l].instance->settings, &lane[0].instance->settings, sizeof g->settings) != 0)
@@ -140,6 +144,10 @@ static ali3_status gather(ali3_many *many, int32_t n, ali3_lane *lane, double h)
   }
   for (int32_t l = 0; l < n; l++) g->lane[l] = lane[l].instance;
   g->used = n;
+  g->system = lane[0].instance->system;
+  many->apart = false;
+  for (int32_t l = 1; l < n; l++)
+    if (!ali3_axes_same(lane[0].instance, lane[l].instance)) many->apart = true;
   ali3_group_parameters(g);
   g->settings = lane[0].instance->settings;
   g->h = h;
@@ -154,7 +162,7 @@ ali3_status ali3_many_run(ali3_many *many, int32_t n, ali3_lane *lane, double h,
   const ali3_status gathered = gather(many, n, lane, h);
   if (gathered != ALI3_OK) return gathered;
   const ali3_system *S = many->group.system;
-  const bool apart = !taken(S, &many->group.settings);
+  const bool apart = many->apart || !taken(S, &many->group.settings);
   bool going[ALI3_MOST_LANES];
   ali3_whole_step step[ALI3_MOST_LANES];
   ali3_status status[ALI3_MOST_LANES];

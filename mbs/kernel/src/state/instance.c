@@ -66,7 +66,7 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   if (pool.block == NULL) return ALI3_NO_MEMORY;
   ali3_instance *in = ali3_pool_items(&pool, 1, sizeof *in);
   ali3_workspace_place(s, in, &pool);
-  in->system = s;
+  in->system = in->base = s;
   in->release = s->memory.release;
   in->n_roads = s->nr;
   in->n_vector = ali3_vector_count(s);
@@ -155,6 +155,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->payload_mass, S->payload_mass, S->n_payload_mass);
   copy(in->armature_ratio, S->armature_ratio, S->n_armature_ratio);
   copy(in->inertia_real, S->inertia_real, S->n_inertia_real);
+  copy(in->axis_real, S->axis_real, S->n_axis_real);
   copy(in->sen_real, S->sen_real, S->n_sen_real);
   for (int32_t g = 0; g < S->size.ng; g++)
     if (ali3_guide_filters(S->guide_type[g])) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];

@@ -9,10 +9,11 @@
 #include "../system/check.h"
 #include "../system/loading.h"
 #include "../tree/tree.h"
+#include "axes.h"
 #include "masses.h"
 
 static bool changes(const ali3_system *s) {
-  return s->n_payload_mass > 0 || s->n_armature_ratio > 0 || s->n_inertia_real > 0;
+  return s->n_payload_mass > 0 || s->n_armature_ratio > 0 || s->n_inertia_real > 0 || s->n_axis_inertia > 0;
 }
 
 /* Memory of the sums, where something changes them. */
@@ -113,6 +114,18 @@ static void turn(ali3_instance *in, int64_t k) {
   *mass = fmax(*mass + S->armature_inertia[k] * (now * now - old * old), 0.0);
 }
 
+/* What the axis of wheel k changes on its carrier, where that is no table, nothing where it is that of the System. */
+static void tilt(ali3_instance *in, int64_t k) {
+  const ali3_system *S = in->base;
+  const int32_t *frame = S->axis_frame + k * ALI3_AXIS_SIGNALS;
+  double change[3][3];
+  if (S->axis_table[k] >= 0 || ali3_axis_as_drawn(in, k)) return;
+  ali3_axis_moments(in, k, change);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      for (int x = 0; x < 3; x++) couple(in, frame[3 * i + x], frame[3 * j + x], change[i][j]);
+}
+
 /* The same of the tree: what each joint carries. */
 static void carry(ali3_instance *in) {
   const ali3_tree *T = in->system->tree;
@@ -122,7 +135,7 @@ static void carry(ali3_instance *in) {
     for (int32_t b = in->system->tree_payload_body[k]; b > 0; b = T->parent[b]) carried[b] += in->payload_mass[k];
 }
 
-/* After payloads, ratios or inertias have changed. */
+/* After payloads, ratios, inertias or axes have changed. */
 void ali3_masses_apply(ali3_instance *in) {
   const ali3_system *S = in->system;
   const ali3_masses *own = &in->own_masses;
@@ -136,5 +149,6 @@ void ali3_masses_apply(ali3_instance *in) {
       add(in, S->payload_signal[i], in->payload_mass[i / 3], S->payload_gravity[i % 3]);
   for (int64_t k = 0; k < S->n_armature_ratio; k++) turn(in, k);
   for (int64_t k = 0; k < S->n_inertia_real / ALI3_INERTIA_REALS; k++) weigh(in, k);
+  for (int64_t k = 0; k < S->n_axis_inertia; k++) tilt(in, k);
   ali3_mass_in_fronts(S, own->val, own->front, own->floor, own->floor_inverse, own->missing);
 }

@@ -3,6 +3,7 @@
 #include "parameters.h"
 #include "../instance.h"
 #include "../system/loading.h"
+#include "axes.h"
 #include "masses.h"
 
 /* What a parameter of a value writes to its target k. */
@@ -25,7 +26,8 @@ static targets targets_of(const ali3_instance *in) {
                     [ALI3_TARGET_SWITCH] = in->switch_on,
                     [ALI3_TARGET_ARMATURE] = in->armature_ratio,
                     [ALI3_TARGET_INERTIA] = in->inertia_real,
-                    [ALI3_TARGET_SENSOR] = in->sen_real}};
+                    [ALI3_TARGET_SENSOR] = in->sen_real,
+                    [ALI3_TARGET_AXIS] = in->axis_real}};
 }
 
 static void write(ali3_instance *in, int32_t p) {
@@ -58,6 +60,7 @@ void ali3_parameters_switch(ali3_instance *in) {
 /* All of them; refused as a whole when an element, guide or road cannot take its data. */
 ali3_status ali3_parameters_apply(ali3_instance *in) {
   for (int32_t p = 0; p < in->system->size.np; p++) write(in, p);
+  ali3_axes_apply(in);
   ali3_masses_apply(in);
   if (!in->initialised) ali3_parameters_switch(in);
   return check(in, -1) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
@@ -84,9 +87,11 @@ ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value) {
   if (in->initialised && in->system->n_par_fixed > 0 && in->system->par_fixed[index]) return ALI3_FIXED_PARAMETER;
   const ali3_status status = take(in, index, value);
   if (status != ALI3_OK) take(in, index, before);
-  const bool masses = writes_to(in->system, index, ALI3_TARGET_PAYLOAD) ||
+  const bool axes = writes_to(in->system, index, ALI3_TARGET_AXIS);
+  const bool masses = axes || writes_to(in->system, index, ALI3_TARGET_PAYLOAD) ||
                       writes_to(in->system, index, ALI3_TARGET_ARMATURE) ||
                       writes_to(in->system, index, ALI3_TARGET_INERTIA);
+  if (status == ALI3_OK && axes) ali3_axes_apply(in);
   if (status == ALI3_OK && masses) ali3_masses_apply(in);
   if (status == ALI3_OK && writes_to(in->system, index, ALI3_TARGET_SWITCH)) ali3_parameters_switch(in);
   return status;

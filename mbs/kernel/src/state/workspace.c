@@ -7,6 +7,7 @@
 #include "../system/without_states.h"
 #include "../tabled/tabled.h"
 #include "../tree/tree.h"
+#include "axes.h"
 #include "masses.h"
 #include "vectors.h"
 
@@ -55,6 +56,7 @@ static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->switch_on = ali3_pool_array(p, (size_t)s->size.n_switch);
   in->road_real = ali3_pool_array(p, (size_t)s->n_road_real);
   ali3_masses_place(s, in, p);
+  ali3_axes_place(s, in, p);
 }
 
 /* Coordinates and rows of a step. */
@@ -157,12 +159,13 @@ static void place_start_and_work(const ali3_system *s, ali3_instance *in, ali3_p
   in->stage_power = ali3_pool_array(p, ALI3_RADAU * (size_t)s->n_work);
 }
 
-void ali3_workspace_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool) {
+void ali3_workspace_place(const ali3_system *loaded, ali3_instance *in, ali3_pool *pool) {
+  const ali3_system *s = ali3_widest_system(loaded);
   in->road = ali3_pool_items(pool, (size_t)s->nr, sizeof *in->road);
   in->own_road = ali3_pool_items(pool, (size_t)s->nr, sizeof *in->own_road);
   in->tree = s->tree != NULL ? ali3_pool_items(pool, 1, sizeof *in->tree) : NULL;
   place_states(s, in, pool);
-  place_data(s, in, pool);
+  place_data(loaded, in, pool);
   place_step(s, in, pool);
   place_tangents(s, in, pool);
   place_stages(s, in, pool);

@@ -6,7 +6,7 @@
 #include "message.h"
 
 /* Whether the mass matrix has an entry for every coordinate of one signal with one of another. */
-static bool has_room(const ali3_system *s, int32_t one, int32_t other) {
+bool ali3_mass_has_room(const ali3_system *s, int32_t one, int32_t other) {
   for (int32_t a = s->sig_ptr[one]; a < s->sig_ptr[one + 1]; a++)
     for (int32_t b = s->sig_ptr[other]; b < s->sig_ptr[other + 1]; b++) {
       const int32_t row = s->sig_col[a], first = s->mass_ptr[row];
@@ -23,7 +23,7 @@ ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_indices(m, "payload_signal", s->payload_signal, 3 * n, 0, s->size.nsig));
   for (int64_t i = 0; i < 3 * n; i++) CHECK(ali3_check_independent(s, s->payload_signal[i], "a payload", m));
   for (int64_t i = 0; i < 3 * n; i++)
-    if (!has_room(s, s->payload_signal[i], s->payload_signal[i]))
+    if (!ali3_mass_has_room(s, s->payload_signal[i], s->payload_signal[i]))
       return ali3_bad(m, "payload %d is at coordinates between which the mass matrix has no entry", (int)(i / 3));
   return ALI3_OK;
 }
@@ -38,8 +38,8 @@ ali3_status ali3_check_inertias(const ali3_system *s, ali3_message m) {
     CHECK(ali3_check_independent(s, s->inertia_signal[i], "a body whose inertia parameters write", m));
   for (int64_t i = 0; i < ALI3_INERTIA_SIGNALS * n; i++)
     for (int64_t v = 0; v < ALI3_INERTIA_SIGNALS; v += 3)
-      if (!has_room(s, s->inertia_signal[i],
-                    s->inertia_signal[i / ALI3_INERTIA_SIGNALS * ALI3_INERTIA_SIGNALS + i % 3 + v]))
+      if (!ali3_mass_has_room(s, s->inertia_signal[i],
+                              s->inertia_signal[i / ALI3_INERTIA_SIGNALS * ALI3_INERTIA_SIGNALS + i % 3 + v]))
         return ali3_bad(m, "the mass matrix has no entry for the inertia %d that parameters write",
                         (int)(i / ALI3_INERTIA_SIGNALS));
   if (n > 0 && s->n_tree_parent > 0) return ali3_bad(m, "a parameter writes the inertia of a body of a tree");

@@ -19,6 +19,10 @@ ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_armatures(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_inertias(const ali3_system *s, ali3_message m);
 bool ali3_inertia_possible(const double *real);
+bool ali3_mass_has_room(const ali3_system *s, int32_t one, int32_t other);
+const char *ali3_check_axis(const double *real);
+ali3_status ali3_check_axes(const ali3_system *s, ali3_message m);
+ali3_status ali3_system_turn(ali3_system *s, ali3_message m);
 ali3_status ali3_check_ported(const ali3_system *s, ali3_message m);
 /* Data of elements, guides, roads, payloads and armatures, in the order of ALI3_TARGET_*: all, or of what target k of a parameter
  * belongs to. */

@@ -104,6 +104,7 @@ static ali3_status check_fixed(const ali3_system *s, ali3_message m) {
                         s->par_target[k] == ALI3_TARGET_PAYLOAD   ? "the mass of a payload"
                         : s->par_target[k] == ALI3_TARGET_SWITCH  ? "a switch"
                         : s->par_target[k] == ALI3_TARGET_INERTIA ? "the inertia of a body"
+                        : s->par_target[k] == ALI3_TARGET_AXIS    ? "the axis of a wheel"
                                                                   : "the ratio of an armature");
   return ALI3_OK;
 }
@@ -114,7 +115,8 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
       [ALI3_TARGET_ELEMENT] = s->n_el_real,      [ALI3_TARGET_GUIDE] = s->n_guide_real,
       [ALI3_TARGET_ROAD] = s->n_road_real,       [ALI3_TARGET_PAYLOAD] = s->n_payload_mass,
       [ALI3_TARGET_SWITCH] = s->n_switch_start,  [ALI3_TARGET_ARMATURE] = s->n_armature_ratio,
-      [ALI3_TARGET_INERTIA] = s->n_inertia_real, [ALI3_TARGET_SENSOR] = s->n_sen_real};
+      [ALI3_TARGET_INERTIA] = s->n_inertia_real, [ALI3_TARGET_SENSOR] = s->n_sen_real,
+      [ALI3_TARGET_AXIS] = s->n_axis_real};
   CHECK(ali3_check_length(m, "par_min", s->n_par_min, np));
   CHECK(ali3_check_length(m, "par_max", s->n_par_max, np));
   CHECK(ali3_check_length(m, "par_index", s->n_par_index, s->n_par_target));
@@ -198,6 +200,8 @@ const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_
   for (int64_t k = 0; text == NULL && k < s->n_armature_ratio; k++) text = check_ratio(data[ALI3_TARGET_ARMATURE][k]);
   for (int64_t k = 0; text == NULL && k < s->n_inertia_real; k += ALI3_INERTIA_REALS)
     text = check_inertia(data[ALI3_TARGET_INERTIA] + k);
+  for (int64_t k = 0; text == NULL && k < s->n_axis_real; k += ALI3_AXIS_REALS)
+    text = ali3_check_axis(data[ALI3_TARGET_AXIS] + k);
   const double *on = data[ALI3_TARGET_SWITCH]; /* those of a file are 0 or 1 */
   for (int32_t k = 0; text == NULL && on != NULL && k < s->size.n_switch; k++) text = check_switch(on[k]);
   return text;
@@ -226,6 +230,7 @@ const char *ali3_check_target(const ali3_system *s, int64_t k, const double *con
   if (family == ALI3_TARGET_SENSOR) return NULL;
   if (family == ALI3_TARGET_INERTIA)
     return check_inertia(data[family] + index / ALI3_INERTIA_REALS * ALI3_INERTIA_REALS);
+  if (family == ALI3_TARGET_AXIS) return ali3_check_axis(data[family] + index / ALI3_AXIS_REALS * ALI3_AXIS_REALS);
   return family == ALI3_TARGET_SWITCH ? check_switch(data[family][index]) : check_ratio(data[family][index]);
 }
 
@@ -237,6 +242,7 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(ali3_check_payloads(s, m));
   CHECK(ali3_check_armatures(s, m));
   CHECK(ali3_check_inertias(s, m));
+  CHECK(ali3_check_axes(s, m));
   CHECK(check_guides_and_roads(s, m));
   CHECK(check_parameters(s, m));
   CHECK(ali3_check_fronts(s, m));
@@ -253,7 +259,8 @@ ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   const double *const data[ALI3_TARGET_COUNT] = {
       [ALI3_TARGET_ELEMENT] = s->el_real,         [ALI3_TARGET_GUIDE] = s->guide_real,
       [ALI3_TARGET_ROAD] = s->road_real,          [ALI3_TARGET_PAYLOAD] = s->payload_mass,
-      [ALI3_TARGET_ARMATURE] = s->armature_ratio, [ALI3_TARGET_INERTIA] = s->inertia_real};
+      [ALI3_TARGET_ARMATURE] = s->armature_ratio, [ALI3_TARGET_INERTIA] = s->inertia_real,
+      [ALI3_TARGET_AXIS] = s->axis_real};
   const char *text = ali3_check_data(s, data);
   return text == NULL ? ALI3_OK : ali3_bad(m, "%s", text);
 }

@@ -138,6 +138,7 @@ ali3_status ali3_system_load_with(const void *bytes, size_t size, const ali3_mem
   s->crc = read_u32(s->bytes + 24);
   status = read_directory(s, size, m);
   if (status == ALI3_OK) status = ali3_system_check(s, m);
+  if (status == ALI3_OK) status = ali3_system_turn(s, m);
   if (status == ALI3_OK) status = ali3_system_derive(s, m);
   if (status != ALI3_OK) {
     ali3_system_free(s);
@@ -150,6 +151,11 @@ ali3_status ali3_system_load_with(const void *bytes, size_t size, const ali3_mem
 void ali3_system_free(ali3_system *s) {
   if (s == NULL) return;
   const ali3_memory memory = s->memory; /* a host's release need not take a null pointer */
+  if (s->turned != NULL) {
+    if (s->turned->derived != NULL) memory.release(s->turned->derived);
+    memory.release(s->turned);
+  }
+  if (s->lean != NULL) memory.release(s->lean);
   if (s->derived != NULL) memory.release(s->derived);
   if (s->bytes != NULL) memory.release(s->bytes);
   memory.release(s);

@@ -1,0 +1,156 @@
+/* Axes of wheels whose direction on their carrier parameters write. The vectors f, g and e of a wheel are signals, linear
+ * in the three axes of its carrier. An instance whose axes are those of the drawing has the System as it was loaded. Any
+ * other has a System of its own, `turned` with other coefficients, so that no step knows of it and no step pays for it.
+ * The diametral inertia I (1 - e e') of the wheel, which its carrier has, turns along. */
+#include <string.h>
+
+#include "../algebra/elementary.h"
+#include "../system/check.h"
+#include "../tabled/tabled.h"
+#include "axes.h"
+
+enum { X, Y, Z, AXES, REALS = ALI3_AXIS_REALS, SIGNALS = ALI3_AXIS_SIGNALS };
+enum { MOMENTS = 4 }; /* in ali3_tabled.mass: the first of xx, yy, zz, yz, zx, xy */
+
+void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
+  const ali3_system *T = s->turned;
+  const size_t tabled = T != NULL ? (size_t)T->n_tabled : 0;
+  in->axis_real = ali3_pool_array(p, (size_t)s->n_axis_real);
+  in->turned = T != NULL ? ali3_pool_items(p, 1, sizeof *in->turned) : NULL;
+  in->turned_val = ali3_pool_array(p, T != NULL ? (size_t)T->n_sig_val : 0);
+  in->turned_const = ali3_pool_array(p, T != NULL ? (size_t)T->n_sig_const : 0);
+  in->turned_entry = ali3_pool_array(p, T != NULL ? (size_t)T->el_entry_ptr[T->size.ne] : 0);
+  in->turned_speed = ali3_pool_array(p, T != NULL ? (size_t)T->n_pose_speed : 0);
+  in->turned_tabled = ali3_pool_items(p, tabled, sizeof *in->turned_tabled);
+  in->turned_mass = ali3_pool_array(p, tabled * ALI3_TABLED_MOMENTS);
+}
+
+/* Columns: forward and level, along the axis, up in the plane of the wheel. */
+static void axes_of(const double *angle, double R[AXES][AXES]) {
+  const double c = ali3_cos(angle[0]), s = ali3_sin(angle[0]), cl = ali3_cos(angle[1]), sl = ali3_sin(angle[1]);
+  const double columns[AXES][AXES] = {{c, s, 0.0}, {-s * cl, c * cl, sl}, {s * sl, -c * sl, cl}};
+  for (int i = 0; i < AXES; i++)
+    for (int k = 0; k < AXES; k++) R[i][k] = columns[k][i];
+}
+
+/* The turn from the drawing. */
+static void turn_of(const ali3_instance *in, int64_t k, double Q[AXES][AXES]) {
+  double now[AXES][AXES], drawn[AXES][AXES];
+  axes_of(in->axis_real + REALS * k, now);
+  axes_of(in->base->axis_real + REALS * k, drawn);
+  for (int i = 0; i < AXES; i++)
+    for (int j = 0; j < AXES; j++) {
+      Q[i][j] = 0.0;
+      for (int l = 0; l < AXES; l++) Q[i][j] += now[i][l] * drawn[j][l];
+    }
+}
+
+static void turn(const double Q[AXES][AXES], const double *v, double out[AXES]) {
+  for (int i = 0; i < AXES; i++) out[i] = Q[i][X] * v[X] + Q[i][Y] * v[Y] + Q[i][Z] * v[Z];
+}
+
+/* Numbers, not bits: 0 has two signs. */
+static bool equal(const double *one, const double *other, int64_t n) {
+  for (int64_t i = 0; i < n; i++)
+    if (one[i] != other[i]) return false;
+  return true;
+}
+
+bool ali3_axis_as_drawn(const ali3_instance *in, int64_t k) {
+  return equal(in->axis_real + REALS * k, in->base->axis_real + REALS * k, REALS);
+}
+
+void ali3_axis_moments(const ali3_instance *in, int64_t k, double change[3][3]) {
+  const double inertia = in->base->axis_inertia[k], *drawn = in->base->axis_vector + SIGNALS * k + 2 * AXES;
+  double Q[AXES][AXES], e[AXES];
+  turn_of(in, k, Q);
+  turn(Q, drawn, e);
+  for (int i = 0; i < AXES; i++)
+    for (int j = 0; j < AXES; j++) change[i][j] = inertia * (e[i] * e[j] - drawn[i] * drawn[j]);
+}
+
+/* Signal `to` becomes the sum of w times those of the carrier's axes, whose coordinates it has. */
+static void write_signal(ali3_instance *in, int32_t to, const int32_t *frame, const double w[AXES]) {
+  const ali3_system *T = in->base->turned;
+  const int32_t first = T->sig_ptr[to], n = T->sig_ptr[to + 1] - first;
+  memset(in->turned_val + first, 0, (size_t)n * sizeof(double));
+  in->turned_const[to] = 0.0;
+  for (int j = 0; j < AXES; j++) {
+    const int32_t from = frame[AXES * j];
+    for (int32_t a = T->sig_ptr[from]; a < T->sig_ptr[from + 1]; a++)
+      in->turned_val[first + ali3_find(T->sig_col + first, n, T->sig_col[a])] += w[j] * T->sig_val[a];
+    in->turned_const[to] += w[j] * T->sig_const[from];
+  }
+}
+
+static void write_signals(ali3_instance *in, int64_t k) {
+  const ali3_system *T = in->base->turned;
+  double Q[AXES][AXES], w[AXES];
+  turn_of(in, k, Q);
+  for (int v = 0; v < 3; v++) {
+    turn(Q, T->axis_vector + SIGNALS * k + AXES * v, w);
+    for (int x = 0; x < AXES; x++)
+      write_signal(in, T->axis_signal[SIGNALS * k + AXES * v + x], T->axis_frame + SIGNALS * k + x, w);
+  }
+}
+
+/* As derived: the coefficients of the signals of all elements in turn. */
+static void write_entries(ali3_instance *in) {
+  const ali3_system *T = in->base->turned;
+  double *to = in->turned_entry;
+  for (int64_t i = 0; i < T->n_el_sig; i++)
+    for (int32_t k = T->sig_ptr[T->el_sig[i]]; k < T->sig_ptr[T->el_sig[i] + 1]; k++) *to++ = in->turned_val[k];
+}
+
+static void write_moments(ali3_instance *in, int64_t k) {
+  static const int place[6][2] = {{X, X}, {Y, Y}, {Z, Z}, {Y, Z}, {Z, X}, {X, Y}};
+  const int32_t table = in->base->axis_table[k];
+  double change[AXES][AXES];
+  if (table < 0) return;
+  ali3_axis_moments(in, k, change);
+  for (int i = 0; i < 6; i++)
+    in->turned_mass[ALI3_TABLED_MOMENTS * table + MOMENTS + i] += change[place[i][0]][place[i][1]];
+}
+
+/* The spin of a start with a speed: that of a wheel that rolls, whose loaded radius grows as it leans. */
+static void write_speed(ali3_instance *in, int64_t k) {
+  const ali3_system *S = in->base;
+  const double *radius = S->axis_rolling + 2 * k, *drawn = S->axis_real + REALS * k, *now = in->axis_real + REALS * k;
+  if (!S->size.has_pose || !(radius[0] > 0.0)) return;
+  const double leaned = radius[0] + radius[1] * (1.0 / ali3_cos(now[1]) - 1.0 / ali3_cos(drawn[1]));
+  in->turned_speed[S->axis_spin[k]] = ali3_cos(now[0]) * ali3_cos(now[1]) / leaned;
+}
+
+/* After axes have changed. */
+void ali3_axes_apply(ali3_instance *in) {
+  const ali3_system *S = in->base, *T = S->turned;
+  in->system = S;
+  if (T == NULL || equal(in->axis_real, S->axis_real, S->n_axis_real)) return;
+  memcpy(in->turned_val, T->sig_val, (size_t)T->n_sig_val * sizeof(double));
+  memcpy(in->turned_const, T->sig_const, (size_t)T->n_sig_const * sizeof(double));
+  if (T->n_pose_speed > 0) memcpy(in->turned_speed, T->pose_speed, (size_t)T->n_pose_speed * sizeof(double));
+  for (int32_t i = 0; i < T->n_tabled; i++) {
+    double *mass = in->turned_mass + ALI3_TABLED_MOMENTS * i;
+    memcpy(mass, T->tabled[i].mass, ALI3_TABLED_MOMENTS * sizeof(double));
+    in->turned_tabled[i] = T->tabled[i];
+    in->turned_tabled[i].mass = mass;
+  }
+  for (int64_t k = 0; k < S->n_axis_inertia; k++) {
+    if (ali3_axis_as_drawn(in, k)) continue;
+    write_signals(in, k);
+    write_moments(in, k);
+    write_speed(in, k);
+  }
+  write_entries(in);
+  *in->turned = *T;
+  in->turned->sig_val = in->turned_val;
+  in->turned->sig_const = in->turned_const;
+  in->turned->el_entry_value = in->turned_entry;
+  in->turned->tabled = in->turned_tabled;
+  in->turned->pose_speed = in->turned_speed;
+  in->system = in->turned;
+}
+
+bool ali3_axes_same(const ali3_instance *one, const ali3_instance *other) {
+  return equal(one->axis_real, other->axis_real, one->base->n_axis_real);
+}

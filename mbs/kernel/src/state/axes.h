@@ -1,0 +1,14 @@
+/* Axes of wheels whose direction on their carrier parameters write. */
+#ifndef ALI3_AXES_H
+#define ALI3_AXES_H
+#include "../instance.h"
+#include "../system/pool.h"
+
+void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool);
+void ali3_axes_apply(ali3_instance *in);
+bool ali3_axis_as_drawn(const ali3_instance *in, int64_t k);
+/* Change of the second moments of wheel k about its centre, along the axes of the drawing. */
+void ali3_axis_moments(const ali3_instance *in, int64_t k, double change[3][3]);
+/* Whether both have the same axes: one System then serves both. */
+bool ali3_axes_same(const ali3_instance *one, const ali3_instance *other);
+#endif

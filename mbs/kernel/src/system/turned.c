@@ -1,0 +1,125 @@
+/* A System with axes that parameters write: its file has room in the signals of a wheel for every direction. The System as
+ * loaded drops the entries that are zero as drawn, so that these cost nothing; `turned` keeps them, for instances whose
+ * axes are not those of the drawing. */
+#include <math.h>
+#include <string.h>
+
+#include "../system.h"
+#include "check.h"
+#include "loading.h"
+#include "message.h"
+#include "pool.h"
+
+enum { FRAME = ALI3_AXIS_SIGNALS };
+static const double STEEPEST = 1.4; /* rad of elevation */
+
+/* Two angles of an axis; also of a parameter. */
+const char *ali3_check_axis(const double *real) {
+  return fabs(real[0]) <= 7.0 && fabs(real[1]) <= STEEPEST ? NULL : "the axis of a wheel must not stand upright";
+}
+
+/* Whether signal `to` has all coordinates of `from`. */
+static bool has_all(const ali3_system *s, int32_t to, int32_t from) {
+  const int32_t first = s->sig_ptr[to], n = s->sig_ptr[to + 1] - first;
+  for (int32_t k = s->sig_ptr[from]; k < s->sig_ptr[from + 1]; k++)
+    if (ali3_find(s->sig_col + first, n, s->sig_col[k]) < 0) return false;
+  return true;
+}
+
+/* The arrays of signals, tables and of the mass matrix are checked. */
+ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
+  const int64_t n = s->n_axis_inertia;
+  CHECK(ali3_check_length(m, "axis_real", s->n_axis_real, ALI3_AXIS_REALS * n));
+  CHECK(ali3_check_length(m, "axis_vector", s->n_axis_vector, FRAME * n));
+  CHECK(ali3_check_length(m, "axis_frame", s->n_axis_frame, FRAME * n));
+  CHECK(ali3_check_length(m, "axis_signal", s->n_axis_signal, FRAME * n));
+  CHECK(ali3_check_length(m, "axis_table", s->n_axis_table, n));
+  CHECK(ali3_check_length(m, "axis_spin", s->n_axis_spin, n));
+  CHECK(ali3_check_length(m, "axis_rolling", s->n_axis_rolling, 2 * n));
+  CHECK(ali3_check_indices(m, "axis_spin", s->axis_spin, n, 0, s->size.nq));
+  CHECK(ali3_check_indices(m, "axis_frame", s->axis_frame, s->n_axis_frame, 0, s->size.nsig));
+  CHECK(ali3_check_indices(m, "axis_signal", s->axis_signal, s->n_axis_signal, 0, s->size.nsig));
+  CHECK(ali3_check_indices(m, "axis_table", s->axis_table, n, -1, s->n_tabled));
+  for (int64_t i = 0; i < FRAME * n; i++)
+    for (int64_t j = 0; j < FRAME; j += 3) {
+      const int32_t own = s->axis_frame[i], axis = s->axis_frame[i / FRAME * FRAME + i % 3 + j];
+      if (!has_all(s, s->axis_signal[i], axis))
+        return ali3_bad(m, "the signals of axis %d have no room for all directions", (int)(i / FRAME));
+      if (s->axis_table[i / FRAME] < 0 && !ali3_mass_has_room(s, own, axis))
+        return ali3_bad(m, "the mass matrix has no entry for the wheel of axis %d", (int)(i / FRAME));
+    }
+  for (int64_t k = 0; k < n; k++)
+    if (s->axis_table[k] < 0)
+      for (int64_t i = 0; i < FRAME; i++)
+        CHECK(ali3_check_independent(s, s->axis_frame[FRAME * k + i], "a wheel whose axis has no table", m));
+  if (n > 0 && s->n_tree_parent > 0) return ali3_bad(m, "a parameter writes the axis of a wheel of a tree");
+  return ALI3_OK;
+}
+
+typedef struct {
+  int32_t *sig_ptr, *sig_col, *el_loc_ptr, *el_loc;
+  double *sig_val;
+  bool *written; /* of each signal */
+} lean;
+
+static void place(const ali3_system *s, ali3_pool *p, lean *to) {
+  const size_t nsig = (size_t)s->size.nsig, entries = (size_t)s->n_sig_col;
+  to->sig_val = ali3_pool_items(p, entries, sizeof(double));
+  to->sig_ptr = ali3_pool_items(p, nsig + 1, sizeof(int32_t));
+  to->sig_col = ali3_pool_items(p, entries, sizeof(int32_t));
+  to->el_loc_ptr = ali3_pool_items(p, (size_t)s->size.ne + 1, sizeof(int32_t));
+  to->el_loc = ali3_pool_items(p, (size_t)s->n_el_loc, sizeof(int32_t));
+  to->written = ali3_pool_items(p, nsig, sizeof(bool));
+}
+
+/* Whether entry k of a signal stays. */
+static bool stays(const ali3_system *s, const lean *to, int32_t signal, int32_t k) {
+  return !to->written[signal] || s->sig_val[k] != 0.0;
+}
+
+static void drop(ali3_system *s, lean *to) {
+  int32_t n = 0, at = 0;
+  for (int64_t i = 0; i < s->n_axis_signal; i++) to->written[s->axis_signal[i]] = true;
+  for (int32_t e = 0; e < s->size.ne; e++) {
+    const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
+    for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++)
+      for (int32_t k = s->sig_ptr[s->el_sig[i]]; k < s->sig_ptr[s->el_sig[i] + 1]; k++, loc++)
+        if (stays(s, to, s->el_sig[i], k)) to->el_loc[at++] = *loc;
+    to->el_loc_ptr[e + 1] = at;
+  }
+  for (int32_t i = 0; i < s->size.nsig; i++) {
+    for (int32_t k = s->sig_ptr[i]; k < s->sig_ptr[i + 1]; k++) {
+      if (!stays(s, to, i, k)) continue;
+      to->sig_col[n] = s->sig_col[k];
+      to->sig_val[n++] = s->sig_val[k];
+    }
+    to->sig_ptr[i + 1] = n;
+  }
+  s->sig_ptr = to->sig_ptr;
+  s->sig_col = to->sig_col;
+  s->sig_val = to->sig_val;
+  s->el_loc_ptr = to->el_loc_ptr;
+  s->el_loc = to->el_loc;
+  s->n_sig_col = s->n_sig_val = n;
+  s->n_el_loc = at;
+}
+
+/* s->turned, and s without what is zero as drawn; before s is derived. */
+ali3_status ali3_system_turn(ali3_system *s, ali3_message m) {
+  ali3_pool pool = {NULL, 0};
+  lean to;
+  if (s->n_axis_inertia == 0) return ALI3_OK;
+  ali3_system *turned = s->memory.allocate(1, sizeof *turned);
+  if (turned == NULL) return ALI3_NO_MEMORY;
+  *turned = *s;
+  s->turned = turned;
+  CHECK(ali3_system_derive(turned, m));
+  place(s, &pool, &to);
+  s->lean = s->memory.allocate(1, pool.used);
+  if (s->lean == NULL) return ALI3_NO_MEMORY;
+  pool.block = s->lean;
+  pool.used = 0;
+  place(s, &pool, &to);
+  drop(s, &to);
+  return ALI3_OK;
+}
