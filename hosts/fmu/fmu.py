@@ -69,6 +69,11 @@ def _read(path: Path) -> tuple[ModelDescription, dict[str, Place]]:
     return description, places
 
 
+def unpack(path: Path, folder: Path) -> None:
+    """Unpack what an FMU runs with: all but its sources and documentation, which are most of its files."""
+    extract(str(path), str(folder), lambda name: not name.startswith(("sources/", "documentation/")))
+
+
 class Fmu:
     """One instance of a co-simulation FMU (FMI 2.0 or 3.0), ready to be initialised.
 
@@ -102,7 +107,7 @@ class Fmu:
         self.messages: list[str] = []
         self._folder = Path(tempfile.mkdtemp(prefix="fmu_"))
         try:
-            extract(str(path), unzipdir=str(self._folder))
+            unpack(path, self._folder)
             self._instance = Instance(description, self._folder, path.stem, self._log)
             self._slave = self._instance.slave
         except BaseException as error:

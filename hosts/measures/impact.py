@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import trapezoid
 
 from hosts.measures.wheels import LIFTED
 
@@ -25,7 +24,7 @@ def weight_from_momentum(time: NDArray[np.float64], load: NDArray[np.float64]) -
         N. The momentum is zero at both ends, so the impulse of the road is that of gravity: the mean load is the
         weight, whatever happens in between and whatever the gravity.
     """
-    return float(trapezoid(load, time) / (time[-1] - time[0]))
+    return float(np.trapezoid(load, time) / (time[-1] - time[0]))
 
 
 def first_contact(time: NDArray[np.float64], load: NDArray[np.float64]) -> float:

@@ -5,40 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, TypeAlias
+from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ali3.near_names import did_you_mean
 from ali3.reading import read_toml
 from hosts.common.errors import HostError
 from hosts.common.units import conversion
+from hosts.measures.limit_entry import LimitEntry
 from hosts.measures.measure import Limit
-
-Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
-
-
-class LimitEntry(BaseModel):
-    """What a measure must keep; a list of two numbers means its least and its largest value."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-
-    min: Number | None = Field(default=None, title="a number, the least value")
-    max: Number | None = Field(default=None, title="a number, the largest value")
-    unit: str | None = Field(default=None, title="the unit of these numbers, as text; default: that of the measure")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _pair(cls, given: object) -> object:
-        return dict(zip(("min", "max"), given, strict=True)) if isinstance(given, list) and len(given) == 2 else given
-
-    @model_validator(mode="after")
-    def _fits(self) -> LimitEntry:
-        if self.min is None and self.max is None:
-            raise ValueError("it needs min or max, or both")
-        if self.min is not None and self.max is not None and self.min > self.max:
-            raise ValueError(f"its limits are {self.min:g} and {self.max:g}; the lower one comes first")
-        return self
 
 
 class _LimitsFile(BaseModel):

@@ -18,7 +18,6 @@ from ali3.errors import FileError
 from ali3.files import whole_file
 from ali3.locks import locked
 from hosts.common.errors import HostError
-from hosts.measures.limits import limits_record
 from hosts.study.folder import begin_study, check_same, free_space, read_record, write_record
 from hosts.study.parts import PartWriter, forget_failed, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
@@ -143,9 +142,12 @@ def _car(name: str, file: Path) -> str:
 
 
 def _with_limits(plan: Plan, study: StudyFile) -> Plan:
-    return replace(
-        plan, record={**plan.record, "limits": limits_record(study.limits, plan.record["measures"], plan.file)}
-    )
+    limits: dict[str, Any] = {}
+    if study.limits:
+        from hosts.measures.limits import limits_record
+
+        limits = limits_record(study.limits, plan.record["measures"], plan.file)
+    return replace(plan, record={**plan.record, "limits": limits})
 
 
 def _keep_limits(plan: Plan, folder: Path, before: dict[str, Any], content: bytes) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from typing import Protocol
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.study.parameters import Parameter, columns_of
-from hosts.study.sampling import Grid, LatinHypercube, Saltelli, Sampler, SobolSequence
+from hosts.study.sampling import Grid, Sampler
 from hosts.study.study_file import SamplingEntry
 
 _MOST = 10**9
@@ -55,25 +55,31 @@ def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, f
     HostError
         There would be too many.
     """
-    n, seed, d = sampling.runs or 0, sampling.seed, len(parameters)
     if sampling.method == "grid":
         parameters = tuple(p.of_grid() for p in parameters)
-        sampler: Sampler = Grid([p.length for p in parameters])
+        sampler = Grid([p.length for p in parameters])
         if sampler.count > _MOST:
             product = " x ".join(str(p.length) for p in parameters)
             raise HostError(f"{file}: the grid has {product} = {sampler.count:.3g} points; at most {_MOST:.0e} can be.")
-    elif sampling.method == "latin_hypercube":
-        if n * d > _MOST:
-            raise HostError(
-                f"{file}: a Latin hypercube of {n} points of {d} parameters needs {8e-9 * n * d:.3g} GB of memory; "
-                "take the method sobol."
-            )
-        sampler = LatinHypercube(d, n, seed)
-    elif sampling.method == "sobol":
-        sampler = SobolSequence(d, n, seed)
-    else:
-        sampler = Saltelli(d, n, seed, sampling.second_order)
-    return SampledPoints(parameters, sampler)
+        return SampledPoints(parameters, sampler)
+    return SampledPoints(parameters, _drawn(len(parameters), sampling, file))
+
+
+def _drawn(d: int, sampling: SamplingEntry, file: str) -> Sampler:
+    """Points of d dimensions by chance."""
+    from hosts.study.drawn_points import LatinHypercube, Saltelli, SobolSequence
+
+    n, seed = sampling.runs or 0, sampling.seed
+    if sampling.method == "sobol":
+        return SobolSequence(d, n, seed)
+    if sampling.method == "saltelli":
+        return Saltelli(d, n, seed, sampling.second_order)
+    if n * d > _MOST:
+        raise HostError(
+            f"{file}: a Latin hypercube of {n} points of {d} parameters needs {8e-9 * n * d:.3g} GB of memory; "
+            "take the method sobol."
+        )
+    return LatinHypercube(d, n, seed)
 
 
 def digest(points: Points) -> str:

@@ -1,15 +1,13 @@
-"""Points of the unit cube and of grids, a block at a time, so that a million of them need no memory."""
+"""Points of a grid, a block at a time, so that a million of them need no memory; see `hosts.study.drawn_points`."""
 
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 
 class Sampler(Protocol):
@@ -26,77 +24,6 @@ class Sampler(Protocol):
     def block(self, first: int, count: int) -> NDArray[np.float64]:
         """Points `first` to `first + count - 1`, of shape (count, dimensions), in [0, 1)."""
         ...
-
-
-class LatinHypercube:
-    """A Latin hypercube; its permutations need all points, 8 bytes each per dimension."""
-
-    def __init__(self, dimensions: int, count: int, seed: int) -> None:
-        self.count = count
-        self._points = qmc.LatinHypercube(dimensions, rng=seed).random(count)
-
-    def block(self, first: int, count: int) -> NDArray[np.float64]:
-        """See `Sampler`."""
-        return np.asarray(self._points[first : first + count])
-
-
-class SobolSequence:
-    """Sobol' points, scrambled by the seed; good at powers of two."""
-
-    def __init__(self, dimensions: int, count: int, seed: int) -> None:
-        self.count = count
-        self._engine = qmc.Sobol(dimensions, rng=seed)
-        self._next = 0
-
-    def block(self, first: int, count: int) -> NDArray[np.float64]:
-        """See `Sampler`; blocks in order are the cheap ones."""
-        if first < self._next:
-            self._engine.reset()
-            self._next = 0
-        if first > self._next:
-            self._engine.fast_forward(first - self._next)
-        with warnings.catch_warnings():
-            # The number of all points is what counts, not that of a block; the plan tells of it.
-            warnings.filterwarnings("ignore", "The balance properties", UserWarning)
-            points = self._engine.random(count)
-        self._next = first + count
-        return np.asarray(points)
-
-
-class Saltelli:
-    """Points for Sobol' indices, in the order of `SALib.sample.sobol.sample`.
-
-    For each base point come A, A with one coordinate of B for each dimension, with the second order B with one
-    coordinate of A for each, and B [Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, table 2].
-
-    Parameters
-    ----------
-    base : int
-        Base points.
-    """
-
-    def __init__(self, dimensions: int, base: int, seed: int, second_order: bool) -> None:
-        self._dimensions, self._second_order = dimensions, second_order
-        self._group = (2 * dimensions if second_order else dimensions) + 2
-        self.count = base * self._group
-        self._base = SobolSequence(2 * dimensions, base, seed)
-
-    def block(self, first: int, count: int) -> NDArray[np.float64]:
-        """See `Sampler`."""
-        start, stop = first // self._group, -(-(first + count) // self._group)
-        pairs, d = self._base.block(start, stop - start), self._dimensions
-        a, b = pairs[:, :d], pairs[:, d:]
-        points = np.empty((stop - start, self._group, d))
-        points[:, 0], points[:, -1] = a, b
-        points[:, 1 : d + 1] = a[:, None]
-        if self._second_order:
-            points[:, d + 1 : -1] = b[:, None]
-        for k in range(d):
-            points[:, 1 + k, k] = b[:, k]
-            if self._second_order:
-                points[:, 1 + d + k, k] = a[:, k]
-        offset = first - start * self._group
-        return points.reshape(-1, d)[offset : offset + count]
 
 
 class Grid:

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from ali3.reading import LARGEST_TOML, read_bytes, toml_of
 from hosts.common.errors import HostError
-from hosts.measures.limits import LimitEntry, Number
+from hosts.measures.limit_entry import LimitEntry, Number
 
 METHODS = ("grid", "latin_hypercube", "sobol", "saltelli", "table")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import sys
+import tempfile
 import traceback
 import warnings
 from collections.abc import Callable
@@ -20,6 +21,7 @@ from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2Ca
 from fmu_src.build.build import KINDS, FmuBuilder
 from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.native.platforms import able_platforms
+from hosts.fmu.fmu import unpack
 
 SCENES = Path(__file__).parent / "scenes.py"
 PLATFORM = fmpy.platform
@@ -124,7 +126,8 @@ class Host:
     def __init__(self, path: Path, folder: Path | None = None, guid: str | None = None) -> None:
         self.description = fmpy.read_model_description(str(path))
         self.references = {v.name: v.valueReference for v in self.description.modelVariables}
-        self.folder = Path(fmpy.extract(str(path), unzipdir=folder and str(folder)))
+        self.folder = folder or Path(tempfile.mkdtemp(prefix="fmu_"))
+        unpack(path, self.folder)
         self.messages: list[str] = []
         self._callbacks = fmi2CallbackFunctions()
         self._callbacks.allocateMemory = defaultCallbacks.allocateMemory

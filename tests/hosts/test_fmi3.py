@@ -14,7 +14,7 @@ from fmpy.util import read_csv
 
 import mbs
 from fmu_src.build.build import build_fmu
-from hosts.fmu.fmu import Fmu, described
+from hosts.fmu.fmu import Fmu, described, unpack
 from hosts.fmu.instance import Instance
 from hosts.run.command import main
 from mbs.shapes.pose_outputs import pose_outputs
@@ -50,6 +50,20 @@ def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
     with pytest.raises(Exception, match="instantiate"):
         Instance(description, folder, "crane", lambda *message: told.append(message[2]), token="{100% of #r1#}")
     assert "{100% of #r1#}" in told[-1]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_all_is_unpacked_but_what_no_running_fmu_reads(
+    kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
+) -> None:
+    unpack(fmus["crane", kind], tmp_path)
+    found = {file.relative_to(tmp_path).as_posix() for file in tmp_path.rglob("*") if file.is_file()}
+    with zipfile.ZipFile(fmus["crane", kind]) as fmu:
+        left = set(fmu.namelist()) - found
+        assert len(found) + len(left) == len(fmu.namelist())
+    assert {name.partition("/")[0] for name in left} == {"sources", "documentation"}
+    assert {name.partition("/")[0] for name in found} >= {"modelDescription.xml", "binaries", "resources"}
+    assert len(left) > len(found)
 
 
 @pytest.mark.slow

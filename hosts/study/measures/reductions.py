@@ -8,7 +8,6 @@ from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import trapezoid
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -39,7 +38,7 @@ def mean_over_time(time: Array, x: Array) -> float:
     """Integral by the trapezoidal rule over the duration; it does not change with the sampling as a plain mean does."""
     if len(x) == 1:
         return float(x[0])
-    return float(trapezoid(x, time) / (time[-1] - time[0])) if time[-1] > time[0] else float(np.mean(x))
+    return float(np.trapezoid(x, time) / (time[-1] - time[0])) if time[-1] > time[0] else float(np.mean(x))
 
 
 def _rms(time: Array, x: Array, _: float) -> float:

@@ -9,7 +9,7 @@ from scipy.stats import qmc
 
 from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
 from hosts.study.analysis.main_effects import classes, main_effect
-from hosts.study.sampling import Saltelli
+from hosts.study.drawn_points import Saltelli
 
 pytest.importorskip("SALib")
 NAMES = ("a", "b", "c")

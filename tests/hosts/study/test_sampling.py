@@ -10,7 +10,8 @@ import pytest
 from SALib.sample import sobol
 from scipy.stats import qmc
 
-from hosts.study.sampling import Grid, LatinHypercube, Saltelli, Sampler, SobolSequence
+from hosts.study.drawn_points import LatinHypercube, Saltelli, SobolSequence
+from hosts.study.sampling import Grid, Sampler
 
 
 def in_blocks(sampler: Sampler, size: int) -> np.ndarray:

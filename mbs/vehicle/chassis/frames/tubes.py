@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import pickle
+from functools import lru_cache
 from pathlib import Path
 
+from mbs.flexible import FiniteElementModel
 from mbs.vehicle.chassis.frames.frame_section import Structure
 from mbs.vehicle.chassis.gauges.reading import in_order
 from mbs.vehicle.chassis.tube_tables import TubeTables
@@ -28,7 +31,7 @@ class TubesFrame(TubeTables):
         frame, tubes = tubular.frame()
         gauges = tubular.strain_gauges(tubes)
         readings = [r for gauge in gauges for r in self.gauges[gauge.name].readings(gauge, frame)]
-        return Structure(frame.finite_element_model(), in_order(readings), tubular.joint_places())
+        return Structure(_assembled(pickle.dumps(frame)), in_order(readings), tubular.joint_places())
 
     def check(self, folder: Path) -> None:
         """Read the tables, and the places of the gauges.
@@ -40,3 +43,10 @@ class TubesFrame(TubeTables):
         """
         tubular = TubularFrame(self, folder)
         tubular.strain_gauges(tubular.frame()[1])
+
+
+@lru_cache(maxsize=4)
+def _assembled(frame: bytes) -> FiniteElementModel:
+    """The model of a pickled `Frame`: cars that differ in other numbers share it."""
+    model: FiniteElementModel = pickle.loads(frame).finite_element_model()
+    return model
