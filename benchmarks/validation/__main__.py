@@ -1,5 +1,7 @@
 """A car against its measured drive: ``python -m benchmarks.validation FILE [--json FILE] [--page] [--chart FILE]``.
 
+Without FILE: the tests of others alone (``python -m benchmarks.validation [--json FILE] [--page]``).
+
 FILE is the log of a Ferrari 250 LM on a race track (see `docs/validation.md` for where it comes from), or another log
 with its alias file and car. Simple models are fitted on the same seconds as the car was, and all are judged on others.
 """
@@ -8,6 +10,7 @@ from __future__ import annotations
 
 import sys
 import tempfile
+from argparse import Namespace
 from collections.abc import Sequence
 from dataclasses import replace as replace_of
 from pathlib import Path
@@ -21,7 +24,7 @@ from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.pages import DOCS, replace, table
 from benchmarks.shared.tables import print_table
-from benchmarks.validation import two_track
+from benchmarks.validation import others, two_track
 from benchmarks.validation.bank import bank_of
 from benchmarks.validation.banked_log import write_banked
 from benchmarks.validation.bicycle import MODELS, Body
@@ -64,13 +67,20 @@ LACKING = {k: f for k, f in COLUMNS.items() if k in ("model", "windows", "latera
 PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
 FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
 STEP = 0.005  # s, inner one of the car
+BANKED = "multibody car, bank by place"
 CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Fit, judge, print, and write what was asked for."""
     parser = parser_of("validation", __doc__, chart="measured and predicted yaw rate")
-    parser.add_argument("file", type=Path, metavar="FILE", help="log of the drive: CSV, perhaps packed (.csv.gz)")
+    parser.add_argument(
+        "file",
+        type=Path,
+        nargs="?",
+        metavar="FILE",
+        help="log of the drive: CSV, perhaps packed (.csv.gz); without it the tests of others are made",
+    )
     parser.add_argument("--car", default="ferrari_250_lm", help="FMU or car; default: %(default)s")
     parser.add_argument(
         "--log-aliases", type=Path, default=HERE / "ferrari_250_lm_log.toml", metavar="FILE", help="of the log as it is"
@@ -85,6 +95,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--no-published", dest="published", action="store_false", help="without figures of others")
     parser.add_argument("--no-parts", action="store_true", help="without the cars that lack a part")
     options = parser.parse_args(arguments)
+    if options.file is None:
+        if options.chart or options.banked_car:
+            parser.error("--chart and --banked-car need the FILE of the drive.")
+        return _others(options)
+    if options.page and not options.banked_car and f"| {BANKED} |" in PAGE.read_text(encoding="utf-8"):
+        parser.error(f"The page has the row '{BANKED}', which --page without --banked-car FMU would lose; give it too.")
     drive = read_drive(options.file, options.log_aliases)
     drive = _banked(drive, FITTED)
     models = [m for m in (*MODELS, *two_track.MODELS) if drive.bank.size or not m.bank]
@@ -100,32 +116,47 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with tempfile.TemporaryDirectory() as folder:
             given = write_banked(Path(folder), options.file, options.car_aliases, drive.bank, BODY.mass)
             banked = judge(options.banked_car, *given, {"step_size": STEP})
-        rows.append(_of_car("multibody car, bank by place", banked, FITTED_NUMBERS, drive))
+        rows.append(_of_car(BANKED, banked, FITTED_NUMBERS, drive))
     lacking = [_of_car(name, part, 0, drive) for name, part in parts.items()]
     best = min((f for f in simple if np.isfinite(f.lateral)), key=lambda f: f.windows)
     over = _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive)
     swapped = fit(best.model, BODY, _banked(drive, JUDGED), JUDGED, FITTED)
     folds = _folds(best, swapped)
-    others = published_rows(*full_throttle(options.car, {"step_size": STEP})) if options.published else []
+    told_of_it = published_rows(*full_throttle(options.car, {"step_size": STEP})) if options.published else []
     print_table(rows, COLUMNS)
-    for told, columns in ((lacking, LACKING), (others, PUBLISHED)):
+    for told, columns in ((lacking, LACKING), (told_of_it, PUBLISHED)):
         if told:
             print_table(told, columns)
     for note in car.notes:
         print(f"note: {note}")
     record: dict[str, Any] = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking}
-    record |= {"curves": over, "published": others, "folds": folds}
+    record |= {"curves": over, "published": told_of_it, "folds": folds}
     save_rows(options.json, describe("validation", Settings(), **record), rows)
     if options.page:
         tables = blocks(rows, lacking, simple, car, over)
         tables["folds"] = table(folds, FOLDS)
-        if others:
-            tables["published"] = table(others, PUBLISHED)
-        write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), tables))
+        if told_of_it:
+            tables["published"] = table(told_of_it, PUBLISHED)
+        _merge(tables)
     if options.chart:
         chosen = simple[CHART_MODEL]
         draw(drive, car.time, car.path, chosen.path, chosen.model.name, options.chart)
     return 0
+
+
+def _others(options: Namespace) -> int:
+    """The tests of others, printed and merged into the page, whose other tables stay."""
+    made = others.rows()
+    print_table(made, others.COLUMNS)
+    save_rows(options.json, describe("validation", Settings()), made)
+    if options.page:
+        _merge({"others": table(made, others.COLUMNS)})
+    return 0
+
+
+def _merge(tables: dict[str, str]) -> None:
+    """Exchange these tables of the page."""
+    write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), tables))
 
 
 def _banked(drive: Drive, seconds: Spans) -> Drive:

@@ -39,7 +39,7 @@ class Published:
         """Of the table: the verdict is whether the car lies between the sources, widened by their last digit."""
         low, high = min(self.told.values()) - self.digit, max(self.told.values()) + self.digit
         off = computed / float(np.clip(computed, low, high)) - 1.0
-        verdict = "within" if off == 0.0 else f"{100.0 * off:+.0f} %"
+        verdict = "within" if off == 0.0 else f"{100.0 * off:+.2g} %"
         return {
             "test": f"{self.test}, {self.unit}",
             "published": "; ".join(f"{value:g} ({source})" for source, value in self.told.items()),

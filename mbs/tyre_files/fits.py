@@ -194,7 +194,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
         ),
         "moment": max(
             float(np.abs((_length(made, q) * _trail(made, q) - trails[q]) * across[q]).max())
-            / float(np.abs(trails[q] * across[q]).max())
+            / (float(np.abs(trails[q] * across[q]).max()) or 1.0)  # none: of a tyre without a trail
             for q in LOADS
         ),
     }

@@ -1,0 +1,99 @@
+"""Named cars from rest with full throttle, as others published it, against cars of the package that are made like them.
+
+- **VW e-up of 2013**: 12.4 s to 100 km/h as the maker tells it, with 210 N m and 60 kW (auto-motor-und-sport.de),
+  1140 kg (derstandard.at). Here the hatchback, whose motor is that one, with as much less mass of its body.
+- **Renault Zoe of 2013**: 13.5 s to 100 km/h with 220 N m, 65 kW and 1503 kg (autoscout24.be); to 50 km/h in 4 s
+  (aargauerzeitung.ch) or 3.7 s (niedrigenergieforum.de). Here the hatchback with that motor and that mass; ratio,
+  efficiency, drag and tyres are its own, which are assumed.
+- **BMW 320i of 1980**: 9.8 s to 60 mph, top speed 105 mph (Car and Driver, March 1980, by insurancenewsmag.com). Here
+  the saloon, which has masses, rates and tyres of a measured 320i; engine, gears and drag are assumed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from benchmarks.validation.drive import Array
+from benchmarks.validation.published import KMH, Published, full_throttle
+
+MPH = 1.609344  # km/h
+_BODY, _WITH_DRIVER = 1040.0, 1250.0  # kg, of the hatchback
+
+
+def _as_heavy_as(mass: float) -> dict[str, float]:
+    """The hatchback with a mass, its driver on board, kg."""
+    return {"chassis.mass": _BODY + mass - _WITH_DRIVER}
+
+
+@dataclass(frozen=True)
+class FromRest:
+    """A car that is driven so, and the times and the top speed that are published of it.
+
+    Parameters
+    ----------
+    car : str
+        Of the package.
+    settings : dict of str to float
+        Parameters of its FMU.
+    times : dict of float to Published
+        By the speed that is reached, km/h.
+    """
+
+    car: str
+    settings: dict[str, float]
+    times: dict[float, Published]
+    top_speed: Published | None = None
+
+
+DRIVES = (
+    FromRest(
+        "hatchback",
+        _as_heavy_as(1140.0),
+        {100.0: Published("VW e-up: 0 to 100 km/h", "s", {"auto-motor-und-sport.de": 12.4}, 0.05)},
+    ),
+    FromRest(
+        "hatchback",
+        {"drive.max_torque": 220.0, "drive.max_power": 65e3, **_as_heavy_as(1503.0)},
+        {
+            50.0: Published(
+                "Renault Zoe: 0 to 50 km/h", "s", {"aargauerzeitung.ch": 4.0, "niedrigenergieforum.de": 3.7}, 0.05
+            ),
+            100.0: Published("Renault Zoe: 0 to 100 km/h", "s", {"autoscout24.be": 13.5}, 0.05),
+        },
+    ),
+    FromRest(
+        "saloon",
+        {},
+        {60.0 * MPH: Published("BMW 320i of 1980: 0 to 60 mph", "s", {"Car and Driver, March 1980": 9.8}, 0.05)},
+        Published("BMW 320i of 1980: top speed", "mph", {"Car and Driver, March 1980": 105.0}, 0.5),
+    ),
+)
+
+
+def reached(time: Array, speed: Array, wanted: float) -> float:
+    """When a speed is first reached, s.
+
+    Parameters
+    ----------
+    time, speed : ndarray, shape (n,)
+        s and m/s.
+    wanted : float
+        km/h.
+    """
+    after = int(np.argmax(speed >= wanted / KMH))
+    if not speed[after] >= wanted / KMH:
+        raise ValueError(f"The car reaches {KMH * speed.max():.1f} km/h; {wanted:g} km/h were asked for.")
+    return float(np.interp(wanted / KMH, speed[after - 1 : after + 1], time[after - 1 : after + 1]))
+
+
+def compared() -> list[tuple[Published, float]]:
+    """What was published, and what the cars here do."""
+    found = []
+    for drive in DRIVES:
+        time, speed = full_throttle(drive.car, drive.settings)
+        found += [(figure, reached(time, speed, to)) for to, figure in drive.times.items()]
+        if drive.top_speed is not None:
+            found.append((drive.top_speed, KMH / MPH * float(speed.max())))
+    return found

@@ -1,0 +1,149 @@
+"""A published tyre on a rig: forces of both tyre formulas of the engine against the coefficients of others.
+
+The tyre is the Michelin MXV8 of the early Magic Formula, with the coefficients that stand in the repository
+n-jokic/Vehicle_MPC_control, src/simulink/pacajeka_init.m. With the load in kN, the slip angle in degrees and the slip
+in percent:
+
+    D = a1 Fz^2 + a2 Fz, BCD = a3 sin(a4 atan(a5 Fz)), E = a6 Fz^2 + a7 Fz + a8, C = a0 (lateral)
+    D = b1 Fz^2 + b2 Fz, BCD = (b3 Fz^2 + b4 Fz) exp(-b5 Fz), E = b6 Fz^2 + b7 Fz + b8, C = b0 (longitudinal)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import atan, cos, degrees, exp, pi, sin
+
+import numpy as np
+
+from benchmarks.validation.published import Published
+from mbs import Model, compile, simulate
+from mbs.elements import MagicTyre, PlaneRoad, Tyre
+from mbs.tyre_files.fits import tmeasy_of_magic
+
+LATERAL = (1.30, -22.1, 1011.0, 1078.0, 1.82, 0.208, 0.0, -0.354, 0.707)
+LONGITUDINAL = (1.65, -21.3, 1144.0, 49.6, 226.0, 0.069, -0.006, 0.056, 0.486)
+LAST_DIGITS = (
+    (0.01, 0.1, 1.0, 1.0, 0.01, 0.001, 0.001, 0.001, 0.001),
+    (0.01, 0.1, 1.0, 0.1, 1.0, 0.001, 0.001, 0.001, 0.001),
+)
+SOURCE = "n-jokic/Vehicle_MPC_control"
+NOMINAL = 4000.0  # N
+LOADS = (2000.0, 6000.0)  # N: TMeasy is fitted at 4 and 8 kN
+ANGLES, SLIPS = (2.0, 8.0), (-5.0, -15.0)  # deg, %
+SPEED, RADIUS, STIFFNESS = 20.0, 0.30, 200e3  # m/s, m, N/m; the formula has no speed
+_SLED, _SETTLED, _STEP = 1e9, 1.0, 0.002  # kg: forces do not slow it; s
+
+
+def published(coefficients: Sequence[float], lateral: bool, load: float, slip: float) -> float:
+    """Force of the published formula, N, with the sign of the slip.
+
+    Parameters
+    ----------
+    load : float
+        N.
+    slip : float
+        deg or %.
+    """
+    c, a1, a2, a3, a4, a5, a6, a7, a8 = coefficients
+    q = 1e-3 * load
+    most = a1 * q * q + a2 * q
+    slope = a3 * sin(a4 * atan(a5 * q)) if lateral else (a3 * q * q + a4 * q) * exp(-a5 * q)
+    bend, x = a6 * q * q + a7 * q + a8, slope / (c * most) * slip
+    return most * sin(c * atan(x - bend * (x - atan(x))))
+
+
+def read_within(lateral: bool, load: float, slip: float) -> float:
+    """Largest change of the force by half of the last digit of each coefficient, N."""
+    of, digits = (LATERAL, LAST_DIGITS[0]) if lateral else (LONGITUDINAL, LAST_DIGITS[1])
+    there = published(of, lateral, load, slip)
+    changed = ([*of[:k], of[k] + 0.5 * digits[k], *of[k + 1 :]] for k in range(len(of)))
+    return sum(abs(published(each, lateral, load, slip) - there) for each in changed)
+
+
+def magic() -> MagicTyre:
+    """The same formula by the names of property files: with loads over the nominal one it is the same to the digit."""
+    _, a1, a2, a3, a4, a5, _, a7, a8 = LATERAL
+    _, b1, b2, b3, b4, b5, b6, b7, b8 = LONGITUDINAL
+    q = 1e-3 * NOMINAL
+    at = exp(-b5 * q)
+    coefficients = {
+        "PCY1": LATERAL[0],
+        "PDY1": 1e-3 * (a1 * q + a2),
+        "PDY2": 1e-3 * a1 * q,
+        "PEY1": a7 * q + a8,
+        "PEY2": a7 * q,
+        "PKY1": -degrees(a3) / NOMINAL,
+        "PKY2": 1.0 / (a5 * q),
+        "PKY4": a4,
+        "PCX1": LONGITUDINAL[0],
+        "PDX1": 1e-3 * (b1 * q + b2),
+        "PDX2": 1e-3 * b1 * q,
+        "PEX1": b6 * q * q + b7 * q + b8,
+        "PEX2": 2.0 * b6 * q * q + b7 * q,
+        "PEX3": b6 * q * q,
+        "PKX1": 0.1 * (b3 * q + b4) * at,
+        "PKX2": 0.1 * b3 * q * at,
+        "PKX3": -b5 * q,
+    }
+    coefficients |= {"PTX1": 1.0, "PTY1": 1.0, "PTY2": 2.0}
+    return MagicTyre(
+        "MF52", coefficients, RADIUS, 0.15, STIFFNESS, NOMINAL, damping=500.0, combination="none", largest_load=8000.0
+    )
+
+
+def on_the_rig(tyre: MagicTyre | Tyre, load: float, angle: float = 0.0, slip: float = 0.0) -> tuple[float, float]:
+    """Steady forces of a wheel on a heavy sled.
+
+    Parameters
+    ----------
+    load : float
+        N.
+    angle : float
+        By which the sled goes to the right of the wheel's heading, deg.
+    slip : float
+        Longitudinal, % of the speed along the wheel, positive when driven.
+
+    Returns
+    -------
+    longitudinal, lateral : float
+        Forces of the road along the wheel's heading and to its left, N.
+    """
+    height = RADIUS - load / STIFFNESS
+    rolling = (2.0 * RADIUS + height) / 3.0  # of both formulas, where a tyre tells no other
+    way = np.array([cos(angle * pi / 180.0), -sin(angle * pi / 180.0), 0.0])
+    m = Model("tyre rig")
+    centre = (0.0, 0.0, height)
+    sled = m.body("sled", mass=_SLED, com=centre, inertia=(1.0, 1.0, 1.0))
+    m.prismatic("track", m.ground, sled, axis=way)
+    hub = m.body("hub", mass=load / 9.81 - 1.0, com=centre, inertia=(1.0, 1.0, 1.0))
+    m.prismatic("slide", sled, hub, axis=(0.0, 0.0, 1.0))
+    inertia = 1e6 if slip else 0.1
+    wheel = m.spin(
+        "wheel", carrier=hub, centre=centre, axis=(0.0, 1.0, 0.0), mass=1.0,
+        spin_inertia=inertia, diametral_inertia=0.6 * inertia,
+    )  # fmt: skip
+    road = m.road(PlaneRoad(friction=1.0))
+    element = m.add(tyre.record("tyre", wheel.centre, wheel.axis, wheel.coordinate, road))
+    m.initial_velocity(sled, SPEED * way)
+    m.initial_velocity(hub, SPEED * way)
+    m.initial_rate(wheel, (1.0 + 0.01 * slip) * SPEED * way[0] / rolling)
+    for name in ("longitudinal_force", "lateral_force", "vertical_force"):
+        m.sense_element(name, element, name)
+    run = simulate(compile(m), _SETTLED, _STEP)
+    assert abs(run["vertical_force"][-1] / load - 1.0) < 1e-4, run["vertical_force"][-1]
+    return float(run["longitudinal_force"][-1]), float(run["lateral_force"][-1])
+
+
+def compared() -> list[tuple[Published, float]]:
+    """What the formula gives and what the rig measures, of both formulas of the engine."""
+    own = magic()
+    found = []
+    for name, tyre in (("Magic Formula", own), ("TMeasy, fitted at 4 and 8 kN", tmeasy_of_magic(own)[0])):
+        for load in LOADS:
+            for lateral, at in [*((True, angle) for angle in ANGLES), *((False, slip) for slip in SLIPS)]:
+                told = published(LATERAL if lateral else LONGITUDINAL, lateral, load, at)
+                forces = on_the_rig(tyre, load, angle=at) if lateral else on_the_rig(tyre, load, slip=at)
+                what = f"side force at {at:g} deg" if lateral else f"force along at {at:g} % slip"
+                test = f"tyre MXV8 on the rig, {name}: {what}, {1e-3 * load:g} kN"
+                found.append((Published(test, "N", {SOURCE: told}, read_within(lateral, load, at)), forces[lateral]))
+    return found

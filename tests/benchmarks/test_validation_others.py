@@ -1,0 +1,92 @@
+"""Tests of others: tyres on the rig, times from rest, the table of the page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks.shared.pages import table
+from benchmarks.validation import __main__ as command
+from benchmarks.validation import acceleration, avoidance, others, tyre_rig
+from benchmarks.validation.published import Published
+from mbs.tyre_files.fits import tmeasy_of_magic
+
+
+@pytest.mark.parametrize(("angle", "slip"), [(8.0, 0.0), (-3.0, 0.0), (0.0, -5.0), (0.0, 5.0)])
+def test_the_rig_returns_the_published_force_with_its_sign(angle: float, slip: float) -> None:
+    lateral, load = slip == 0.0, 6000.0
+    told = tyre_rig.published(
+        tyre_rig.LATERAL if lateral else tyre_rig.LONGITUDINAL, lateral, load, angle if lateral else slip
+    )
+    found = tyre_rig.on_the_rig(tyre_rig.magic(), load, angle, slip)
+    assert found[lateral] == pytest.approx(told, rel=3e-4)
+    assert np.sign(found[lateral]) == np.sign(angle + slip)
+    assert abs(found[not lateral]) < 0.01 * abs(told)
+    figure = Published("test", "N", {"formula": told}, tyre_rig.read_within(lateral, load, angle if lateral else slip))
+    assert figure.row(found[lateral])["verdict"] == "within"
+    assert figure.row(-found[lateral])["verdict"] != "within"
+
+
+def test_the_other_formula_is_as_far_off_as_its_fit_tells() -> None:
+    tyre, errors = tmeasy_of_magic(tyre_rig.magic())
+    assert errors["moment"] == 0.0  # there is no trail to be fitted
+    load, most = 6000.0, 5500.0
+    for angle in tyre_rig.ANGLES:
+        told = tyre_rig.published(tyre_rig.LATERAL, True, load, angle)
+        off = abs(tyre_rig.on_the_rig(tyre, load, angle)[1] - told)
+        assert 0.0 < off < 1.1 * errors["lateral"] * most
+
+
+def test_times_are_those_of_the_speeds_asked_for() -> None:
+    time = np.arange(0.0, 30.0, 0.01)
+    assert acceleration.reached(time, 2.5 * time, 90.0) == pytest.approx(10.0)
+    with pytest.raises(ValueError, match=r"reaches 108\.0 km/h; 200 km/h were asked for"):
+        acceleration.reached(time, np.minimum(2.5 * time, 30.0), 200.0)
+
+
+def test_the_part_is_merged_and_the_rest_of_the_page_stays(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    before = command.PAGE.read_text(encoding="utf-8")
+    page = tmp_path / "validation.md"
+    page.write_text(before, encoding="utf-8")
+    made = [Published("a test", "s", {"somebody": 1.0}, 0.05).row(1.2)]
+    monkeypatch.setattr(command, "PAGE", page)
+    monkeypatch.setattr(others, "rows", lambda: made)
+    assert command.main(["--page"]) == 0
+    after = page.read_text(encoding="utf-8")
+    begin, end = "<!-- begin others -->\n", "<!-- end others -->"
+    assert after.split(begin)[1].split(end)[0] == table(made, others.COLUMNS) + "\n"
+    assert "| a test, s | 1 (somebody) | 0.05 | 1.2 | +14 % |" in after
+    assert [part.split(begin)[0] if k == 0 else part for k, part in enumerate(after.split(end))] == [
+        part.split(begin)[0] if k == 0 else part for k, part in enumerate(before.split(end))
+    ]
+
+
+def test_a_row_of_the_page_that_would_be_lost_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        command.main(["drive.csv", "--page"])
+    assert "would lose" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        command.main(["--chart", "x.png"])
+    assert "need the FILE" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_the_hatchback_is_slower_than_people_in_a_named_car() -> None:
+    """What fails stays in the table."""
+    ((figure, speed),) = avoidance.compared()
+    assert 55.0 < speed < 70.0
+    assert figure.row(speed)["verdict"].startswith("-")
+
+
+@pytest.mark.slow
+def test_the_rows_of_another_program_have_its_sources_and_fail_where_it_differs() -> None:
+    found = others.by_commonroad()
+    assert len(found) == 12
+    verdicts = [figure.row(value)["verdict"] for figure, value in found]
+    roll = [float(v.split()[0]) for (figure, _), v in zip(found, verdicts, strict=True) if "roll" in figure.test]
+    assert len(roll) == 3
+    assert min(roll) > 4.0
+    yaw = [v for (f, _), v in zip(found, verdicts, strict=True) if "consistent: yaw" in f.test]
+    assert all(abs(float(v.split()[0])) < 0.4 for v in yaw)
