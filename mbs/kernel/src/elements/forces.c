@@ -85,7 +85,7 @@ static void look(ali3_instance *in, const double *q, const double *qd) {
 
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
-  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
   double *Q = S->n_tabled > 0 ? in->extended_force : call->Q; /* with those on dependents behind */
   look(in, call->q, call->qd);
   memcpy(Q, in->gravity_force, (size_t)S->size.nq * sizeof(double));
@@ -102,6 +102,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   }
   for (int32_t e = 0; e < S->size.ne; e++) {
     double *tangent = call->tangent && S->el_front[e] >= 0 ? in->S + S->el_S_off[e] : NULL;
+    double *f = in->element_force + S->el_sig_ptr[e];
     local(in, e, u, ud);
     in->idle[e] = ali3_element_forces(in, call, e, u, ud, f, tangent) ? 1 : 0;
     if (in->idle[e]) continue;
@@ -140,6 +141,29 @@ void ali3_law_pieces(ali3_instance *in, uint32_t *piece) {
     memset(f, 0, sizeof f);
     in->system->el_kind[e]->evaluate(&a);
     piece[e] = a.piece;
+  }
+}
+
+/* r = -wK (change of the forces of elements from the last ali3_forces, with signals in->u_at, to those of `call`) - B' S
+ * times the change of their signals, S the tangents in F. */
+void ali3_elements_defect(ali3_instance *in, const ali3_force_call *call, double *r) {
+  const ali3_system *S = in->system;
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
+  memset(r, 0, (size_t)S->size.nq * sizeof *r);
+  ali3_active_signals(in, call->q, call->qd);
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    if (S->el_front[e] < 0) continue;
+    const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
+    const double *before = in->element_force + S->el_sig_ptr[e], *row = in->S_tangent + S->el_S_off[e];
+    local(in, e, u, ud);
+    ali3_element_forces(in, call, e, u, ud, f, NULL);
+    for (int32_t i = 0; i < n; i++) u[i] -= in->u_at[signal[i]];
+    for (int32_t i = 0; i < n; i++, row += n) {
+      double defect = -call->wK * (f[i] - before[i]);
+      for (int32_t j = 0; j < n; j++) defect -= row[j] * u[j];
+      for (int32_t k = S->sig_ptr[signal[i]]; k < S->sig_ptr[signal[i] + 1]; k++)
+        r[S->sig_col[k]] += S->sig_val[k] * defect;
+    }
   }
 }
 

@@ -16,6 +16,7 @@
 #include "../state/vectors.h"
 #include "../state/work.h"
 #include "ali3p.h"
+#include "defect_correction.h"
 #include "energy_balance.h"
 #include "energy_watch.h"
 #include "generalised_alpha.h"
@@ -77,13 +78,18 @@ static ali3_status tangent(ali3_instance *in, double alpha) {
   double *J = in->J;
   in->J = in->J_tangent;
   in->J_tangent = J;
+  if (ali3_defect_corrected(S)) { /* T_e of defect_correction.c */
+    double *here = in->S;
+    in->S = in->S_tangent;
+    in->S_tangent = here;
+  }
   return ali3_factorise(in, in->F);
 }
 
 /* One Newton correction (21) and the multiplier update. A `kept` tangent is that of an earlier iterate; in->x then has
  * the judged residual. The Phi_q that the penalty multiplies is always that of the tangent: the penalty would amplify
  * what a later one has outside its range. */
-static ali3_status correct(ali3_instance *in, double alpha, int32_t iteration, bool kept) {
+static ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration, bool kept) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c;
@@ -94,6 +100,7 @@ static ali3_status correct(ali3_instance *in, double alpha, int32_t iteration, b
   for (int32_t i = 0; i < nq; i++) in->x[i] = -(balance[i] + c * in->w[i]);
   ali3_solve(in, in->F, in->x);
   if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+  if (ali3_defect_corrected(S)) ali3_defect_correction(in, h);
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
     ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
     for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
@@ -126,7 +133,7 @@ static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t mad
   in->report.last_iterations = 0;
   while (in->report.last_iterations < most) {
     ali3_status status = kept ? ALI3_OK : tangent(in, alpha);
-    if (status == ALI3_OK) status = correct(in, alpha, in->report.last_iterations, kept);
+    if (status == ALI3_OK) status = correct(in, h, alpha, in->report.last_iterations, kept);
     if (status != ALI3_OK) return ali3_newton_ended(in, status);
     in->report.iterations++;
     in->report.last_iterations++;
