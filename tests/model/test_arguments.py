@@ -155,6 +155,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
         "com": X,
         "inertia": (1.0, 1.0, 1.0),
     },
+    "written_axis": lambda b: {"spin": b.wheel, "leaning": 0.1},
     "tabled_number": lambda b: {
         "name": "new",
         "parameters": [b.travel],
