@@ -192,11 +192,13 @@ class TextTable:
             raise self.error(f"{self.name}, line {line}: {fault}.") from None
 
     def _take_names(self, cells: list[str], units: bool) -> None:
+        seen = set[str]()  # a table may have a million columns
         for cell in cells:
             match = HEADING.fullmatch(cell) if units else None
             name = match["name"] if match else cell
-            if name in self.names:
+            if name in seen:
                 raise self.error(f"{self.name} has the column {brief(name)} twice.")
+            seen.add(name)
             self.names.append(name)
             if match:
                 self.units[name] = match["unit"]

@@ -55,7 +55,7 @@ def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
 
         made = read_old_manoeuvre(path)
     else:
-        if not path.is_file():
+        if not path.exists():
             raise HostError(f"There is no file {path}.")
         from hosts.driving.manoeuvre_table import read_table
 

@@ -55,12 +55,12 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
         raise HostError(f"{path} holds no values; it needs a heading and at least one row.")
     record = record_of(path)
     recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
-    step = record.step
+    step, given = record.step, dict[str, Value]()
     for number, comment in table.comments:
         key, _, rest = comment.lstrip("# ").partition(":")
         where = f"{path}, line {number}"
         if key.strip() == "start":
-            start |= _assignments(rest.split(","), where)
+            _assign(given, rest.split(","), where)
         elif key.strip() == "state":
             name, at, instant = rest.rpartition(" at ")
             if not at:
@@ -96,7 +96,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     kept = frozenset(inputs if held is None and recorded else held or ())
     if not kept <= set(inputs):
         raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is said to be held and is no input of the table.")
-    start = {name: value for name, value in start.items() if name not in columns}
+    start = {name: value for name, value in (start | given).items() if name not in columns}
     return Manoeuvre(
         path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept & set(columns), step
     )
@@ -144,14 +144,14 @@ def record_of(path: Path) -> _Record:
         raise HostError(f"{file} is no whole record of the run whose result is {path.name}; run it again.") from None
 
 
-def _assignments(parts: Iterable[str], where: str) -> dict[str, Value]:
-    result: dict[str, Value] = {}
+def _assign(given: dict[str, Value], parts: Iterable[str], where: str) -> None:
     for part in parts:
         name, equals, value = part.partition("=")
         if not equals:
             raise HostError(f"{where}: {brief(part.strip())} is not of the form name=value.")
-        result[name.strip()] = value_of(value, f"{where}, start value '{name.strip()}'")
-    return result
+        if name.strip() in given:
+            raise HostError(f"{where}: the start value {brief(name.strip())} is given twice.")
+        given[name.strip()] = value_of(value, f"{where}, start value {brief(name.strip())}")
 
 
 def number_of(text: str, where: str) -> float:

@@ -97,11 +97,19 @@ def test_files_of_earlier_versions_are_read(tmp_path: Path) -> None:
         ("", r"holds no values"),
         ('"time","u"\n0,0\n', r"does not say how long"),
         ('# start: speed\n"time","u"\n0,0\n1,0\n', r"line 1: 'speed' is not of the form"),
+        ('# start: v=1, v=2\n"time","u"\n0,0\n1,0\n', r"line 1: the start value 'v' is given twice"),
+        ('# start: v=1\n# start: v=2\n"time","u"\n0,0\n1,0\n', r"line 2: the start value 'v' is given twice"),
     ],
 )
 def test_bad_tables_are_refused(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(HostError, match=message):
         load_manoeuvre(written(tmp_path, text))
+
+
+def test_what_is_no_file_is_no_table(tmp_path: Path) -> None:
+    (tmp_path / "folder.csv").mkdir()
+    with pytest.raises(HostError, match=r"folder\.csv is a folder; it must be a file\.$"):
+        load_manoeuvre(str(tmp_path / "folder.csv"))
 
 
 def test_binary_tables_are_refused(tmp_path: Path) -> None:
