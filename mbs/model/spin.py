@@ -55,13 +55,16 @@ def spin(
     carrier.add_mass(m, c, I_d * np.outer(e, e))
     index = model.new_coordinate(model.unique("spin", name), "spin", 0.0)
     model.inertias[index] = I_s
+    along, across, aside = (_own(carrier.vector(v)) for v in (e, x, y))
     new = Spin(
         name,
         index,
         "rad",
         carrier,
         carrier.point(c),
-        *(_own(carrier.vector(v)) for v in (e, x, y)),
+        along,
+        across,
+        aside,
         I_s,
         I_d,
         radius,
