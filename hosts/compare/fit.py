@@ -15,7 +15,7 @@ from scipy.stats import qmc
 from hosts.common.errors import HostError
 from hosts.compare.correlated import covariance, effective_samples
 from hosts.compare.fit_result import Fit, Found, Start
-from hosts.compare.left_out import FEWEST, Parts, clustered_covariance, left_out, without_each
+from hosts.compare.left_out import FEWEST, Parts, clustered_covariance, folds, left_out, without_each
 from hosts.compare.log import Signal
 from hosts.compare.noise import computed_noise, difference_steps, measured_noise
 from hosts.compare.residuals import RefusedError, Residuals
@@ -187,6 +187,7 @@ def _judged(
     half = float(stats.t.ppf(0.975, freedom)) * errors
     inside = [k for k, u in enumerate(unknowns) if not (lost[k] or _bound(u, float(p[k])))]
     outside, without = dict.fromkeys(residuals.outputs, math.nan), [math.nan] * len(p)
+    by_fold: list[list[float]] = [[] for _ in p]
     if parts is not None and parts.independent >= FEWEST and inside:
         free = jacobian[:, inside]
         clustered = np.sqrt(np.diag(clustered_covariance(free, r, parts)))
@@ -198,14 +199,15 @@ def _judged(
         }
         size = float(np.sqrt(np.mean(errors_outside**2)))
         worse = without_each(free, r, parts, [unknowns[k].start - float(p[k]) for k in inside])
-        for k, error in zip(inside, worse, strict=True):
-            without[k] = error / size
+        changes = folds(free, r, parts).T
+        for k, error, change in zip(inside, worse, changes, strict=True):
+            without[k], by_fold[k] = error / size, [float(p[k] + c) for c in change]
     finite = np.where(np.isfinite(errors) & (errors > 0.0), errors, 1.0)
     correlation = np.where(np.isfinite(spread), spread, 0.0) / np.outer(finite, finite)
     np.fill_diagonal(correlation, 1.0)
     found = [
-        Found(u, float(v), math.inf if gone else float(h), _bound(u, float(v)), w)
-        for u, v, h, gone, w in zip(unknowns, p, half, lost, without, strict=True)
+        Found(u, float(v), math.inf if gone else float(h), _bound(u, float(v)), w, f)
+        for u, v, h, gone, w, f in zip(unknowns, p, half, lost, without, by_fold, strict=True)
     ]
     c0, c1 = float(begun @ begun), float(r @ r)
     f = max(c0 - c1, 0.0) / len(p) / (c1 / freedom) if c1 > 0.0 else math.inf

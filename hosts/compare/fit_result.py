@@ -24,6 +24,8 @@ class Found:
     without : float
         What is left of parts that are left out where it keeps its start value, over what is left with it; to first
         order.
+    folds : list of float
+        Its values where one of four folds of the log is not fitted, to first order; empty where the log is too short.
     """
 
     unknown: Unknown
@@ -31,6 +33,7 @@ class Found:
     half_width: float
     bound: str = ""
     without: float = math.nan
+    folds: list[float] = field(default_factory=list)
 
 
 @dataclass(frozen=True)

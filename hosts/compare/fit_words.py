@@ -16,11 +16,13 @@ _CHANCE = 0.05
 _MISFIT = 3.0  # times the noise
 
 
-FIT_COLUMNS = ("fitted", "start", "value", "95 %", "unit", "without it")
+FIT_COLUMNS = ("fitted", "start", "value", "95 %", "unit", "without it", "without a fold")
 
 
 def fit_rows(fit: Fit) -> list[tuple[str, ...]]:
-    """Of all that was sought: name, start, value, half of the 95 % interval, unit, and what is left without it."""
+    """Of all that was sought: name, start, value, half of the 95 % interval, unit, what is left without it, and its
+    least and largest value where a fold of the log is not fitted.
+    """
     return [
         (
             f.unknown.name,
@@ -28,6 +30,7 @@ def fit_rows(fit: Fit) -> list[tuple[str, ...]]:
             *_value(f),
             unit_shown(f.unknown.unit),
             f"{100.0 * (f.without - 1.0):+.1f} %" if math.isfinite(f.without) else "-",
+            f"{min(f.folds):.4g} to {max(f.folds):.4g}" if f.folds else "-",
         )
         for f in fit.found
     ]

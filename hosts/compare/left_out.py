@@ -18,6 +18,7 @@ from hosts.compare.stretches import Stretch
 Array = NDArray[np.float64]
 _PARTS = 10  # of a run without restart
 FEWEST = 4  # parts that do not overlap, from which something can be said
+FOLDS = 4
 
 
 @dataclass(frozen=True)
@@ -102,17 +103,45 @@ def left_out(jacobian: Array, residual: Array, parts: Parts) -> Array:
     -------
     ndarray of shape (n,)
     """
+    found = residual.copy()
+    for k, change in enumerate(_changes(jacobian, residual, parts, [[k] for k in range(len(parts.begins))])):
+        rows = parts.number == k
+        found[rows] += jacobian[rows] @ change
+    return found
+
+
+def folds(jacobian: Array, residual: Array, parts: Parts, count: int = FOLDS) -> Array:
+    """Change of the parameters where a fold of the log is not fitted, to first order.
+
+    Parameters
+    ----------
+    jacobian : ndarray of shape (n, p)
+    residual : ndarray of shape (n,)
+    count : int
+        Folds: parts one after the other, of each fold as many as can be.
+
+    Returns
+    -------
+    ndarray of shape (count, p)
+    """
+    order = np.argsort(parts.begins, kind="stable")
+    return _changes(jacobian, residual, parts, [list(fold) for fold in np.array_split(order, count)])
+
+
+def _changes(jacobian: Array, residual: Array, parts: Parts, groups: Sequence[Sequence[int]]) -> Array:
+    """Change of the parameters without each group of parts and what overlaps it, of shape (k, p)."""
     size = np.linalg.norm(jacobian, axis=0)
-    scaled = jacobian / np.where(size > 0.0, size, 1.0)
+    size = np.where(size > 0.0, size, 1.0)
+    scaled = jacobian / size
     matrices = np.array([scaled[parts.number == k].T @ scaled[parts.number == k] for k in range(len(parts.begins))])
     scores = _sums(scaled * residual[:, None], parts)
-    found = residual.copy()
-    for k, begin in enumerate(parts.begins):
-        others = np.abs(parts.begins - begin) >= parts.length * (1.0 - 1e-9)
-        rows = parts.number == k
+    found = []
+    for group in groups:
+        apart = np.abs(parts.begins[:, None] - parts.begins[list(group)]).min(axis=1)
+        others = apart >= parts.length * (1.0 - 1e-9)
         change = np.linalg.pinv(matrices[others].sum(axis=0), rcond=1e-12) @ scores[others].sum(axis=0)
-        found[rows] -= scaled[rows] @ change
-    return found
+        found.append(-change / size)
+    return np.array(found)
 
 
 def without_each(jacobian: Array, residual: Array, parts: Parts, steps: Sequence[float]) -> list[float]:

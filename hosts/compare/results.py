@@ -104,6 +104,7 @@ def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
                     "half_width_95": x.half_width if math.isfinite(x.half_width) else None,
                     "bound": x.bound,
                     "without": x.without if math.isfinite(x.without) else None,
+                    "folds": x.folds,
                 }
                 for x in f.found
             ],

@@ -28,7 +28,11 @@ HEIGHT = 0.08  # m
 PIECE = 0.1  # s, of the guide's polynomials
 
 
-def build(fidelity: Fidelity | int | str = Fidelity.DYNAMIC, car: Car | None = None) -> Model:
+def build(
+    fidelity: Fidelity | int | str = Fidelity.DYNAMIC,
+    car: Car | None = None,
+    guide: Callable[[Model, float], Guide] | None = None,
+) -> Model:
     """The car before the kerb, in equilibrium.
 
     Parameters
@@ -37,10 +41,14 @@ def build(fidelity: Fidelity | int | str = Fidelity.DYNAMIC, car: Car | None = N
         How much of the chassis is modelled, as in `prototype_car.build`.
     car : Car, optional
         By default the prototype.
+    guide : callable, optional
+        Makes the guide of the x coordinate of the chassis' reference point, whose start is given, m; by default
+        `smooth_guide`.
     """
+    made = smooth_guide if guide is None else guide
     driven = prototype_car.car() if car is None else car
     road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", driven.road.friction)
-    m = driven.model(road, fidelity, lambda model: guide(model, driven.chassis.reference[0]))
+    m = driven.model(road, fidelity, lambda model: made(model, driven.chassis.reference[0]))
     m.stop_time, m.step = DURATION, STEP
     return m
 
@@ -67,7 +75,7 @@ def way(t: float | np.ndarray) -> np.ndarray:
     return total
 
 
-def guide(m: Model, start: float) -> Guide:
+def smooth_guide(m: Model, start: float) -> Guide:
     """x of a point of the chassis: pieces of fifth degree that share place, speed and acceleration with `way`."""
     breaks = np.concatenate(
         [[0.0], *(np.arange(a, b + 0.5 * PIECE, PIECE) for a, b in (ACCELERATE, BRAKE)), [DURATION]]

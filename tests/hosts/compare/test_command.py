@@ -96,6 +96,40 @@ class TestCommand:
         assert again["bob.x.rms"] == pytest.approx(0.01, rel=0.15)
 
     @pytest.mark.slow
+    def test_starts_intervals_and_folds_of_a_log_of_another_engine(
+        self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        """Every start finds the numbers of SciPy's pendulum within the intervals; so do folds, until they change."""
+        fit = ("--fit", "spring.stiffness=60:200", "--fit", "spring.damping=0.3:4", "--starts", "3")
+
+        def fitted(columns: Columns) -> tuple[dict[str, dict[str, float | list[float]]], list[dict[str, list[float]]]]:
+            file = write(tmp_path / "drive.csv", columns)
+            main([str(tuned), str(file), "--out", str(tmp_path), "--json", str(tmp_path / "all.json"), *fit])
+            record = json.loads((tmp_path / "all.json").read_text())["fit"]
+            return {f["name"]: f for f in record["found"]}, record["starts"]
+
+        columns = log_columns()
+        found, starts = fitted(columns)
+        assert "without a fold" in capsys.readouterr().out
+        assert len(starts) == 3
+        for name, true in zip(("spring.stiffness", "spring.damping"), TRUE, strict=True):
+            value, half, folds = (found[name][k] for k in ("value", "half_width_95", "folds"))
+            assert abs(value - true) < half
+            assert len(folds) == 4
+            assert all(abs(fold - true) < 2.0 * half for fold in folds)
+            k = list(found).index(name)
+            assert all(start["end"][k] == pytest.approx(value, abs=0.2 * half) for start in starts)
+        assert len({start["begin"][0] for start in starts}) == 3
+        late, moved = columns["time"] > 3.0, motion(1.15 * TRUE[0], TRUE[1])(columns["time"])
+        changed = {
+            f"bob.{c}": np.where(late, values, columns[f"bob.{c}"]) for c, values in zip("xy", moved, strict=True)
+        }
+        other, _ = fitted(columns | changed)
+        before, after = (np.ptp(f["spring.stiffness"]["folds"]) for f in (found, other))
+        assert after > 5.0 * before  # what the seconds do not agree on is seen
+        assert other["spring.stiffness"]["half_width_95"] > 3.0 * found["spring.stiffness"]["half_width_95"]
+
+    @pytest.mark.slow
     @pytest.mark.parametrize(
         ("change", "words"),
         [

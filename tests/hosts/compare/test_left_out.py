@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from hosts.compare.left_out import Parts, clustered_covariance, left_out, without_each
+from hosts.compare.left_out import FOLDS, Parts, clustered_covariance, folds, left_out, without_each
 
 LENGTH, SAMPLES = 10.0, 40
 
@@ -32,6 +32,20 @@ def test_what_is_left_of_a_part_is_that_of_a_fit_without_it_and_without_its_neig
         rows = parts.number == k
         np.testing.assert_allclose(found[rows], residual[rows] + jacobian[rows] @ change, rtol=1e-9)
     assert np.mean(found**2) > np.mean(residual**2)
+
+
+@pytest.mark.parametrize("every", [10.0, 5.0])
+def test_the_parameters_without_a_fold_are_those_of_a_fit_without_it(every: float) -> None:
+    """Of windows that are given in any order."""
+    begins = every * np.random.default_rng(1).permutation(12)
+    jacobian, residual, parts = linear(begins)
+    found = folds(jacobian, residual, parts)
+    assert found.shape == (FOLDS, 3)
+    for change, group in zip(found, np.split(np.argsort(begins), FOLDS), strict=True):
+        near = np.abs(begins[:, None] - begins[group]).min(axis=1) < LENGTH
+        kept = ~near[parts.number]
+        wanted = np.linalg.lstsq(jacobian[kept], -residual[kept], rcond=None)[0]
+        np.testing.assert_allclose(change, wanted, rtol=1e-8)
 
 
 def test_a_parameter_that_tells_nothing_does_not_pay() -> None:

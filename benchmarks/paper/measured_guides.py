@@ -1,0 +1,261 @@
+"""Guides from measured accelerations, as the paper's authors made them: signals, double integration, the kerb test.
+
+The authors of the paper drove the kerb test with what accelerometers on the prototype had measured. Their signals are
+not published; here they are made of a computed run: the specific force at the four places where the car has
+accelerometers, 100 Hz, with noise, offset and drift.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
+from scipy.interpolate import PchipInterpolator, PPoly
+
+from benchmarks.car.fidelity_runs import FREQUENCY, MOMENTS
+from hosts.measures.low_pass import low_pass
+from mbs import Trajectory, compile, simulate
+from mbs.model import Model
+from mbs.model.records import Guide
+from mbs.scenes import kerb_test, prototype_car
+
+Array = NDArray[np.float64]
+GRAVITY = 9.81  # m/s2
+RATE, FINE, CUT = 0.01, 0.002, 40.0  # s between samples, s of a step of the measured run, Hz of the filter before
+NOISE, OFFSET, DRIFT = 3.0, 0.2, 0.02  # m/s2, m/s2, m/s3: standard deviations
+REST = (kerb_test.ACCELERATE[0], kerb_test.BRAKE[1])  # s: it stands before the first and after the second
+_WINDOW = 1.0  # s, of rest that tells one value of the drift
+PLACES = prototype_car.car().chassis.accelerometers
+_AT = np.array(list(PLACES.values())) - np.array(prototype_car.car().chassis.reference)
+
+
+@dataclass(frozen=True)
+class Signals:
+    """What four accelerometers tell.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s.
+    force : ndarray, shape (n, 4, 3)
+        Specific force (acceleration less gravity) in the axes of the chassis, m/s2, in the order of `PLACES`.
+    """
+
+    time: Array
+    force: Array
+
+    def filtered(self, frequency: float) -> Signals:
+        """The same after a low-pass that shifts nothing in time, Hz."""
+        flat = self.force.reshape(len(self.time), -1)
+        seen = np.stack([low_pass(column, RATE, frequency) for column in flat.T], axis=1)
+        return Signals(self.time, seen.reshape(self.force.shape))
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Motion of the chassis by double integration; a rate of each stands beside it.
+
+    Attributes
+    ----------
+    time, way, speed, heave, pitch : ndarray, shape (n,)
+        s; m, m/s along the axis of the chassis; m upwards; rad, positive with the nose down.
+    guide : PPoly
+        The way, whose acceleration is straight from sample to sample.
+    """
+
+    time: Array
+    way: Array
+    speed: Array
+    heave: Array
+    pitch: Array
+    guide: PPoly
+
+
+def smooth() -> Trajectory:
+    """The kerb test as it is, in steps that follow its vibrations."""
+    return simulate(compile(kerb_test.build()), kerb_test.DURATION, FINE)
+
+
+def measured(
+    run: Trajectory, noise: float = NOISE, offset: float = OFFSET, drift: float = DRIFT, seed: int = 0
+) -> Signals:
+    """Signals of accelerometers that see a run.
+
+    Parameters
+    ----------
+    noise, offset, drift : float
+        Standard deviations of each signal: of its samples, m/s2, of its zero, m/s2, and of how that moves, m/s3.
+    seed : int
+        Of the generator of NumPy.
+    """
+    every = round(RATE / (run.t[1] - run.t[0]))
+    axes = "xyz"
+    accelerations = np.stack([[run[f"accelerometer_{name}.a{c}"] for c in axes] for name in PLACES]).transpose(2, 0, 1)
+    pitch, roll = run["chassis.pitch"], run["chassis.roll"]
+    down = -GRAVITY * np.stack([-np.sin(pitch), np.cos(pitch) * np.sin(roll), np.cos(pitch) * np.cos(roll)], axis=1)
+    force = accelerations - down[:, np.newaxis, :]
+    flat = force.reshape(len(force), -1)
+    seen = np.stack([low_pass(column, run.t[1] - run.t[0], CUT)[::every] for column in flat.T], axis=1)
+    time = run.t[::every]
+    rng = np.random.default_rng(seed)
+    seen = seen + offset * rng.normal(size=12) + drift * rng.normal(size=12) * time[:, np.newaxis]
+    return Signals(time, (seen + noise * rng.normal(size=seen.shape)).reshape(-1, 4, 3))
+
+
+def motion(signals: Signals, way: float) -> Motion:
+    """The motion of the chassis, with the drift taken out where the car is known to stand.
+
+    The four places give the acceleration of the reference point and the angular acceleration, by least squares; squares
+    of angular velocities are left out. Each is integrated once; where the car stands, means over a second are what the
+    rate has drifted by, between them a monotone cubic. The speed is then scaled to the way that is known.
+
+    Parameters
+    ----------
+    way : float
+        From rest to rest, m: places can be measured on the road. It takes out the part of the weight that the pitch of
+        the braked car puts into the signal.
+    """
+    t = signals.time
+    arms = np.vstack([np.hstack([np.eye(3), -_cross(place)]) for place in _AT])
+    rigid = np.linalg.lstsq(arms, signals.force.reshape(len(t), 12).T, rcond=None)[0]
+    drifts = {k: _drift(t, cumulative_trapezoid(rigid[k], t, initial=0)) for k in (0, 2, 4)}
+    rates = {k: cumulative_trapezoid(rigid[k], t, initial=0) - drift(t) for k, drift in drifts.items()}
+    scale = way / float(cumulative_trapezoid(rates[0], t)[-1])
+    speed = scale * rates[0]
+    heave, pitch = (cumulative_trapezoid(rates[k], t, initial=0) for k in (2, 4))
+    change = scale * (rigid[0] - drifts[0].derivative()(t))
+    change, breaks = np.append(change, change[-1]), np.append(t, t[-1] + RATE)  # beyond its end a guide stands still
+    guide = PPoly(np.stack([np.diff(change) / np.diff(breaks), change[:-1]]), breaks).antiderivative(2)
+    return Motion(t, cumulative_trapezoid(speed, t, initial=0), speed, heave, pitch, guide)
+
+
+def _cross(r: Array) -> Array:
+    """Matrix whose product with a vector is r times it."""
+    return np.array([[0.0, -r[2], r[1]], [r[2], 0.0, -r[0]], [-r[1], r[0], 0.0]])
+
+
+def _drift(t: Array, v: Array) -> PchipInterpolator:
+    """What a rate, which begins at 0, has where the car stands, and between."""
+    begins = [*np.arange(t[0], REST[0], _WINDOW), *np.arange(REST[1], t[-1], _WINDOW)]
+    windows = [(t >= b - 1e-9) & (t <= min(b + _WINDOW, t[-1]) + 1e-9) for b in begins]
+    knots = [t[0], *(float(t[w].mean()) for w in windows), t[-1]]
+    return PchipInterpolator(knots, [v[0], *(float(v[w].mean()) for w in windows), v[-1]])
+
+
+def driven(found: Motion) -> Trajectory:
+    """The kerb test in its own steps, the chassis guided by a motion."""
+
+    def guide(m: Model, start: float) -> Guide:
+        pieces = PPoly(found.guide.c.copy(), found.guide.x)
+        pieces.c[-1] += start
+        return m.guide_time("way of the chassis", pieces, unit="m")
+
+    return simulate(compile(kerb_test.build(guide=guide)), kerb_test.DURATION, kerb_test.STEP)
+
+
+CASES: dict[str, dict[str, float]] = {
+    "no noise, offset or drift": {"noise": 0.0, "offset": 0.0, "drift": 0.0},
+    "offset and drift": {"noise": 0.0},
+    "and noise of 1 m/s²": {"noise": 1.0},
+    "and noise of 3 m/s²": {},
+    "the same after a low-pass of 10 Hz": {"filter": 10.0},
+}
+COLUMNS = {
+    "guide": "",
+    "way, m": ".3f",
+    "speed, m/s": ".3f",
+    "heave, m": ".3f",
+    "pitch, deg": ".1f",
+    "iterations": ".2f",
+    "most": "d",
+    "tangents": ".2f",
+    "later, s": "+.3f",
+    "moments, %": ".1f",
+    "peaks, %": ".1f",
+}
+PAPER = {"guide": "the paper's, measured", "iterations": 2.0, "most": 3}
+_LATEST, _EDGE = 0.5, 0.1  # s, of a shift that is looked for, and what is left away at the end
+
+
+def moments(run: Trajectory) -> Array:
+    """Changes of the moments at the four gauges since the start, after the low-pass, N m.
+
+    Returns
+    -------
+    ndarray of shape (n, 4)
+        Without the last tenth of a second, where the low-pass has one side of the noise alone.
+    """
+    h = float(run.t[1] - run.t[0])
+    changes = np.stack([low_pass(run[name] - run[name][0], h, FREQUENCY) for name in MOMENTS], axis=1)
+    return changes[: -round(_EDGE / h)]
+
+
+def shifted(wanted: Array, found: Array) -> tuple[int, float]:
+    """Steps by which moments come later, and how far they are off then, rms over the rms of what is wanted."""
+    most = round(_LATEST / kerb_test.STEP)
+
+    def off(k: int) -> float:
+        one, other = (found[k:], wanted[: len(wanted) - k]) if k >= 0 else (found[:k], wanted[-k:])
+        return float(np.sqrt(np.mean((one - other) ** 2) / np.mean(other**2)))
+
+    errors = {k: off(k) for k in range(-most, most + 1)}
+    best = min(errors, key=lambda k: errors[k])
+    return best, errors[best]
+
+
+def cost(run: Trajectory) -> dict[str, float]:
+    """Iterations a step, the most of a step, and the tangents that were made for them, a step."""
+    report = run.report
+    assert report is not None
+    return {
+        "iterations": report.mean_iterations,
+        "most": report.max_iterations,
+        "tangents": report.factorizations / report.steps,
+    }
+
+
+def row(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) -> dict[str, Any]:
+    """Means over the seeds, and the most iterations of all.
+
+    Parameters
+    ----------
+    name : str
+        Of `CASES`.
+    true, plain : Trajectory
+        The run that is measured, and the test with its own guide and steps.
+    """
+    given = dict(CASES[name])
+    frequency = given.pop("filter", 0.0)
+    every = round(RATE / FINE)
+    x, z, pitch = (true[f"chassis.{k}"][::every] - true[f"chassis.{k}"][0] for k in ("x", "z", "pitch"))
+    wanted = moments(plain)
+    made = []
+    for seed in seeds:
+        signals = measured(true, seed=seed, **given)
+        found = motion(signals.filtered(frequency) if frequency else signals, float(x[-1]))
+        run = driven(found)
+        got = moments(run)
+        later, off = shifted(wanted, got)
+        peaks = np.abs(got).max(axis=0) / np.abs(wanted).max(axis=0) - 1.0
+        made.append(
+            {
+                "way, m": _rms(found.way - x),
+                "speed, m/s": _rms(found.speed - np.gradient(x, found.time)),
+                "heave, m": _rms(found.heave - z),
+                "pitch, deg": float(np.degrees(_rms(found.pitch - pitch))),
+                **cost(run),
+                "later, s": later * kerb_test.STEP,
+                "moments, %": 100.0 * off,
+                "peaks, %": 100.0 * float(np.abs(peaks).max()),
+            }
+        )
+    told: dict[str, Any] = {k: float(np.mean([m[k] for m in made])) for k in made[0]}
+    return {"guide": name, **told, "most": int(max(m["most"] for m in made))}
+
+
+def _rms(error: Array) -> float:
+    return float(np.sqrt(np.mean(error**2)))

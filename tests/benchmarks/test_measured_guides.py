@@ -1,0 +1,75 @@
+"""Motions from accelerometers: of signals that are known, and as guides of the kerb test."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import cumulative_trapezoid
+
+from benchmarks.paper import measured_guides as guides
+from mbs import compile, simulate
+from mbs.scenes import kerb_test
+
+T = np.arange(0.0, kerb_test.DURATION + 0.5 * guides.RATE, guides.RATE)
+WAY = float(kerb_test.way(kerb_test.DURATION))
+
+
+def signals(pitch_rate: float = 0.0) -> guides.Signals:
+    """Of a level chassis that goes its way and, if asked for, pitches between 6 and 9 s."""
+    along = np.gradient(kerb_test.speed(T), T)
+    turning = pitch_rate * np.pi * np.sin(2.0 * np.pi * (T - 6.0) / 3.0) * (T > 6.0) * (T < 9.0)
+    turn = np.stack([0.0 * T, turning, 0.0 * T], axis=1)
+    force = np.array([0.0, 0.0, guides.GRAVITY]) + along[:, np.newaxis] * np.array([1.0, 0.0, 0.0])
+    return guides.Signals(T, np.stack([force + np.cross(turn, place) for place in guides._AT], axis=1))
+
+
+def test_signals_without_faults_return_the_motion() -> None:
+    found = guides.motion(signals(0.05), WAY)
+    assert np.max(np.abs(found.way - kerb_test.way(T))) < 1e-3
+    assert np.max(np.abs(found.guide(T) - found.way)) < 1e-3
+    assert np.max(np.abs(found.heave)) < 1e-3
+    assert found.pitch[-1] == pytest.approx(0.05 * np.pi * 9.0 / (2.0 * np.pi), rel=0.01)  # rad, nose down
+
+
+def test_offset_and_drift_are_taken_out_and_a_sign_is_seen() -> None:
+    given = signals()
+    faulty = guides.Signals(T, given.force + 0.3 - 0.03 * T[:, np.newaxis, np.newaxis])
+    found = guides.motion(faulty, WAY)
+    assert np.sqrt(np.mean((found.way - kerb_test.way(T)) ** 2)) < 0.05
+    plain = cumulative_trapezoid(cumulative_trapezoid(faulty.force[:, 0, 0], T, initial=0.0), T, initial=0.0)
+    assert np.abs(plain - kerb_test.way(T)).max() > 5.0  # what drift would do
+    turned = guides.motion(guides.Signals(T, -given.force), -WAY)
+    assert turned.way[-1] == pytest.approx(-WAY, rel=1e-9)
+
+
+def test_the_weight_of_a_pitched_chassis_is_in_its_signals() -> None:
+    """Nose down by 0.1 rad at rest: gravity along the chassis, felt as an acceleration to the rear."""
+    n = 1001
+    names = {f"accelerometer_{place}.a{c}": np.zeros(n) for place in guides.PLACES for c in "xyz"}
+    values = names | {"chassis.pitch": np.full(n, 0.1), "chassis.roll": np.full(n, 0.0)}
+    still = type("Still", (), {"t": np.arange(n) * guides.FINE, "__getitem__": lambda self, name: values[name]})()
+    seen = guides.measured(still, noise=0.0, offset=0.0, drift=0.0)
+    np.testing.assert_allclose(
+        seen.force[100, 0], guides.GRAVITY * np.array([-np.sin(0.1), 0.0, np.cos(0.1)]), atol=1e-9
+    )
+
+
+def test_moments_that_come_later_are_found_so() -> None:
+    wave = np.exp(-(((T - 8.0) / 0.1) ** 2))[:, np.newaxis]
+    assert guides.shifted(wave, np.roll(wave, 7, axis=0)) == (7, pytest.approx(0.0, abs=1e-9))
+    assert guides.shifted(wave, np.roll(wave, -5, axis=0))[0] == -5
+
+
+@pytest.mark.slow
+def test_the_kerb_test_runs_on_measured_guides_and_takes_more_iterations() -> None:
+    """With the signs of the signals: the car gets where it was, and the moments are those of the smooth test."""
+    true = guides.smooth()
+    plain = simulate(compile(kerb_test.build()), kerb_test.DURATION, kerb_test.STEP)
+    clean, noisy = (guides.row(name, true, plain, [1]) for name in ("no noise, offset or drift", "and noise of 3 m/s²"))
+    assert clean["way, m"] < 0.03
+    assert clean["peaks, %"] < 3.0
+    assert abs(clean["later, s"]) <= 0.02
+    assert clean["iterations"] < 1.1 * guides.cost(plain)["iterations"]
+    assert 1.5 < noisy["iterations"] / clean["iterations"] < 3.0
+    assert noisy["most"] <= 10
+    assert noisy["way, m"] < 0.3
