@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 
 PLAIN = 250.0
 """m: bounds of a world that is a plane or a kerb, to all sides."""
+MOST_POINTS = 1.2e9
+"""That wheels feel."""
+MOST_AREA = 1e8
+"""m2. Where all is smooth, 64 m x 64 m of the drawing have 3 kB: 77 MB, and what reads it takes at most 100 MB."""
 
 
 def read_world(file: Path) -> WorldDescription:
@@ -80,6 +84,7 @@ def make_world(
         world = read_world(file)
         if thin:
             world = world.model_copy(update={"spacing": thinner(world.spacing)})
+        _check_size(world, file)
         tell("ground and courses", 0.0)
         try:
             terrain = Terrain(world, file.parent)
@@ -90,6 +95,24 @@ def make_world(
         off = {"thin": off_by(terrain, road).sentence} if thin else {}
         return record | {"checksum": checksum_of(road)} | off
     return _of_road(file, name, road)
+
+
+def _check_size(world: WorldDescription, file: Path) -> None:
+    """Refuse what would take hours and be too large in the end, before anything is made."""
+    from mbs.worlds.road_of_world import points_of
+
+    x0, y0, x1, y1 = world.bounds
+    if (x1 - x0) * (y1 - y0) > MOST_AREA:
+        raise RoadFileError(
+            f"{file}: the world is {x1 - x0:g} m x {y1 - y0:g} m; at most {MOST_AREA / 1e6:g} km2 can be drawn, as "
+            "10 km x 10 km: make its bounds smaller."
+        )
+    n = points_of(world)
+    if n[0] * n[1] > MOST_POINTS:
+        raise RoadFileError(
+            f"{file}: the world has {n[0]} x {n[1]} points, more than {MOST_POINTS:g}; make its bounds smaller or its "
+            "spacing larger."
+        )
 
 
 def checksum_of(road: Path) -> int:

@@ -12,17 +12,23 @@ from numpy.typing import NDArray
 
 from ali3.files import whole_file
 from mbs.kernel.header.limits import ROAD_TILE
-from mbs.roads.road_header import RoadFileError, check_grid
+from mbs.roads.road_header import check_grid
 from mbs.roads.shared_tiles import TILE_PLACES, TOLERANCE, SharedWriter, simplest
 from mbs.worlds import thin_world
 from mbs.worlds.profiles import spaced
 from mbs.worlds.terrain import Terrain
+from mbs.worlds.world_types import WorldDescription
 
 Float = NDArray[np.float64]
 Classes = NDArray[np.uint8]
-MOST_POINTS = 1.2e9
 SOME = np.array([*range(0, ROAD_TILE - 1, 3), ROAD_TILE - 1])
 """Points along the side of a tile that say whether it is smooth."""
+
+
+def points_of(world: WorldDescription) -> tuple[int, int]:
+    """Numbers of points along x and y that wheels feel."""
+    (x0, y0, x1, y1), (dx, dy) = world.bounds, world.spacing
+    return math.ceil((x1 - x0) / dx - 1e-9) + 1, math.ceil((y1 - y0) / dy - 1e-9) + 1
 
 
 def write_world_road(
@@ -39,19 +45,10 @@ def write_world_road(
     thin : bool
         Rounded, for a page; see `thin_world`.
 
-    Raises
-    ------
-    RoadFileError
-        The world has too many points.
     """
-    x0, y0, x1, y1 = terrain.world.bounds
+    x0, y0, _, _ = terrain.world.bounds
     dx, dy = terrain.world.spacing
-    shape = math.ceil((x1 - x0) / dx - 1e-9) + 1, math.ceil((y1 - y0) / dy - 1e-9) + 1
-    if shape[0] * shape[1] > MOST_POINTS:
-        raise RoadFileError(
-            f"The world has {shape[0]} x {shape[1]} points, more than {MOST_POINTS:g}; make its bounds smaller or its "
-            "spacing larger."
-        )
+    shape = points_of(terrain.world)
     uniform = float(terrain.frictions[0]) if len(terrain.names) == 1 else None
     tolerance = thin_world.TOLERANCE if thin else TOLERANCE
     with whole_file(file) as made, made.open("wb") as out:

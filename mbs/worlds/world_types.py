@@ -265,6 +265,8 @@ class WorldDescription(_Table):
     """A world: ground, courses carved into it, obstacles, surfaces, scenery and places to start from."""
 
     kind: Literal["world"]
+    version: Literal[1] = 1
+    """Of what a description may say."""
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]{1,60}$")]
     description: str = ""
     bounds: tuple[Coordinate, Coordinate, Coordinate, Coordinate]

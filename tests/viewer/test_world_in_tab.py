@@ -10,6 +10,7 @@ import pytest
 
 import mbs
 from fmu_src.build.build import build_fmu
+from hosts.simulator.command import main as simulator
 from hosts.view.command import main as view
 from mbs.scenes import prototype_car
 from tests.in_browser import wait_until
@@ -67,3 +68,28 @@ def test_a_world_and_a_road_are_refused_together(car: Path, tmp_path: Path, caps
     assert view([str(car), "--live", *wishes, "--no-open", "--out", str(tmp_path)]) != 0
     assert "give it once" in capsys.readouterr().err
     assert list(tmp_path.glob("*.html")) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("world", "words"),
+    [
+        (None, "There is no world '"),
+        ("version = 2\nbounds = [0, 0, 90, 90]", "version is 2; it must be 1"),
+        ("bounds = [-50000, -50000, 50000, 50000]\nspacing = [10, 10]", "is 100000 m x 100000 m; at most 100 km2"),
+    ],
+    ids=["missing", "newer", "100 km"],
+)
+def test_worlds_that_cannot_be_are_one_sentence_at_each_door(
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], world: str | None, words: str
+) -> None:
+    file = tmp_path / "w.toml"
+    if world is not None:
+        file.write_text(f'kind = "world"\nname = "w"\n{world}\n', encoding="utf-8")
+    tab = ["--live", "--no-open", "--out", str(tmp_path / "out")]
+    for door, options in ((view, tab), (simulator, ["--headless", "--stop-time", "0.1"])):
+        assert door([str(car), "--world", str(file), *options]) == 2
+        said = capsys.readouterr().err.strip().splitlines()
+        assert len(said) == 1
+        assert words in said[0]
+    assert not list(tmp_path.rglob("*.html"))

@@ -177,6 +177,24 @@ def test_what_is_wrong_with_a_description_is_said(tmp_path, text, sentence):
     assert re.search(sentence, refused(tmp_path, text)), refused(tmp_path, text)
 
 
+BAD_WORLDS = [
+    ("version = 2\nbounds = [0, 0, 90, 90]", "version is 2"),
+    ("bounds = [-50000, -50000, 50000, 50000]\nspacing = [10, 10]", "is 100000 m x 100000 m; at most 100 km2"),
+    ("bounds = [0, 0, 9000, 9000]", "has 90001 x 90001 points, more than 1.2e+09"),
+]
+"""Heads of worlds, and what is said of them before anything is made."""
+
+
+@pytest.mark.parametrize(("head", "words"), BAD_WORLDS)
+def test_a_world_of_another_version_or_of_100_km_is_refused_at_once(tmp_path, own_cache, capsys, head, words):
+    (tmp_path / "w.toml").write_text(f'kind = "world"\nname = "w"\n{head}\n', encoding="utf-8")
+    assert main(["--world", str(tmp_path / "w.toml"), "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err.strip().splitlines()
+    assert len(said) == 1, "nothing was begun"
+    assert words in said[0]
+    assert not [*tmp_path.glob("out/*.road")]
+
+
 def test_a_map_that_does_not_cover_the_world_or_is_not_in_metres_is_refused(tmp_path):
     np.savez(tmp_path / "small.npz", heights=np.zeros((5, 5)), origin=(-40.0, -50.0), spacing=(25.0, 25.0))
     assert "from -40 to 60 m; the map must cover it" in refused(tmp_path, '[ground]\nheights = "small.npz"\n')
