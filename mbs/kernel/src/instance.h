@@ -70,8 +70,8 @@ struct ali3_instance {
   size_t n_vector;
   double *input, *input_work, *parameter, *input_middle;
   const double *force_input; /* inputs that elements use: input, or input_middle where the middle is evaluated */
-  double *el_real, *guide_real, *road_real, *payload_mass, *switch_on, *armature_ratio, *inertia_real,
-      *axis_real, *sen_real; /* copies that parameters write to */
+  double *el_real, *guide_real, *road_real, *payload_mass, *switch_on, *armature_ratio, *inertia_real, *axis_real,
+      *sen_real; /* copies that parameters write to */
   /* masses.c: mass matrix as mass_val and as the start of every tangent, what else the System has of it, gravity; those
    * of the System where nothing changes them */
   const double *mass_val, *front_mass, *mass_floor, *mass_floor_inverse, *mass_missing, *gravity_force;

@@ -133,37 +133,37 @@ struct ali3_system {
                                    triples the terms of three entries in turn */
   double *hess_val;
   double *row_round; /* round-off of the violation at the reference position, m */
-  unsigned char *row_wide;     /* 1: the row fills most of its front */
-  unsigned char *row_triples;  /* 1: its coordinates are points and directions, three neighbours each */
-  ali3_term *quad;             /* as quad_* */
-  ali3_angle_term *angle;      /* as angle_a */
+  unsigned char *row_wide; /* 1: the row fills most of its front */
+  unsigned char *row_triples; /* 1: its coordinates are points and directions, three neighbours each */
+  ali3_term *quad; /* as quad_* */
+  ali3_angle_term *angle; /* as angle_a */
   int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;
   ali3_guide_term *gterm;
-  ali3_term *velocity;         /* as velocity_a; b is the coordinate whose rate it takes */
-  double *front_mass;          /* front storage holding M, the start of every tangent */
-  double *mass_floor;          /* nq: M_ii, or a typical mass for massless coordinates */
-  double *mass_floor_inverse;  /* nq */
-  double *mass_missing;        /* nq: mass_floor - M_ii where M_ii is zero, else 0 */
-  int32_t *diagonal_pos;       /* nq: front storage index of entry (i, i) */
+  ali3_term *velocity; /* as velocity_a; b is the coordinate whose rate it takes */
+  double *front_mass; /* front storage holding M, the start of every tangent */
+  double *mass_floor; /* nq: M_ii, or a typical mass for massless coordinates */
+  double *mass_floor_inverse; /* nq */
+  double *mass_missing; /* nq: mass_floor - M_ii where M_ii is zero, else 0 */
+  int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;
-  int32_t *el_S_off;           /* ne+1: offsets of the elements' signal tangents */
-  int32_t *el_entry_ptr;       /* ne+1: signal entries of the element */
+  int32_t *el_S_off; /* ne+1: offsets of the elements' signal tangents */
+  int32_t *el_entry_ptr; /* ne+1: signal entries of the element */
   int32_t *el_entry_signal,
       *el_entry_local; /* per entry: signal within the element, its coordinate within the element */
   double *el_entry_value;
-  int32_t *el_coordinate_ptr;  /* ne+1 */
-  int32_t *el_coordinate_loc;  /* local index in the front, ascending */
-  int32_t *active_signal;      /* signals that elements use */
-  int32_t *flex_square;        /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
+  int32_t *el_coordinate_ptr; /* ne+1 */
+  int32_t *el_coordinate_loc; /* local index in the front, ascending */
+  int32_t *active_signal; /* signals that elements use */
+  int32_t *flex_square; /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
   ali3_tabled *tabled;
   ali3_tabled_base *tabled_base;
   ali3_tabled_parameter *tabled_parameter;
   ali3_tabled_group *tabled_group;
   int32_t *tabled_order; /* elements on tabled items, group by group */
   int32_t *tabled_signal; /* per signal of an element: which one of its group */
-  int32_t *el_tabled;    /* ne: its group, -1: none */
+  int32_t *el_tabled; /* ne: its group, -1: none */
   int32_t *el_entry_dependent; /* per entry: the dependent within its item, -1: a coordinate */
-  ali3_tree *tree;             /* NULL: the System has none */
+  ali3_tree *tree; /* NULL: the System has none */
   int32_t n_input_work; /* n_work where inputs may change what elements store, else 0 */
   int32_t n_work, n_work_force; /* elements whose work is sensed, signals of all of them */
   int32_t *work_of, *work_element, *work_ptr; /* ne: number among them or -1; which; n_work + 1: offsets of signals */
