@@ -10,7 +10,8 @@ import os
 import re
 import shutil
 import signal
-from collections.abc import Callable, Generator
+import tempfile
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 
 import pytest
@@ -40,6 +41,17 @@ def _kernel_library() -> None:
         binding.load_library()
     except OSError as error:
         pytest.fail(f"The kernel library cannot be loaded ({error}); first run: pip install -e .", pytrace=False)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _temporary_files(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """What tests and their programs leave among temporary files goes with them: fmpy unpacks each FMU there."""
+    tmp_path_factory.getbasetemp()  # before: pytest keeps its own folders of the last three runs
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder, pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tempfile, "tempdir", folder)
+        for name in ("TMPDIR", "TEMP", "TMP"):
+            patch.setenv(name, folder)
+        yield
 
 
 @pytest.fixture(scope="session")
