@@ -73,10 +73,8 @@ def write_report(
             f"{1e6 * c.drift:.3g} ± {1e6 * c.drift_error:.2g} ppm fast.</p>"
         )
     if told:
-        parts += [
-            "<h2>By speed and lateral acceleration</h2>",
-            html.table(_BIN_COLUMNS, _bin_rows(told, before), "numbers"),
-        ]
+        parts.append("<h2>By speed and lateral acceleration</h2>")
+        parts.append(html.table(_BIN_COLUMNS, bin_rows(told, before), "numbers"))
     parts.append(html.picture(paths[".png"].read_bytes(), title))
     parts += [f'<p class="note">{escape(line)}</p>' for line in notes]
     parts.append(f"<footer>{_FOOT}</footer>")
