@@ -146,7 +146,12 @@ def _wheels(
         note = short or ("" if slip is not None else unknown["slip"])
         measures.append(
             Measure(
-                f"locked_time.{wheel}", value, "s", f"{wheel} locked above 15 km/h", limit if not note else None, note
+                f"locked_time.{wheel}",
+                value,
+                "s",
+                f"time for which wheel {wheel} is locked above 15 km/h",
+                limit if not note else None,
+                note,
             )
         )
     shares = math.nan, math.nan

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -146,7 +146,11 @@ def measures_of(name: str, passed: Passage | None, failed: Passage | None, resol
     made += [
         Measure(f"{name}.entry_speed", entry, "m/s", "speed of the car with its front in the first lane", note=none),
         Measure(
-            f"{name}.exit_speed", exit_speed, "m/s", "of the car, the front at the end of the last lane", note=none
+            f"{name}.exit_speed",
+            exit_speed,
+            "m/s",
+            "speed of the car with its front at the end of the last lane",
+            note=none,
         ),
         Measure(f"{name}.clearance", least, "m", "least distance of the car's outline from the cones", note=none),
     ]
@@ -156,7 +160,7 @@ def measures_of(name: str, passed: Passage | None, failed: Passage | None, resol
             why = "" if output in passed.result else f"the car does not tell {output}"
             value = math.nan if why else float(np.abs(passed.result[output][passed.after]).max())
         made.append(Measure(f"{name}.{measure}", value, unit, text, note=why))
-    return made + _loads(name, passed, none)
+    return [replace(m, text=f"{_title(name)}: {m.text}") for m in made + _loads(name, passed, none)]
 
 
 def _loads(name: str, passed: Passage | None, none: str) -> list[Measure]:
@@ -177,9 +181,13 @@ def _loads(name: str, passed: Passage | None, none: str) -> list[Measure]:
     ]
 
 
+def _title(name: str) -> str:
+    return name.upper().replace("_", " ", 1).replace("_", "-")
+
+
 def plots_of(name: str, passed: Passage | None, failed: Passage | None) -> list[Plot]:
     """Path with the outline, and signals over the way, of the fastest clean passage and of the slowest other one."""
-    title = name.upper().replace("_", " ", 1).replace("_", "-")
+    title = _title(name)
     shown = [(p, word) for p, word in ((passed, "passed"), (failed, "failed")) if p is not None and p.after.any()]
     if not shown:
         return []

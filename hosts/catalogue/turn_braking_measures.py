@@ -187,7 +187,7 @@ def _steady(stop: Stop | None, none: str) -> list[Measure]:
     """The undisturbed circle."""
     names = (
         ("steady.radius", "m", "radius of the undisturbed circle"),
-        ("steady.speed", "m/s", "speed on it"),
+        ("steady.speed", "m/s", "speed on the undisturbed circle"),
         ("steady.ay", "m/s2", "lateral acceleration on the undisturbed circle, speed squared over radius"),
         ("steady.yaw_rate", "rad/s", "yaw rate on the undisturbed circle, positive to the left"),
         ("steady.sideslip", "rad", "sideslip on the undisturbed circle, positive to the left"),

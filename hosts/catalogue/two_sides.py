@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 from hosts.common.display_units import shown_in
+from hosts.common.numbers import is_round_off
 from hosts.measures.measure import Limit, Measure
 
 _SAME = 0.05
@@ -49,7 +50,11 @@ def mean_of_sides(
 
 def asymmetry(name: str, pairs: Sequence[tuple[float, float]], text: str) -> Measure:
     """Largest difference of left and right over their mean."""
-    known = [abs(a - b) / (0.5 * abs(a + b)) for a, b in pairs if math.isfinite(a + b) and a + b != 0.0]
+    known = [
+        0.0 if is_round_off(a - b, a) else abs(a - b) / (0.5 * abs(a + b))
+        for a, b in pairs
+        if math.isfinite(a + b) and a + b != 0.0
+    ]
     note = "" if known else "There are no runs to both sides."
     return Measure(name, max(known, default=math.nan), "1", text, None, note)
 

@@ -15,6 +15,7 @@ from hosts.common.units import known_unit, unit_definition, unit_of
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
 from hosts.compare.spikes import spike_words, spikes
+from hosts.driving.missed_jumps import counted
 from hosts.fmu.aliased_fmu import AliasedFmu
 
 FEWEST_SAMPLES = 10
@@ -93,7 +94,7 @@ def log_for(
     columns = _columns(raw, aliases, fmu, inputs, outputs, why_missing)
     notes: list[str] = []
     clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
-    signals = {}
+    signals, jumps = {}, dict[str, NDArray[np.float64]]()
     origin: float | None = None
     for ours, column in columns.items():
         clock = column.time or _time_column(raw, aliases)
@@ -101,6 +102,13 @@ def log_for(
             times, origin = _times(raw, aliases, clock, origin, notes)
             clocks[clock] = times
         signals[ours] = _without_spikes(fmu, _signal(fmu, raw, ours, column, *clocks[clock]), notes)
+        if ours in inputs and len(at := _jumps(raw, column.name, clock, *clocks[clock])):
+            jumps[ours] = at
+    if jumps:
+        notes.append(
+            f"jumps between two rows of one time: {counted(jumps, np.concatenate([*jumps.values()]))}: each "
+            "becomes a line from the first row to the next sample; ali3 run -m keeps those at communication points."
+        )
     for name, signal in signals.items():
         if len(signal.time) < FEWEST_SAMPLES:
             raise HostError(
@@ -244,6 +252,16 @@ def _signal(
     if unit == "rad" and len(values) and "yaw" in ours:
         values = np.unwrap(values)
     return Signal(ours, column.name, unit, t, values)
+
+
+def _jumps(
+    raw: RawLog, name: str, clock: str, time: NDArray[np.float64], rows: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """Times at which the row that is used has another value than one of its time behind it, s."""
+    values, timed = raw.numbers(name), raw.table[clock].notna().to_numpy()
+    behind = np.minimum(rows + 1, len(values) - 1)
+    left = timed[behind] & ~np.isin(behind, rows) & np.isfinite(values[rows]) & np.isfinite(values[behind])
+    return np.asarray(time[left & (values[behind] != values[rows])])
 
 
 def _without_spikes(fmu: AliasedFmu, signal: Signal, notes: list[str]) -> Signal:

@@ -18,7 +18,7 @@ from hosts.compare.words import unit_shown
 
 _COLUMNS = ("signal", "unit", "rms", "normalised", "mean", "largest", "at, s", "correlation", "rating",
             "corridor", "phase", "magnitude", "slope", "delay, ms")  # fmt: skip
-_BIN_COLUMNS = ("signal", "where", "from, to", "samples", "rms", "mean")
+_BIN_COLUMNS = ("signal", "unit", "where", "from, to", "samples", "rms", "mean")
 _FOOT = (
     "Deviations are simulated minus measured, at the samples of the log, with no delay taken out. Normalised: rms over "
     "the standard deviation of the measured signal. The rating is like ISO/TS 18571, by public descriptions of it, at "
@@ -73,25 +73,25 @@ def write_report(
             f"{1e6 * c.drift:.3g} ± {1e6 * c.drift_error:.2g} ppm fast.</p>"
         )
     if told:
-        parts += ["<h2>By speed and lateral acceleration</h2>", html.table(_BIN_COLUMNS, _bin_rows(told), "numbers")]
+        parts.append("<h2>By speed and lateral acceleration</h2>")
+        parts.append(html.table(_BIN_COLUMNS, bin_rows(told, before), "numbers"))
     parts.append(html.picture(paths[".png"].read_bytes(), title))
     parts += [f'<p class="note">{escape(line)}</p>' for line in notes]
     parts.append(f"<footer>{_FOOT}</footer>")
     write_text(paths[".html"], html.report(title, "\n".join(parts)))
 
 
-def _bin_rows(told: Sequence[Bin]) -> list[Sequence[str]]:
-    return [
-        [
-            b.signal,
-            f"{b.quantity}, {b.unit}",
-            f"{b.low:g} to {b.high:g}",
-            str(b.samples),
-            f"{b.rms:.4g}",
-            f"{b.mean:.4g}",
-        ]
-        for b in told
-    ]
+def bin_rows(told: Sequence[Bin], comparison: Comparison) -> list[Sequence[str]]:
+    """Rows of the table by speed and lateral acceleration, in the units of reports."""
+    rows: list[Sequence[str]] = []
+    for b in told:
+        unit, factor = shown_in(comparison.signals[b.signal].measured.unit, b.signal)
+        scale, width = shown_in(b.unit)
+        rows.append(
+            [b.signal, unit_shown(unit), f"{b.quantity}, {scale}", f"{width * b.low:g} to {width * b.high:g}",
+             str(b.samples), f"{factor * b.rms:.4g}", f"{factor * b.mean:.4g}"]
+        )  # fmt: skip
+    return rows
 
 
 def _rows(comparison: Comparison) -> list[Sequence[str]]:

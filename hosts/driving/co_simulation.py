@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.missed_jumps import missed_jumps
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.recorded_rows import RecordedRows
 from hosts.driving.result import Result
@@ -182,6 +183,7 @@ def run(
         [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
         rows.jumps,
         lost=[n for n, gone in zip(inputs, rows.lost.tolist(), strict=True) if gone],
+        missed=missed_jumps(manoeuvre, step, straight, whole, acts),
     )
 
 

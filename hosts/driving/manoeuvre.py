@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
 
+ON_TIME = 1e-9
+"""By which a row may miss the time that is meant, s."""
+
 
 @dataclass(frozen=True)
 class Manoeuvre:
@@ -73,7 +76,7 @@ class Manoeuvre:
         held = {*held, *self.held}
         # Times add up with rounding errors; a step must not be missed for them.
         side: Literal["left", "right"] = "left" if before else "right"
-        k = int(np.searchsorted(self.time, t - 1e-9 if before else t + 1e-9, side=side))
+        k = int(np.searchsorted(self.time, t - ON_TIME if before else t + ON_TIME, side=side))
         if k == 0 or k == len(self.time):
             row = 0 if k == 0 else -1
             return {name: float(values[row]) for name, values in self.inputs.items()}

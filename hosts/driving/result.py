@@ -41,6 +41,8 @@ class Result:
         Rows at which runs begin that were put one after the other.
     lost : list of str
         Inputs that moved between the rows otherwise than the rows tell, where not every step has one.
+    missed : (str, str), optional
+        What `missed_jumps` says of the table.
     """
 
     names: list[str]
@@ -56,6 +58,7 @@ class Result:
     jumps: dict[int, list[float]] = field(default_factory=dict)
     starts: list[int] = field(default_factory=lambda: [0])
     lost: list[str] = field(default_factory=list)
+    missed: tuple[str, str] | None = None
 
     def __contains__(self, name: str) -> bool:
         return name in self.names

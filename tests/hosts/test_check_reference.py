@@ -87,6 +87,16 @@ def test_what_drives_it_in_place_of_the_table_does_so_at_the_step_of_the_table(f
     assert "in steps of 0.02 s" in done.stdout
 
 
+@pytest.mark.parametrize("at", [0.4, 0.404])
+def test_a_jump_inside_a_step_is_told(fmu: Path, tmp_path: Path, at: float) -> None:
+    table, reference = tmp_path / "given.csv", tmp_path / "reference.csv"
+    table.write_text(f'"time","pull"\n0,0\n{at},30\n{at},-20\n1,0\n')
+    reference.write_text('"time","bob.x"\n0,0\n1,0\n')
+    told = run(main, fmu, "--reference", reference, "-m", table, "--step", 0.01).stdout
+    assert told.count("jumps inside a communication step: 1 of pull, the first at 0.404 s") == (at == 0.404)
+    assert told.count("jumps inside") == (at == 0.404)
+
+
 def test_without_a_bound_the_usual_one_is_told(fmu: Path, result: Path) -> None:
     assert "the bound is 1 % of the range of each" in run(main, fmu, "--reference", result).stdout
 

@@ -103,6 +103,40 @@ def test_a_summary_of_rows_says_so() -> None:
     assert not any(what.startswith("rows every") for what, _ in summary(each, H))
 
 
+@pytest.mark.parametrize(
+    ("slopes", "time", "u", "said"),
+    [
+        (True, (0.0, 0.1, 0.1, 0.2), (0.0, 0.0, 1.0, 1.0), None),
+        (True, (0.0, 0.104, 0.104, 0.12, 0.12, 0.2), (0.0, 0.0, 1.0, 1.0, 2.0, 2.0),
+         "1 of u, the first at 0.104 s: each becomes a line over its step of 10 ms; --step 0.002 has them all"),
+        (False, (0.0, 0.105, 0.105, 0.113, 0.113, 0.2), (0.0, 0.0, 1.0, 1.0, 2.0, 2.0),
+         "2 of u, the first at 0.105 s: each comes with the next step of 10 ms; --step 0.001 has them all"),
+        (True, (0.0, 0.1 / 3.0, 0.1 / 3.0, 0.07071, 0.07071, 0.2), (0.0, 0.0, 1.0, 1.0, 0.0, 0.0),
+         "2 of u, the first at 0.0333333333 s: each becomes a line over its step of 10 ms; take times that are "
+         "multiples of 0.01 s"),
+        (True, (0.0, 0.104, 0.104, 0.2), (0.0, 1.0, 1.0, 1.0), None),
+        (True, (0.0, 0.104, 0.2), (0.0, 1.0, 0.0), None),
+    ],
+)  # fmt: skip
+def test_a_jump_inside_a_step_is_told(slopes: bool, time: tuple[float], u: tuple[float], said: str | None) -> None:
+    rows = dict(summary(driven(time, u, 1, slopes), H))
+    assert rows.get("jumps inside a communication step") == said
+    if said is not None and "--step" in said:  # what helps does help: the integral is then that of the table
+        step = float(said.split("--step ")[1].split(" ")[0])
+        manoeuvre = Manoeuvre("m", np.array(time), {"u": np.array(u)}, time[-1])
+        y = [run(Integrator(slopes), manoeuvre, h)["y"][-1] for h in (H, step)]  # type: ignore[arg-type]
+        area = np.trapezoid(u, time)
+        assert abs(y[0] - area) > 5e-4
+        assert y[1] == pytest.approx(area, abs=1e-12)
+
+
+@pytest.mark.parametrize("held", [frozenset(), frozenset({"u"})])
+def test_every_change_of_an_input_that_the_table_holds_is_a_jump(held: frozenset[str]) -> None:
+    asked = Manoeuvre("m", np.array([0.0, 0.05, 0.104]), {"u": np.array([0.0, 1.0, 2.0])}, 0.2, held=held)
+    rows = dict(summary(run(Integrator(True), asked, H), H))  # type: ignore[arg-type]
+    assert ("jumps inside a communication step" in rows) == bool(held)
+
+
 def test_time_in_the_air_ends_with_the_run() -> None:
     """0.17 s in rows of 0.05 s."""
     few = driven((0.0, 0.17), (0.0, 0.0), 5)

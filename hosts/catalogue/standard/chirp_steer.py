@@ -119,7 +119,10 @@ class ChirpSteer:
         measures = [
             Measure("speed", ramp.speed, "m/s", "speed that is held"),
             Measure(
-                "steering_wheel_angle", amplitude, "rad" if given.is_angle else "1", f"amplitude, for {wanted:g} m/s²"
+                "steering_wheel_angle",
+                amplitude,
+                "rad" if given.is_angle else "1",
+                f"amplitude of the steering for {wanted:g} m/s²",
             ),
         ]
         for q, response in found.items():
@@ -199,7 +202,12 @@ def _mode(found: Mapping[_Quantity, FrequencyResponse]) -> list[Measure]:
     made = [
         Measure("mode.natural_frequency", fits[0].natural_frequency, "rad/s", f"undamped natural frequency {text}"),
         Measure("mode.damping_ratio", fits[0].damping_ratio, "1", f"damping ratio {text}"),
-        Measure("mode.misfit", max(f.misfit for f in fits), "1", "RMS of that fit over RMS of the response, the worst"),
+        Measure(
+            "mode.misfit",
+            max(f.misfit for f in fits),
+            "1",
+            "RMS that the fitted system of second order leaves over RMS of the response, the worst",
+        ),
     ]
     return [_or(m, "The fit does not converge." if used else "There is no response.") for m in made]
 

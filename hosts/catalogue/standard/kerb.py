@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -69,7 +70,11 @@ class Kerb:
             notes += early_end(way, runs[way])
             notes += _not_passed(way, runs[way], settings["height"])
             progress((k + 1) / len(ways))
-        measures = [m for way, result in runs.items() for m in measures_of(result, f"{way}.")]
+        measures = [
+            replace(m, text=f"{way} the kerb: {m.text}")
+            for way, result in runs.items()
+            for m in measures_of(result, f"{way}.")
+        ]
         return TestRecord(measures, plots_of(runs), runs, notes)
 
 
@@ -127,8 +132,20 @@ def measures_of(result: Result, prefix: str) -> list[Measure]:
         travel = np.full_like(loads, math.nan)
     change = travel - travel[0]
     measures += [
-        Measure(f"{prefix}travel.bump", float(change.max()), "m", "largest travel from that at the start", note=note),
-        Measure(f"{prefix}travel.droop", float(change.min()), "m", "least travel from that at the start", note=note),
+        Measure(
+            f"{prefix}travel.bump",
+            float(change.max()),
+            "m",
+            "largest travel of a wheel from that at the start",
+            note=note,
+        ),
+        Measure(
+            f"{prefix}travel.droop",
+            float(change.min()),
+            "m",
+            "least travel of a wheel from that at the start",
+            note=note,
+        ),
     ]
     return measures + _stresses(result, prefix)
 
@@ -151,8 +168,20 @@ def _vertical(result: Result, prefix: str, note: str) -> list[Measure]:
     where = "at the reference point, not at a seat"
     return [
         Measure(f"{prefix}az.peak", largest, "m/s2", "largest vertical acceleration of the reference point", note=note),
-        Measure(f"{prefix}az.running_rms", rms, "m/s2", "largest RMS over 1 s, Wk", note=weighting or where),
-        Measure(f"{prefix}az.dose", dose, "m.s-1.75", "vibration dose value, Wk", note=weighting or where),
+        Measure(
+            f"{prefix}az.running_rms",
+            rms,
+            "m/s2",
+            "largest RMS over 1 s of the vertical acceleration, weighted by Wk",
+            note=weighting or where,
+        ),
+        Measure(
+            f"{prefix}az.dose",
+            dose,
+            "m.s-1.75",
+            "vibration dose value of the vertical acceleration, weighted by Wk",
+            note=weighting or where,
+        ),
     ]
 
 
@@ -161,7 +190,7 @@ def _stresses(result: Result, prefix: str) -> list[Measure]:
     gauges = [n for n in result.names if n.startswith("stress.") and n != "stress.computed"]
     if "stress.computed" in result and not (result["stress.computed"] == 1.0).all():
         gauges = []
-    return [Measure(f"{prefix}{n}.range", float(np.ptp(result[n])), "Pa", f"range of the {n}") for n in gauges]
+    return [Measure(f"{prefix}{n}.range", float(np.ptp(result[n])), "Pa", f"range of {n}") for n in gauges]
 
 
 def plots_of(runs: Mapping[str, Result]) -> list[Plot]:

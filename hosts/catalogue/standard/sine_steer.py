@@ -71,7 +71,9 @@ class SineSteer:
         angle_unit = "rad" if given.is_angle else "1"
         measures = [
             Measure("speed", ramp.speed, "m/s", "speed at the beginning"),
-            Measure("steering_wheel_angle", amplitude, angle_unit, f"amplitude, for steady {wanted:g} m/s²"),
+            Measure(
+                "steering_wheel_angle", amplitude, angle_unit, f"amplitude of the steering for a steady {wanted:g} m/s²"
+            ),
         ]
         measures += _measures(
             "yaw_rate", "yaw rate", sides, lambda r: r.yaw_rate, "1/s" if given.is_angle else "rad/s", period
@@ -126,14 +128,25 @@ def _measures(
             "1",
             f"coefficient of correlation of the {word} and the steering at its lag",
         ),
-        made("first_lag", lambda p: p.first_lag, "s", f"from the first peak of the steering to that of the {word}"),
-        made("second_lag", lambda p: p.second_lag, "s", f"from the second peak of the steering to that of the {word}"),
+        made(
+            "first_lag", lambda p: p.first_lag, "s", f"time from the first peak of the steering to that of the {word}"
+        ),
+        made(
+            "second_lag",
+            lambda p: p.second_lag,
+            "s",
+            f"time from the second peak of the steering to that of the {word}",
+        ),
         made("first_ratio", lambda p: p.first_ratio, unit, f"first peak of the {word} over that of the steering"),
         made("second_ratio", lambda p: p.second_ratio, unit, f"second peak of the {word} over that of the steering"),
         made(
             "hysteresis", lambda p: p.hysteresis, "1", f"area of the loop of {word} over steering; pure lag: its sine"
         ),
-        asymmetry(f"{name}.asymmetry", [(left.first_ratio, right.first_ratio)], "of the first ratio, left and right"),
+        asymmetry(
+            f"{name}.asymmetry",
+            [(left.first_ratio, right.first_ratio)],
+            f"difference of the first ratio of the {word} left and right over their mean",
+        ),
     ]
 
 

@@ -64,6 +64,12 @@ def test_clearance_and_speeds_are_taken_in_the_axes_of_the_course() -> None:
     assert "chassis.roll" in measured["lane.roll.largest"].note
 
 
+def test_each_measure_says_of_which_course_it_is() -> None:
+    texts = [m.text for name in ("iso_3888_1", "iso_3888_2") for m in measures_of(name, None, None, 1.0)]
+    assert len({*texts}) == len(texts) == 24
+    assert all(text.startswith(("ISO 3888-1: ", "ISO 3888-2: ")) for text in texts)
+
+
 def test_hit_or_stopped_is_not_clean() -> None:
     hit, stopped = passage(72.0, 0.6), passage(72.0, 0.0, until=29.0)
     assert not hit.clean

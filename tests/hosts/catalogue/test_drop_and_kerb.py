@@ -63,6 +63,7 @@ def test_a_fall_that_is_too_short_to_settle_says_so(prototype: TestedCar) -> Non
 
 def test_kerb_is_passed_both_ways(over_kerb: TestRecord) -> None:
     assert not over_kerb.notes
+    assert len({m.text for m in over_kerb.measures}) == len(over_kerb.measures)
     measured = values(over_kerb)
     for way, sign in (("down", -1.0), ("up", 1.0)):
         z = over_kerb.runs[way]["chassis.z"]

@@ -15,6 +15,7 @@ from hosts.catalogue.registry import standard_test
 from hosts.catalogue.steady_map import steady_map
 from hosts.catalogue.steered_run import Pedals, level_acceleration, steer
 from hosts.catalogue.steering import SteeringInput
+from hosts.catalogue.two_sides import asymmetry
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from tests.hosts.catalogue.bicycle import ROLL_PER_ACCELERATION, BicycleCar, bicycle, gains, mode
@@ -35,6 +36,11 @@ def step() -> TestRecord:
     assert seen == sorted(seen)
     assert (seen[0], seen[-1]) == (0.0, 1.0)
     return record
+
+
+def test_round_off_is_no_asymmetry() -> None:
+    assert asymmetry("a", [(0.5, 0.5 * (1.0 + 1e-11)), (2.0, 2.0)], "").value == 0.0
+    assert asymmetry("a", [(0.5, 0.5 * (1.0 + 1e-8))], "").value == pytest.approx(1e-8, rel=1e-6)
 
 
 def test_steady_values_of_a_step(step: TestRecord) -> None:

@@ -51,6 +51,16 @@ def test_names_of_the_fmu_need_no_aliases(fmu: AliasedFmu, tmp_path: Path) -> No
     assert_read(read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}")))
 
 
+@pytest.mark.parametrize("second", [0.5 * 12, 30.0])
+def test_a_jump_of_an_input_is_told(fmu: AliasedFmu, tmp_path: Path, second: float) -> None:
+    """A log is samples; of two rows of one time the first is used."""
+    text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012\n", f"0.12,6.0,0.012\n0.12,{second},0.5\n")
+    log = read(fmu, tmp_path, text)
+    assert_read(log)
+    told = [note for note in log.notes if "two rows of one time: 1 of pull, the first at 0.12 s" in note]
+    assert len(told) == (second == 30.0)
+
+
 def test_a_sample_that_no_neighbour_supports_is_left_out_and_told(fmu: AliasedFmu, tmp_path: Path) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.2,10.0,", "0.2,99.0,")
     log = read(fmu, tmp_path, text)

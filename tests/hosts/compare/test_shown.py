@@ -12,6 +12,8 @@ from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
 from hosts.compare.log import Signal
 from hosts.compare.page import comparison_figure, write_picture, write_summary
+from hosts.compare.report import bin_rows
+from hosts.compare.windows import bins
 from hosts.compare.words import table, with_unit
 from hosts.driving.result import Result
 
@@ -34,6 +36,13 @@ def test_deviations_are_in_degrees(comparison: Comparison) -> None:
     assert head.split()[:3] == ["signal", "unit", "rms"]
     assert yaw.split()[:3] == ["chassis.wz", "deg/s", "0.573"]
     assert gear.split()[:2] == ["gear", "0.2"]
+
+
+def test_deviations_by_speed_are_in_the_same_units(comparison: Comparison) -> None:
+    scales = {"speed": Signal("", "", "m/s", TIME, np.full(201, 15.0))}
+    rows = bin_rows(bins(comparison, scales), comparison)
+    assert rows[0] == ["chassis.wz", "deg/s", "speed, km/h", "36 to 72", "201", "0.573", "0.573"]
+    assert rows[1][:3] == ["gear", "", "speed, km/h"]
 
 
 @pytest.mark.slow
