@@ -128,9 +128,9 @@ class LaneKeeping(LaneEnvironment):
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """A step; see `gymnasium.Env.step`."""
-        steering, before = float(np.clip(action[0], -1.0, 1.0)), self._steering
+        steering, before = min(max(float(action[0]), -1.0), 1.0), self._steering
         self._steering = steering
-        throttle = np.clip(0.3 * (np.mean(self._speed) - self._now[3]), 0.0, 1.0)
+        throttle = min(max(0.3 * (0.5 * (self._speed[0] + self._speed[1]) - float(self._now[3])), 0.0), 1.0)
         refused = self._advance(np.array([steering, throttle]))
         seen = self._observed()
         share = float(seen[0]) / (0.5 * self.lane.width)
@@ -202,6 +202,13 @@ class AntiLockBraking(CarEnvironment):
         return self._within(self._now[:11])
 
 
-gymnasium.register("ali3/LaneKeeping-v0", entry_point="hosts.plant.environments:LaneKeeping")
-gymnasium.register("ali3/AntiLockBraking-v0", entry_point="hosts.plant.environments:AntiLockBraking")
-gymnasium.register("ali3/ProvingGroundLap-v0", entry_point="hosts.plant.lap:ProvingGroundLap")
+for _name, _room, _several in (
+    ("LaneKeeping", "environments", "lane_keeping"),
+    ("AntiLockBraking", "environments", "anti_lock_braking"),
+    ("ProvingGroundLap", "lap", "proving_ground_lap"),
+):
+    gymnasium.register(
+        f"ali3/{_name}-v0",
+        entry_point=f"hosts.plant.{_room}:{_name}",
+        vector_entry_point=f"hosts.plant.together:{_several}",
+    )

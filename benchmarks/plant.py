@@ -1,0 +1,186 @@
+"""Steps per second of a car in Python and of its environments, beside bare FMPy: ``python -m benchmarks.plant``.
+
+Each environment of `hosts.plant` with the action 0: its FMU through FMPy alone, with the inputs and outputs of the
+environment; `hosts.plant.Car`; the environment; several by Gymnasium one after the other, in processes, and on threads.
+The ways make the same steps from the same starts in turn, again and again. Steps per second are those of the quickest
+time of each step, which a busy machine hardly changes; processor time is the mean, of this process.
+"""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import fmpy
+import gymnasium
+import numpy as np
+from fmpy.fmi2 import FMU2Slave
+from gymnasium.vector import VectorEnv
+
+from ali3.running import run_command
+from benchmarks.shared.command import parser_of, save_rows, watched
+from benchmarks.shared.machine import describe
+from benchmarks.shared.tables import print_table
+from hosts.plant.environments import CarEnvironment
+
+ENVIRONMENTS = ("LaneKeeping", "AntiLockBraking", "ProvingGroundLap")
+FMPY, CAR, ONE = "FMPy", "car in Python", "environment"
+Way: TypeAlias = tuple[Callable[[], object], Callable[[int], object]]
+"""A new start, and a step of a number."""
+COLUMNS = {
+    "environment": "",
+    "step_ms": "g",
+    "way": "",
+    "steps_a_second": ".0f",
+    "over_fmpy": ".2f",
+    "us_of_processor": ".0f",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command."""
+    parser = parser_of("plant", __doc__)
+    parser.add_argument("--several", type=int, default=8, metavar="N", help="environments together; default: 8")
+    parser.add_argument(
+        "--repeats", type=int, default=30, metavar="N", help="times that each way makes them; default: 30"
+    )
+    parser.add_argument("--steps", type=int, default=20, metavar="N", help="steps; default: 20")
+    options = parser.parse_args(arguments)
+    if min(options.several, options.repeats, options.steps) < 1:
+        parser.error("numbers of environments, repeats and steps are positive")
+
+    def work() -> int:
+        rows = []
+        for name in watched(ENVIRONMENTS):
+            rows += measure(name, options.several, options.repeats, options.steps)
+        print_table(rows, COLUMNS)
+        meta = describe("plant", repeats=options.repeats, several=options.several, steps=options.steps)
+        save_rows(options.json, meta, rows)
+        return 0
+
+    return run_command(work)
+
+
+def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -> list[dict[str, Any]]:
+    """Rows of an environment, which is made with `options`.
+
+    Raises
+    ------
+    RuntimeError
+        Environments on threads are not, to the last bit, those one after the other.
+    """
+    single = gymnasium.make(f"ali3/{name}-v0", disable_env_checker=True, **options)
+    plain = single.unwrapped
+    assert isinstance(plain, CarEnvironment)
+    together: dict[str, VectorEnv[Any, Any, Any]] = {
+        f"{several} by {way}": gymnasium.make_vec(f"ali3/{name}-v0", several, vectorization_mode=mode, **options)
+        for way, mode in (("SyncVectorEnv", "sync"), ("AsyncVectorEnv", "async"), ("threads", "vector_entry_point"))
+    }
+    folder = Path(tempfile.mkdtemp(prefix="plant_"))
+    last: dict[str, np.ndarray] = {}
+    try:
+        ways: dict[str, Way] = {
+            FMPY: _fmpy(plain, folder),
+            CAR: _car(plain),
+            ONE: _one(single),
+            **{way: _several(made, way, last) for way, made in together.items()},
+        }
+        walls, spent = {way: np.full(steps, np.inf) for way in ways}, dict.fromkeys(ways, 0.0)
+        for _ in range(repeats):
+            for way, (begin, advance) in ways.items():
+                begin()
+                own = time.process_time()
+                for k in range(steps):
+                    wall = time.perf_counter()
+                    advance(k)
+                    walls[way][k] = min(walls[way][k], time.perf_counter() - wall)
+                spent[way] += (time.process_time() - own) / repeats
+        one, *others = last.values()
+        if any((other != one).any() for other in others):
+            raise RuntimeError(f"{name}: several environments are not the same in all ways.")
+    finally:
+        single.close()
+        for made in together.values():
+            made.close()
+        shutil.rmtree(folder)
+    count = {way: steps * (several if way in together else 1) for way in ways}
+    rate = {way: count[way] / float(walls[way].sum()) for way in ways}
+    return [
+        {
+            "environment": name,
+            "step_ms": 1e3 * plain.car.step_length,
+            "way": way,
+            "steps_a_second": rate[way],
+            "over_fmpy": rate[way] / rate[FMPY],
+            "us_of_processor": None if "Async" in way else 1e6 * spent[way] / count[way],
+        }
+        for way in ways
+    ]
+
+
+def _fmpy(environment: CarEnvironment, folder: Path) -> Way:
+    """Inputs set, a step, outputs read, as a loop over FMPy's own calls does."""
+    path = str(environment.car.fmu.path)
+    description = fmpy.read_model_description(path)
+    reference = {v.name: v.valueReference for v in description.modelVariables}
+    fmpy.extract(path, str(folder))
+    slave = FMU2Slave(
+        guid=description.guid,
+        unzipDirectory=str(folder),
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName="car",
+    )
+    slave.instantiate()
+    inputs = [reference[name] for name in environment.car.inputs]
+    outputs = [reference[name] for name in environment._reads]
+    values, h = [0.0] * len(inputs), environment.car.step_length
+    texts = {name: value for name, value in environment.car._always.items() if isinstance(value, str)}
+
+    def begin() -> None:
+        slave.reset()
+        slave.setupExperiment(startTime=0.0)
+        slave.setReal([reference["initial.speed"]], [15.0])
+        slave.setString([reference[name] for name in texts], list(texts.values()))
+        slave.enterInitializationMode()
+        slave.exitInitializationMode()
+
+    def advance(k: int) -> None:
+        slave.setReal(inputs, values)
+        slave.doStep(currentCommunicationPoint=k * h, communicationStepSize=h)
+        slave.getReal(outputs)
+
+    return begin, advance
+
+
+def _car(environment: CarEnvironment) -> Way:
+    car, reads = environment.car, environment._reads
+    values, into = np.zeros(len(car.inputs)), np.zeros(len(reads))
+
+    def advance(k: int) -> None:
+        car.step(values)
+        car.read(reads, into)
+
+    return lambda: car.reset(0, **{"initial.speed": 15.0}), advance
+
+
+def _one(environment: gymnasium.Env[Any, Any]) -> Way:
+    action = np.zeros(environment.action_space.shape or (), np.float32)
+    return lambda: environment.reset(seed=0), lambda k: environment.step(action)
+
+
+def _several(made: VectorEnv[Any, Any, Any], way: str, last: dict[str, np.ndarray]) -> Way:
+    actions = np.zeros(made.action_space.shape or (), np.float32)
+
+    def advance(k: int) -> None:
+        last[way] = made.step(actions)[0]
+
+    return lambda: made.reset(seed=0), advance
+
+
+if __name__ == "__main__":
+    sys.exit(main())

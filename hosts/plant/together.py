@@ -1,0 +1,136 @@
+"""Several environments of Gymnasium beside each other, each step on threads: `gymnasium.make_vec(NAME, 8)`."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
+from functools import partial
+from typing import Any
+
+import gymnasium
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+
+from hosts.common.errors import HostError
+from hosts.plant.environments import AntiLockBraking, Floats, LaneKeeping
+from hosts.plant.lap import ProvingGroundLap
+
+_Single = gymnasium.Env[Floats, Floats]
+
+
+class _Ahead(gymnasium.Wrapper[Floats, Floats, Floats, Floats]):
+    """An environment that a thread steps ahead; who then asks for the same calls gets what they gave."""
+
+    def __init__(self, env: _Single) -> None:
+        super().__init__(env)
+        self._ended = False
+        self._made: list[Callable[[], Any]] = []  # what the next calls give, or raise
+
+    def ahead(self, action: Floats, autoreset: AutoresetMode) -> None:
+        """What `SyncVectorEnv.step` asks of an environment: a step, a new start, or both."""
+        self._made = []
+        try:
+            if self._ended and autoreset == AutoresetMode.NEXT_STEP:
+                self._made = [partial(_given, self._start())]
+                return
+            made = self._advance(action)
+            self._made = [partial(_given, made)]
+            if self._ended and autoreset == AutoresetMode.SAME_STEP:
+                self._made.append(partial(_given, self._start()))
+        except BaseException as error:
+            self._made.append(partial(_raised, error))
+
+    def step(self, action: Floats) -> Any:
+        """See `gymnasium.Env.step`."""
+        return self._made.pop(0)() if self._made else self._advance(action)
+
+    def reset(self, **options: Any) -> Any:
+        """See `gymnasium.Env.reset`."""
+        return self._made.pop(0)() if self._made else self._start(**options)
+
+    def _advance(self, action: Floats) -> Any:
+        made = self.env.step(action)
+        self._ended = bool(made[2] or made[3])
+        return made
+
+    def _start(self, **options: Any) -> Any:
+        made = self.env.reset(**options)
+        self._ended = False
+        return made
+
+
+def _given(made: Any) -> Any:
+    return made
+
+
+def _raised(error: BaseException) -> Any:
+    raise error
+
+
+class Together(SyncVectorEnv[Floats, Floats]):
+    """Environments beside each other, as `gymnasium.vector.SyncVectorEnv`, whose steps and new starts run on threads.
+
+    The slave in C of a car leaves Python's lock while it steps, so that cars advance on all cores; what an environment
+    computes in Python remains one after the other. Seeds, spaces, autoreset and bits are those of `SyncVectorEnv`.
+
+    Parameters
+    ----------
+    env_fns : sequence of callable
+        Each makes an environment.
+    threads : int, optional
+        By default one for each environment, at most as many as there are cores.
+    **options
+        Of `SyncVectorEnv`.
+    """
+
+    def __init__(self, env_fns: Sequence[Callable[[], _Single]], threads: int | None = None, **options: Any) -> None:
+        if not env_fns:
+            raise HostError("No environments are to run together; there must be one or more.")
+        if threads is not None and not (isinstance(threads, int) and threads >= 1):
+            raise HostError(f"The number of threads is {threads!r}; it must be a whole number from 1.")
+        super().__init__([lambda make=make: _Ahead(make()) for make in env_fns], **options)  # type: ignore[misc]
+        self._threads = min(self.num_envs, threads or _cores())
+        self._pool = ThreadPoolExecutor(self._threads)
+
+    def step(self, actions: Any) -> Any:
+        """A step of each; see `gymnasium.vector.VectorEnv.step`."""
+        pairs = list(zip(self.envs, gymnasium.vector.utils.iterate(self.action_space, actions), strict=True))
+
+        def share(first: int) -> None:
+            for env, action in pairs[first :: self._threads]:
+                env.ahead(action, self.autoreset_mode)  # type: ignore[attr-defined]
+
+        begun = [self._pool.submit(share, first) for first in range(1, self._threads)]
+        share(0)
+        wait(begun)
+        return super().step(actions)
+
+    def close_extras(self, **options: Any) -> None:
+        """End the threads, free the cars."""
+        self._pool.shutdown()
+        super().close_extras(**options)
+
+
+def _cores() -> int:
+    """Those that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _several(environment: Callable[..., _Single], num_envs: int, options: dict[str, Any]) -> Together:
+    own = {name: options.pop(name) for name in ("threads", "autoreset_mode", "copy") if name in options}
+    return Together(num_envs * [partial(environment, **options)], **own)
+
+
+def lane_keeping(num_envs: int, **options: Any) -> Together:
+    """Several of `LaneKeeping` with its options, those of `Together` beside them."""
+    return _several(LaneKeeping, num_envs, options)
+
+
+def anti_lock_braking(num_envs: int, **options: Any) -> Together:
+    """Several of `AntiLockBraking` with its options, those of `Together` beside them."""
+    return _several(AntiLockBraking, num_envs, options)
+
+
+def proving_ground_lap(num_envs: int, **options: Any) -> Together:
+    """Several of `ProvingGroundLap` with its options, those of `Together` beside them."""
+    return _several(ProvingGroundLap, num_envs, options)

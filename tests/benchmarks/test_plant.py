@@ -1,0 +1,35 @@
+"""`python -m benchmarks.plant`: a positive figure for every way, and several environments that are the same in all."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks import plant
+from hosts.plant.together import Together
+
+
+def test_every_way_makes_its_steps(prototype_fmu: Path) -> None:
+    rows = plant.measure("LaneKeeping", 2, 2, 3, car=str(prototype_fmu))
+    ways = ["2 by SyncVectorEnv", "2 by AsyncVectorEnv", "2 by threads"]
+    assert [row["way"] for row in rows] == [plant.FMPY, plant.CAR, plant.ONE, *ways]
+    for row in rows:
+        assert row["environment"] == "LaneKeeping"
+        assert row["step_ms"] == 20.0
+        assert row["steps_a_second"] > 0.0
+        assert (row["us_of_processor"] is None) == ("Async" in row["way"])
+    assert rows[0]["over_fmpy"] == 1.0
+
+
+def test_other_numbers_on_threads_are_an_error(prototype_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    step = Together.step
+
+    def other(self: Together, actions: np.ndarray) -> tuple[np.ndarray, ...]:
+        seen, *rest = step(self, actions)
+        return seen + np.spacing(seen), *rest
+
+    monkeypatch.setattr(Together, "step", other)
+    with pytest.raises(RuntimeError, match="not the same in all ways"):
+        plant.measure("LaneKeeping", 2, 1, 1, car=str(prototype_fmu))
