@@ -61,7 +61,8 @@ class NaiveModel(Model):
         angle = self.relative_angle(f"{name} angle", carrier, wheel, axis=axis)
         x, y = perpendicular(axis)
         vectors = [carrier.vector(v) for v in (axis, x, y)]
-        return Spin(angle.name, angle.index, "rad", carrier, wheel.point(centre), *vectors, 0.0, 0.0, tuple(axis))
+        radius, drawn = data.get("rolling_radius", 0.0), (tuple(x), tuple(y), tuple(axis))
+        return Spin(angle.name, angle.index, "rad", carrier, wheel.point(centre), *vectors, 0.0, 0.0, radius, drawn)
 
     def shape(self, *given: Any, **more: Any) -> None:
         """Nothing: nobody looks at this model, and its wheels are bodies."""
