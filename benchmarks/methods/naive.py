@@ -13,7 +13,7 @@ from benchmarks.shared.timing import step_time
 from mbs import Model, Simulation, compile
 from mbs.common.checks import direction
 from mbs.model.body import Body
-from mbs.model.carried import SlidingPoint, Spin
+from mbs.model.carried import SlidingPoint, Spin, WrittenAxis
 from mbs.model.joints.joint import Joint
 from mbs.model.perpendicular import perpendicular
 from mbs.scenes import double_four_bar, prototype_car
@@ -60,9 +60,20 @@ class NaiveModel(Model):
         self.revolute(f"{name} hinge", carrier, wheel, point=centre, axis=axis)
         angle = self.relative_angle(f"{name} angle", carrier, wheel, axis=axis)
         x, y = perpendicular(axis)
-        vectors = [carrier.vector(v) for v in (axis, x, y)]
+        along, across, aside = (carrier.vector(v) for v in (axis, x, y))
         radius, drawn = data.get("rolling_radius", 0.0), (tuple(x), tuple(y), tuple(axis))
-        return Spin(angle.name, angle.index, "rad", carrier, wheel.point(centre), *vectors, 0.0, 0.0, radius, drawn)
+        vectors = (wheel.point(centre), along, across, aside)
+        return Spin(angle.name, angle.index, "rad", carrier, *vectors, 0.0, 0.0, radius, drawn)
+
+    def written_axis(self, spin: Spin, *, leaning: float = 0.0) -> WrittenAxis:
+        """The axis of a wheel, which stays as drawn: its hinge turns with no parameter."""
+        x, y, z = (spin.carrier.vector(axis) for axis in np.eye(3))
+        return WrittenAxis(spin.name, spin, (x, y, z), (0.0, 0.0), leaning)
+
+    def parameter(self, *given: Any, targets: Any, **more: Any) -> Any:
+        """Those that turn the axis of a wheel are left out."""
+        if not any(isinstance(target[0], WrittenAxis) for target in targets):
+            return super().parameter(*given, targets=targets, **more)
 
     def shape(self, *given: Any, **more: Any) -> None:
         """Nothing: nobody looks at this model, and its wheels are bodies."""

@@ -56,7 +56,7 @@ def defines(file, name):
 
 def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_path):
     page = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
-    thing, whole, fmu, model = snippets(page)
+    thing, _, whole, fmu, model = snippets(page)
     said = re.search(r"^    (after .*)$", page, re.MULTILINE)[1]
     (tmp_path / "dist").mkdir()
     shutil.copy(prototype_fmu, tmp_path / "dist")
@@ -71,6 +71,12 @@ def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_p
     assert ast.literal_eval(by_model[1]) == pytest.approx(ast.literal_eval(by_fmu[1]), rel=1e-11)
     named = thing.replace('"prototype"', '"dist/PrototypeCar.fmu"').replace("car.close()", "")
     assert run(f"{named}\nprint([float(speed), float(yaw_rate)])", tmp_path).splitlines() == by_fmu
+
+
+@pytest.mark.slow
+def test_stepping_page_makes_several_environments(tmp_path):
+    several = snippets((ROOT / "docs" / "stepping.md").read_text(encoding="utf-8"))[1]
+    assert run(f"{several}\nprint(seen.shape)", tmp_path).startswith("(8, ")
 
 
 def test_readme_models_a_pendulum(tmp_path):
