@@ -14,6 +14,7 @@ from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
 from mbs.kernel.header.enumerations import GuideType
+from mbs.model.guides import of_table
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
@@ -49,6 +50,8 @@ def guide_start(model: Model) -> tuple[Array, Array]:
                 k = int(np.searchsorted(breaks, 0.0, side="right")) - 1
                 t = -breaks[k]
                 rates[g.index] = sum(p * c[k, p] * t ** (p - 1) for p in range(1, 6))
+        elif g.type == GuideType.BY_TABLE:
+            rates[g.index] = of_table(g, values[g.input])[1] * rates[g.input]
     return values, rates
 
 

@@ -149,6 +149,8 @@ def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], 
                 factors = [signals.number(f) for f in t.factors]
                 none = [-1] * (MOST_FACTORS - len(factors))
                 ints[-1] += [row(sensor, t.joint or sensor.joint, t.equation), *factors, *none, t.guide]
+                if sensor.type == SensorType.REACTION_BY_TABLE:
+                    ints[-1].append(t.slope)
         elif sensor.joint is not None:
             rows = [row(sensor, sensor.joint, k) for k in sensor.integers]
             ints.append([len(rows), *rows])

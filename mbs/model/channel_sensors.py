@@ -88,8 +88,8 @@ class ChannelSensorVocabulary(SensorBase):
         ----------
         kind : {"motion", "excess", "force"}
             The motion; of a guide from `guide_inputs` what the limits take away from the sum of its inputs, zero where
-            it follows them; or the force with which it moves what it guides, in the direction of its motion: its power
-            over its rate.
+            it follows them; or the force with which it moves what it guides, also by guides that follow it by a table,
+            in the direction of its motion: its power over its rate.
         order : {0, 1, 2}
             Of the motion: the value, its rate or its second rate.
         joints : sequence of Joint, optional
@@ -123,12 +123,20 @@ class ChannelSensorVocabulary(SensorBase):
     ) -> Sensor:
         asked = self.joints if joints is None else self._joints(name, "joints", joints)
         terms = [replace(t, weight=factor * t.weight) for joint in asked for t in guide_terms(joint, guide.index)]
+        by_table = [g.index for g in self.guides if g.type == GuideType.BY_TABLE and g.input == guide.index]
+        terms += [
+            replace(t, weight=factor * t.weight, slope=g)
+            for g in by_table
+            for joint in asked
+            for t in guide_terms(joint, g)
+        ]
         if not terms:
             raise ModelError(
                 f"The sensor '{name}' asks for the force of guide '{guide.name}', which none of its joints follows."
             )
         unit = self._unit(unit, {"m": "N", "rad": "N.m"}.get(guide.unit, "1"))
-        return self._sense(name, unit, description, GUIDE_READINGS["force"], terms=terms)
+        kind = SensorType.REACTION_BY_TABLE if by_table else GUIDE_READINGS["force"]
+        return self._sense(name, unit, description, kind, terms=terms)
 
     def sense_solver(self, name: str, kind: str, *, description: str = "") -> Sensor:
         """What the solver says about itself.

@@ -1,14 +1,15 @@
 """Guides: prescribed motions s(t) with two continuous rates, from a description in time or from an input through a
-filter.
+filter, or by a table from another guide.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline, PPoly
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import CubicHermiteSpline, CubicSpline, PchipInterpolator, PPoly
 
 from mbs.common.checks import LARGEST, array, number, positive, shown, text
 from mbs.common.errors import ModelError
@@ -89,6 +90,45 @@ def _spline(motion: tuple[ArrayLike, ArrayLike], what: str) -> CubicSpline:
             "and a value for each."
         )
     return CubicSpline(times, values, bc_type="clamped")
+
+
+def guide_table(model: ModelCore, name: str, source: Guide, table: ArrayLike, unit: str) -> Guide:
+    """``s = f(u)`` over another guide u, f a monotone cubic through points, straight beyond them (F. N. Fritsch, R. E.
+    Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246; the slopes are those of scipy's PchipInterpolator).
+    """
+    what = f"guide '{name}'"
+    u = owned_guide(model, source, f"The {what}")
+    if u.type == GuideType.BY_TABLE:
+        raise ModelError(f"The {what} is over guide '{u.name}', which is by a table too; give one table of both.")
+    rows = array(table, (None, 2), f"the table of {what}")
+    if len(rows) < 2:
+        raise ModelError(f"The table of {what} has {len(rows)} rows; it needs two at least.")
+    if not np.all(np.diff(rows[:, 0]) > 0.0):
+        k = int(np.argmin(np.diff(rows[:, 0])))
+        raise ModelError(
+            f"The table of {what} goes from {rows[k, 0]:g} to {rows[k + 1, 0]:g} in its first column; it must rise "
+            "from row to row."
+        )
+    reals = [float(x) for x in np.concatenate([*rows.T, curve(rows).derivative()(rows[:, 0])])]
+    guide = _register(model, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
+    value, _ = of_table(guide, u.start)
+    model.guides[-1] = replace(guide, start=value)
+    return model.guides[-1]
+
+
+def of_table(guide: Guide, u: float) -> tuple[float, float]:
+    """Value and slope of a guide by a table at the value `u` of the guide that it is over."""
+    x, y, m = np.reshape(guide.reals, (3, -1))
+    if u < x[0] or u >= x[-1]:
+        k = 0 if u < x[0] else -1
+        return float(y[k] + m[k] * (u - x[k])), float(m[k])
+    hermite = CubicHermiteSpline(x, y, m)
+    return float(hermite(u)), float(hermite(u, 1))
+
+
+def curve(rows: NDArray[np.float64]) -> PchipInterpolator:
+    """The monotone cubic through rows of two numbers, shape (n, 2)."""
+    return PchipInterpolator(*rows.T)
 
 
 def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:

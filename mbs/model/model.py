@@ -21,7 +21,7 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.flexible import FlexibleBody
 from mbs.model.force_sensors import ForceSensorVocabulary
 from mbs.model.forces import ForceVocabulary
-from mbs.model.guides import guide_input, guide_inputs, guide_time, owned_guide
+from mbs.model.guides import guide_input, guide_inputs, guide_table, guide_time, owned_guide
 from mbs.model.inputs import new_input
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
@@ -379,6 +379,26 @@ class Model(
             The degree is above 5, or the times do not rise.
         """
         return guide_time(self, name, motion, unit)
+
+    def guide_table(self, name: str, source: Guide, table: ArrayLike, *, unit: str = "1") -> Guide:
+        """A motion that follows another guide by a curve, such as a rack the steering wheel.
+
+        Parameters
+        ----------
+        source : Guide
+            That it follows, not by a table itself.
+        table : array_like, shape (n, 2)
+            Rows of the value of `source`, rising, and of the guide. Between them a monotone cubic with continuous
+            slope, beyond them a straight line.
+        unit : str
+            Of the guide, rad or m.
+
+        Raises
+        ------
+        ModelError
+            Fewer than two rows, or the first column does not rise.
+        """
+        return guide_table(self, name, source, table, unit)
 
     def slide(self, name: str, body: Body, *, point: ArrayLike, direction: ArrayLike, guide: Guide) -> SlidingPoint:
         """A point that a guide slides along a direction fixed in a body, such as the rack of a car.

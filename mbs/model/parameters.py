@@ -34,7 +34,7 @@ Target: TypeAlias = (
 """Owner, its real, scale, an offset if there is one, and whether the scale is divided by the value."""
 
 
-_SCALED = (SensorType.GUIDE, SensorType.GUIDE_EXCESS, SensorType.REACTION_PRODUCTS)
+_SCALED = (SensorType.GUIDE, SensorType.GUIDE_EXCESS, SensorType.REACTION_PRODUCTS, SensorType.REACTION_BY_TABLE)
 _AT_THE_START = (
     ParameterTarget.PAYLOAD,
     ParameterTarget.SWITCH,

@@ -6,7 +6,7 @@ a row u . v of vectors of both bodies turns the first one with the moment -lam u
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,8 +20,9 @@ MOST_FACTORS = 3
 
 @dataclass(frozen=True)
 class Term:
-    """``weight * lam * factors[0] * factors[1] * ... * guide``: the multiplier of an equation of a joint times at most
-    three expressions and a guide (-1: none). `joint` is that of the sensor unless it is given.
+    """``weight * lam * factors[0] * factors[1] * ... * guide * slope``: the multiplier of an equation of a joint times
+    at most three expressions, a guide and the slope of a guide by a table (-1: none). `joint` is that of the sensor
+    unless it is given.
     """
 
     weight: float
@@ -29,6 +30,7 @@ class Term:
     factors: tuple[Affine, ...] = ()
     guide: int = -1
     joint: Joint | None = None
+    slope: int = -1
 
 
 def force_on_first(joint: Joint) -> list[tuple[int, float, AffineVector]]:
@@ -76,7 +78,7 @@ def folded(term: Term) -> list[Term]:
             factors.append(factor)
         else:
             weight *= factor.constant
-    return [Term(weight, term.equation, tuple(factors), term.guide, term.joint)] if weight != 0.0 else []
+    return [replace(term, weight=weight, factors=tuple(factors))] if weight != 0.0 else []
 
 
 def guide_terms(joint: Joint, guide: int) -> list[Term]:

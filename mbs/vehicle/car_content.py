@@ -26,6 +26,7 @@ from mbs.vehicle.road import RoadSection
 from mbs.vehicle.section import Section, sections_of
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.steering import Steering
+from mbs.vehicle.steering.rack_by_angle import RackByAngle
 from mbs.vehicle.steering.rack_section import RackSection
 from mbs.vehicle.suspensions.curve_table import RACK
 from mbs.vehicle.suspensions.curves import Curves
@@ -136,6 +137,11 @@ class CarContent(Section):
             yield (
                 f"ports.steering is '{port}' and steering.kind '{self.steering.kind}'; a rack_by_angle has the port "
                 "rack_position, a column rack_force."
+            )
+        if port is not None and isinstance(self.steering, RackByAngle) and self.steering.by_table is not None:
+            yield (
+                f"{self.steering.key('rack_by_wheel_angle')} is there, and ports.steering asks for the travel of the "
+                "rack itself; leave one of them out."
             )
 
     def _faults_of_curves(self) -> Iterator[str]:

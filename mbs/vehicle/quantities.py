@@ -156,6 +156,8 @@ ColumnDamping = Annotated[float, Quantity("N.m.s/rad", 0.01, 9.0, zero=True, cha
 AssistanceFactor = Annotated[float, Quantity("1", 0.1, 60.0, zero=True, change="tunable")]
 AssistanceTorque = Annotated[float, Quantity("N.m", 0.5, 400.0, zero=True, change="tunable")]
 OneOrZero = Annotated[float, Quantity("1", 1.0, 1.0, zero=True, change="fixed")]
+SteeringWheelDegrees = Annotated[float, Quantity("deg", 0.0, 3600.0)]
+RackMillimetres = Annotated[float, Quantity("mm", 0.0, 500.0)]
 RackPerTurn = Annotated[float, Quantity("m", 0.01, 0.3, change="fixed")]
 PinionPerTurn = Annotated[float, Quantity("m", 0.01, 0.3)]
 SteerPerMoment = Annotated[float, Quantity("rad/(N.m)", 2e-6, 9e-4)]

@@ -65,12 +65,12 @@ def test_sensors_of_work_name_elements(integers: list[int]) -> None:
     assert "sensor 6 of type 19 has 1 reals" in refused(builder.to_bytes())
 
 
-GOOD = dict.fromkeys("sSeougGrdbkqhnN", 0) | {"S": -1, "G": -1, "n": 2, "N": 2, "P": 3}
+GOOD = dict.fromkeys("sSeougGrdbkqhnN", 0) | {"S": -1, "G": -1, "T": -1, "n": 2, "N": 2, "P": 3}
 """An integer that each letter of the list of sensor types allows."""
-LIMITS = {"s": "nsig", "S": "nsig", "e": "ne", "u": "nu", "g": "ng", "G": "ng", "r": "nc"}
+LIMITS = {"s": "nsig", "S": "nsig", "e": "ne", "u": "nu", "g": "ng", "G": "ng", "T": "ng", "r": "nc"}
 ORDERS = {"d": 3, "b": 2, "k": 4, "q": 4, "P": 4, "h": len(SolverValue)}
-LEAST = {"S": -1, "G": -1, "N": 1, "P": 2}
-REALS_OF = {"REACTION": 2, "REACTION_PRODUCTS": 2, "QUASI_STATIC": 21}
+LEAST = {"S": -1, "G": -1, "T": -1, "N": 1, "P": 2}
+REALS_OF = {"REACTION": 2, "REACTION_PRODUCTS": 2, "REACTION_BY_TABLE": 2, "QUASI_STATIC": 21}
 SCALED = (
     "SIGNAL",
     "SIGNAL_RATE",

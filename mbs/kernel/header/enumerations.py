@@ -90,6 +90,7 @@ class GuideType(IntEnum):
     OF_TIME = 0
     OF_INPUT = 1
     OF_TWO_INPUTS = 2
+    BY_TABLE = 3
 
 
 class RoadType(IntEnum):
@@ -170,6 +171,7 @@ class SensorType(IntEnum):
     WORK = 19
     MASS = 20
     GUIDE_EXCESS = 21
+    REACTION_BY_TABLE = 22
 
 
 SENSOR_READS = {
@@ -195,6 +197,7 @@ SENSOR_READS = {
     SensorType.WORK: SensorReads.FORCES,
     SensorType.MASS: SensorReads.MOTION,
     SensorType.GUIDE_EXCESS: SensorReads.INPUTS,
+    SensorType.REACTION_BY_TABLE: SensorReads.ROWS,
 }
 
 

@@ -6,18 +6,28 @@ import math
 from collections.abc import Iterator
 
 from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.steering.rack_by_angle import RackByAngle
+from mbs.vehicle.steering.rack_table import SAME
 
 FACTOR = 1.6  # the estimate leaves out the angle of the tie rods and the inclination of the steering axis
 
 
 def steering_oddities(car: CarContent) -> Iterator[str]:
-    """A sentence where the angle at full travel is not that of the rack on the steering arms.
+    """Sentences where a table is stretched, and where the angle at full travel is not that of the rack on its arms.
 
     Parameters
     ----------
     car : CarContent
         Without faults.
     """
+    table = car.steering.by_table if isinstance(car.steering, RackByAngle) else None
+    if isinstance(car.steering, RackByAngle) and table is not None and abs(table.factor - 1.0) > SAME:
+        turn = 2.0 * math.pi * table.slope
+        yield (
+            f"{car.steering.key('rack_by_wheel_angle')} has {turn:.6g} m of rack travel per turn straight ahead, and "
+            f"{car.steering.key('rack_per_turn')} is {car.steering.rack_per_turn:g} m; the angles of the table are "
+            f"divided by {table.factor:.6g}. To have them as they are write {turn:.6g}."
+        )
     arm = getattr(car.front.suspension, "steering_arm", None)
     travel = getattr(car.steering, "rack_travel", None)
     if arm is None or travel is None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -13,6 +12,7 @@ from mbs.common.checks import instance_of, is_finite, shown
 from mbs.common.errors import ModelError
 from mbs.vehicle.car import Car
 from mbs.vehicle.kinematics.curves import Curve, steer_curve, travel_curve
+from mbs.vehicle.kinematics.steer_measures import WheelByRack
 from mbs.vehicle.kinematics.stops import stop_notes
 from mbs.vehicle.linkages.linkage import Linkage
 
@@ -106,13 +106,23 @@ def kinematics(
             curves[axle, motion] = travel_curve(linkage, motion, _grid(*ends, points))
             _tell(progress, len(curves))
         if axle == "front":
-            per_rack = car.rack_way * 2.0 * math.pi / car.steering.rack_per_turn
             full = car.steering.rack_travel
-            curves[axle, "steer"] = steer_curve(linkage, _grid(-full, full, points), per_rack)
+            curves[axle, "steer"] = steer_curve(linkage, _grid(-full, full, points), wheel_by_rack(car))
             _tell(progress, len(curves))
         notes += stop_notes(linkage, curves[axle, "parallel"])
     ends_early = [note for curve in curves.values() for note in curve.notes]
     return Kinematics(car.name, curves, (*ends_early, *notes))
+
+
+def wheel_by_rack(car: Car) -> WheelByRack:
+    """What gives the angle of the steering wheel, rad, and its change per travel of the rack, rad/m, at a travel, m."""
+    way = car.rack_way
+
+    def at(travel: float) -> tuple[float, float]:
+        angle, rate = car.steering.wheel_at(travel)
+        return way * angle, way * rate
+
+    return at
 
 
 def checked_travel(travel: object) -> tuple[float, float]:

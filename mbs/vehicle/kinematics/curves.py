@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
 from mbs.vehicle.kinematics.quantities import BY_NAME, quantity_of
-from mbs.vehicle.kinematics.steer_measures import steer_measures
+from mbs.vehicle.kinematics.steer_measures import WheelByRack, steer_measures
 from mbs.vehicle.kinematics.wheel_loads import OWN
 from mbs.vehicle.linkages.continuation import HEAVE, ROLL, ROUND_OFF, reached
 from mbs.vehicle.linkages.linkage import SIDES, Linkage, Position
@@ -91,7 +91,7 @@ def travel_curve(linkage: Linkage, motion: str, travel: Array) -> Curve:
     return _curve(linkage, motion, travel, measures)
 
 
-def steer_curve(linkage: Linkage, rack: Array, wheel_per_rack: float) -> Curve:
+def steer_curve(linkage: Linkage, rack: Array, wheel_by_rack: WheelByRack) -> Curve:
     """A curve over the travel of the rack, the wheel centres at the height of the drawing.
 
     Parameters
@@ -100,15 +100,15 @@ def steer_curve(linkage: Linkage, rack: Array, wheel_per_rack: float) -> Curve:
         Of the front axle.
     rack : ndarray, shape (n,)
         Rising, with 0 among them, m.
-    wheel_per_rack : float
-        Angle of the steering wheel per travel of the rack, rad/m.
+    wheel_by_rack : callable
+        Gives the angle of the steering wheel, rad, and its change per travel of the rack, rad/m, at a travel, m.
     """
 
     def measures(at: Position) -> dict[str, float]:
-        return wheel_measures(linkage, at) | steer_measures(linkage, at, wheel_per_rack)
+        return wheel_measures(linkage, at) | steer_measures(linkage, at, wheel_by_rack)
 
     curve = _curve(linkage, "steer", rack, measures)
-    if wheel_per_rack > 0.0:
+    if wheel_by_rack(0.0)[1] > 0.0:
         return curve
     return Curve(curve.axle, curve.motion, {n: v[::-1] for n, v in curve.columns.items()}, curve.notes)
 

@@ -7,24 +7,27 @@ give a centre of the turn on that line; Ackermann's steer angle of the outer whe
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 
 from mbs.vehicle.kinematics.wheel_motion import wheel_motion
 from mbs.vehicle.linkages.linkage import Linkage, Position
 
+WheelByRack: TypeAlias = Callable[[float], tuple[float, float]]
 STRAIGHT = 1e-4  # rad: below it there is no circle
 
 
-def steer_measures(linkage: Linkage, at: Position, wheel_per_rack: float) -> dict[str, float]:
+def steer_measures(linkage: Linkage, at: Position, wheel_by_rack: WheelByRack) -> dict[str, float]:
     """Columns of steering.
 
     Parameters
     ----------
     linkage : Linkage
         Of the steered axle.
-    wheel_per_rack : float
-        Angle of the steering wheel per travel of the rack, rad/m.
+    wheel_by_rack : callable
+        Gives the angle of the steering wheel, rad, and its change per travel of the rack, rad/m, at a travel, m.
 
     Returns
     -------
@@ -35,8 +38,9 @@ def steer_measures(linkage: Linkage, at: Position, wheel_per_rack: float) -> dic
     steers = [w.steer for w in wheels]
     mean = 0.5 * sum(steers)
     rate = 0.5 * float((wheels[0].steer_rate + wheels[1].steer_rate)[2])
+    angle, wheel_per_rack = wheel_by_rack(at.rack)
     found = {
-        "steering_wheel_angle": wheel_per_rack * at.rack,
+        "steering_wheel_angle": angle,
         "rack_travel": at.rack,
         "mean_steer_angle": mean,
         "steering_ratio": wheel_per_rack / rate if rate else math.nan,

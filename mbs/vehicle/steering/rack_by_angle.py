@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from functools import cached_property
 from typing import Literal
 
 from mbs.elements.coordinate_friction import CoordinateFriction
@@ -15,6 +17,7 @@ from mbs.vehicle.quantities import PrescribedFriction
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
 from mbs.vehicle.steering.rack_section import COLUMN_STICK, RackSection
+from mbs.vehicle.steering.rack_table import RackTable, Rows, table_faults
 from mbs.vehicle.steering.ratio import tie_ratio
 from mbs.vehicle.steering.steered import RACK, Steered, tie_rods
 
@@ -26,6 +29,32 @@ class RackByAngle(RackSection):
     """Names this template."""
     friction: PrescribedFriction = 0.0
     """Friction of rack and column, at the steering wheel."""
+    rack_by_wheel_angle: Rows | None = None
+    """Rows of the angle of the steering wheel, deg, and the travel of the rack, mm, from straight ahead, [0, 0], to
+    full lock, a monotone cubic between them, the same to both sides; stretched along the angle so that straight ahead
+    it has rack_per_turn."""
+
+    def faults(self) -> Iterator[str]:
+        """A table rises and reaches to full lock."""
+        if self.rack_by_wheel_angle is not None:
+            key, travel = self.key("rack_by_wheel_angle"), self.key("rack_travel")
+            yield from table_faults(key, self.rack_by_wheel_angle, travel, self.rack_travel)
+
+    @cached_property
+    def by_table(self) -> RackTable | None:
+        """The curve of a table, None where the ratio is constant."""
+        if self.rack_by_wheel_angle is None:
+            return None
+        return RackTable(self.rack_by_wheel_angle, self.rack_per_turn / (2.0 * math.pi))
+
+    @property
+    def wheel_angle_max(self) -> float:
+        """By the table where there is one."""
+        return super().wheel_angle_max if self.by_table is None else self.by_table.at(self.rack_travel)[0]
+
+    def wheel_at(self, travel: float) -> tuple[float, float]:
+        """By the table where there is one."""
+        return super().wheel_at(travel) if self.by_table is None else self.by_table.at(travel)
 
     def build(self, b: CarBuilder, way: float) -> Steered:
         """Add the rack.
@@ -40,25 +69,33 @@ class RackByAngle(RackSection):
         Steered
             Ends of the rack, and its outputs.
         """
-        m, per_radian = b.m, way * self.rack_per_turn / (2.0 * math.pi)
+        m, turn = b.m, way * 2.0 * math.pi
+        per_radian = way * self.rack_per_turn / (2.0 * math.pi)
+        by_table = self.by_table
         demand: Input | None = None
-        if b.ports.steering is None:
-            demand = angle_demand(m, self.wheel_angle_max)
-            rack = m.guide_inputs(
-                "rack",
-                inputs=(b.inputs["steering"], demand),
-                gains=(way * self.rack_travel, per_radian),
-                limits=(-self.rack_travel, self.rack_travel),
-                frequency=self.frequency,
-                unit="m",
-            )
-        else:
+        if b.ports.steering is not None:
             most = self.rack_travel
             port = b.port("steering_rack_demand", -most, most, "m", f"{self.travel_text(way)}, that is asked for")
-            rack = m.guide_input("rack", input=port, frequency=b.ports.rack_frequency, unit="m")
+            rack = held = m.guide_input("rack", input=port, frequency=b.ports.rack_frequency, unit="m")
+        else:
+            demand = angle_demand(m, self.wheel_angle_max)
+            full, name, unit = way * self.rack_travel, "rack", "m"
+            if by_table is not None:
+                per_radian, turn = by_table.factor, 2.0 * math.pi * by_table.slope
+                full, name, unit = by_table.angle(self.rack_travel), "steering wheel", "rad"
+            rack = held = m.guide_inputs(
+                name,
+                inputs=(b.inputs["steering"], demand),
+                gains=(full, per_radian),
+                limits=(-abs(full), abs(full)),
+                frequency=self.frequency,
+                unit=unit,
+            )
+            if by_table is not None:
+                rack = m.guide_table("rack", held, by_table.rows * (1.0, way), unit="m")
         if self.friction > 0.0:
             wheel = m.shaft("steering wheel")
-            m.drive("steering column", wheel.affine * per_radian, rack)
+            m.drive("steering column", wheel.affine * per_radian, held)
             friction = CoordinateFriction(self.friction, *COLUMN_STICK)
             m.add(friction.record("steering friction", wheel.affine))
 
@@ -74,25 +111,25 @@ class RackByAngle(RackSection):
             m.sense_guide("steering_rack", rack, description=self.travel_text(way))
             m.sense_guide(
                 "steering_wheel_angle",
-                rack,
-                scale=way * 2.0 * math.pi / self.rack_per_turn,
+                held,
+                scale=turn / self.rack_per_turn,
                 unit="rad",
                 description="angle of the steering wheel, positive to the left",
             )
 
         def torque_outputs() -> None:
             m.sense_guide(
-                "steering_wheel_torque", rack, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE
+                "steering_wheel_torque", held, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE
             )
             m.sense_guide(
-                "steering_wheel_speed", rack, order=1, scale=1.0 / per_radian, unit="rad/s", description=WHEEL_SPEED
+                "steering_wheel_speed", held, order=1, scale=1.0 / per_radian, unit="rad/s", description=WHEEL_SPEED
             )
             m.sense_guide(
                 "steering_rack_force", rack, "force", joints=tie_rods(m, rack), scale=-1.0, description=RACK_FORCE
             )
             if demand is not None:
-                demand_outputs(m, demand, rack, 1.0 / per_radian)
+                demand_outputs(m, demand, held, 1.0 / per_radian)
             if self.friction == 0.0:  # with friction the ratio is in an equation, which no parameter writes
-                tie_ratio(b, self, rack, way)
+                tie_ratio(b, self, held, turn)
 
         return Steered(end, outputs, torque_outputs, travel)

@@ -27,6 +27,17 @@ class RackSection(Section):
         """Angle of the steering wheel at full travel, rad."""
         return 2.0 * math.pi * self.rack_travel / self.rack_per_turn
 
+    def wheel_at(self, travel: float) -> tuple[float, float]:
+        """Angle of the steering wheel, rad, and its change per travel of the rack, rad/m.
+
+        Parameters
+        ----------
+        travel : float
+            Of the rack, m, to the side to which it steers to the left.
+        """
+        rate = 2.0 * math.pi / self.rack_per_turn
+        return rate * travel, rate
+
     @property
     def on_flexible_chassis(self) -> bool:
         """Whether the chassis may bend or have ports."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from mbs.model.records import Guide
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.steering.rack_section import RackSection
@@ -13,10 +11,11 @@ OVER = ("steering_wheel_angle", "steering_wheel_speed", "steering_demand_excess"
 TORQUE = "steering_wheel_torque"
 
 
-def tie_ratio(b: CarBuilder, data: RackSection, rack: Guide, way: float) -> None:
+def tie_ratio(b: CarBuilder, data: RackSection, held: Guide, turn: float) -> None:
     """Let a parameter write the travel of the rack per turn: to its guide and to the outputs of the steering wheel.
 
-    Full lock stays where it is for the rack; the range of the demanded angle stays that of the file.
+    A table is stretched along the angle. Full lock stays where it is for the rack; the range of the demanded angle
+    stays that of the file.
 
     Parameters
     ----------
@@ -24,14 +23,14 @@ def tie_ratio(b: CarBuilder, data: RackSection, rack: Guide, way: float) -> None
         With the outputs of the steering.
     data : RackSection
         Of the file.
-    rack : Guide
-        Of the travel of the rack.
-    way : float
-        1 where the rack moves to the left to steer to the left, else -1.
+    held : Guide
+        Of the travel of the rack, or of the angle in the table.
+    turn : float
+        Travel of the rack per turn over that guide per radian of the steering wheel.
     """
-    name, turn = "rack_per_turn", way * 2.0 * math.pi
+    name = "rack_per_turn"
     if b.ports.steering is None:
-        b.tie(data, name, rack, "gain_2", 1.0 / turn, late=True)
+        b.tie(data, name, held, "gain_2", 1.0 / turn, late=True)
     for sensor in b.m.sensors:
         if sensor.name in OVER:
             b.tie(data, name, ("sensor", sensor.name), 0, turn, inverse=True, late=True)

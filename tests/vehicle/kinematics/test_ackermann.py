@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mbs.vehicle.kinematics.car_kinematics import wheel_by_rack
 from mbs.vehicle.kinematics.curves import steer_curve
 from mbs.vehicle.linkages.linkage import Linkage
 from tests.vehicle.kinematics.planar_wishbones import TRACK_HALF, FourBar
@@ -31,7 +32,7 @@ def angle(rack):
 def curve():
     car = LINKS.car(tie_rod_inner=(*INNER, 0.15), tie_rod_outer=(*OUTER, 0.15))
     assert car.rack_way == -1.0  # rods behind the axle
-    return car, steer_curve(Linkage(car, "front"), RACK, -2.0 * np.pi / car.steering.rack_per_turn)
+    return car, steer_curve(Linkage(car, "front"), RACK, wheel_by_rack(car))
 
 
 def test_steer_angles(curve):

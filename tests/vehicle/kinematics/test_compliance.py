@@ -10,6 +10,7 @@ import pytest
 from mbs import Affine, Simulation, compile
 from mbs.common.errors import ModelError
 from mbs.vehicle import Fidelity, load
+from mbs.vehicle.kinematics.car_kinematics import wheel_by_rack
 from mbs.vehicle.kinematics.compliance import LOADS, compliance
 from mbs.vehicle.kinematics.curves import steer_curve
 from mbs.vehicle.kinematics.held_car import held_model
@@ -117,7 +118,7 @@ def test_a_torsion_bar_gives_by_the_square_of_the_steering_ratio():
     found = compliance(car)
     assert (found.fidelity, found.freedoms, found.sentence) == (Fidelity.RIGID, 1, "")
     linkage = Linkage(car, "front")
-    curve = steer_curve(linkage, np.array([-0.001, 0.0, 0.001]), car.rack_way * 2.0 * np.pi / 0.047)
+    curve = steer_curve(linkage, np.array([-0.001, 0.0, 0.001]), wheel_by_rack(car))
     ratio = curve.drawn()["steering_ratio"]
     by_hand = 2.0 / ratio**2 / (115.0 * (1.0 + 1.5))
     values = found.values["front"]

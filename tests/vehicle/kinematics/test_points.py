@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mbs.vehicle import load
+from mbs.vehicle.kinematics.car_kinematics import wheel_by_rack
 from mbs.vehicle.kinematics.curves import steer_curve, travel_curve
 from mbs.vehicle.linkages.linkage import Linkage
 from tests.vehicle import instant
@@ -73,7 +74,7 @@ def test_steering(car):
     link = linkage(car, "front")
     steering = link.car.steering
     per_rack = link.car.rack_way * 2.0 * np.pi / steering.rack_per_turn
-    curve = steer_curve(link, np.linspace(-steering.rack_travel, steering.rack_travel, 9), per_rack)
+    curve = steer_curve(link, np.linspace(-steering.rack_travel, steering.rack_travel, 9), wheel_by_rack(link.car))
     assert np.all(np.diff(curve["steering_wheel_angle"]) > 0.0)
     assert np.all(np.diff(curve["mean_steer_angle"]) > 0.0)  # to the left is positive
     np.testing.assert_allclose(curve["steering_wheel_angle"], per_rack * curve["rack_travel"], rtol=1e-14, atol=1e-15)

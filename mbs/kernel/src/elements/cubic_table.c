@@ -49,6 +49,14 @@ double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, doub
   return at(&p, x);
 }
 
+double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope, double *curvature) {
+  const piece p = piece_of(t, place(t, x));
+  const double d = x - p.start;
+  *slope = p.m + d * (2.0 * p.c + d * 3.0 * p.e);
+  *curvature = 2.0 * p.c + d * 6.0 * p.e;
+  return at(&p, x);
+}
+
 /* Simpson's rule is exact on every piece. */
 double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1) {
   const double low = fmin(x0, x1), high = fmax(x0, x1), width = high - low;

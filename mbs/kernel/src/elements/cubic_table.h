@@ -15,6 +15,9 @@ ali3_cubic_table ali3_cubic_table_at(const double *real, int32_t n, int integral
 /* y; adds to *integral, if that is not NULL, the integral from 0 to x. */
 double ali3_cubic_value(const ali3_cubic_table *t, double x, double *slope, double *integral);
 
+/* y with its first and second derivative. */
+double ali3_cubic_derivatives(const ali3_cubic_table *t, double x, double *slope, double *curvature);
+
 /* Mean of y from x0 to x1: the difference quotient of the integral, free of cancellation. */
 double ali3_cubic_mean(const ali3_cubic_table *t, double x0, double x1);
 

@@ -1,9 +1,10 @@
 /* Guides s(t): polynomial pieces of time, or an input, or the sum of two, through a critically damped filter of second
- * order. */
+ * order, or a curve over another guide. */
 #include <math.h>
 #include <string.h>
 
 #include "../algebra/elementary.h"
+#include "../elements/cubic_table.h"
 #include "../instance.h"
 #include "guides.h"
 
@@ -31,7 +32,23 @@ static double target_of(const ali3_instance *in, int32_t g, const double *input)
   return ali3_guide_held(in, g, ali3_guide_demand(in, g, input));
 }
 
+static ali3_cubic_table table_of(const double *real, int32_t nreal) { return ali3_cubic_table_at(real, nreal / 3, 0); }
+
+/* ds/du of a guide by a table of u. */
+double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s) {
+  const int32_t *at = in->system->guide_real_ptr + g;
+  const ali3_cubic_table table = table_of(in->guide_real + at[0], at[1] - at[0]);
+  double slope;
+  ali3_cubic_value(&table, s[in->system->guide_input[g]], &slope, NULL);
+  return slope;
+}
+
 const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal) {
+  if (type == ALI3_GUIDE_BY_TABLE) {
+    if (nreal < 6 || nreal % 3 != 0) return "a guide by a table needs two points or more, and a slope at each";
+    const ali3_cubic_table table = table_of(real, nreal);
+    return ali3_cubic_rises(&table) ? NULL : "the first column of the table of a guide must rise";
+  }
   if (type == ALI3_GUIDE_OF_INPUT) {
     if (nreal != 3) return "a filtered guide has three numbers: frequency, gain, start";
     return real[0] > 0.0 ? NULL : "the frequency of a filtered guide must be positive";
@@ -69,18 +86,30 @@ static void guide_of_time(const double *real, double t, double *s, double *sd, d
   *sdd = inside ? ((20.0 * c[5] * x + 12.0 * c[4]) * x + 6.0 * c[3]) * x + 2.0 * c[2] : 0.0;
 }
 
-/* Guides of time at t; filtered ones stay. */
+/* s = f(u): s' = f' u' and s'' = f' u'' + f'' u'^2. */
+static void guide_by_table(const ali3_instance *in, ali3_vectors *v, int32_t g) {
+  const int32_t *at = in->system->guide_real_ptr + g, u = in->system->guide_input[g];
+  const ali3_cubic_table table = table_of(in->guide_real + at[0], at[1] - at[0]);
+  double slope, curvature;
+  v->s[g] = ali3_cubic_derivatives(&table, v->s[u], &slope, &curvature);
+  v->sd[g] = slope * v->sd[u];
+  v->sdd[g] = slope * v->sdd[u] + curvature * v->sd[u] * v->sd[u];
+}
+
+/* Guides of time at t and those by tables; filtered ones stay. */
 void ali3_guides_time(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++)
     if (S->guide_type[g] == ALI3_GUIDE_OF_TIME)
       guide_of_time(in->guide_real + S->guide_real_ptr[g], t, &v->s[g], &v->sd[g], &v->sdd[g]);
+    else if (S->guide_type[g] == ALI3_GUIDE_BY_TABLE)
+      guide_by_table(in, v, g);
 }
 
 void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
-    if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
+    if (!ali3_guide_filters(S->guide_type[g])) continue;
     v->s[g] = target_of(in, g, in->input); /* at rest where its input holds it */
     v->sd[g] = v->sdd[g] = 0.0;
   }
@@ -89,9 +118,8 @@ void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t) {
 
 void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_vectors *to, double t, double h) {
   const ali3_system *S = in->system;
-  ali3_guides_time(in, to, t);
   for (int32_t g = 0; g < S->size.ng; g++) {
-    if (S->guide_type[g] == ALI3_GUIDE_OF_TIME) continue;
+    if (!ali3_guide_filters(S->guide_type[g])) continue;
     /* exact solution of s'' = w^2 (gain u - s) - 2 w s' for an input that goes straight from its value at the start of
      * the step to that at its end; held at the end it would lead by h/2, which is an error of first order */
     const double *real = in->guide_real + S->guide_real_ptr[g];
@@ -102,4 +130,5 @@ void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_ve
     to->sd[g] = slope + (from->sd[g] - slope - w * rate * h) * decay;
     to->sdd[g] = w * w * (target - to->s[g]) - 2.0 * w * to->sd[g];
   }
+  ali3_guides_time(in, to, t); /* behind those that tables go over */
 }

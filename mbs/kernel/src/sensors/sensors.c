@@ -147,15 +147,27 @@ static double value_reaction(const ali3_instance *in, const int32_t *v, const do
   return sum;
 }
 
-/* Multipliers times constant weights, up to three signals and a guide. */
+/* A multiplier times a constant weight, up to three signals and a guide. */
+static double reaction_product(const ali3_instance *in, const int32_t *term, double weight) {
+  double value = weight * in->system->row_scale[term[0]] * in->now.lam[term[0]];
+  for (int i = 1; i < 4; i++)
+    if (term[i] >= 0) value *= signal(in, term[i], 0);
+  return term[4] >= 0 ? value * in->now.s[term[4]] : value;
+}
+
 static double value_reaction_products(const ali3_instance *in, const int32_t *v, const double *weight) {
   double sum = 0.0;
+  for (int32_t k = 0; k < v[0]; k++) sum += reaction_product(in, v + 1 + 5 * k, weight[k]);
+  return sum;
+}
+
+/* The same, some of them times the slope of a guide by a table. */
+static double value_reaction_by_table(const ali3_instance *in, const int32_t *v, const double *weight) {
+  double sum = 0.0;
   for (int32_t k = 0; k < v[0]; k++) {
-    const int32_t *term = v + 1 + 5 * k;
-    double value = weight[k] * in->system->row_scale[term[0]] * in->now.lam[term[0]];
-    for (int i = 1; i < 4; i++)
-      if (term[i] >= 0) value *= signal(in, term[i], 0);
-    sum += term[4] >= 0 ? value * in->now.s[term[4]] : value;
+    const int32_t *term = v + 1 + 6 * k;
+    const double slope = term[5] >= 0 ? ali3_guide_slope(in, term[5], in->now.s) : 1.0;
+    sum += slope * reaction_product(in, term, weight[k]);
   }
   return sum;
 }

@@ -1,6 +1,7 @@
 /* Sensors of a System, by the list of their types. */
 #include <string.h>
 
+#include "../rows/guides.h"
 #include "../system.h"
 #include "check.h"
 #include "loading.h"
@@ -19,7 +20,7 @@ const ali3_sensor_type ali3_sensor_types[ALI3_SENSOR_TYPE_COUNT] = {
 };
 
 static int64_t least(char letter) {
-  if (letter == 'S' || letter == 'G') return -1;
+  if (letter == 'S' || letter == 'G' || letter == 'T') return -1;
   return letter == 'N' ? 1 : (letter == 'P' ? 2 : 0);
 }
 
@@ -31,6 +32,7 @@ static int64_t limit(const ali3_system *s, char letter, const int32_t *v) {
     return s->size.nsig;
   case 'g':
   case 'G':
+  case 'T':
     return s->size.ng;
   case 'e':
     return s->size.ne;
@@ -65,6 +67,8 @@ static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m)
   for (int32_t k = 0; k < n && (k < head || k < head + items * each); k++) {
     const char letter = type->integers[k < head ? k : head + 1 + (k - head) % each];
     CHECK(ali3_check_indices(m, "sen_int", v + k, 1, least(letter), limit(s, letter, v + k)));
+    if (letter == 'T' && v[k] >= 0 && s->guide_type[v[k]] != ALI3_GUIDE_BY_TABLE)
+      return ali3_bad(m, "sensor %d reads the slope of guide %d, which is by no table", (int)i, (int)v[k]);
     if (k < head && strchr("nNP", letter) != NULL) items = v[k];
   }
   if (n < head || n != head + items * each)

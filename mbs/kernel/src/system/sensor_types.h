@@ -8,7 +8,7 @@
 /* X(number, NAME, name, integers, reals, reals of each item, rate, reads, integers and reals in words, value in words)
  *
  * Each integer is one letter: s signal, S signal or -1, e element, o output of the element before, u input, g guide,
- * G guide or -1, r row, d order 0 to 2, b 0 or 1, k energy 0 to 3, q component of a quaternion 0 to 3, h ALI3_SOLVER_*;
+ * G guide or -1, T guide by a table or -1, r row, d order 0 to 2, b 0 or 1, k energy 0 to 3, q component of a quaternion 0 to 3, h ALI3_SOLVER_*;
  * n number of items, N at least one, P two or three: as many times come the integers in brackets.
  * `rate`: whether ali3_sensor_rates knows the first time derivative, ALI3_RATE_*; `reads`: ALI3_READS_*. */
 /* clang-format off */
@@ -65,7 +65,10 @@
   X(20, MASS, mass, "", 1, 0, ALWAYS, MOTION, \
     "-", "mass without payloads, kg", "total mass, kg") \
   X(21, GUIDE_EXCESS, guide_excess, "g", 1, 0, NEVER, INPUTS, \
-    "guide", "scale", "scale * (what the inputs ask of a filtered guide, less what its limits leave of it)")
+    "guide", "scale", "scale * (what the inputs ask of a filtered guide, less what its limits leave of it)") \
+  X(22, REACTION_BY_TABLE, reaction_by_table, "n(rSSSGT)", 0, 1, NEVER, ROWS, \
+    "n, then n times: row, 3 signals, guide, guide by a table (-1: none)", "n weights", \
+    "sum weight * lam_user * u * u * u * s * ds/du: the force of a guide that others follow by a table")
 /* clang-format on */
 
 enum {

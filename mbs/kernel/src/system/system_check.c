@@ -83,6 +83,11 @@ static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) 
   CHECK(ali3_check_indices(m, "guide_type", s->guide_type, ng, 0, ALI3_GUIDE_TYPE_COUNT));
   if (s->n_guide_second != 0) CHECK(ali3_check_length(m, "guide_second", s->n_guide_second, ng));
   for (int32_t g = 0; g < ng; g++) {
+    if (s->guide_type[g] == ALI3_GUIDE_BY_TABLE) {
+      CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, g));
+      if (s->guide_type[s->guide_input[g]] == ALI3_GUIDE_BY_TABLE)
+        return ali3_bad(m, "guide %d is by a table over a guide that is by a table too", (int)g);
+    }
     if (!ali3_guide_filters(s->guide_type[g])) continue;
     CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, s->size.nu));
     if (s->guide_type[g] != ALI3_GUIDE_OF_TWO_INPUTS) continue;
