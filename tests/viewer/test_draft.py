@@ -70,7 +70,9 @@ def test_cones_stand_where_they_are_in_a_draft(drawn, car):
     assert np.abs([group.mean() - place for group, place in zip(groups, places, strict=True)]).max() < 1.5
 
 
-def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_above(drawn, car):
+@pytest.mark.slow
+@pytest.mark.parametrize("quality", ["draft", "low"])
+def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_above(drawn, car, quality):
     def darkness(lift):
         numbers = {}
         for frame in car["frames"].values():
@@ -86,9 +88,10 @@ def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_abov
         under, beside = (np.round(drawn.project([x, y + a, 0.0])).astype(int) for a in (-0.35, -2.5))
         return 1.0 - picture[under[1], under[0]] / picture[beside[1], beside[0]]
 
-    drawn.show(car, camera="top", quality="draft")
+    drawn.show(car, camera="top", quality=quality)
     drawn.ask("view.parts.group.visible = false")
-    drawn.ask("view.world.children.find((part) => part.isBatchedMesh).material.visible = false")
+    if quality == "draft":
+        drawn.ask("view.world.children.find((part) => part.isBatchedMesh).material.visible = false")
     standing, flying = darkness(0.0), darkness(2.5)
     assert 0.15 < standing < 0.8
     assert flying < 0.5 * standing

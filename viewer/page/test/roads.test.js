@@ -1,6 +1,7 @@
 // The part of a road's profile about a place, against its levels.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { roadHeight } from "../src/looks/road_height.js";
 import { strip, surfaces, wetness } from "../src/looks/roads.js";
 
 const KERB = { stations: [-0.5, 0.5], heights: [0, 0.1] };
@@ -32,4 +33,19 @@ test("a kerb is its face and a stone along its upper edge", () => {
   const down = surfaces([[-9, 0.1], [-0.001, 0.1], [0.001, 0], [9, 0]]);
   assert.deepEqual(down.map(({ kerb }) => kerb), [false, true, true, false]);
   assert.deepEqual(surfaces([[0, 0], [10, 1]]).map(({ kerb }) => kerb), [false]);
+});
+
+test("the ground below a point is that of the highest road there", () => {
+  const up = [0, 0, 1];
+  const near = (roads, point, wanted, way = up) => assert.ok(Math.abs(roadHeight(roads, way, point) - wanted) < 1e-6);
+  near([{ kind: "flat", height: 0.3 }], [5, 6, 7], 0.3);
+  near([{ kind: "plane", point: [0, 0, 1], normal: [-0.6, 0, 0.8] }], [4, 9, 2], 1 + 4 * 0.75);
+  near([{ kind: "profile", direction: [0, 2, 0], origin: [0, 10, 0.5], ...KERB }], [3, 10.25, 0], 0.5 + 0.075);
+  const grid = { kind: "grid", origin: [1, 2], spacing: [0.5, 2], shape: [2, 3], heights: [0, 1, 2, 4, 5, 6] };
+  near([grid], [1.125, 5, 0], 2.5);
+  near([grid], [1.5, 6, 0], 6);
+  near([grid, { kind: "flat" }], [0, 0, 5], 0);
+  near([grid], [1.125, 9, -5], 2.5, [0, 1, 0]);
+  assert.equal(roadHeight([grid], up, [0, 0, 0]), null);
+  assert.equal(roadHeight([{ kind: "file" }], up, [0, 0, 0]), null);
 });

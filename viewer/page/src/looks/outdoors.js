@@ -1,6 +1,7 @@
 // A car's world: sky, sun, fog and a proving ground.
 import * as THREE from "three";
 import { across, add, cross, scale, unit } from "../scene/math.js";
+import { contactShadows } from "./contact_shadows.js";
 import { makeDraft } from "./draft/index.js";
 import { groundMaterial } from "./ground.js";
 import { mirrorOf } from "./mirror.js";
@@ -46,6 +47,8 @@ export function outdoors(view, fine) {
   const roads = makeRoads(scene, { up, asphalt: asphalt.material, road: road.material, grass: grass.material, extent });
   world.add(roads.group);
   const draft = makeDraft(view, sun);
+  const spots = contactShadows(view);
+  world.add(spots.mesh);
   /** Ground by its material, and back. */
   const twins = new Map();
   const dress = (on) => {
@@ -55,7 +58,8 @@ export function outdoors(view, fine) {
   };
   return {
     follow(origin) {
-      draft.follow(origin);
+      draft.follow();
+      spots.follow(origin, draft.on);
       for (const surface of [asphalt, road, grass]) surface.follow(origin);
       roads.follow(origin);
       land?.follow(origin, view.cameras.current.position.toArray(), renderer.getDrawingBufferSize(pixels));
@@ -71,6 +75,7 @@ export function outdoors(view, fine) {
     tell: [...roads.unknown, ...(land?.tell ?? [])],
     dispose() {
       draft.dispose();
+      spots.dispose();
       land?.dispose();
       roads.dispose();
       for (const twin of twins.values()) twin.dispose();

@@ -86,20 +86,22 @@ function profile(road, { up, road: material }) {
   return [{ mesh, follow }];
 }
 
+/** Level of a profile at a station. @param {{stations: number[], heights: number[]}} road @param {number} at */
+export function levelOf({ stations, heights }, at) {
+  const last = stations.length - 1;
+  if (at <= stations[0]) return heights[0];
+  if (at >= stations[last]) return heights[last];
+  const i = stations.findIndex((station) => station > at) - 1;
+  return heights[i] + ((at - stations[i]) / (stations[i + 1] - stations[i])) * (heights[i + 1] - heights[i]);
+}
+
 /**
  * The part of a profile around a place: pairs of station (from that place) and level.
  * @param {{stations: number[], heights: number[]}} road @param {number} s the place @param {number} reach
  */
-export function strip({ stations, heights }, s, reach) {
-  const last = stations.length - 1;
-  const level = (at) => {
-    if (at <= stations[0]) return heights[0];
-    if (at >= stations[last]) return heights[last];
-    const i = stations.findIndex((station) => station > at) - 1;
-    return heights[i] + ((at - stations[i]) / (stations[i + 1] - stations[i])) * (heights[i + 1] - heights[i]);
-  };
-  const inside = stations.flatMap((station, i) => (Math.abs(station - s) < reach ? [[station - s, heights[i]]] : []));
-  return [[-reach, level(s - reach)], ...inside, [reach, level(s + reach)]];
+export function strip(road, s, reach) {
+  const inside = road.stations.flatMap((station, i) => (Math.abs(station - s) < reach ? [[station - s, road.heights[i]]] : []));
+  return [[-reach, levelOf(road, s - reach)], ...inside, [reach, levelOf(road, s + reach)]];
 }
 
 /** Width of the stone along the upper edge of a kerb, in metres. */
@@ -155,13 +157,16 @@ function rebuild(geometry, pairs, { forward, side, up, half }) {
   geometry.computeBoundingSphere();
 }
 
+/** Axes of a grid in the earth. @param {Data} road @param {number[]} up */
+export const groundAxes = (road, up) => road.axes ?? (Math.abs(up[2]) > 0.5 ? [[1, 0, 0], [0, 1, 0]] : [[1, 0, 0], [0, 0, -1]]); // prettier-ignore
+
 /** Heights on a grid, in pieces; what has little friction is wet or ice. Around it lies grass. */
 function grid(road, { up, road: material, grass }) {
   const [nx, ny] = road.shape;
   const [dx, dy] = road.spacing;
   const heights = floats(road.heights);
   const frictions = road.frictions === undefined ? null : floats(road.frictions);
-  const axes = road.axes ?? (Math.abs(up[2]) > 0.5 ? [[1, 0, 0], [0, 1, 0]] : [[1, 0, 0], [0, 0, -1]]); // prettier-ignore
+  const axes = groundAxes(road, up);
   const world = (x, y, z) => add(add(scale(axes[0], x), scale(axes[1], y)), scale(up, z));
   const pieces = [];
   for (let i0 = 0; i0 < nx - 1; i0 += PIECE) {

@@ -35,11 +35,11 @@ export function studio(view, fine) {
     world.environmentIntensity = 0.5;
   };
   bake();
-  const draft = makeDraft(view, sun, { shadows: false });
+  const draft = makeDraft(view, sun);
   return {
     caption: `grid ${step} m`,
     follow(origin) {
-      draft.follow(origin);
+      draft.follow();
       floor.follow(origin);
       floor.mesh.position.fromArray(scale(up, view.floor - dot(up, origin)));
     },

@@ -1,22 +1,19 @@
 // The draft quality: one call for what moves, no shadow map, ground lit at its points; for machines without a card.
 import { baked } from "./baked.js";
-import { blobs } from "./blobs.js";
 import { lightOf } from "./prelit.js";
 
 /**
  * @param {Data} view the SceneView
  * @param {import("three").DirectionalLight} sun
- * @param {{shadows?: boolean}} [options] shadows: blobs on the ground
  */
-export function makeDraft(view, sun, { shadows = true } = {}) {
+export function makeDraft(view, sun) {
   const { world, parts, extent, up } = view;
   const light = lightOf(sun, up);
   let made = null;
   const make = () => {
     const car = baked(parts, light, extent);
-    const spots = shadows ? blobs(view) : null;
-    world.add(car.mesh, ...(spots ? [spots.mesh] : []));
-    return { car, spots };
+    world.add(car.mesh);
+    return car;
   };
   return {
     light,
@@ -27,18 +24,14 @@ export function makeDraft(view, sun, { shadows = true } = {}) {
       this.on = on;
       sun.castShadow = !on;
       if (on) made ??= make();
-      made.car.show(on);
-      if (made.spots) made.spots.mesh.visible = on;
+      made.show(on);
     },
-    /** After the parts have their places. @param {number[]} origin */
-    follow(origin) {
-      if (!this.on) return;
-      made.car.follow();
-      made.spots?.follow(origin);
+    /** After the parts have their places. */
+    follow() {
+      if (this.on) made.follow();
     },
     dispose() {
-      made?.car.dispose();
-      made?.spots?.dispose();
+      made?.dispose();
     },
   };
 }

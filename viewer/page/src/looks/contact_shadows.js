@@ -1,10 +1,11 @@
-// Shadows without a map of them: soft dark places on the ground below the body and below every wheel.
+// Where sky light does not reach the ground: soft dark places below the body and below every wheel, at every quality.
 import * as THREE from "three";
-import { add, dot, scale, subtract, unit, cross, rotate } from "../../scene/math.js";
-import { lift, LIFT } from "../lifted.js";
+import { add, dot, scale, subtract, unit, cross, rotate } from "../scene/math.js";
+import { lift, LIFT } from "./lifted.js";
+import { roadHeight } from "./road_height.js";
 
-/** How dark the middle of a shadow is. */
-const DARK = 0.62;
+/** How dark the middle of a shadow is, of the body and of a wheel, beside shadows of the sun and in place of them. */
+const [BESIDE, ALONE] = [[0.4, 0.6], [0.62, 0.62]]; // prettier-ignore
 /** Sides of the body's shadow beside those of the rectangle of its wheels, and of a wheel's beside its radius and width. */
 const [LONG, WIDE, TREAD, FLANK] = [1.42, 1.2, 1.3, 1.3];
 /** Share of the distance by which a shadow is drawn nearer: above paint, below tyre marks. */
@@ -12,18 +13,14 @@ const NEARER = 0.005;
 /** Metres above the ground at which a body throws half of its shadow. */
 const FADE = 1;
 
-/** Height of the roads of a scene at a place; null where none can be told. @param {Data} view the SceneView */
+/** Height of the ground of a scene at a place; null where none can be told. @param {Data} view the SceneView */
 function ground({ scene, up, look }, point) {
   if (look?.height && up[2] > 0.9) return look.height(point[0], point[1]);
-  const road = (scene.roads ?? []).find(({ kind }) => kind === "flat" || kind === "plane");
-  if (road === undefined) return null;
-  const normal = unit(road.normal ?? up) ?? up;
-  const base = road.point ?? scale(up, road.height ?? 0);
-  return dot(point, up) + dot(normal, subtract(base, point)) / dot(normal, up);
+  return roadHeight(scene.roads ?? [], up, point);
 }
 
 /** @param {Data} view the SceneView */
-export function blobs(view) {
+export function contactShadows(view) {
   const { scene, parts, up } = view;
   const wheels = (scene.shapes ?? []).filter(({ kind }) => kind === "wheel");
   const count = wheels.length > 0 ? wheels.length + 1 : 0;
@@ -38,19 +35,20 @@ export function blobs(view) {
   const mesh = new THREE.Mesh(geometry, material());
   mesh.frustumCulled = false;
   mesh.renderOrder = 0.5;
-  const put = (k, middle, ahead, left, origin, least) => {
+  const put = (k, middle, ahead, left, dark, origin, least) => {
     corners.forEach(([a, b], i) => {
       const corner = add(middle, add(scale(ahead, a), scale(left, b)));
       const level = ground(view, corner) ?? least;
       const gap = Math.max(0, dot(middle, up) - level);
       places.array.set(subtract(add(corner, scale(up, level + LIFT - dot(corner, up))), origin), 12 * k + 3 * i);
-      darks.array[4 * k + i] = DARK / (1 + (gap / FADE) ** 2);
+      darks.array[4 * k + i] = dark / (1 + (gap / FADE) ** 2);
     });
   };
   return {
     mesh,
-    /** @param {number[]} origin earth position of the picture's origin */
-    follow(origin) {
+    /** @param {number[]} origin earth position of the picture's origin @param {boolean} alone no shadows of the sun */
+    follow(origin, alone) {
+      const [body, wheel] = alone ? ALONE : BESIDE;
       const centres = wheels.map(({ frame, at }) => parts.frames.point(frame, at ?? [0, 0, 0]));
       mesh.visible = count > 0 && centres.every((centre) => centre !== null);
       if (!mesh.visible) return;
@@ -65,11 +63,11 @@ export function blobs(view) {
       });
       const middle = add(add(scale(forward, spread[0][0]), scale(left, spread[1][0])), scale(up, least));
       const radius = wheels[0].radius;
-      put(0, middle, scale(forward, LONG * spread[0][1] + radius), scale(left, WIDE * spread[1][1] + 0.3 * radius), origin, least);
+      put(0, middle, scale(forward, LONG * spread[0][1] + radius), scale(left, WIDE * spread[1][1] + 0.3 * radius), body, origin, least);
       centres.forEach((centre, k) => {
         const bottom = add(centre, scale(up, -wheels[k].radius));
         const axle = level(rotate(parts.frames.pose(wheels[k].frame).rotation, wheels[k].axis ?? [0, 1, 0]));
-        put(k + 1, bottom, scale(cross(axle, up), TREAD * wheels[k].radius), scale(axle, FLANK * wheels[k].width), origin, least);
+        put(k + 1, bottom, scale(cross(axle, up), TREAD * wheels[k].radius), scale(axle, FLANK * wheels[k].width), wheel, origin, least);
       });
       places.needsUpdate = darks.needsUpdate = true;
     },
@@ -97,6 +95,6 @@ vec2 inside = 1.0 - vCorner * vCorner;
 diffuseColor.a *= vDark * smoothstep(0.0, 0.55, inside.x * inside.y);`,
     );
   };
-  made.customProgramCacheKey = () => "ali3-blobs";
+  made.customProgramCacheKey = () => "ali3-contact-shadows";
   return made;
 }
