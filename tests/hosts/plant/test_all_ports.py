@@ -2,27 +2,55 @@
 
 from __future__ import annotations
 
+import shutil
+import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
+import tomli_w
 
+import mbs.vehicle
+from hosts.common.errors import HostError
 from hosts.fmu.built_fmu import build_fmu
 from hosts.fmu.fmu import StepRefusedError
 from hosts.plant import Car
 from tests.hosts.plant.conftest import Made
 
 WHEELS = ("FL", "FR", "RL", "RR")
-ANSWER = ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")
+CARS = (
+    "hatchback: torque, brakes=pressure, road, forces, wind",
+    "hatchback: tyre, forces=vehicle",
+    "prototype: torque=hub_motors, brakes, steering=rack_position, tyre",
+    "ferrari_250_lm: brakes, steering=rack_force, road, gear, hitch",
+)
+"""Every kind of port is in one; `hitch` is a point of forces."""
 
 
 @pytest.fixture(scope="session")
 def ported(made_once: Made, request: pytest.FixtureRequest) -> Path:
-    """The hatchback with the ports of the test."""
-    ports = str(request.param)
-    options = ("--car", "hatchback", "--ports", ports)
-    folder = made_once(f"hatchback_{ports.replace(',', '_')}", lambda at: build_fmu("a car", options, at))
+    """The car with the ports of the test."""
+    name, _, ports = str(request.param).replace(" ", "").partition(":")
+
+    def build(at: Path) -> None:
+        source = at / "source"
+        shutil.copytree(Path(mbs.vehicle.__file__).parent / "cars" / name, source)
+        file = source / "car.toml"
+        data = tomllib.loads(file.read_text(encoding="utf-8"))
+        chosen = ports.removesuffix(",hitch")
+        if chosen != ports:
+            data["ports"] = {"forces": "earth", "force_points": {"hitch": [-3.0, 0.0, 0.4]}}
+            chosen += ",forces"
+        file.write_text(tomli_w.dumps(data), encoding="utf-8")
+        build_fmu("a car", ("--car", str(file), "--ports", chosen), at)
+
+    folder = made_once(f"{name}_{ports.replace(',', '_')}", build)
     return next(folder.glob("*.fmu"))
+
+
+def ports_of(car: Car) -> list[str]:
+    """Those of its inputs that are ports."""
+    return [n for n in car.inputs if n.startswith(("wheel_", "point_", "wind.", "gear_", "steering_rack"))]
 
 
 def level(car: Car) -> dict[str, float]:
@@ -34,11 +62,11 @@ def level(car: Car) -> dict[str, float]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("ported", ["torque,brakes=pressure,road,forces,wind", "tyre,forces=vehicle"], indirect=True)
+@pytest.mark.parametrize("ported", CARS, indirect=True)
 def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
     values = [np.nan, np.inf, -np.inf, 1e6, -1e6, 0.0, 1.0, -1.0, 1e-300]
     with Car(ported, step=0.005) as car:
-        ports = [name for name in car.inputs if "." in name]
+        ports = [name for name in ports_of(car) if name != "gear_request"]
         told = 0
         for seed in range(4):
             random = np.random.default_rng(seed)
@@ -61,7 +89,52 @@ def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("ported", ["torque,brakes=pressure,road,forces,wind"], indirect=True)
+@pytest.mark.parametrize("ported", CARS, indirect=True)
+def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> None:
+    with Car(ported, step=0.004) as car:
+        ports = ports_of(car)
+        for port in ports:
+            car.reset(**{"initial.speed": 10.0})
+            told = len(car.messages)
+            given = level(car)
+            others = [name for name in car.inputs if name != port]
+            car.fmu.setter(others)([given[name] for name in others])
+            car.fmu.step(0.0, 0.004)
+            (silent,) = (m for m in car.messages[told:] if "not set before" in m)
+            assert f"'{port}'" in silent
+            car.reset(**{"initial.speed": 10.0})
+            told = len(car.messages)
+            for bad in (np.nan, np.inf, np.nan):
+                row = [bad if name == port else given[name] for name in car.inputs]
+                if port == "gear_request":  # a whole number, which has no NaN
+                    with pytest.raises(HostError, match="whole number"):
+                        car.step(row)
+                else:
+                    car.step(row)
+            said = [m for m in car.messages[told:] if f"'{port}'" in m]
+            assert len(said) == (port != "gear_request"), port
+            assert all("was set to nan and holds its last value" in m for m in said)
+            assert np.isfinite(car.read(("chassis.z", "energy.total"))).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ported", [CARS[0], CARS[3]], indirect=True)
+@pytest.mark.parametrize("normal", [(0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.7, 0.7, 0.7), (1.0, 0.0, 0.0)])
+def test_a_normal_that_is_none_is_a_sentence_at_each_wheel(ported: Path, normal: tuple[float, ...]) -> None:
+    with Car(ported, step=0.004) as car:
+        for wheel in WHEELS:
+            car.reset(**{"initial.speed": 10.0})
+            told, given = len(car.messages), level(car)
+            given |= {f"wheel_{wheel}.road_normal_{c}": x for c, x in zip("xyz", normal, strict=True)}
+            for _ in range(3):
+                car.step([given[name] for name in car.inputs])
+            (said,) = car.messages[told:]
+            assert f"'wheel_{wheel}.road_normal_x'" in said
+            assert "must be a unit vector that points up" in said
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ported", CARS[:1], indirect=True)
 def test_road_answers_from_python_are_those_of_the_closed_car_on_level_ground(ported: Path) -> None:
     """Asked in turn every 2 ms, it rolls out as one on its own level road does: straight, at its height of rest."""
     asked = tuple(f"wheel_{w}.contact_{c}" for c in "xy" for w in WHEELS)
