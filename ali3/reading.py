@@ -6,6 +6,7 @@ of very many parts stop the parsers or the programs behind them.
 
 from __future__ import annotations
 
+import codecs
 import json
 import math
 import os
@@ -58,11 +59,22 @@ def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileEr
     except ValueError as fault:
         raise error(f"{brief(name)} is no name of a file: {fault}.") from None
     if not stat.S_ISREG(found.st_mode):
-        kind = "a folder" if stat.S_ISDIR(found.st_mode) else "a pipe or device"
-        raise error(f"{name} is {kind}; it must be a file.")
+        raise error(_no_regular(name, found.st_mode))
     if found.st_size > largest:
         raise error(f"{name} has {found.st_size} bytes; it must have at most {largest}.")
     return Path(file)
+
+
+def no_file(file: str | os.PathLike[str], hint: str = "") -> str:
+    """What is wrong where a regular file should be, in a sentence; `hint` follows where there is nothing."""
+    try:
+        return _no_regular(str(file), Path(file).stat().st_mode)
+    except OSError:
+        return f"There is no file {file}.{hint}"
+
+
+def _no_regular(name: str, mode: int) -> str:
+    return f"{name} is {'a folder' if stat.S_ISDIR(mode) else 'a pipe or device'}; it must be a file."
 
 
 def read_bytes(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> bytes:
@@ -173,10 +185,22 @@ def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _text(data: bytes, error: Error, name: str) -> str:
+    if words := other_encoding(data):
+        raise error(f"{name} is {words}.")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:
         raise error(f"{name} is no text in UTF-8: byte {fault.start} is not.") from None
+
+
+def other_encoding(data: bytes) -> str:
+    """Words for a text in UTF-16 or UTF-32, by its byte order mark or its zero bytes; empty for others."""
+    wide = data.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE))
+    short = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    if not wide and not short:
+        zeros = [k % 2 for k, byte in enumerate(data[:200]) if not byte]
+        short = len(zeros) > max(3, len(data[:200]) // 4) and len({*zeros}) == 1
+    return f"written in UTF-{32 if wide else 16}; it must be in UTF-8" if wide or short else ""
 
 
 def _too_deep(error: Error, name: str) -> NoReturn:

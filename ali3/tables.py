@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ali3.errors import FileError
 from ali3.files import reason
-from ali3.reading import Error, check_file
+from ali3.reading import Error, check_file, other_encoding
 from ali3.words import brief
 
 LARGEST = 4_000_000_000
@@ -164,6 +164,9 @@ class TextTable:
     def _read(self, path: Path, whole: bool) -> Iterator[tuple[int, str]]:
         line = 0
         try:
+            with path.open("rb") as begin:
+                if words := other_encoding(begin.read(200)):
+                    raise self.error(f"{self.name} is {words}.")
             with path.open(encoding="utf-8-sig") as stream:
                 while text := stream.readline(_LONGEST_LINE + 1):
                     line += 1

@@ -9,6 +9,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from ali3.errors import UserError
+from ali3.reading import no_file
 from fmu_src.native.archive import write_zip
 from fmu_src.native.compile import compile_library, compile_packed
 from fmu_src.native.package import Telling, first_time
@@ -62,11 +63,11 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
 
 
 def _files(fmu: Path) -> dict[str, bytes]:
+    if not fmu.is_file():
+        raise UserError(no_file(fmu))
     try:
         with zipfile.ZipFile(fmu) as archive:
             return {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
-    except FileNotFoundError:
-        raise UserError(f"There is no file {fmu}.") from None
     except (OSError, zipfile.BadZipFile) as error:
         raise UserError(f"{fmu} is not an FMU that can be read ({error}).") from None
 

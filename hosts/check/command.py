@@ -20,6 +20,7 @@ from ali3.files import check_writable
 from ali3.isolated import Isolated, Lost
 from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, assignment, count, given_of
+from ali3.reading import no_file
 from ali3.running import run_command
 from ali3.words import shortened
 from hosts.check.all_checks import check
@@ -185,10 +186,8 @@ def _settings(fmu: Path, given: Wishes) -> Settings:
 
 def _outside(fmu: Path, steps: int, given: Wishes, cases: list[Case]) -> int:
     """The checks in a process of their own, which a broken FMU may take down."""
-    if fmu.is_dir():
-        raise HostError(f"{fmu} is a folder; an FMU is a file.")
     if not fmu.is_file():
-        raise HostError(f"There is no file {fmu}.")
+        raise HostError(no_file(fmu))
     if not zipfile.is_zipfile(fmu):
         raise HostError(f"{fmu} is not an FMU (not a zip archive).")
     start: Mapping[str, Value] = {}

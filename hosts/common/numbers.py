@@ -8,6 +8,9 @@ from ali3.decimal_number import parse_number
 
 Value: TypeAlias = "float | int | bool | str"
 
+LARGEST_NUMBER = 1e100
+"""Of inputs and of what was measured: squares, sums and slopes of larger numbers are not finite."""
+
 
 def parse_value(text: str) -> Value:
     """A number, ``true`` or ``false``, or a text in quotation marks; `ValueError` as for `parse_number`."""

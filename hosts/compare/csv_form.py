@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ali3.files import reason
+from ali3.reading import other_encoding
 from ali3.tables import cells_of
 from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Form
@@ -94,6 +95,8 @@ def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
         raise HostError(f"The log {path} cannot be unpacked: {error}.") from None
     except OSError as error:
         raise HostError(f"The log {path} cannot be read: {reason(error)}.") from None
+    if words := other_encoding(content):
+        raise HostError(f"The log {path} is {words}.")
     if b"\0" in content:
         raise HostError(f"The log {path} is no text; logs are read as CSV or Parquet (MDF files can be converted).")
     for name in (encoding,) if encoding else ("utf-8-sig", "latin-1"):

@@ -13,6 +13,7 @@ from ali3.reading import check_file
 from ali3.tables import LARGEST
 from ali3.words import brief, one_line
 from hosts.common.errors import HostError
+from hosts.common.numbers import LARGEST_NUMBER
 from hosts.compare.csv_form import find_form
 from hosts.compare.log_aliases import Form
 
@@ -57,6 +58,13 @@ class RawLog:
             )
         values = np.array(numbers, dtype=np.float64)
         values[~np.isfinite(values)] = np.nan
+        beyond = np.flatnonzero(np.abs(values) > LARGEST_NUMBER)
+        if len(beyond):
+            row = int(beyond[0])
+            raise HostError(
+                f"The log {self.path}, line {row + self.first_row + 1}, column '{name}': {values[row]:g} is too large; "
+                f"numbers up to {LARGEST_NUMBER:g} are read."
+            )
         return values
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.reading import LARGEST_TEXT, read_toml
+from ali3.reading import LARGEST_TEXT, no_file, read_toml
 from hosts.common.errors import HostError
 from hosts.common.numbers import text_of
 from hosts.driving.manoeuvre import Manoeuvre
@@ -55,8 +55,8 @@ def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
 
         made = read_old_manoeuvre(path)
     else:
-        if not path.exists():
-            raise HostError(f"There is no file {path}.")
+        if not path.is_file():
+            raise HostError(no_file(path))
         from hosts.driving.manoeuvre_table import read_table
 
         made = read_table(path)

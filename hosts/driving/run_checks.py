@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from hosts.common.errors import HostError
+from hosts.common.numbers import LARGEST_NUMBER
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.simulated_fmu import SimulatedFmu
 
@@ -96,6 +97,10 @@ def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
         if fmu.variables[name].type == "Integer" and (values != np.round(values)).any():
             odd = float(values[values != np.round(values)][0])
             raise HostError(f"{what} with the value {odd:g}; '{name}' is a whole number.")
+        worst = float(values[np.argmax(np.abs(values))])
+        if abs(worst) > LARGEST_NUMBER:
+            fmu.table[name].check(worst, f"The manoeuvre '{manoeuvre.name}'")
+            raise HostError(f"{what} with the value {worst:g}; it must be within {LARGEST_NUMBER:g}.")
         if name in tunable:
             for value in values.tolist():
                 fmu.table[name].check(value, f"The manoeuvre '{manoeuvre.name}'")

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ali3.files import reason
 from ali3.near_names import did_you_mean
+from ali3.reading import no_file
 from ali3.running import command_name
 from ali3.words import brief, shortened
 from ali3.xml_memory import is_lack_of_memory
@@ -50,10 +51,8 @@ def described(path: Path) -> ModelDescription:
 def _read(path: Path) -> tuple[ModelDescription, dict[str, Place]]:
     """The description of an FMU with its scalars as variables, and their places; errors as of `described`."""
     if not path.is_file():
-        if path.is_dir():
-            raise HostError(f"{path} is a folder; an FMU is a file.")
         hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
-        raise HostError(f"There is no file {path}.{hint}")
+        raise HostError(no_file(path, hint))
     if not zipfile.is_zipfile(path):
         raise HostError(f"{path} is not an FMU (not a zip archive).")
     try:

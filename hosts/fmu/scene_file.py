@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from ali3.reading import no_file
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.geometry import scene_of
@@ -17,7 +18,7 @@ from viewer.scene import read_scene
 def scene_from(path: Path, settings: Mapping[str, Value] | None = None) -> dict[str, Any] | None:
     """The scene of an FMU, or of a JSON file; see `scene_of`."""
     if not path.is_file():
-        raise HostError(f"There is no file {path}.")
+        raise HostError(no_file(path))
     if not zipfile.is_zipfile(path):
         try:
             return read_scene(path)

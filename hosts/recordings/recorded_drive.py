@@ -236,7 +236,12 @@ def _events(file: Path) -> list[dict[str, Any]]:
         return []
     lines = read_bytes(file, LARGEST_JSON, HostError).split(b"\n")[:-1]
     events = [json_of(line, HostError, f"{file}, line {k},", finite=False) for k, line in enumerate(lines, start=1)]
-    return [event for event in events if isinstance(event, dict)]
+    for k, event in enumerate(events, start=1):
+        found = event if isinstance(event, dict) else {}
+        words = isinstance(found.get("kind"), str) and isinstance(found.get("text"), str)
+        if not words or not isinstance(found.get("time"), (int, float)):
+            raise HostError(f"{file}, line {k} is no event: it needs a kind, a time and a text.")
+    return events
 
 
 def session_time(rows: Rows, step: float) -> Any:

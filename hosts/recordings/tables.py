@@ -127,6 +127,8 @@ def _csv_blocks(file: Path) -> Iterator[Rows]:
     keys = len(KEYS)
     full = (row._replace(cells=row.cells[:keys] + [cell or "nan" for cell in row.cells[keys:]]) for row in rows)
     while block := [table.numbers(row, finite=False) for row in islice(full, _BLOCK)]:
+        if not (np.abs([line[:keys] for line in block]) < 2.0**53).all():  # that are whole numbers for sure
+            raise HostError(f"{file}: a time, count or epoch is no number that a recording has.")
         yield _of_lines(block)
 
 

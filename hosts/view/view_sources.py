@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ali3.reading import read_json
+from ali3.reading import no_file, read_json
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
@@ -74,9 +74,9 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
     made: list[Recording] = []
     told: list[str] = []
     for path, name in zip(paths, _names(paths), strict=True):
-        if not path.exists():
+        if not path.is_file() and not path.is_dir():
             hint = f" Build it with: {command_name('build')}" if path.suffix == ".fmu" else ""
-            raise HostError(f"There is no file {path}.{hint}")
+            raise HostError(no_file(path, hint))
         suffix = path.suffix.lower()
         if is_recording(path):
             recording, words = recorded_view(path, name, geometry)

@@ -10,6 +10,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
 from ali3.extras import missing_module
+from ali3.reading import no_file
 from mbs.common.errors import ModelError
 from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
@@ -50,7 +51,7 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     files = [deck, *(deck.with_suffix(suffix) for suffix in (".sti", ".mas", ".dof"))]
     for path in files:
         if not path.is_file():
-            raise ModelError(f"There is no file {path}; *FREQUENCY, SOLVER=MATRIXSTORAGE writes it.")
+            raise ModelError(no_file(path, " *FREQUENCY, SOLVER=MATRIXSTORAGE writes it."))
     points = read_foreign(deck, lambda path: np.asarray(meshio.read(path, file_format="abaqus").points, float))
     numbers = read_foreign(deck, _node_numbers)
     if len(numbers) != len(points):

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse as sp
 
+from ali3.reading import no_file
 from mbs.common.errors import ModelError
 from mbs.flexible.bulk_data import grid_points
 from mbs.flexible.external_model import external_model
@@ -45,7 +46,7 @@ def read_nastran(
     """
     for path in (bulk_data, matrices):
         if not Path(path).is_file():
-            raise ModelError(f"There is no file {path}.")
+            raise ModelError(no_file(path))
     points = read_foreign(Path(bulk_data), grid_points)
     if not points:
         raise ModelError(f"{bulk_data} holds no grid points.")

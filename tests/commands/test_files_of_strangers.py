@@ -2,26 +2,33 @@
 
 from __future__ import annotations
 
+import importlib
+import io
 import os
 import random
+import shutil
 import signal
 import socket
 import warnings
 import zipfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+import mbs.vehicle
 from ali3.alias_file import read_content
+from ali3.commands import COMMANDS
+from ali3.errors import UserError
 from ali3.read_parameter_set import read_parameter_set
 from hosts.compare.log_aliases import Form, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.driving.manoeuvre_file import read_manoeuvre
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.recordings.recorded_drive import read_recording
+from hosts.recordings.show import show_recording
 from hosts.simulator.devices.mapping_files import MappingFiles
 from hosts.study.folder import read_record
 from hosts.study.measures.user_function import read_user_function
@@ -37,10 +44,13 @@ from mbs.roads.read_road import read_road
 from mbs.roads.road_file import RoadFile
 from mbs.system.system import System
 from mbs.vehicle.car_file import load
+from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.kinematics.curve_files import read_curve
 from mbs.vehicle.table import read_table as read_car_table
 from mbs.worlds.course_file import read_course
 from mbs.worlds.make_world import read_world
+from tests.altered_files import altered
+from tests.in_process import run
 from viewer.mesh_file import read_mesh
 from viewer.scene import read_scene
 
@@ -104,7 +114,7 @@ KINDS: dict[str, tuple[str, dict[str, str], str, Callable[[Path], Any]]] = {
     "record of a study": ("study.json", JSON, '{"name": @}', lambda path: read_record(path.parent)),
     "record of a result": ("r.json", JSON, '{"fmu": "a.fmu", "set": @}', read_result_record),
     "recording": ("recording.json", JSON, '{"format": "ALi3 recording", "version": @}', read_recording),
-    "events of a recording": ("events.jsonl", JSON, '{"kind": @}\n', lambda path: _rows(path)),
+    "events of a recording": ("events.jsonl", JSON, '{"kind": @, "time": 0, "text": ""}\n', lambda path: _rows(path)),
     "rows of a recording": (
         "inputs_outputs.csv",
         CELLS,
@@ -115,7 +125,7 @@ KINDS: dict[str, tuple[str, dict[str, str], str, Callable[[Path], Any]]] = {
     "manoeuvre": ("m.csv", CELLS, "time,steering\n0,0\n1,@\n", lambda path: read_manoeuvre(str(path))),
     "settings of a manoeuvre": ("m.ini", CELLS, "[run]\nstop_time = @\n", lambda path: read_manoeuvre(str(path))),
     "result": ("r.csv", CELLS, "time,u\n0,0\n1,@\n", read_result),
-    "log": ("l.csv", CELLS, "time;u\n0;1\n1;2\n2;@\n", lambda path: read_log(path, Form()).numbers("u")),
+    "log": ("l.csv", CELLS, "time;u\n0;1\n1;2\n2;@\n", lambda path: _log(path)),
     "log in Parquet": ("l.parquet", {}, "PAR1", lambda path: read_log(path, Form())),
     "points of a study": ("p.csv", CELLS, "mass\n1\n@\n", lambda path: table_points(path, _variable, {})),
     "trajectory": ("t.csv", CELLS, "time [s],u [m]\n0,@\n", Trajectory.from_csv),
@@ -143,8 +153,8 @@ READ = {  # what is a file of the kind all the same
     "device": ("missing",),
     "record of a study": ("missing", *_ANYTHING),
     "record of a result": ("too large",),
-    # A last line without an end is left out, and an event may be anything.
-    "events of a recording": (*("missing", "empty", "zeros", "no UTF-8", "one line", "cut", "nothing"), *_ANYTHING),
+    # A last line without an end is left out.
+    "events of a recording": ("missing", "empty", "zeros", "no UTF-8", "one line", "cut", "a large text"),
     "rows of a recording": ("no number",),
     "result": ("no number",),
     "log": ("no number", "one more", "nothing"),  # gaps of a logger, and the decimal comma
@@ -168,7 +178,14 @@ def _rows(path: Path) -> list[Any]:
     for name, text in good.items():
         if name != path.name:
             (path.parent / name).write_text(text)
+    with redirect_stdout(io.StringIO()):
+        show_recording(path.parent)
     return list(read_recording(path.parent).blocks())
+
+
+def _log(path: Path) -> list[Any]:
+    log = read_log(path, Form())
+    return [log.numbers(name) for name in log.table]
 
 
 def _device(path: Path) -> Any:
@@ -295,3 +312,61 @@ def test_a_drawing_in_an_fmu_is_refused_in_one_sentence(tmp_path: Path) -> None:
         fault = _fault(scene_of, file, may_be_read=False)
         faults += [f"{case}: {fault}"] if fault else []
     assert not faults, "\n".join(faults)
+
+
+CAR = Path(mbs.vehicle.__file__).with_name("cars") / "saloon"
+GOOD = {
+    "car": (CAR / "car.toml").read_bytes(),
+    "record of a result": b'{"fmu": "a.fmu", "set": [], "outputs_from": "y", "start": {"m": 1.5}, "held": ["u"], '
+    b'"jumps": {"0": [0.0, 1.0]}, "state": {"file": "r.state", "time": 0.1}, "step_s": 0.01, '
+    b'"interval_s": 0.01, "lost": []}',
+    "events of a recording": b'{"kind": "note", "time": 0.1, "text": "a"}\n{"kind": "reset", "time": 0.2, "text": "b", '
+    b'"epoch": 1, "start": {"m": 1.5}}\n',
+    "manoeuvre": b'"time","steering","brake"\n# held: brake\n# step: 0.01\n0,0,0\n0.5,1,0\n0.5,2,1\n1,0,0\n',
+    "settings of a manoeuvre": b'[run]\nstop_time = 1.5\n[start]\nmass = 2.5\nname = "x"\n[driver]\ncourse = iso\n',
+    "rows of a recording": b"time,count,epoch,u\n0,0,0,1.5\n0.01,1,0,2.5\n0.02,2,0,-1\n",
+    "log": b"time;u\n" + b"".join(b"%d;%d,5\n" % (k, k * k) for k in range(40)),
+    "alias file of a log": b'[time]\nname = "t"\nunit = "ms"\n[signals]\n"u" = { name = "c", factor = 2.0 }\n',
+}
+
+
+@pytest.mark.parametrize("kind", [pytest.param(k, marks=pytest.mark.slow if k == "car" else ()) for k in GOOD])
+def test_an_altered_file_is_read_or_refused_in_one_sentence(kind: str, tmp_path: Path) -> None:
+    """Cut files, changed bytes and values of other types; forty by their seeds."""
+    name, _, _, read = KINDS[kind]
+    faults, refused = [], 0
+    for seed in range(40):
+        file = tmp_path / f"{seed}" / name
+        if kind == "car":  # a car has tables beside its file
+            shutil.copytree(CAR, file.parent)
+        file.parent.mkdir(exist_ok=True)
+        file.write_bytes(altered(GOOD[kind], seed))
+        fault = _fault(read, file, may_be_read=False, many=kind in MANY)
+        refused += fault != "it is read"
+        faults += [f"{seed}: {fault}"] if fault not in ("", "it is read") else []
+    assert not faults, "\n".join(faults)
+    assert 5 < refused < 40
+
+
+@pytest.mark.parametrize("kind", ["car", "study", "manoeuvre", "settings of a manoeuvre", "log", "record of a result"])
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be"])
+def test_a_text_in_another_encoding_is_called_so(kind: str, encoding: str, tmp_path: Path) -> None:
+    name, _, template, read = KINDS[kind]
+    (tmp_path / name).write_bytes(template.replace("@", "1").encode(encoding))
+    with pytest.raises((UserError, CarFileError), match=r"is written in UTF-16; it must be in UTF-8\."):
+        read(tmp_path / name)
+
+
+@pytest.mark.parametrize("command", ["run", "check", "view", "compare", "catalogue", "simulator", "view --geometry"])
+def test_a_pipe_in_the_place_of_an_fmu_is_called_so(command: str, tmp_path: Path) -> None:
+    pipe, table = tmp_path / "a.fmu", tmp_path / "r.csv"
+    os.mkfifo(pipe)
+    table.write_text("time,u\n0,0\n1,0\n")
+    name, *option = command.split()
+    more = {"compare": [table], "simulator": ["--headless", "--stop-time", "1"]}.get(name, [])
+    words = [table, *option, pipe, "--no-open"] if option else [pipe, *more]
+    main = next(c for c in COMMANDS if c.name == name).module
+    with _soon():
+        done = run(importlib.import_module(main).main, *words)
+    assert done.returncode == 2
+    assert done.stderr.strip().endswith(f"error: {pipe} is a pipe or device; it must be a file.")

@@ -150,7 +150,7 @@ def test_no_fmu_tells_how_to_build_it(turn: Path, tmp_path: Path) -> None:
 def test_bad_files_are_named(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
     (tmp_path / "text.fmu").write_text("no zip")
     assert "is not an FMU" in drive(tmp_path / "text.fmu", "-m", turn).stderr
-    assert "is a folder; an FMU is a file" in drive(tmp_path, "-m", turn).stderr
+    assert "is a folder; it must be a file" in drive(tmp_path, "-m", turn).stderr
     (tmp_path / "u.csv").write_text('"time","lever"\n0,0\n1,0\n')
     done = drive(fmus["sledge"], "-m", tmp_path / "u.csv")
     assert done.returncode == 2

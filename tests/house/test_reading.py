@@ -10,20 +10,20 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 46110,
+    "build": 46135,
     "build --kernel": 400,
-    "car": 33100,
-    "run": 4060,
-    "run, all of it": 6780,
+    "car": 33110,
+    "run": 4090,
+    "run, all of it": 6820,
     "view": 950,
     "simulator": 8950,
     "simulator, all of it": 16100,
-    "check": 5850,
-    "catalogue": 8430,
-    "compare": 9030,
-    "study": 7400,
-    "study --run": 8335,
-    "study, all of it": 16120,
+    "check": 5880,
+    "catalogue": 8460,
+    "compare": 9080,
+    "study": 7425,
+    "study --run": 8375,
+    "study, all of it": 16160,
     "road": 700,
 }
 """Lines; a command that needs fewer takes its number down with it."""
