@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import math
+import re
+import shutil
 
+import fmpy
 import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
+import build_fmu
+import mbs
+from hosts.fmu.fmu import Fmu
 from mbs import Simulation, compile
 from mbs.vehicle import load
+from mbs.vehicle.car_file import CARS
 from mbs.vehicle.checks.steered_angle import steering_oddities
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.kinematics import kinematics
@@ -116,6 +123,65 @@ def test_the_travel_per_turn_stretches_the_table():
     (sentence,) = [s for s in steering_oddities(TABLED.changed({name: value})) if "divided" in s]
     assert f"{PER_TURN:.6g} m of rack travel per turn" in sentence
     assert "divided by 1.1." in sentence
+
+
+def test_an_axle_by_tables_has_it_too():
+    t = Simulation(compile(TABLED.model(fidelity="table"))).run(0.5, 0.005, inputs=TURN, estimate_error=False)
+    assert np.ptp(t["steering_wheel_angle"]) > 2.0
+    rack = CAR.rack_way * t["steering_rack"]
+    np.testing.assert_allclose(rack, CURVE(t["steering_wheel_angle"]), rtol=0, atol=1e-14)
+    power = t["steering_wheel_torque"] * t["steering_wheel_speed"]
+    slope = CAR.rack_way * CURVE(t["steering_wheel_angle"], 1)
+    np.testing.assert_allclose(
+        power, -t["steering_rack_force"] * slope * t["steering_wheel_speed"], rtol=0, atol=1e-9 * np.ptp(power)
+    )
+
+
+def test_lanes_have_it_too():
+    """Two cars that advance together, steered to both sides, as each does alone."""
+    system = compile(TABLED.model())
+    turns = [{"throttle": 0.3, "steering": ([0.0, 0.4], [0.0, side * 0.7])} for side in (1.0, -0.6)]
+    variants = [mbs.Variant(inputs=given) for given in turns]
+    together = mbs.simulate_many(system, variants, 0.5, 0.005, lanes=2, progress=False)
+    alone = [Simulation(system).run(0.5, 0.005, inputs=given, estimate_error=False) for given in turns]
+    assert not together.failures
+    assert sum(together.alone) < 20
+    for a, b in zip(together.trajectories, alone, strict=True):
+        for name in ("steering_rack", "steering_wheel_angle", "steering_wheel_torque"):
+            np.testing.assert_allclose(a[name], b[name], rtol=0, atol=1e-9 * np.ptp(b[name]), err_msg=name)
+        assert np.ptp(a["steering_wheel_angle"]) > 2.0
+        rack = CAR.rack_way * a["steering_rack"]
+        np.testing.assert_allclose(rack, CURVE(a["steering_wheel_angle"]), rtol=0, atol=1e-14)
+
+
+@pytest.mark.slow
+def test_an_fmu_of_the_file_steers_by_it(tmp_path):
+    """From the text of a car file to the outputs of its FMU, those of the same run in this process."""
+    folder = tmp_path / "quick"
+    shutil.copytree(CARS / "prototype", folder)
+    text = (folder / "car.toml").read_text(encoding="utf-8")
+    text = re.sub(r"\n\[chassis\.frame\b.*?(?=\n\[(?!chassis\.frame))", "\n", text, flags=re.DOTALL)
+    asked = f"rack_per_turn = {PER_TURN!r}\nrack_by_wheel_angle = {ROWS}"
+    text, count = re.subn(r"rack_per_turn = 0\.042", asked, text)
+    assert count == 1
+    (folder / "car.toml").write_text(text.replace('name = "prototype"', 'name = "quick"'), encoding="utf-8")
+    given = [str(folder), "--out", str(tmp_path), "--kind", "native", "--platforms", fmpy.platform]
+    assert build_fmu.main(given) == 0
+    names = ["steering_rack", "steering_wheel_angle", "steering_wheel_speed", "steering_wheel_torque"]
+    seen = []
+    with Fmu(tmp_path / "Quick.fmu") as fmu:
+        fmu.initialise({})
+        steer, read = fmu.setter(["steering", "throttle"]), fmu.getter([*names, "steering_rack_force"])
+        for k in range(100):
+            steer([0.5 * math.sin(0.05 * k), 0.3])
+            fmu.step(0.01 * k, 0.01)
+            seen.append(read())
+    rack, angle, speed, torque, force = np.transpose(seen)
+    assert np.ptp(angle) > 3.0
+    np.testing.assert_allclose(CAR.rack_way * rack, CURVE(angle), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(
+        torque * speed, -force * CAR.rack_way * CURVE(angle, 1) * speed, rtol=0, atol=1e-9 * np.ptp(torque * speed)
+    )
 
 
 @pytest.mark.parametrize(
