@@ -206,3 +206,37 @@ def test_lanes_are_where_the_raster_has_them(drawn):
     asphalt = around(picture, drawn.project((2.0, LANES["asphalt"], 0.0)), 1).mean()
     wet = around(picture, drawn.project((2.0, LANES["wet"], 0.0)), 1).mean()
     assert wet < 0.85 * asphalt
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("quality", ["draft", pytest.param("high", marks=pytest.mark.proof)])
+def test_asphalt_keeps_its_contrast_to_the_distance_and_does_not_shimmer(drawn, quality):
+    """Standard deviation of the luminance over its mean, without a gradient; 0.13 m on it is the same pattern."""
+    drawn.show(world(), at(0, -3, 0.6), camera="chase", quality=quality)
+
+    def band(near: float, far: float) -> tuple[np.ndarray, np.ndarray]:
+        """Pixels of the lane between two distances."""
+        rows, columns = [], []
+        for x in np.geomspace(near, far, 400):
+            (left, y), (right, _) = (drawn.project((x, side, 0.0)) for side in (-2.0, -5.0))
+            if rows and rows[-1][0] == round(y):
+                continue
+            columns.append(np.arange(max(0, int(left) + 1), min(319, int(right))))
+            rows.append(np.full(len(columns[-1]), round(y)))
+        return np.concatenate(rows), np.concatenate(columns)
+
+    bands = [band(*reach) for reach in ((5.0, 8.0), (25.0, 60.0))]
+    before = drawn.picture().mean(axis=2)
+    drawn.ask("view.origin[0] += 0.13")
+    after = drawn.picture().mean(axis=2)
+    contrasts = []
+    for y, x in bands:
+        gradient = np.c_[np.ones(len(y)), x, y, y**2]
+        seen = before[y, x]
+        contrasts.append((seen - gradient @ np.linalg.lstsq(gradient, seen, rcond=None)[0]).std() / seen.mean())
+    y, x = bands[1]
+    change = np.sqrt(((after - before)[y, x] ** 2).mean()) / before[y, x].mean()
+    assert len(y) > 50
+    assert contrasts[0] > 0.006
+    assert contrasts[1] > {"draft": 0.006, "high": 0.0085}[quality]
+    assert change < 0.3 * contrasts[1]

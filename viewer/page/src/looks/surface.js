@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { dot } from "../scene/math.js";
 import { prelit } from "./draft/prelit.js";
 import { lift, PAINT, widen } from "./lifted.js";
-import { COLOURS, CREASE, DRAFT, GLOSS, HEAD, MIRROR, NOISE, RELIEF } from "./surface_code.js";
+import { COLOURS, CREASE, DRAFT, GLOSS, HEAD, MIRROR, NOISE, RELIEF, TONES } from "./surface_code.js";
 
 /** Share of the distance by which paint is drawn nearer in a draft, whose ground is coarser. */
 const DRAFTED = 0.01;
@@ -25,6 +25,7 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
     aX: { value: new THREE.Vector3(...axes[0]) },
     aY: { value: new THREE.Vector3(...axes[1]) },
     aOffset: { value: LAYERS.map(() => new THREE.Vector2()) },
+    aTones: { value: new THREE.Vector2() },
     aSpot: { value: new THREE.Vector2() },
     aNoise: { value: noise },
     aCoverA: { value: cover.textures[0] },
@@ -51,6 +52,7 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
       viewport.value.copy(pixels);
       const [a, b] = axes.map((axis) => dot(origin, axis));
       LAYERS.forEach((period, i) => uniforms.aOffset.value[i].set(modulo(a, period), modulo(b, period)));
+      uniforms.aTones.value.set(modulo(a, TONES), modulo(b, TONES));
       uniforms.aSpot.value.set(a - corner[0], b - corner[1]);
     },
   };

@@ -13,7 +13,7 @@ export const HEAD = /* glsl */ `
 #endif
 uniform vec3 aX, aY, aSun;
 uniform vec2 aOffset[4];
-uniform vec2 aSpot;
+uniform vec2 aSpot, aTones;
 uniform vec4 aCover;
 uniform sampler2D aNoise, aCoverA;
 #ifdef A_SECOND
@@ -21,6 +21,27 @@ uniform sampler2D aCoverB;
 #endif
 uniform samplerCube aSky;
 varying vec3 vGround;
+`;
+
+/** Metres after which tones of far ground repeat: a multiple of the longest layer. */
+export const TONES = 61 * 273;
+
+/**
+ * Tones as wide as a few pixels are long at their distance: mipmaps blur every layer of one size to its mean there.
+ * Their length is that of level ground: facets of a terrain that are finer than pixels would make it flicker. Two
+ * sizes, one twice the other, go over into each other, so that no edge between them is seen.
+ */
+export const DETAIL = /* glsl */ `
+vec3 sight = vGround - cameraPosition;
+float away = length(sight);
+sight /= away;
+float pixel = max(length(dFdx(sight)), length(dFdy(sight)));
+float reach = away * pixel / max(abs(dot(sight, cross(aX, aY))), 0.01);
+float octave = clamp(log2(${TONES.toFixed(1)} / (160.0 * max(reach, 1e-4))), 0.0, 14.0);
+float finer = fract(octave);
+vec2 tonesAt = (plane + aTones) / ${TONES.toFixed(1)} * exp2(floor(octave));
+float tones = mix(textureLod(aNoise, tonesAt, 1.0 - finer).g, textureLod(aNoise, 2.0 * tonesAt, 2.0 - finer).g, finer) - 0.518;
+float detail = 1.0 + smoothstep(0.01, 0.06, reach) * inversesqrt(1.0 - 2.0 * finer * (1.0 - finer)) * mix(0.4, 1.3, smoothstep(0.1, 2.0, reach)) * tones;
 `;
 
 /** Noise at four scales, and the shares of the surfaces with edges as sharp as noise lets them be. */
@@ -72,6 +93,10 @@ float worn = smoothstep(0.74, 0.93, near.r * (0.5 + 0.75 * some.g + 0.15 * wide.
 diffuseColor.rgb *= mix(0.78 + 0.16 * near.r + 0.18 * some.g, 0.3, worn) * (1.0 - 0.35 * first.y);
 #else
 diffuseColor.rgb *= rest * asphalt + first.x * grass + first.y * soaked + first.z * stones + first.w * concrete + second.x * ice + second.y * white + second.z * soil;
+#ifndef A_COARSE
+${DETAIL}
+diffuseColor.rgb *= detail;
+#endif
 #endif
 float wetness = first.y * (0.35 + 0.65 * film);
 float slick = wetness + 0.55 * second.x;
@@ -100,7 +125,8 @@ diffuseColor.rgb *= 0.72 + 0.3 * grain;
 vec3 mean = rest * ${mean("asphalt")} + first.x * ${mean("grass")} * mix(vec3(0.57, 0.785, 0.67), vec3(1.43, 1.215, 1.33), tone);
 mean += first.y * ${mean("wet")} + first.z * ${mean("gravel")} + first.w * ${mean("concrete")};
 mean += second.x * ${mean("ice")} + second.y * ${mean("paint")} + second.z * ${mean("dirt")};
-diffuseColor.rgb *= (0.5 + 0.55 * grain + 0.5 * tone) * mean / total;
+${DETAIL}
+diffuseColor.rgb *= detail * (0.5 + 0.55 * grain + 0.5 * tone) * mean / total;
 #endif
 `;
 
