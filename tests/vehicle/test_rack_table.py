@@ -9,6 +9,7 @@ import shutil
 import fmpy
 import numpy as np
 import pytest
+from pydantic import ValidationError
 from scipy.interpolate import PchipInterpolator
 
 import build_fmu
@@ -20,6 +21,7 @@ from mbs.vehicle.car_file import CARS
 from mbs.vehicle.checks.steered_angle import steering_oddities
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.kinematics import kinematics
+from mbs.vehicle.steering.rack_by_angle import RackByAngle
 
 CAR = load("prototype")
 KEY = "steering.rack_by_wheel_angle"
@@ -161,7 +163,7 @@ def test_an_fmu_of_the_file_steers_by_it(tmp_path):
     shutil.copytree(CARS / "prototype", folder)
     text = (folder / "car.toml").read_text(encoding="utf-8")
     text = re.sub(r"\n\[chassis\.frame\b.*?(?=\n\[(?!chassis\.frame))", "\n", text, flags=re.DOTALL)
-    asked = f"rack_per_turn = {PER_TURN!r}\nrack_by_wheel_angle = {ROWS}"
+    asked = f"rack_by_wheel_angle = {ROWS}"
     text, count = re.subn(r"rack_per_turn = 0\.042", asked, text)
     assert count == 1
     (folder / "car.toml").write_text(text.replace('name = "prototype"', 'name = "quick"'), encoding="utf-8")
@@ -203,6 +205,14 @@ def test_what_is_no_table_is_said(rows, said):
     with pytest.raises(CarFileError) as refusal:
         CAR.changed({KEY: rows})
     assert said in str(refusal.value)
+
+
+def test_the_travel_per_turn_may_be_left_out():
+    asked = {**CAR.steering.model_dump(exclude={"rack_per_turn"}), "rack_by_wheel_angle": ROWS}
+    assert RackByAngle.model_validate(asked).rack_per_turn == pytest.approx(PER_TURN, rel=1e-14)
+    for rows in ([[0.0, 0.0]], [[0.0, 0.0], [0.0, 6.0]], [[0.0, 0.0], [60.0, "6"]], [[0.0, 0.0], [60.0]], 7):
+        with pytest.raises(ValidationError, match="rack_per_turn"):
+            RackByAngle.model_validate(asked | {"rack_by_wheel_angle": rows})
 
 
 def test_a_port_that_asks_for_the_rack_has_no_table():

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
+
+from pydantic import ConfigDict, model_validator
 
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.model.coordinate import Coordinate
@@ -22,8 +25,14 @@ from mbs.vehicle.steering.ratio import tie_ratio
 from mbs.vehicle.steering.steered import RACK, Steered, tie_rods
 
 
+def _not_required(schema: dict[str, Any]) -> None:
+    schema["required"].remove("rack_per_turn")
+
+
 class RackByAngle(RackSection):
     """Rack that follows the angle of the steering wheel."""
+
+    model_config = ConfigDict(json_schema_extra=_not_required)
 
     kind: Literal["rack_by_angle"]
     """Names this template."""
@@ -32,7 +41,16 @@ class RackByAngle(RackSection):
     rack_by_wheel_angle: Rows | None = None
     """Rows of the angle of the steering wheel, deg, and the travel of the rack, mm, from straight ahead, [0, 0], to
     full lock, a monotone cubic between them, the same to both sides; stretched along the angle so that straight ahead
-    it has rack_per_turn."""
+    it has rack_per_turn, which may be left out."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _per_turn_of_table(cls, given: Any) -> Any:
+        """Straight ahead the mirrored curve has the slope from the first row to the second."""
+        with suppress(KeyError, TypeError, ValueError, IndexError, ZeroDivisionError):
+            angle, travel = given["rack_by_wheel_angle"][1]
+            return {"rack_per_turn": 0.36 * travel / angle, **given}
+        return given
 
     def faults(self) -> Iterator[str]:
         """A table rises and reaches to full lock."""
