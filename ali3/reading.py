@@ -196,7 +196,7 @@ def _text(data: bytes, error: Error, name: str) -> str:
 def other_encoding(data: bytes) -> str:
     """Words for a text in UTF-16 or UTF-32, by its byte order mark or its zero bytes; empty for others."""
     wide = data.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE))
-    short = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    short = len(data) > 3 and data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     if not wide and not short:
         zeros = [k % 2 for k, byte in enumerate(data[:200]) if not byte]
         short = len(zeros) > max(3, len(data[:200]) // 4) and len({*zeros}) == 1

@@ -241,7 +241,7 @@ TEXTS = {
     "empty": (b"", "schema is missing"),
     "no TOML": (b"schema = = 1\n", "is no TOML file: Invalid value (at line 1, column 10)"),
     "twice": (b"schema = 1\nschema = 1\n", "is no TOML file"),
-    "UTF-16": ("schema = 1\n".encode("utf-16"), "is no text in UTF-8"),
+    "UTF-16": ("schema = 1\n".encode("utf-16"), "is written in UTF-16; it must be in UTF-8"),
     "Latin-1": ('description = "Käfer"'.encode("latin-1"), "is no text in UTF-8: byte 16 is not"),
     "zero bytes": (b"schema = 1\n\0", "is no TOML file"),
     "deep lists": (b"a = " + b"[" * 20000 + b"]" * 20000, "nested more than 100 deep"),
