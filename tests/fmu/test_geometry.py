@@ -49,7 +49,7 @@ def car(name: str, column: bool = False) -> mbs.System:
     if column:
         made = made.changed(
             {
-                "steering": dict(made.steering.model_dump(exclude={"friction"}))
+                "steering": dict(made.steering.model_dump(exclude={"friction"}, exclude_none=True))
                 | {
                     "kind": "column",
                     "rack_mass": 2.5,

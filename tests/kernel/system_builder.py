@@ -19,7 +19,7 @@ REALS = {
     "tree_angle_sign", "tree_angle_inertia",
     "static_value", "static_q", "payload_mass", "payload_gravity", "tree_payload_place", "ported_val",
     "ported_const", "armature_inertia", "armature_ratio", "tabled_axis", "tabled_coef", "tabled_mass", "tabled_gravity",
-    "inertia_real", "inertia_gravity",
+    "inertia_real", "inertia_gravity", "axis_real", "axis_vector", "axis_inertia", "axis_rolling",
 }  # fmt: skip
 INTS = {
     "mass_ptr", "mass_col", "mass_pos", "row_ptr", "row_col", "row_front", "row_loc", "quad_ptr", "quad_a", "quad_b",
@@ -35,6 +35,7 @@ INTS = {
     "mode_triad_ptr", "mode_triad", "mode_cell_ptr", "mode_cell", "mode_name_ptr", "mode_name",
     "static_start", "static_par", "pose_partner", "par_fixed", "payload_signal", "tree_payload_body",
     "ported_ptr", "ported_row", "armature_col", "tabled_size", "tabled_frame", "tabled_param",
+    "axis_frame", "axis_signal", "axis_spin", "axis_table", "inertia_signal", "guide_second", "par_inverse",
 }  # fmt: skip
 
 

@@ -35,6 +35,7 @@ class Instance:
         self._handle: c_void_p | None = None
         self.system = system
         self._library = system._library
+        self._input_error: BaseException | None = None
         handle = c_void_p()
         self._check(self._library.ali3_instance_new(system._handle, byref(handle)))
         self._handle = handle
@@ -42,7 +43,6 @@ class Instance:
         self._step = self._library.ali3_step
         self._sensors = self._library.ali3_sensors
         self._inputs: Any = None  # keeps what the kernel calls and reads
-        self._input_error: BaseException | None = None
 
     def __del__(self) -> None:
         if self._handle is not None:
