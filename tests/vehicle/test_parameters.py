@@ -16,6 +16,8 @@ from mbs.vehicle.section import AXES, PRODUCTS, sections_of
 NOT_IN_THE_FILE = {"road.kerb_x", "road.kerb_height"}
 H = 0.005  # s
 SAME = 1e-9
+# a wheel that is turned has another elimination of zeros: a step may stop one iteration earlier or later
+SAME_ITERATED = 1e-6
 TOGETHER = 8  # parameters that are changed in one run
 ALONE = ("steering.by_torque",)  # with it the steering wheel is let go
 
@@ -36,11 +38,18 @@ def other(name, path):
     value = load(name).values()[path]
     if path == "steering.by_torque":
         return 1.0 - value
+    if turns_a_wheel(path):
+        return value + 0.003  # rad, some minutes of arc as a workshop sets them
     if value == 0.0:
         return q.low + 0.1 * (q.high - q.low)
     if path.endswith("_power"):
         return max(0.1 * value, q.low)  # a limit that so short a drive meets
     return 0.93 * value if 0.93 * value >= q.least else min(1.07 * value, q.high)
+
+
+def turns_a_wheel(path):
+    """Whether a parameter turns the axis of a wheel on its carrier."""
+    return ".alignment." in path
 
 
 def quantity(name, path):
@@ -82,14 +91,14 @@ def rebuilt(name, values):
     return driven(compile(changed.model()), None)
 
 
-def differing(name, some, others):
-    """Outputs that differ between runs."""
+def differing(name, some, others, same=SAME):
+    """Outputs that differ between runs by more than a part `same` of 1 or of their largest value."""
     outputs = [s["name"] for s in system(name).meta["sensors"] if not s["name"].startswith("solver.")]
     found = set()
     for one, other_one in zip(some, others, strict=True):
         for output in outputs:
             largest = np.abs(one[output] - other_one[output]).max()
-            if not largest <= SAME * max(1.0, np.abs(other_one[output]).max()):
+            if not largest <= same * max(1.0, np.abs(other_one[output]).max()):
                 found.add(output)
     return found
 
@@ -110,7 +119,8 @@ def wrong_parameters(name, groups):
     for group in groups:
         values = {path: other(name, path) for path in group}
         tuned = driven(system(name), values)
-        if outputs := differing(name, tuned, rebuilt(name, values)):
+        same = SAME_ITERATED if any(map(turns_a_wheel, group)) else SAME
+        if outputs := differing(name, tuned, rebuilt(name, values), same):
             wrong.append(f"{values} in the FMU and in the file give another {sorted(outputs)}")
         for path in group:
             without = {p: v for p, v in values.items() if p != path}
@@ -131,9 +141,11 @@ def test_parameters_do_together_what_the_file_would_do(name):
         else set()
     )
     paths = [path for path in told(car) if path not in {*ALONE, *without}]
+    turned = [path for path in paths if turns_a_wheel(path)]
+    paths = [path for path in paths if path not in turned]
     groups = -(-len(paths) // TOGETHER)
     alone = [[path] for path in load(name).values() if path in ALONE]
-    wrong = wrong_parameters(name, [*(paths[k::groups] for k in range(groups)), *alone])
+    wrong = wrong_parameters(name, [*(paths[k::groups] for k in range(groups)), turned, *alone])
     assert not wrong, "\n".join(wrong)
 
 
