@@ -120,6 +120,7 @@ def check(shown: Any, *texts: str) -> None:
     shown.close()
 
 
+@pytest.mark.slow
 def test_view_with_arrows(foreign: Path, tmp_path: Path, chromium: Any) -> None:
     file = tmp_path / "Foreign.html"
     arguments = ["--arrows", "--plot", SIGNAL, "--stop-time", "0.1", "--out", str(tmp_path), "--no-open"]
@@ -164,6 +165,7 @@ def test_units_and_names_that_are_markup_are_refused_by_the_reader_and_by_the_pa
     check(shown, problem)
 
 
+@pytest.mark.slow
 def test_the_page_that_runs_it(foreign: Path, tmp_path: Path, chromium: Any) -> None:
     arguments = ["--title", MARKUP, "--plot", SIGNAL, "--out", str(tmp_path)]
     assert main([str(foreign), "--live", "--no-open", *arguments]) == 0
@@ -175,6 +177,7 @@ def test_the_page_that_runs_it(foreign: Path, tmp_path: Path, chromium: Any) -> 
     check(shown, MARKUP, SIGNAL)
 
 
+@pytest.mark.slow
 def test_the_simulator(chromium: Any) -> None:
     columns = {"speed": np.zeros(2), "bob.x": np.ones(2), SIGNAL: np.ones(2)}
     recording = Recording(drawing(), np.array([0.0, 1.0]), columns, {"speed": MARKUP, SIGNAL: MARKUP}, MARKUP)

@@ -338,6 +338,7 @@ def test_links_are_asked_for_where_there_are_none(content: dict, folder: Path) -
         car_from(data, folder / "saloon", "x")
 
 
+@pytest.mark.slow
 def test_the_command_writes_the_tables_of_links(
     content: dict, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture
 ) -> None:

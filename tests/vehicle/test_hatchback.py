@@ -151,6 +151,7 @@ def measured(name):
     return measure(load(name))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("m", [m for m in MEASURES if m.usual is not None], ids=lambda m: m.name)
 def test_it_is_plausible_for_its_class(m):
     low, high = m.usual

@@ -65,6 +65,7 @@ def test_a_straight_table_is_the_constant_ratio():
         np.testing.assert_allclose(a[name], b[name], rtol=0, atol=1e-12 * max(1.0, np.ptp(b[name])), err_msg=name)
 
 
+@pytest.mark.slow
 def test_kinematics_has_the_angle_and_the_ratio_of_the_table():
     c = kinematics(TABLED, points=41).curves["front", "steer"].columns
     angle, rack = c["steering_wheel_angle"], CAR.rack_way * c["rack_travel"]

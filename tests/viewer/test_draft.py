@@ -10,6 +10,8 @@ from mbs.scenes import prototype_car
 from mbs.vehicle import load
 from tests.viewer.hand_world import scenery, terrain
 
+pytestmark = pytest.mark.slow
+
 MOST_CALLS, MOST_TRIANGLES = 60, 50_000
 
 
@@ -41,7 +43,6 @@ def _groups(mask, gap=2):
     return [] if columns.size == 0 else np.split(columns, np.flatnonzero(np.diff(columns) > gap) + 1)
 
 
-@pytest.mark.slow
 def test_a_draft_has_few_calls_and_triangles_and_the_same_things_at_the_same_places(drawn, car):
     drawn.show(car, camera="chase", quality="low")
     fine, costs = drawn.picture(), _cost(drawn)
@@ -70,7 +71,6 @@ def test_cones_stand_where_they_are_in_a_draft(drawn, car):
     assert np.abs([group.mean() - place for group, place in zip(groups, places, strict=True)]).max() < 1.5
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("quality", ["draft", "low"])
 def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_above(drawn, car, quality):
     def darkness(lift):
@@ -97,7 +97,6 @@ def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_abov
     assert flying < 0.5 * standing
 
 
-@pytest.mark.slow
 def test_what_is_driven_is_drafted_by_the_processor_and_only_that(drawn, car):
     """In this browser the processor draws."""
     drawn.show(car, driven=True)
@@ -108,7 +107,6 @@ def test_what_is_driven_is_drafted_by_the_processor_and_only_that(drawn, car):
         drawn.ask("view.set({ quality: 'ugly' })")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("quality", ["low", "draft"])
 def test_a_closed_car_hides_its_frame_until_it_is_opened(drawn, hatchback, quality):
     drawn.show(hatchback, camera="side", quality=quality)

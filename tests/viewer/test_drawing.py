@@ -182,6 +182,7 @@ def test_arrows_point_as_forces_do_and_are_explained(drawn):
     assert not (np.abs(drawn.picture() - orange).max(axis=2) < 40).any()
 
 
+@pytest.mark.slow
 def test_every_kind_of_thing_is_drawn_from_every_camera(drawn):
     shown = everything()
     drawn.show(shown)
@@ -276,6 +277,7 @@ def test_without_webgl_one_sentence_stands_in_place_of_the_picture(drawn):
         drawn.ask("() => { HTMLCanvasElement.prototype.getContext = kept; }")
 
 
+@pytest.mark.slow
 def test_a_coarse_picture_shows_the_same_as_a_fine_one(drawn):
     drawn.show(scene(shapes=[ball()]), at(0, 0, 0), quality="high")
     fine = drawn.picture()
@@ -296,6 +298,7 @@ def test_a_picture_fits_its_element_again_when_that_changes_without_being_asked(
         drawn.ask(resize, 320)
 
 
+@pytest.mark.slow
 def test_asphalt_lies_on_the_earth_and_not_under_the_camera(drawn):
     """Its layers repeat after 1.1, 7.3, 61 and 10 m, all together after 489 830 m; in between the road has moved."""
     shown = scene(shapes=[ball()], focus="body", roads=[{"kind": "flat", "height": -0.3}])
@@ -307,6 +310,7 @@ def test_asphalt_lies_on_the_earth_and_not_under_the_camera(drawn):
     assert np.abs(drawn.picture() - here).mean() > 1.0
 
 
+@pytest.mark.slow
 def test_lines_are_painted_every_ten_metres(drawn):
     shown = scene(shapes=[ball()], focus="body", extent=12.0, roads=[{"kind": "flat", "height": -0.3}])
     drawn.show(shown, at(4.0, 3.0, 0), camera="top")

@@ -11,6 +11,8 @@ import pytest
 from tests.viewer.test_drawing import at, ball, scene
 from tests.viewer.test_worlds_drawn import around, level
 
+pytestmark = pytest.mark.slow
+
 RATE = 24_000
 COLUMNS = ["engine_speed", "speed", "used.throttle"]
 _DRIVE = """([rows, kind]) => {
@@ -174,7 +176,6 @@ def test_without_new_numbers_the_sound_fades(drawn):
     assert np.abs(samples[-RATE // 4 :]).max() < 1e-3
 
 
-@pytest.mark.slow
 def test_without_audio_one_sentence_and_it_goes_on(drawn):
     said = drawn.ask(
         """async columns => {

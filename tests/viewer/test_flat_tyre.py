@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pytest
 
 from tests.viewer.hand_scenes import moving, names
 
@@ -48,6 +49,7 @@ def numbers(angle: float, road: tuple[float, float], at: list[float]) -> dict[st
     return {name: float(value) for name, value in given.items()}
 
 
+@pytest.mark.slow
 def test_a_tyre_ends_at_the_road_however_the_wheel_has_turned(drawn: Any) -> None:
     at = [0.05, -0.02, 0.0]
     half = np.sqrt(RADIUS**2 - CENTRE**2)  # 0.15 m: where the circle meets the road

@@ -296,6 +296,7 @@ def test_two_run_side_by_side_and_one_that_stops_does_not_stop_the_other(
     opened.close()
 
 
+@pytest.mark.slow
 def test_a_browser_that_lacks_a_part_says_so(reach: Path, chromium: Any, tmp_path: Path) -> None:
     file = written([reach], tmp_path)
     for missing, script in (

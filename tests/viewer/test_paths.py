@@ -16,6 +16,8 @@ from tests.viewer.test_player import launch as launch
 from tests.viewer.test_player import opened as opened
 from viewer.recording import Recording
 
+pytestmark = pytest.mark.slow
+
 RADIUS, SPEED, BEND = 0.3, 10.0, 20.0
 _EYE = """() => {
   const { cameras, origin } = window.player.view;
@@ -153,7 +155,6 @@ def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(o
     assert page("() => { window.player.set({ deformation: 1 }); return window.player.view.floor }") > -0.2
 
 
-@pytest.mark.slow
 def test_a_body_that_falls_stays_above_the_floor(opened: Callable[..., Opened], tmp_path: Path) -> None:
     falling = run("falls", T, roads=[])
     falling.columns["body.z"] = 0.5 - 4.9 * T**2

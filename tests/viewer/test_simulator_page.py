@@ -177,6 +177,7 @@ def test_the_car_is_where_its_frame_says_in_every_camera(chromium: Any, lane_cha
     context.close()
 
 
+@pytest.mark.slow
 def test_the_steering_wheel_turns_before_the_driver(chromium: Any, lane_change: Recording) -> None:
     """The red mark on top of it goes to the left with the wheel."""
     scene = dict(lane_change.scene or {})
@@ -198,6 +199,7 @@ def test_the_steering_wheel_turns_before_the_driver(chromium: Any, lane_change: 
     context.close()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("without", ["a drawing", "WebGL"])
 def test_instruments_map_and_keys_work_without_a_picture(chromium: Any, lane_change: Recording, without: str) -> None:
     context = chromium.new_context(viewport={"width": 640, "height": 360})
@@ -229,6 +231,7 @@ def test_instruments_map_and_keys_work_without_a_picture(chromium: Any, lane_cha
     context.close()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [(1280, 720), (390, 844), (844, 390)])
 def test_everything_fits_on_the_screen_and_nothing_lies_on_another(chromium: Any, lane_change: Recording, size) -> None:
     context = chromium.new_context(viewport={"width": size[0], "height": size[1]}, has_touch=size[0] < 900)

@@ -12,6 +12,8 @@ from tests.viewer.hand_scenes import floats, octets
 from tests.viewer.hand_world import LANES, NAMES, height, scenery, terrain
 from tests.viewer.test_drawing import at, ball, red, scene
 
+pytestmark = pytest.mark.slow
+
 # Whole periods of all layers of the pattern of surfaces: 1.3, 8.9, 61 and 273 m.
 FAR = 1_482_117.0
 
@@ -86,7 +88,6 @@ def test_the_ground_is_as_high_as_its_points(drawn):
             red(drawn.picture())
 
 
-@pytest.mark.slow
 def test_there_are_no_cracks_between_patches(drawn):
     """With a magenta sky nothing magenta is seen below the horizon, though the patches do not meet at their points."""
     rng = np.random.default_rng(1)
@@ -155,7 +156,6 @@ def test_trees_are_green_above_brown(drawn):
         assert crown[1] >= crown[0], k
 
 
-@pytest.mark.slow
 def test_far_away_a_world_is_drawn_the_same(drawn):
     """All periods of the pattern away, 1482 km: the same picture, and 1 mm more moves nothing by a pixel."""
     things = [thing for thing in scenery() if thing["kind"] != "building"]  # whose colour is that of its place
@@ -199,7 +199,6 @@ def test_a_world_costs_few_calls_and_triangles(drawn):
     assert 10_000 < triangles < 300_000
 
 
-@pytest.mark.slow
 def test_lanes_are_where_the_raster_has_them(drawn):
     drawn.show(world(), at(0, 0, 3.0), camera="top")
     picture = drawn.picture()
@@ -208,7 +207,6 @@ def test_lanes_are_where_the_raster_has_them(drawn):
     assert wet < 0.85 * asphalt
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("quality", ["draft", pytest.param("high", marks=pytest.mark.proof)])
 def test_asphalt_keeps_its_contrast_to_the_distance_and_does_not_shimmer(drawn, quality):
     """Standard deviation of the luminance over its mean, without a gradient; 0.13 m on it is the same pattern."""

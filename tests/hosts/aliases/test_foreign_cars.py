@@ -145,6 +145,7 @@ def turned(style):
     }[style]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("style", STYLES)
 def test_a_turned_sign_is_seen(style, foreign_fmu, alias_file, ours):
     entry, name = turned(style)

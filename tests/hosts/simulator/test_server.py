@@ -395,6 +395,7 @@ def test_too_many_messages_end_the_connection(served):
     assert any("may send 400 messages a second" in text for text in served.told)
 
 
+@pytest.mark.slow
 def test_new_starts_are_taken_now_and_then_only(car, served):
     with connect(served.url) as page:
         for _ in range(20):
