@@ -54,7 +54,7 @@ def left_at_the_end(fidelity: Fidelity, h: float) -> tuple[float, float]:
 
 
 def measure(fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
-    """One row; with the rigid chassis there are no moments."""
+    """One row; where the chassis is rigid there are no moments."""
     found = fidelity_runs.run("kerb_test", fidelity, h)
     report = found.report
     assert report is not None
@@ -68,7 +68,7 @@ def measure(fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
         "seconds": spent,
         "realtime_factor": kerb_test.DURATION / spent,
     }
-    if fidelity is Fidelity.RIGID:
+    if fidelity.rigid:
         return row | {name: None for name in COLUMNS if name not in row}
     reference = fidelity_runs.read_peaks("kerb_test")
     peaks = changes(found, h)
