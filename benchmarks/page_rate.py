@@ -61,9 +61,27 @@ MEASURE = """([scene, quality, count]) => {
     draw();
     times.push(performance.now() - start);
   }
+  let bytes = 0;
+  const given = (method, size) => {
+    gl[method] = (...values) => {
+      bytes += size(values);
+      return Object.getPrototypeOf(gl)[method].apply(gl, values);
+    };
+  };
+  const sized = (values) => values.reduce((sum, x) => sum + (typeof x === 'number' ? 0 : x?.byteLength ?? 0), 0);
+  for (const method of ['bufferData', 'bufferSubData', 'texImage2D', 'texSubImage2D']) given(method, sized);
+  for (const k of [1, 2, 3, 4]) {
+    for (const kind of ['f', 'i']) {
+      given(`uniform${k}${kind}`, () => 4 * k);
+      given(`uniform${k}${kind}v`, ([, x]) => 4 * x.length);
+    }
+    if (k > 1) given(`uniformMatrix${k}fv`, ([, , x]) => 4 * x.length);
+  }
+  view.origin = [view.origin[0] + 0.1, view.origin[1] + 0.1, view.origin[2]];
+  view.render();
   const { render } = view.renderer.info;
   const info = gl.getExtension('WEBGL_debug_renderer_info');
-  const found = { first, times, triangles: render.triangles, calls: render.calls };
+  const found = { first, times, triangles: render.triangles, calls: render.calls, bytes };
   found.renderer = gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
   view.dispose();
   return found;
@@ -98,10 +116,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             rows.append(_row(name, quality, found))
         chromium.close()
     times = dict.fromkeys(("ms", "best_ms", "worst_ms", "rate", "first_s"), ".3g")
-    print_table(rows, {"scene": "", "quality": "", **times, "calls": "d", "triangles": "d"})
+    print_table(rows, {"scene": "", "quality": "", **times, "calls": "d", "triangles": "d", "bytes": "d"})
     print(
         f"\nms: median of a picture of {options.size[0]} x {options.size[1]}; rate: pictures a second; "
-        "first_s: until the first picture"
+        "first_s: until the first picture; bytes: what a picture of moved things gives to the graphics card"
     )
     print(f"Chromium {version}, {', '.join(sorted(renderers))}; script: {len(script) / 1e3:.0f} kB")
     meta = describe("page_rate", repeats=options.pictures, warm_up=1, chromium=version, renderers=sorted(renderers))
@@ -113,7 +131,7 @@ def _row(name: str, quality: str, found: dict[str, Any]) -> dict[str, Any]:
     ms = statistics.median(found["times"])
     times = {"ms": ms, "best_ms": min(found["times"]), "worst_ms": max(found["times"]), "rate": 1000.0 / ms}
     row = {"scene": name, "quality": quality, **times}
-    return row | {"first_s": found["first"] / 1000.0, "triangles": found["triangles"], "calls": found["calls"]}
+    return row | {"first_s": found["first"] / 1000.0} | {key: found[key] for key in ("triangles", "calls", "bytes")}
 
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dic
     Returns
     -------
     dict of int to float
-        Up to where a drive is refused; the start of another where one does not begin.
+        After each step, up to where a drive is refused.
     """
     sensed = {i: v.index for i, v in enumerate(table) if v.source == "sensor"}
     moved = [v for v in table if v.source == "input" and not v.whole]
@@ -67,10 +67,10 @@ def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dic
                 kernel.set_pose(speed=_SPEED)
             kernel.initialise(0.0)
             for k in range(min(round(SECONDS / h), _MOST_STEPS)):
-                largest = np.maximum(largest, np.abs(kernel.sensors()))
                 for n, v in enumerate(moved):
                     kernel.set_input(v.index, _moved(v, math.sin(math.tau * _FIRST * _RATIO**n * k * h)))
-                kernel.step(h)
+                kernel.step(h)  # before it drag and traction are new to a flexible frame, whose points jump
+                largest = np.maximum(largest, np.abs(kernel.sensors()))
         except KernelError:
             continue
     return {i: float(largest[index]) for i, index in sensed.items()}

@@ -46,7 +46,7 @@ def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
     if path.suffix not in SUFFIXES:
         if manoeuvre not in manoeuvre_names():
             names = ", ".join(manoeuvre_names())
-            raise HostError(f"There is no manoeuvre '{manoeuvre}'. Give a TOML or CSV file or one of: {names}.")
+            raise HostError(f"There is no manoeuvre '{manoeuvre}'. Give a file.toml, a file.csv or one of: {names}.")
         path = next(p for p in (FOLDER / f"{manoeuvre}{suffix}" for suffix in SUFFIXES) if p.is_file())
     if path.suffix == ".toml":
         made = _read_toml(path)

@@ -20,4 +20,5 @@ def test_the_rate_of_every_scene_is_printed_and_kept(tmp_path, capsys):
         (scene, quality) for scene in page_rate.SCENES for quality in page_rate.QUALITIES
     ]
     assert all(row["ms"] > 0 and row["triangles"] > 1000 for row in rows)
+    assert all(64 * row["calls"] / 4 < row["bytes"] < 1e6 for row in rows), "matrices, and no meshes or textures"
     assert "ms: median of a picture of 1280 x 720" in capsys.readouterr().out

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.car import manoeuvres
+from fmu_src.build.car_registry import build_car
 from fmu_src.description.description import declared_types
 from fmu_src.description.fmi3 import terminals
 from fmu_src.description.nominal import drive_sizes, with_nominal
@@ -50,6 +51,16 @@ def test_typical_sizes_are_those_of_common_drives_and_equal_on_both_sides(
     assert not wrong, "\n".join(wrong)
     assert nominal["chassis.ax"] in (1.0, 10.0)
     assert nominal["energy.drive"] in (1e3, 1e4, 1e5)
+
+
+@pytest.mark.slow
+def test_typical_accelerations_are_no_jumps_of_a_frame_that_drag_is_new_to() -> None:
+    systems = build_car("hatchback").systems
+    table = variable_table(systems[0].meta, pose=True, step_size=0.002)
+    sizes = drive_sizes(list(systems.values()), table)
+    nominal = {v.name: v.nominal for v in with_nominal(table, sizes, sizes)}
+    assert len(systems) == 4
+    assert [nominal[f"chassis.{a}"] for a in ("ax", "ay", "az")] == [1.0, 1.0, 1.0]
 
 
 def test_types_have_names_without_numbers(car: tuple[str, tuple[Variable, ...]]) -> None:
