@@ -62,20 +62,14 @@ MEASURE = """([scene, quality, count]) => {
     times.push(performance.now() - start);
   }
   let bytes = 0;
-  const given = (method, size) => {
+  for (const method in gl) {
+    const uniform = /^uniform[1-4M]/.test(method);
+    if (!uniform && !/^(buffer|tex)(Sub)?(Data|Image2D)$/.test(method)) continue;
+    const call = gl[method];
     gl[method] = (...values) => {
-      bytes += size(values);
-      return Object.getPrototypeOf(gl)[method].apply(gl, values);
+      for (const x of values.slice(1)) bytes += x?.byteLength ?? 4 * (x?.length ?? (uniform && typeof x === 'number'));
+      return call.apply(gl, values);
     };
-  };
-  const sized = (values) => values.reduce((sum, x) => sum + (typeof x === 'number' ? 0 : x?.byteLength ?? 0), 0);
-  for (const method of ['bufferData', 'bufferSubData', 'texImage2D', 'texSubImage2D']) given(method, sized);
-  for (const k of [1, 2, 3, 4]) {
-    for (const kind of ['f', 'i']) {
-      given(`uniform${k}${kind}`, () => 4 * k);
-      given(`uniform${k}${kind}v`, ([, x]) => 4 * x.length);
-    }
-    if (k > 1) given(`uniformMatrix${k}fv`, ([, , x]) => 4 * x.length);
   }
   view.origin = [view.origin[0] + 0.1, view.origin[1] + 0.1, view.origin[2]];
   view.render();

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
+import mbs
 from benchmarks.car import manoeuvres
 from fmu_src.build.car_registry import build_car
 from fmu_src.description.description import declared_types
@@ -20,12 +22,15 @@ MOST = 60.0  # times the typical size, and a part of it, in common drives
 DRIVES = ("slalom", "launch_and_brake")
 
 
+def with_typical_sizes(systems: Sequence[mbs.System]) -> tuple[Variable, ...]:
+    table = variable_table(systems[0].meta, pose=True, step_size=0.002)
+    sizes = drive_sizes(systems, table)
+    return with_nominal(table, sizes, sizes)
+
+
 @pytest.fixture(scope="module", params=manoeuvres.CARS)
 def car(request: pytest.FixtureRequest) -> tuple[str, tuple[Variable, ...]]:
-    system = manoeuvres.system_of("drop", request.param)
-    table = variable_table(system.meta, pose=True, step_size=0.002)
-    sizes = drive_sizes([system], table)
-    return request.param, with_nominal(table, sizes, sizes)
+    return request.param, with_typical_sizes([manoeuvres.system_of("drop", request.param)])
 
 
 @pytest.mark.slow
@@ -55,10 +60,8 @@ def test_typical_sizes_are_those_of_common_drives_and_equal_on_both_sides(
 
 @pytest.mark.slow
 def test_typical_accelerations_are_no_jumps_of_a_frame_that_drag_is_new_to() -> None:
-    systems = build_car("hatchback").systems
-    table = variable_table(systems[0].meta, pose=True, step_size=0.002)
-    sizes = drive_sizes(list(systems.values()), table)
-    nominal = {v.name: v.nominal for v in with_nominal(table, sizes, sizes)}
+    systems = list(build_car("hatchback").systems.values())
+    nominal = {v.name: v.nominal for v in with_typical_sizes(systems)}
     assert len(systems) == 4
     assert [nominal[f"chassis.{a}"] for a in ("ax", "ay", "az")] == [1.0, 1.0, 1.0]
 

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
+import fmpy
 import numpy as np
 import pytest
 from fmpy.util import read_csv
 
+import mbs
+from fmu_src.build.build import build_fmu
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_file import read_manoeuvre
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
+from hosts.driving.run_checks import check_columns
 from hosts.driving.write_manoeuvre import write_manoeuvre, write_table
+from hosts.fmu.fmu import Fmu
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 GOOD = '"time","steering","throttle"\n0,0,0\n1,0,0\n1,0.5,1\n2,0.5,0\n'
@@ -301,6 +307,21 @@ def test_of_several_names_the_first_that_there_is_counts(tmp_path):
     assert with_names_of(manoeuvre, ["a", "b.c"]).start == {"a": 2.0, "d": 1.0}
     assert with_names_of(manoeuvre, []).start == {"a": 2.0, "d": 1.0}  # to be refused by its name
     assert "drive.creep_torque | selector" in load_manoeuvre("kerb_drop").start
+
+
+def test_a_drive_by_what_squares_to_no_number_is_refused(tmp_path: Path) -> None:
+    model = mbs.Model("bob", dimension=2)
+    bob = model.point_mass("bob", mass=2.0, position=(0.0, 0.0))
+    model.force("pull", bob, inputs=(model.input("pull", unit="N"), None))
+
+    def drive(value: float) -> Manoeuvre:
+        return Manoeuvre("far", np.array([0.0, 1.0]), {"pull": np.array([0.0, value])}, 1.0)
+
+    with Fmu(build_fmu(mbs.compile(model), "bob", tmp_path, [fmpy.platform])) as fmu:
+        check_columns(fmu, drive(9e99))
+        for value, words in ((1e308, "1e+308"), (-2e100, "-2e+100")):
+            with pytest.raises(HostError, match=re.escape(f"'pull' with the value {words}; it must be within 1e+100")):
+                check_columns(fmu, drive(value))
 
 
 def test_values_whose_difference_is_no_number_go_straight_too() -> None:

@@ -24,7 +24,7 @@ class SyntheticTest:
     __test__: bool = field(default=False, repr=False)
 
     def perform(self, car, settings, progress):
-        raise NotImplementedError
+        raise NotImplementedError  # its records are made, and none is driven
 
 
 def standard():

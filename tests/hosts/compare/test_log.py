@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-import mbs
-from fmu_src.build.build import build_fmu
 from hosts.common.errors import HostError
 from hosts.common.units import unit_definition
 from hosts.compare.log import Log, log_for
 from hosts.compare.log_aliases import Form, LogAliases, read_log_aliases
 from hosts.compare.log_file import read_log
-from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.run_checks import check_columns
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
@@ -216,21 +210,6 @@ def test_what_squares_to_no_number_is_refused_with_its_line(fmu: AliasedFmu, tmp
     read(fmu, tmp_path, text.replace("0.12,6.0", "0.12,9e99"))
     with pytest.raises(HostError, match=r"line 14, column 'pull': -?[12]e\+\d+ is too large; numbers up to 1e\+100"):
         read(fmu, tmp_path, text.replace("0.12,6.0", f"0.12,{value}"))
-
-
-def test_a_drive_by_what_squares_to_no_number_is_refused(tmp_path: Path) -> None:
-    model = mbs.Model("bob", dimension=2)
-    bob = model.point_mass("bob", mass=2.0, position=(0.0, 0.0))
-    model.force("pull", bob, inputs=(model.input("pull", unit="N"), None))
-
-    def drive(value: float) -> Manoeuvre:
-        return Manoeuvre("far", np.array([0.0, 1.0]), {"pull": np.array([0.0, value])}, 1.0)
-
-    with Fmu(build_fmu(mbs.compile(model), "bob", tmp_path, [fmpy.platform])) as fmu:
-        check_columns(fmu, drive(9e99))
-        for value, words in ((1e308, "1e+308"), (-2e100, "-2e+100")):
-            with pytest.raises(HostError, match=re.escape(f"'pull' with the value {words}; it must be within 1e+100")):
-                check_columns(fmu, drive(value))
 
 
 def test_a_file_of_another_kind(tmp_path: Path) -> None:
