@@ -51,6 +51,7 @@ from mbs.worlds.course_file import read_course
 from mbs.worlds.make_world import read_world
 from tests.altered_files import altered
 from tests.in_process import run
+from tests.quick import quick
 from viewer.mesh_file import read_mesh
 from viewer.scene import read_scene
 
@@ -330,7 +331,7 @@ GOOD = {
 }
 
 
-@pytest.mark.parametrize("kind", [pytest.param(k, marks=pytest.mark.slow if k == "car" else ()) for k in GOOD])
+@pytest.mark.parametrize("kind", quick(set(GOOD) - {"car"}, GOOD))
 def test_an_altered_file_is_read_or_refused_in_one_sentence(kind: str, tmp_path: Path) -> None:
     """Cut files, changed bytes and values of other types; forty by their seeds."""
     name, _, _, read = KINDS[kind]

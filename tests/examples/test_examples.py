@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from matplotlib import image
 
+from tests.quick import quick
+
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "examples"
 GALLERY = ROOT / "docs" / "examples.md"
@@ -28,10 +30,11 @@ PROMISED = {
 LONGEST = 60  # lines
 
 
-SLOW = {"anti_lock_brakes"}  # builds a car with ports; tests of ports and of the plant see its faults too
+# builds a car with ports; tests of ports and of the plant see its faults too
+QUICK = set(PROMISED) - {"anti_lock_brakes"}
 
 
-@pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.slow] * (n in SLOW)) for n in PROMISED])
+@pytest.mark.parametrize("name", quick(QUICK, PROMISED))
 def test_an_example_keeps_its_promise(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

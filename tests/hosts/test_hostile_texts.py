@@ -24,6 +24,7 @@ from hosts.compare.command import main as compare
 from hosts.view.command import main
 from tests.hosts.catalogue import synthetic_records
 from tests.in_browser import wait_until
+from tests.quick import quick
 from tests.viewer.hand_scenes import floats
 from tests.viewer.simulator_program import Program
 from viewer.browser import BrowserError, find_chromium, launch_arguments
@@ -150,7 +151,7 @@ KEYS = (
 QUICK = ("arrows[0].unit", "flexible[0].stress.limit_name")
 
 
-@pytest.mark.parametrize("key", [pytest.param(k, marks=() if k in QUICK else pytest.mark.slow) for k in KEYS])
+@pytest.mark.parametrize("key", quick(QUICK, KEYS))
 def test_units_and_names_that_are_markup_are_refused_by_the_reader_and_by_the_page(
     key: str, tmp_path: Path, chromium: Any
 ) -> None:

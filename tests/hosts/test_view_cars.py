@@ -19,6 +19,7 @@ from hosts.view.command import main as view
 from hosts.view.recorded import read_table
 from mbs.vehicle import load
 from tests.hosts.test_view import shown
+from tests.quick import quick
 from viewer.browser import BrowserError, find_chromium
 from viewer.poses import FramePoses
 from viewer.scene_columns import pose_columns
@@ -42,7 +43,7 @@ def result_of(prototype_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> 
     return cache(drive)
 
 
-@pytest.mark.parametrize("name", [CARS[0], pytest.param(CARS[1], marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", quick(CARS[:1], CARS))
 def test_a_car_is_drawn_whole_with_its_wheels_on_the_road(
     result_of: Callable[[str], Path], name: str, tmp_path: Path
 ) -> None:

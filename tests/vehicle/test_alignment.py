@@ -14,6 +14,7 @@ from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.kinematics import kinematics
 from mbs.vehicle.kinematics.held_car import HeldCar
+from tests.quick import quick
 
 ANGLES = {
     "front.alignment.toe_left": 0.004,
@@ -118,7 +119,7 @@ AXLES = {
 }
 
 
-@pytest.mark.parametrize("name", AXLES)
+@pytest.mark.parametrize("name", quick(("double wishbones", "Magic Formula"), AXLES))
 def test_angles_that_parameters_write_are_those_of_the_car_built_so(name):
     """At rest, where the equilibrium is another, and on the road; without them the numbers are those of the file."""
     car_name, fidelity = AXLES[name]

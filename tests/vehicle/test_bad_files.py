@@ -12,9 +12,11 @@ from ali3.typed_paths import annotation_at, by_name, keys_of, table_at
 from mbs.vehicle import Car, CarFileError, CarWarning, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changes import changed_content
+from tests.quick import quick
 from tests.vehicle.content import new_with, numbers, sentences, tables
 
 FIRST, CAR_NAMES = "prototype", sorted(car_names(), reverse=True)
+SWEPT = quick(("prototype", "hatchback", "commonroad_320i"), CAR_NAMES)
 
 
 def refused(changes, name=FIRST, lines=1):
@@ -80,7 +82,7 @@ def test_each_number_in_a_unit_wrong_by_1000_is_told(name, factor, every):
     assert silent <= {"vehicle.reference_point.1"} | (angles | {"brakes.side"} if factor < 1.0 else set())
 
 
-@pytest.mark.parametrize("name", CAR_NAMES)
+@pytest.mark.parametrize("name", SWEPT)
 def test_lengths_in_mm_and_masses_in_t(name):
     for unit in ("mm", "t"):
         factor, key = {"mm": (1000.0, ("points", "centre", "com", "reference")), "t": (0.001, ("mass",))}[unit]
@@ -89,7 +91,7 @@ def test_lengths_in_mm_and_masses_in_t(name):
         assert len(told(changes, name)) > 1
 
 
-@pytest.mark.parametrize("name", CAR_NAMES)
+@pytest.mark.parametrize("name", SWEPT)
 @pytest.mark.parametrize("factor", [1000.0, 0.001, -1.0])
 def test_each_table_in_a_wrong_unit_or_negative(name, factor):
     for table in tables(load(name)._data):
@@ -98,7 +100,7 @@ def test_each_table_in_a_wrong_unit_or_negative(name, factor):
             assert told(changes, name), table
 
 
-@pytest.mark.parametrize("name", CAR_NAMES)
+@pytest.mark.parametrize("name", SWEPT)
 def test_each_table_and_key_that_is_missing(name):
     for path in [*tables(load(name)._data), *(p for p in numbers(name) if not p.split(".")[-1].isdigit())]:
         data = changed_content(load(name)._data, {}, "x")
@@ -120,7 +122,7 @@ def test_each_table_and_key_that_is_missing(name):
             assert named or not keys_of(table_at(Car, outer, data))[last].is_required(), path
 
 
-@pytest.mark.parametrize("name", CAR_NAMES)
+@pytest.mark.parametrize("name", SWEPT)
 def test_each_key_that_is_misspelt(name):
     for path in [*tables(load(name)._data), *(p for p in numbers(name) if not p.split(".")[-1].isdigit())]:
         data = changed_content(load(name)._data, {}, "x")

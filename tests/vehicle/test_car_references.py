@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.car import manoeuvres, trajectories
+from tests.quick import quick
 
 LOCKED = (3e-4, 0.15)  # a wheel leaves the kerb within a step; at 2 ms it holds, below
 # per manoeuvre: largest path error over the length of the path, largest wheel load error over the largest load,
@@ -36,8 +37,6 @@ NOT_SMOOTH = {
 }
 SMOOTH = ("step_steer", "slalom", "steady_cornering", "double_lane_change_replay")
 
-pytestmark = pytest.mark.parametrize("car", BOUNDS)
-
 
 def error(car, name, h, since=0.0):
     t, values, length = trajectories.read(name, car)
@@ -49,6 +48,7 @@ def error(car, name, h, since=0.0):
     return trajectories.path_error(found, values), trajectories.load_error(found, values), length
 
 
+@pytest.mark.parametrize("car", BOUNDS)
 @pytest.mark.parametrize("name", manoeuvres.NAMES)
 def test_manoeuvre_follows_its_reference(car, name):
     path, load, length = error(car, name, 0.005)
@@ -56,6 +56,7 @@ def test_manoeuvre_follows_its_reference(car, name):
     assert load < BOUNDS[car][name][1]
 
 
+@pytest.mark.parametrize("car", quick(("prototype", "hatchback", "saloon"), BOUNDS))
 @pytest.mark.parametrize("name", SMOOTH)
 def test_smooth_manoeuvres_converge_with_the_square_of_the_step(car, name):
     if (car, name) in NOT_SMOOTH:
@@ -68,6 +69,7 @@ def test_smooth_manoeuvres_converge_with_the_square_of_the_step(car, name):
     assert fine[0] < coarse[0] / (4.0 if by_file else 6.0)
 
 
+@pytest.mark.parametrize("car", BOUNDS)
 def test_kerb_lock_and_brake_at_once_want_two_milliseconds(car):
     path, load, length = error(car, "kerb_lock_brake", 0.002)
     assert path / length < (2e-5 if car in ("prototype", "hatchback", "saloon") else 4e-4)

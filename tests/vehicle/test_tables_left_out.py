@@ -15,22 +15,30 @@ from mbs.vehicle.changes import changed_content
 from mbs.vehicle.copy_car import copy_car
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.springs import Damper, Spring
+from tests.quick import quick
 from tests.vehicle.content import new_with, sentences, tables_of
 
 NAMES = car_names()
 NEW = [(name, path) for name in NAMES for path in new_with(name, tables_of, NAMES)]
-# Each table in the first car that has it; in the others too in the proof run.
-TABLES = [
-    pytest.param(name, path, marks=[pytest.mark.proof] * ((name, path) not in NEW))
-    for name in NAMES
-    for path in tables_of(name)
-]
+NAMED = ("payload", "chassis.frame.gauges")  # their tables have names that the user chooses
 OPTIONAL = {
     *("chassis.accelerometers", "chassis.frame", "chassis.frame.gauges", "chassis.ground_contact", "payload"),
     *("front.alignment", "rear.alignment", "front.tyre.bore", "rear.tyre.bore", "front.stops", "rear.stops"),
     *("front.anti_roll_bar", "rear.anti_roll_bar", "front.suspension.steering_stop"),
     *("front.suspension.bar", "rear.suspension.bar"),
 }
+
+
+def marks(name, path):
+    """Each table in the first car that has it, of those that a user names one; in the others in the proof run."""
+    if (name, path) not in NEW:
+        return pytest.mark.proof
+    outer = path.rpartition(".")[0]
+    again = outer in NAMED and path != next(p for n, p in NEW if p.startswith(f"{outer}."))
+    return pytest.mark.slow if again else ()
+
+
+TABLES = [pytest.param(name, path, marks=marks(name, path)) for name in NAMES for path in tables_of(name)]
 
 
 def without(name, path):
@@ -50,7 +58,7 @@ def without(name, path):
 
 @pytest.mark.parametrize(("name", "path"), TABLES)
 def test_a_car_or_a_sentence(name, path):
-    named = path.rpartition(".")[0] in ("payload", "chassis.frame.gauges")  # of names that the user chooses
+    named = path.rpartition(".")[0] in NAMED
     try:
         car, _ = without(name, path)
     except CarFileError as error:
@@ -71,7 +79,7 @@ def test_without_points_that_touch_the_ground_there_is_no_work_of_it():
     assert "chassis.ground_force" not in [s["name"] for s in car.meta["sensors"]]
 
 
-@pytest.mark.parametrize("name", car_names())
+@pytest.mark.parametrize("name", quick(("commonroad_320i", "hatchback"), car_names()))
 def test_without_stops_it_is_told_how_far_the_links_follow(name, tmp_path):
     file = copy_car(name, tmp_path / "car")[0].parent / "car.toml"
     text = file.read_text(encoding="utf-8")

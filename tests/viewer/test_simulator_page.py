@@ -118,7 +118,7 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
     program.page.wait_for_timeout(100)
     assert "throttle let go." in program.text("events")
     assert "There is no command 'fly'." in program.text("events")
-    wait_until(program.page, "!document.querySelector('[data-a3=\"flag stalled\"]')?.hidden === true", timeout=5.0)
+    wait_until(program.page, "!document.querySelector('[data-a3=\"flag stalled\"]')?.hidden === true")
     assert "this is the last that came" in program.text("flag stalled")
 
 
@@ -128,7 +128,7 @@ def test_a_broken_wire_is_said_and_mended(program: Program) -> None:
     program.sockets[-1].close()
     said = "document.querySelector('[data-a3=\"flag lost\"]')?.textContent || ''"
     assert "Trying again" in wait_until(program.page, said)
-    wait_until(program.page, f"player.cockpit && !({said})", timeout=8.0)
+    wait_until(program.page, f"player.cockpit && !({said})")
     assert len(program.sockets) == 2
     program.epoch = 2
     shown(program, 0.5, RUNNING)
@@ -144,7 +144,7 @@ def test_a_world_that_comes_with_the_second_connection_is_no_longer_missed(progr
     for missed in (True, False):
         page.evaluate(before)
         program.sockets[-1].close()
-        wait_until(page, later, timeout=8.0)
+        wait_until(page, later)
         assert (words in program.text("events")) is missed
     program.errors.clear()  # the browser tells of the answer too
 

@@ -14,6 +14,7 @@ from mbs.scenes import prototype_car
 from mbs.worlds.make_world import read_world
 from mbs.worlds.patches import BOUND
 from mbs.worlds.terrain import Terrain
+from tests.quick import quick
 from tests.roads.worlds.harness import drawn, opened
 from tests.roads.worlds.test_proving_ground import FILE
 from viewer.base64_numbers import octets
@@ -44,7 +45,7 @@ def test_the_files_are_small(proving_ground):
     assert proving_ground.json.stat().st_size < 5e6
 
 
-@pytest.mark.parametrize("part", PARTS)
+@pytest.mark.parametrize("part", quick(("all", "kerbs"), PARTS))
 def test_wheels_feel_what_is_drawn_within_5_mm_and_what_is_described_within_3_mm(proving_ground, part):
     x, y = places(part, 4000)
     with opened(proving_ground.road) as at:
