@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +11,8 @@ from hosts.common.options import Wishes
 from hosts.fmu.parameters_as_set import parameter_set_of
 
 if TYPE_CHECKING:
+    from hosts.common.numbers import Value
+    from hosts.fmu.setting import Setting
     from hosts.fmu.settings import Settings
     from hosts.fmu.variables import Variables
 
@@ -37,7 +39,8 @@ def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, sh
     from ali3.files import check_writable
     from ali3.write_parameter_set import write_parameter_set
     from hosts.fmu.fmu import described
-    from hosts.fmu.settings import Settings, settings_of
+    from hosts.fmu.parameter_file_settings import settings_of_file
+    from hosts.fmu.settings import settings_of
     from hosts.fmu.variables import Variables
 
     if out is not None:
@@ -46,9 +49,7 @@ def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, sh
     variables = Variables(description)
     settings = settings_of(variables, given)
     if diff is not None:
-        other = Settings(variables)
-        other.add_set(diff)
-        rows = _differences(variables, settings, other)
+        rows = _differences(variables, settings.start, settings_of_file(diff, variables))
         _print_rows(rows)
         if not rows:
             print(f"{diff} sets nothing to another value than {fmu} has.")
@@ -74,9 +75,8 @@ def _print_table(variables: Variables, settings: Settings) -> None:
     _print_rows(rows)
 
 
-def _differences(variables: Variables, settings: Settings, other: Settings) -> list[tuple[str, str]]:
-    mine, theirs = settings.start, other.start
-    rows = []
+def _differences(variables: Variables, mine: Mapping[str, Value], other: Sequence[Setting]) -> list[tuple[str, str]]:
+    rows, theirs = [], {s.variable.name: s.value for s in other}
     for name in variables.names:
         v = variables[name]
         before, after = mine.get(name, v.start), theirs.get(name, mine.get(name, v.start))

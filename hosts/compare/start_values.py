@@ -41,7 +41,7 @@ def measured_start(
         What the start is, in sentences.
     """
     start: dict[str, Value] = {}
-    notes = []
+    notes, held = [], []
     speed = next((at_start(signals[n]) for n in ("speed", "chassis.vx") if n in signals), None)
     across, rate = (_of(signals, f"chassis.{n}") for n in ("vy", "wz"))
     for name, value in (
@@ -49,16 +49,19 @@ def measured_start(
         ("initial.yaw", _of(signals, "chassis.yaw")),
         ("initial.lateral_speed", across),
         ("initial.yaw_rate", rate),
+        *((f"initial.{axis}", _of(signals, f"chassis.{axis}")) for axis in "xy"),
     ):
-        if value is not None and name in fmu.variables and name not in given:
+        if value is None or name not in fmu.variables:
+            continue
+        if name in given:
+            held.append(f"{name} = {float(given[name]):.4g} ({value:.4g} in the log)")
+        else:
             start[name] = value
-    for axis in "xy":
-        value = _of(signals, f"chassis.{axis}")
-        if value is not None and f"initial.{axis}" in fmu.variables and f"initial.{axis}" not in given:
-            start[f"initial.{axis}"] = value
     if start:
         words = ", ".join(f"{n} = {v:.4g}" for n, v in start.items())
         notes.append(f"The start is as measured: {words}{_WHERE if 'initial.x' in start else ''}.")
+    if held:
+        notes.append(f"The start is not as measured but as given: {', '.join(held)}.")
     if speed is not None and abs(speed) > _MOVES and "initial.speed" not in (start | dict(given)):
         notes.append(
             f"The log begins at {speed:.3g} m/s; the FMU has no parameter initial.speed, so that it starts as it does "

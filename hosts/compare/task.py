@@ -99,9 +99,8 @@ def prepare(options: argparse.Namespace) -> Task:
         log = log_for(fmu, raw, log_aliases, aliases.why_missing)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
-        settings = settings_of(opened.table, wishes(options))
-        by_theirs = {n: aliases.names([n])[0] for n in settings.start}
-        given = {by_theirs[n]: v for n, v in settings.start.items()}
+        set_values = settings_of(opened.table, wishes(options)).start
+        given = {aliases.names([n])[0]: v for n, v in set_values.items()}
         followed = _add_steering(fmu, log, inputs, outputs, notes, aliases, given)
         pedals = _held_speed(fmu, log, inputs, notes) if options.hold_speed else None
         if not inputs and pedals is None:
@@ -151,7 +150,7 @@ def prepare(options: argparse.Namespace) -> Task:
         notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
     scales = scales_of(everything)
     if options.windows is not None:
-        notes.append(f"The start of each of the {len(stretches)} windows is as measured; these are those of the first.")
+        notes.append(f"Each of the {len(stretches)} windows starts so; what is measured is that of the first.")
         outputs, scales = (one_after_the_other(signals, stretches) for signals in (outputs, scales))
     elif wanted is not None:
         begin = options.begin or 0.0

@@ -68,24 +68,24 @@ class Settings:
             variable = self._variables.settable(name, source)
             found.append(Setting(variable, variable.read(text, source), source))
         self._put(found)
-        for setting in found:
-            if not setting.changes:
-                v = setting.variable
-                self._note(v.name, f"{v.with_unit(setting.value)} as in the FMU ({source})")
+        for v, value in ((s.variable, s.value) for s in found if not s.changes):
+            self._notes.append((v.name, f"{v.with_unit(value)} as in the FMU ({source})"))
 
     def add_set(self, file: Path) -> None:
-        """Values of an SSV file, converted into the units of the FMU; see `add_numbers`."""
+        """Values of an SSV file in the units of the FMU; those that are its own replace nothing: a set may list all."""
         from hosts.fmu.parameter_file_settings import settings_of_file
 
         found, source = settings_of_file(file, self._variables), file.name
-        self._put(found)
-        same = sum(not setting.changes for setting in found)
+        self._put([setting for setting in found if setting.changes])
+        own = {setting.variable.name for setting in found if not setting.changes}
+        for kept in (setting for setting in self.changes if setting.variable.name in own):
+            self._notes.append((kept.variable.name, f"that of {kept.source} stays: in {source} it is as in the FMU"))
         if not found:
-            self._note(source, "empty: it sets nothing")
-        elif same == len(found):
-            self._note(source, f"all {same} values are those of the FMU: it changes nothing")
+            self._notes.append((source, "empty: it sets nothing"))
+        elif len(own) == len(found):
+            self._notes.append((source, f"all {len(own)} values are those of the FMU: it changes nothing"))
         else:
-            self._note(source, f"{len(found)} values, {len(found) - same} of them other than in the FMU")
+            self._notes.append((source, f"{len(found)} values, {len(found) - len(own)} of them other than in the FMU"))
 
     def add_wishes(self, wishes: Wishes, fidelity: float | None = None) -> None:
         """What the command line sets; see `add_numbers`.
@@ -114,7 +114,9 @@ class Settings:
         for name in names:
             if name in self._settings:
                 setting = self._settings.pop(name)
-                self._note(name, f"{setting.variable.with_unit(setting.value)} of {setting.source} has no effect: {by}")
+                self._notes.append(
+                    (name, f"{setting.variable.with_unit(setting.value)} of {setting.source} has no effect: {by}")
+                )
 
     def rows(self) -> list[tuple[str, str]]:
         """Rows of a summary: what was set, and what does nothing."""
@@ -137,16 +139,13 @@ class Settings:
         """What was set, for JSON."""
         return [s.record() for s in self.changes]
 
-    def _note(self, what: str, words: str) -> None:
-        self._notes.append((what, words))
-
     def _put(self, settings: Sequence[Setting]) -> None:
         """All or, where one was refused before, none."""
         for setting in settings:
             name, before = setting.variable.name, self._settings.get(setting.variable.name)
             if before is not None and before.changes and before.value != setting.value:
-                v = setting.variable
-                self._note(name, f"{setting.source} replaces {v.with_unit(before.value)} of {before.source}")
+                old = before.variable.with_unit(before.value)
+                self._notes.append((name, f"{setting.source} replaces {old} of {before.source}"))
             self._settings[name] = setting
 
     def _checked(self, name: str, value: Value, source: str) -> Setting:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hosts.check.command import main as check
 from hosts.compare.command import main
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
@@ -172,6 +173,23 @@ def test_a_log_that_begins_in_a_turn_starts_in_it(
         assert first[f"{name}.simulated [{unit}]"] == pytest.approx(first[f"{name}.measured [{unit}]"], abs=near)
     # The body begins upright and has to roll first.
     assert values(record)["chassis.wz.rms"] < 0.01
+
+
+@pytest.mark.slow
+def test_a_set_of_all_parameters_leaves_the_measured_start_and_another_speed_is_told(
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = logged(car, tmp_path, {"initial.speed": 15.0})
+    whole, fast = tmp_path / "whole.ssv", tmp_path / "fast.ssv"
+    assert check([str(car), "--save-parameters", str(whole)]) == 0
+    assert check([str(car), "--set", "initial.speed=14", "--save-parameters", str(fast)]) == 0
+    _, bare = compared(car, log)
+    _, same = compared(car, log, "--parameters", str(whole))
+    assert (same["start"], same["measures"]) == (bare["start"], bare["measures"])
+    assert "not as measured" not in capsys.readouterr().out
+    _, other = compared(car, log, "--parameters", str(fast))
+    assert other["start"]["initial.speed"] == 14.0
+    assert "The start is not as measured but as given: initial.speed = 14 (15" in capsys.readouterr().out
 
 
 @pytest.mark.slow

@@ -1,0 +1,84 @@
+"""A parameter set that lists everything as the FMU has it, as a build writes one, changes nothing at any door."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.util import read_csv
+
+from ali3.write_parameter_set import write_parameter_set
+from hosts.catalogue.cars import cars_of
+from hosts.common.numbers import Value
+from hosts.fmu.parameters_as_set import parameter_set_of
+from hosts.fmu.settings import START_OF, Settings
+from hosts.fmu.variables import Variables
+from hosts.run.command import main as run
+from hosts.simulator.command import main as simulator
+
+
+@pytest.fixture
+def variables(prototype_fmu: Path) -> Variables:
+    return Variables(fmpy.read_model_description(str(prototype_fmu)))
+
+
+def whole_set(variables: Variables, file: Path, **values: Value) -> Path:
+    """Of all parameters of the FMU, some with other values."""
+    given = {name.replace("__", "."): value for name, value in values.items()}
+    write_parameter_set(parameter_set_of(variables, "car", given), file, as_built=False)
+    return file
+
+
+def test_it_leaves_what_a_manoeuvre_or_a_world_has_set(variables: Variables, tmp_path: Path) -> None:
+    whole = whole_set(variables, tmp_path / "whole.ssv", front__tyre__grip=0.9)
+    settings = Settings(variables)
+    settings.add_numbers({"road.friction": 0.5, "initial.x": 7.0}, "the world")
+    settings.add_numbers({"initial.speed": 22.0}, f"{START_OF}step")
+    settings.add_set(whole)
+    kept = {"road.friction": 0.5, "initial.x": 7.0, "initial.speed": 22.0}
+    assert settings.start == {**kept, "front.tyre.grip": 0.9}
+    assert ("initial.speed", "that of start of step stays: in whole.ssv it is as in the FMU") in settings.rows()
+    settings.add_texts([("initial.speed", "0")], "--set")
+    assert settings.start["initial.speed"] == 0.0
+
+
+def test_another_value_replaces(variables: Variables, tmp_path: Path) -> None:
+    settings = Settings(variables)
+    settings.add_numbers({"initial.speed": 22.0}, f"{START_OF}step")
+    settings.add_set(whole_set(variables, tmp_path / "other.ssv", initial__speed=5.0))
+    assert settings.start == {"initial.speed": 5.0}
+
+
+def test_a_manoeuvre_is_driven_as_without_it(variables: Variables, prototype_fmu: Path, tmp_path: Path) -> None:
+    whole = whole_set(variables, tmp_path / "whole.ssv")
+    found = []
+    for name, more in (("without", []), ("with", ["--parameters", str(whole)])):
+        out = ["--stop-time", "0.5", "--out", str(tmp_path / name)]
+        assert run([str(prototype_fmu), "-m", "step_steer", *out, *more]) == 0
+        found.append(read_csv(next((tmp_path / name).glob("*.csv"))))
+    assert found[0]["speed"][0] > 20.0
+    assert all(np.array_equal(found[0][name], found[1][name]) for name in found[0].dtype.names)
+
+
+def test_the_catalogue_takes_it_and_refuses_another_start(
+    variables: Variables, prototype_fmu: Path, tmp_path: Path
+) -> None:
+    whole = whole_set(variables, tmp_path / "whole.ssv", front__tyre__grip=0.9)
+    (car,) = cars_of([prototype_fmu], [], [whole], [], None)
+    assert car.start == {"front.tyre.grip": 0.9}
+
+
+@pytest.mark.slow
+def test_the_simulator_keeps_its_world_and_place(variables: Variables, prototype_fmu: Path, tmp_path: Path) -> None:
+    whole = whole_set(variables, tmp_path / "whole.ssv")
+    found = []
+    for more in ([], ["--parameters", str(whole)]):
+        record = tmp_path / f"{len(found)}.json"
+        arguments = [str(prototype_fmu), "--headless", "--world", "kerb", "--stop-time", "0.1", "--json", str(record)]
+        assert simulator([*arguments, *more]) == 0
+        found.append(json.loads(record.read_text())["settings"])
+    assert found[0] == found[1]
+    assert any(entry["name"] == "road.file" for entry in found[1])
