@@ -118,6 +118,8 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
     program.page.wait_for_timeout(100)
     assert "throttle let go." in program.text("events")
     assert "There is no command 'fly'." in program.text("events")
+    program.page.keyboard.press("b")
+    assert "build CAR --poses all" in program.text("events")
     wait_until(program.page, "!document.querySelector('[data-a3=\"flag stalled\"]')?.hidden === true")
     assert "this is the last that came" in program.text("flag stalled")
 
