@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 
 import fmpy
@@ -12,6 +13,7 @@ from fmpy.util import read_csv
 
 from ali3.write_parameter_set import write_parameter_set
 from hosts.catalogue.cars import cars_of
+from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.settings import START_OF, Settings
@@ -25,15 +27,14 @@ def variables(prototype_fmu: Path) -> Variables:
     return Variables(fmpy.read_model_description(str(prototype_fmu)))
 
 
-def whole_set(variables: Variables, file: Path, **values: Value) -> Path:
+def whole_set(variables: Variables, file: Path, values: Mapping[str, Value] | None = None) -> Path:
     """Of all parameters of the FMU, some with other values."""
-    given = {name.replace("__", "."): value for name, value in values.items()}
-    write_parameter_set(parameter_set_of(variables, "car", given), file, as_built=False)
+    write_parameter_set(parameter_set_of(variables, "car", values or {}), file, as_built=False)
     return file
 
 
 def test_it_leaves_what_a_manoeuvre_or_a_world_has_set(variables: Variables, tmp_path: Path) -> None:
-    whole = whole_set(variables, tmp_path / "whole.ssv", front__tyre__grip=0.9)
+    whole = whole_set(variables, tmp_path / "whole.ssv", {"front.tyre.grip": 0.9})
     settings = Settings(variables)
     settings.add_numbers({"road.friction": 0.5, "initial.x": 7.0}, "the world")
     settings.add_numbers({"initial.speed": 22.0}, f"{START_OF}step")
@@ -48,7 +49,7 @@ def test_it_leaves_what_a_manoeuvre_or_a_world_has_set(variables: Variables, tmp
 def test_another_value_replaces(variables: Variables, tmp_path: Path) -> None:
     settings = Settings(variables)
     settings.add_numbers({"initial.speed": 22.0}, f"{START_OF}step")
-    settings.add_set(whole_set(variables, tmp_path / "other.ssv", initial__speed=5.0))
+    settings.add_set(whole_set(variables, tmp_path / "other.ssv", {"initial.speed": 5.0}))
     assert settings.start == {"initial.speed": 5.0}
 
 
@@ -66,9 +67,12 @@ def test_a_manoeuvre_is_driven_as_without_it(variables: Variables, prototype_fmu
 def test_the_catalogue_takes_it_and_refuses_another_start(
     variables: Variables, prototype_fmu: Path, tmp_path: Path
 ) -> None:
-    whole = whole_set(variables, tmp_path / "whole.ssv", front__tyre__grip=0.9)
+    whole = whole_set(variables, tmp_path / "whole.ssv", {"front.tyre.grip": 0.9})
     (car,) = cars_of([prototype_fmu], [], [whole], [], None)
     assert car.start == {"front.tyre.grip": 0.9}
+    fast = whole_set(variables, tmp_path / "fast.ssv", {"initial.speed": 5.0})
+    with pytest.raises(HostError, match=r"'initial\.speed' of .* cannot be given: the tests themselves"):
+        cars_of([prototype_fmu], [], [fast], [], None)
 
 
 @pytest.mark.slow
