@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from xml.etree import ElementTree
@@ -264,14 +264,21 @@ def with_texts(table: Sequence[Variable], reach: Dependencies, texts: Sequence[T
     if not texts or not places:
         return reach
     more = tuple(range(len(table), len(table) + len(texts)))
-    initial = {i: (*known, *more) if set(places) & set(known) else known for i, known in reach.initial.items()}
+    initial = {
+        i: known if known is None or not set(places) & set(known) else (*known, *more)
+        for i, known in reach.initial.items()
+    }
     return replace(reach, initial=initial)
 
 
 def _structure(root: ElementTree.Element, table: Sequence[Variable], reach: Dependencies) -> None:
     """Outputs depend on inputs over a step, initial ones on all that was found to change them."""
     structure = ElementTree.SubElement(root, "ModelStructure")
-    for tag, of in (("Outputs", reach.step), ("InitialUnknowns", reach.initial)):
+    ways: tuple[tuple[str, Mapping[int, tuple[int, ...] | None]], ...] = (
+        ("Outputs", reach.step),
+        ("InitialUnknowns", reach.initial),
+    )
+    for tag, of in ways:
         group = ElementTree.Element(tag)
         for i, v in enumerate(table):
             if v.causality == "output":
@@ -280,8 +287,10 @@ def _structure(root: ElementTree.Element, table: Sequence[Variable], reach: Depe
             structure.append(group)
 
 
-def dependency_attributes(known: Sequence[int], offset: int = 0) -> dict[str, str]:
-    """Attributes of an unknown that depends on the variables at these places; `offset` is added to them."""
+def dependency_attributes(known: Sequence[int] | None, offset: int = 0) -> dict[str, str]:
+    """Attributes of an unknown that depends on the variables at these places, None: all; `offset` is added to them."""
+    if known is None:
+        return {}
     attributes = {"dependencies": " ".join(str(k + offset) for k in known)}
     if known:
         attributes["dependenciesKind"] = " ".join(["dependent"] * len(known))

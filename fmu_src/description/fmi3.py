@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from xml.etree import ElementTree
 
 from fmu_src.description.description import (
@@ -228,8 +228,13 @@ def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Depend
     structure = ElementTree.SubElement(root, "ModelStructure")
     array_of = {k: i for i, a in enumerate(arrays) for k in a.items}
     array_of |= {texts[0] + k: len(arrays) + 1 + k for k in range(texts[1])}
-    for tag, of in (("Output", reach.step), ("InitialUnknown", reach.initial)):
+    ways: tuple[tuple[str, Mapping[int, tuple[int, ...] | None]], ...] = (
+        ("Output", reach.step),
+        ("InitialUnknown", reach.initial),
+    )
+    for tag, of in ways:
         for i, a in enumerate(arrays):
             if a.of.causality == "output":
-                known = sorted({array_of[k] for item in a.items for k in of[item]})
+                reached = [of[item] for item in a.items]
+                known = None if None in reached else sorted({array_of[k] for places in reached for k in places or ()})
                 ElementTree.SubElement(structure, tag, {"valueReference": str(i)} | dependency_attributes(known))

@@ -49,14 +49,14 @@ class Dependencies:
     ----------
     step : dict of int to tuple of int
         Inputs that reach the output at the end of a step.
-    initial : dict of int to tuple of int
-        Inputs and parameters that reach the initial output.
+    initial : dict of int to tuple of int or None
+        Inputs and parameters that reach the initial output; None: all of them, as after a start that has settled.
     size : dict of int to float
         Largest absolute value seen; 0 where it was never anything else.
     """
 
     step: dict[int, tuple[int, ...]]
-    initial: dict[int, tuple[int, ...]]
+    initial: dict[int, tuple[int, ...] | None]
     size: dict[int, float]
 
 
@@ -75,7 +75,7 @@ def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependenc
     tries.close(systems)
     return Dependencies(
         {i: tuple(sorted(tries.step[i])) for i in outputs},
-        {i: tuple(sorted(tries.initial[i])) for i in outputs},
+        {i: None if i in tries.settling else tuple(sorted(tries.initial[i])) for i in outputs},
         tries.size,
     )
 
@@ -87,6 +87,7 @@ class _Tries:
         self.sensed = [i for i in outputs if table[i].source == "sensor"]
         self.step: dict[int, set[int]] = {i: set() for i in outputs}
         self.initial: dict[int, set[int]] = {i: set() for i in outputs}
+        self.settling: set[int] = set()
         self.size = dict.fromkeys(outputs, 0.0)
         self.of_fidelity: list[list[list[float] | None]] = []
         self.share = 1.0
@@ -148,6 +149,8 @@ class _Tries:
                 self.initial[i] |= placed if self.initial[i] else set()
             elif kind.get(i) != _ECHO and (self.step[i] or i not in kind):
                 self.step[i] |= acting
+        if any(v.source == "settling" for v in self.table):
+            self.settling = {i for i in self.sensed if kind[i] != _ECHO and (self.step[i] or self.initial[i])}
 
     def _steps(self, kernel: Instance, h: float, rng: random.Random) -> None:
         values = {i: self._random(i, rng) for i in self.settable}

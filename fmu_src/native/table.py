@@ -16,6 +16,7 @@ _SOURCES = {
     "step_size": "SLAVE_STEP_SIZE",
     "fidelity": "SLAVE_FIDELITY",
     "step_iterations": "SLAVE_STEP_ITERATIONS",
+    "settling": "SLAVE_SETTLING",
     "sensor": "SLAVE_SENSOR",
     "solver": "SLAVE_SOLVER",
     "capped_residual": "SLAVE_CAPPED_RESIDUAL",

@@ -26,6 +26,8 @@ _POSE = (
     ("initial.yaw_rate", "rad/s", "Initial yaw rate, positive to the left"),
 )
 STEP_SIZE = "step_size"
+SETTLING = "initial.settling"
+_LONGEST_SETTLING = 10.0
 _DEPRECATED = "deprecated"
 STEP_ITERATIONS = "solver.step_iterations"
 _MOST_ITERATIONS = 1000.0
@@ -67,7 +69,7 @@ class Variable:
         One sentence.
     source : str
         What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
-        ``step_iterations``, ``solver``, what the solver says about itself, ``capped_residual``,
+        ``step_iterations``, ``settling``, ``solver``, what the solver says about itself, ``capped_residual``,
         ``ahead``, what an output will be at the next communication point, or ``constant``.
     index : int
         Number of that input, parameter, sensor or figure of the solver; place in `_POSE` for ``pose``, in the table
@@ -211,6 +213,9 @@ def variable_table(
             whole=True,
         )
     )
+    if pose:
+        text = "How long the start's horizontal motion is held beforehand while tyres, springs and steering settle"
+        table.append(Variable(SETTLING, "parameter", "fixed", "s", text, "settling", 0, 0.0, 0.0, _LONGEST_SETTLING))
     table += [_sensor(entry, k) for k, entry in enumerate(meta["sensors"])]
     sensed = {entry["name"] for entry in meta["sensors"]}
     table += [

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from scipy.signal import savgol_filter
 
 from hosts.common.numbers import Value
 from hosts.compare.log import Signal
@@ -21,8 +22,19 @@ from hosts.fmu.fmu import Fmu
 
 _GAINS = 0.8, 0.5, 0.1  # pedal per m/s, per m and per m/s2: the speed is to be as measured, not comfortable
 
+_SMOOTHED, _PARABOLA = 0.2, 2  # s; degree
+
+
+def smoothed(speed: Signal) -> Signal:
+    """By parabolas over 0.2 s: the acceleration that a driver feeds forward is else mostly the noise of samples."""
+    window = 2 * round(0.5 * _SMOOTHED / speed.interval) + 1
+    if window <= _PARABOLA + 1 or len(speed.values) <= window:
+        return speed
+    return replace(speed, values=savgol_filter(speed.values, window, _PARABOLA))
+
 
 def _holder(speed: Signal, pedal: float) -> SpeedHolder:
+    speed = smoothed(speed)
     return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)), *_GAINS, pedal=pedal)
 
 

@@ -17,6 +17,7 @@ from hosts.fmu.fmu import Fmu
 _AVERAGED = 0.1  # s at the beginning of a log
 _WHERE = " (where the reference point is to be)"
 _MOVES, _TURNS = 0.5, 0.02  # m/s, rad/s
+_SETTLING, _SETTLED = "initial.settling", 2.0  # s: roll of a car on soft springs and dampers has settled to 1 %
 
 
 def measured_start(
@@ -60,6 +61,12 @@ def measured_start(
     if start:
         words = ", ".join(f"{n} = {v:.4g}" for n, v in start.items())
         notes.append(f"The start is as measured: {words}{_WHERE if 'initial.x' in start else ''}.")
+    if abs(float(start.get("initial.speed", 0.0))) > _MOVES and _SETTLING in fmu.variables and _SETTLING not in given:
+        start[_SETTLING] = _SETTLED
+        notes.append(
+            f"Before it the car is held in this motion for {_SETTLED:g} s ({_SETTLING}): roll, pitch, tyres and steering, "
+            "which were not measured, settle."
+        )
     if held:
         notes.append(f"The start is not as measured but as given: {', '.join(held)}.")
     if speed is not None and abs(speed) > _MOVES and "initial.speed" not in (start | dict(given)):

@@ -35,9 +35,18 @@ def starting_pedals(path: Path, aliases: Aliases, stretches: Sequence[Stretch], 
     """
     fmu = LoadedFmu(path, aliases, step)
     try:
-        return [s if s.speed is None else replace(s, pedal=_pedal(fmu, step, s, s.speed)) for s in stretches]
+        return [s if s.speed is None else _started(s, _pedal(fmu, step, s, s.speed)) for s in stretches]
     finally:
         fmu.close()
+
+
+def _started(stretch: Stretch, pedal: float) -> Stretch:
+    start = {**stretch.manoeuvre.start, **_pedals(pedal)}
+    return replace(stretch, pedal=pedal, manoeuvre=replace(stretch.manoeuvre, start=start))
+
+
+def _pedals(pedal: float) -> dict[str, float]:
+    return {"throttle": max(pedal, 0.0), "brake": max(-pedal, 0.0)}
 
 
 def _pedal(fmu: LoadedFmu, step: float, stretch: Stretch, speed: Signal) -> float:
@@ -45,7 +54,7 @@ def _pedal(fmu: LoadedFmu, step: float, stretch: Stretch, speed: Signal) -> floa
     short = Stretch(manoeuvre)
 
     def excess(pedal: float) -> float:
-        result = fmu.drive(short, {"throttle": max(pedal, 0.0), "brake": max(-pedal, 0.0)})
+        result = fmu.drive(short, _pedals(pedal))
         return float(result["speed"][-1] - np.interp(result.time[-1], speed.time, speed.values))
 
     rolling = excess(0.0)

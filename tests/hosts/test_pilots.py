@@ -35,6 +35,14 @@ def test_a_rising_speed_is_followed_closer_with_the_acceleration_fed_forward() -
     assert with_it < 0.2
 
 
+def test_it_starts_with_the_pedal_that_it_is_given() -> None:
+    """What the acceleration asks for is part of it, and does not come on top."""
+    pilot = SpeedHolder(lambda t: 20.0 - 7.0 * t, acceleration_gain=0.1, pedal=-0.3)
+    first, second = (pilot.act(t, {"speed": 20.0 - 7.0 * t}) for t in (0.0, 0.01))
+    assert first["brake"] == pytest.approx(0.3, abs=1e-9)
+    assert second["brake"] == pytest.approx(0.3, abs=1e-6)
+
+
 def test_without_brakes_a_car_that_is_too_fast_rolls() -> None:
     pilot = SpeedHolder(10.0, brakes=False)
     assert pilot.act(0.0, {"speed": 30.0}) == {"throttle": 0.0}

@@ -10,20 +10,20 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 46398,
+    "build": 46434,
     "build --kernel": 400,
-    "car": 33371,
+    "car": 33384,
     "run": 4090,
-    "run, all of it": 6820,
+    "run, all of it": 6821,
     "view": 950,
     "simulator": 8950,
-    "simulator, all of it": 16100,
+    "simulator, all of it": 16101,
     "check": 5880,
     "catalogue": 8460,
-    "compare": 9080,
+    "compare": 9110,
     "study": 7425,
-    "study --run": 8375,
-    "study, all of it": 16160,
+    "study --run": 8380,
+    "study, all of it": 16165,
     "road": 700,
 }
 """Lines; a command that needs fewer takes its number down with it."""

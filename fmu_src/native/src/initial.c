@@ -99,16 +99,36 @@ static ali3_status apply(slave *s) {
   return status == ALI3_OK ? ali3_initialise(s->fidelity.kernel, s->calls.start_time) : status;
 }
 
+/* Of a start that is found; *name: of the time that it takes. */
+static ali3_status settle(const slave *s, const char **name) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = 0; i < t->n_known; i++) {
+    if (t->variable[i].source != SLAVE_SETTLING || !(s->value[i] > 0.0)) continue;
+    *name = t->variable[i].name;
+    return ali3_settle(s->fidelity.kernel, s->value[i], s->value[s->step_reference]);
+  }
+  return ALI3_OK;
+}
+
 bool slave_initialise(slave *s) {
   char text[SLAVE_TEXT / 2];
   slave_stale(s);
   if (!slave_fidelity_choose(s)) return false;
   slave_hold_normals(s);
-  const ali3_status status = apply(s);
+  const char *settling = NULL;
+  ali3_status status = apply(s);
+  if (status == ALI3_OK) status = settle(s, &settling);
   s->calls.initialised = status == ALI3_OK;
   s->calls.capped_residual = 0.0;
   s->made.n = 0;
   s->outputs_fresh = false;
+  if (status != ALI3_OK && settling != NULL) {
+    slave_say(s, SLAVE_ERROR,
+              "The start did not settle while its motion was held, as '%.64s' asks for: %s. Set it to 0, or 'step_size' "
+              "to less.",
+              settling, ali3_status_text(status));
+    return false;
+  }
   if (status != ALI3_OK) {
     slave_say(s, SLAVE_ERROR, "The initial state could not be found: %s.%s", ali3_status_text(status),
               hint(s, status, text, sizeof text));

@@ -16,6 +16,7 @@ typedef enum {
   SLAVE_STEP_SIZE,
   SLAVE_FIDELITY,
   SLAVE_STEP_ITERATIONS,
+  SLAVE_SETTLING,
   SLAVE_SENSOR,
   SLAVE_SOLVER,          /* what the solver says about itself: ali3_solver_value */
   SLAVE_CAPPED_RESIDUAL, /* of the last communication step */

@@ -20,8 +20,8 @@ class SpeedHolder:
         Pedal per m/s2 of the wanted speed.
     brakes : bool
         Whether the brake is used; else a car that is too fast rolls.
-    pedal : float
-        With which it starts, at the wanted speed; negative: of the brake.
+    pedal : float, optional
+        Of its first act, at the wanted speed; negative: of the brake. Default: what the acceleration asks for.
 
     Notes
     -----
@@ -35,14 +35,15 @@ class SpeedHolder:
         integral_gain: float = 0.1,
         acceleration_gain: float = 0.1,
         brakes: bool = True,
-        pedal: float = 0.0,
+        pedal: float | None = None,
     ) -> None:
         self.speed = speed
         self.gain = gain
         self.integral_gain = integral_gain
         self.acceleration_gain = acceleration_gain
         self._lowest = -1.0 if brakes else 0.0
-        self._integral = pedal / integral_gain if integral_gain else 0.0
+        self._integral = 0.0
+        self._first = pedal if integral_gain else None
         self._time = 0.0
 
     def wanted(self, time: float) -> float:
@@ -52,12 +53,14 @@ class SpeedHolder:
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """See `hosts.driving.pilots.pilot.Pilot.act`; throttle and brake."""
         step, self._time = time - self._time, time
-        error = self.wanted(time) - senses["speed"]
-        pedal = self.gain * error + self.integral_gain * self._integral
+        error, forward = self.wanted(time) - senses["speed"], 0.0
         if callable(self.speed):
             # The communication step that is coming is as long as the last one.
             ahead = step or 1e-3
-            pedal += self.acceleration_gain * (self.wanted(time + ahead) - self.wanted(time)) / ahead
+            forward = self.acceleration_gain * (self.wanted(time + ahead) - self.wanted(time)) / ahead
+        if self._first is not None:
+            self._integral, self._first = (self._first - forward) / self.integral_gain, None
+        pedal = self.gain * error + self.integral_gain * self._integral + forward
         if self._lowest < pedal < 1.0:
             self._integral += step * error
         pedals = {"throttle": min(max(pedal, 0.0), 1.0)}

@@ -201,6 +201,18 @@ class Instance:
         """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""
         self._start(self._library.ali3_initialise(self._handle, t0))
 
+    def settle(self, duration: float, h: float) -> None:
+        """Hold the horizontal motion of a start while all else settles; after `initialise`.
+
+        Parameters
+        ----------
+        duration : float
+            s; at most 60.
+        h : float
+            Of the steps, s.
+        """
+        self._start(self._library.ali3_settle(self._handle, duration, h))
+
     def start_excess(self) -> tuple[float, int, str]:
         """Why a start was refused with `START_REFUSED`.
 

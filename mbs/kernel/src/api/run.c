@@ -14,11 +14,14 @@
 #include "../methods/whole_step.h"
 #include "../sensors/sensors.h"
 #include "../start/initialise.h"
+#include "../start/settle.h"
 #include "../start/start_on_road.h"
 #include "../state/inputs.h"
 #include "../state/road_files.h"
 #include "../state/vectors.h"
 #include "../system/loading.h"
+
+static const double MOST_SETTLING_STEPS = 1e7;
 
 /* After an initial problem: a good one starts the clock, a failed one puts the state back and stays in the report. */
 static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
@@ -84,6 +87,33 @@ ali3_status ali3_step(ali3_instance *in, double h) {
   in->unobserved = in->sampled = false;
   in->call_residual = 0.0;
   return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h, NULL), h) : status;
+}
+
+ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
+  if (in == NULL || !(h > 0.0) || !(duration >= 0.0) || !(duration <= ALI3_LONGEST_SETTLING) || !in->system->size.has_pose)
+    return ALI3_BAD_ARGUMENT;
+  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  const double t0 = ali3_time(in), steps = ceil(duration / h * (1.0 - 1e-9));
+  ali3_held_motion held;
+  if (!(steps > 0.0)) return ALI3_OK;
+  if (!(steps <= MOST_SETTLING_STEPS) || !ali3_hold(in, &held)) return ALI3_BAD_ARGUMENT;
+  in->t_base = t0 - steps * h;
+  ali3_status status = ALI3_OK;
+  for (int64_t k = 0; k < (int64_t)steps && status == ALI3_OK; k++) {
+    status = ali3_step(in, h);
+    if (status == ALI3_OK) ali3_put_back(in, &held);
+    if (status == ALI3_OK) status = ali3_refresh(in);
+  }
+  if (status != ALI3_OK) {
+    in->initialised = 0;
+    return status;
+  }
+  const ali3_report none = {0};
+  in->report = none;
+  ali3_vectors_copy(in, &in->start, &in->now);
+  status = begin(in, ali3_solve_rates(in, true), t0);
+  in->initialised = status == ALI3_OK;
+  return status;
 }
 
 /* After a unobserved or sampled step the last good state lacks what only a reader needs. */

@@ -1,0 +1,14 @@
+/* A start in motion that is held while the rest settles: what is held, and the scene put back to it. */
+#ifndef ALI3_SETTLE_H
+#define ALI3_SETTLE_H
+#include "../instance.h"
+
+/* Of the heaviest body: coordinates along x of a point and of a direction; their place, velocity, direction, rate. */
+typedef struct {
+  int32_t point, axis;
+  double place[2], velocity[2], direction[2], rate;
+} ali3_held_motion;
+
+bool ali3_hold(ali3_instance *in, ali3_held_motion *held); /* false: no body has a point and a direction of its own */
+void ali3_put_back(ali3_instance *in, const ali3_held_motion *held);
+#endif

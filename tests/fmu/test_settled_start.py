@@ -1,0 +1,50 @@
+"""The parameter `initial.settling`: a start in motion is held until tyres, springs and steering have settled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import mbs
+from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.scenes import prototype_car
+
+HostMaker = Callable[..., Any]
+H = 0.01
+START = {"initial.speed": 20.0, "initial.lateral_speed": 0.3, "initial.yaw_rate": 0.25}
+OUTPUTS = ("chassis.roll", "chassis.ay", "wheel_FL.Fz", "wheel_RR.Fy", "energy.kinetic", "chassis.x")
+
+
+def test_it_is_the_start_of_the_engine(prototype_fmu: Path, host: HostMaker) -> None:
+    driven = host(prototype_fmu).start(
+        {**START, "steering": 0.1, "brake": 0.1, "step_size": H, "initial.settling": 1.0}
+    )
+    system = mbs.compile(prototype_car.build())
+    instance = Instance(LoadedSystem(system.to_bytes()))
+    inputs, sensors = ([entry["name"] for entry in system.meta[k]] for k in ("inputs", "sensors"))
+    for name in ("steering", "brake"):
+        instance.set_input(inputs.index(name), 0.1)
+    instance.set_pose(0.0, 0.0, 0.0, 0.0, *START.values())
+    instance.initialise(0.0)
+    instance.settle(1.0, H)
+    for k in range(10):
+        found = instance.sensors()
+        assert [driven.get(n) for n in OUTPUTS] == [found[sensors.index(n)] for n in OUTPUTS]
+        assert driven.step(k * H, H) == 0
+        instance.step(H)
+    assert abs(found[sensors.index("chassis.roll")]) > 0.03
+
+
+def test_without_it_a_start_is_as_drawn(prototype_fmu: Path, host: HostMaker) -> None:
+    driven = host(prototype_fmu).start({**START, "steering": 0.1})
+    assert abs(driven.get("chassis.roll")) < 1e-3
+
+
+@pytest.mark.parametrize("value", [-1.0, 11.0])
+def test_a_time_out_of_its_range_is_refused(prototype_fmu: Path, host: HostMaker, value: float) -> None:
+    driven = host(prototype_fmu)
+    assert driven.set("initial.settling", value) != 0
+    assert "initial.settling" in driven.messages[-1]

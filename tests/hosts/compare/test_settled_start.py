@@ -1,0 +1,70 @@
+"""A log that begins in a turn: what is not measured has settled before the comparison begins."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hosts.compare.command import main
+from hosts.compare.loaded_fmu import smoothed
+from hosts.compare.log import Signal
+from hosts.driving.co_simulation import run
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.fmu import Fmu
+
+NAMES = ("speed", "chassis.vy", "chassis.wz", "chassis.ay")
+BEGIN = 3.0  # s, by then the turn is steady
+
+
+@pytest.fixture(scope="module")
+def log(prototype_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One second of a turn with the inputs held, in which a new run stays if it begins in it."""
+    t = np.array([0.0, 1.0, 5.0])
+    inputs = {"steering": np.array([0.0, 0.1, 0.1]), "throttle": 0.1 + 0.0 * t}
+    with Fmu(prototype_fmu) as fmu:
+        found = run(fmu, Manoeuvre("turn", t, inputs, BEGIN + 1.0, {"initial.speed": 15.0}), 0.01)
+    rows = found.time >= BEGIN - 1e-9
+    columns = [found.time[rows] - BEGIN, *(found[n][rows] for n in ("steering", "throttle", *NAMES))]
+    path = tmp_path_factory.mktemp("log") / "turn.csv"
+    header = ",".join(("time", "steering", "throttle", *NAMES))
+    np.savetxt(path, np.column_stack(columns), delimiter=",", header=header, comments="", fmt="%.9g")
+    return path
+
+
+def compared(car: Path, log: Path, folder: Path, *options: str) -> dict:
+    record = folder / "record.json"
+    chosen = ["--signals", "chassis.wz,chassis.ay", "--out", str(folder / "out"), "--json", str(record)]
+    assert main([str(car), str(log), *chosen, *options]) == 0
+    return dict(json.loads(record.read_text()))
+
+
+def test_it_goes_on_in_the_turn(prototype_fmu: Path, log: Path, tmp_path: Path) -> None:
+    settled = compared(prototype_fmu, log, tmp_path)
+    drawn = compared(prototype_fmu, log, tmp_path, "--set", "initial.settling=0")
+    assert settled["start"]["initial.settling"] > 0.0
+    assert any("held in this motion" in n and "initial.settling" in n for n in settled["notes"])
+    assert not any("held in this motion" in n for n in drawn["notes"])
+    errors = [{m["name"]: m["value"] for m in record["measures"]} for record in (settled, drawn)]
+    for name in ("chassis.wz", "chassis.ay"):
+        assert errors[0][f"{name}.rms"] < 0.25 * errors[1][f"{name}.rms"], name
+
+
+def test_a_log_from_rest_needs_none(prototype_fmu: Path, log: Path, tmp_path: Path) -> None:
+    header, *rows = log.read_text().splitlines()
+    at_rest = tmp_path / "rest.csv"
+    at_rest.write_text("\n".join([header, *(f"{row.split(',')[0]},0,0,0,0,0,0" for row in rows)]))
+    assert "initial.settling" not in compared(prototype_fmu, at_rest, tmp_path)["start"]
+
+
+def test_the_acceleration_that_a_driver_follows_is_without_noise() -> None:
+    t = np.arange(0.0, 5.0, 0.01)
+    noise = 0.03 * np.random.default_rng(1).standard_normal(len(t))
+    true = Signal("speed", "speed", "m/s", t, 20.0 - 6.0 * t + 1.5 * t**2)
+    found = smoothed(Signal("speed", "speed", "m/s", t, true.values + noise))
+    assert np.gradient(found.values - true.values, t).std() < 0.2 * np.gradient(noise, t).std()
+    np.testing.assert_allclose(smoothed(true).values, true.values, atol=1e-9)  # a parabola stays
+    short = Signal("speed", "speed", "m/s", t[:3], noise[:3])
+    assert smoothed(short) is short
