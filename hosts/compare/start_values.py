@@ -64,8 +64,8 @@ def measured_start(
     if abs(float(start.get("initial.speed", 0.0))) > _MOVES and _SETTLING in fmu.variables and _SETTLING not in given:
         start[_SETTLING] = _SETTLED
         notes.append(
-            f"Before it the car is held in this motion for {_SETTLED:g} s ({_SETTLING}): roll, pitch, tyres and steering, "
-            "which were not measured, settle."
+            f"Before it the car is held in this motion for {_SETTLED:g} s ({_SETTLING}), so that roll, pitch, tyres "
+            "and steering, which were not measured, have settled."
         )
     if held:
         notes.append(f"The start is not as measured but as given: {', '.join(held)}.")
