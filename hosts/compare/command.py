@@ -7,6 +7,7 @@ parameters are sought with which the FMU comes nearest to the log, and how well 
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -48,10 +49,11 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.co
     parser.add_argument("--longest-delay", type=number, default=1.0, metavar="T", help="looked for, s; default 1")
     parser.add_argument(
         "--fit",
-        action="append",
+        action="extend",
+        type=_parameters,
         default=[],
-        metavar="NAME[=LOW:HIGH]",
-        help="find this parameter; repeatable; default range: from half to twice its value",
+        metavar="NAME[=LOW:HIGH],...",
+        help="find these parameters; repeatable; default range: from half to twice the value",
     )
     parser.add_argument(
         "--nuisance",
@@ -71,6 +73,10 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.co
     add_old_names(parser, {"--fmu-aliases": "--aliases (and that of the log is now --log-aliases)"})
     options = parser.parse_args(arguments)
     return run_command(lambda: _compare(options))
+
+
+def _parameters(text: str) -> list[str]:
+    return re.split(r",(?![^\[]*\])", text)  # but not at the comma of an element of an array
 
 
 def _compare(options: argparse.Namespace) -> int:

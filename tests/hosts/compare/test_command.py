@@ -100,7 +100,7 @@ class TestCommand:
         self, tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
     ) -> None:
         """Every start finds the numbers of SciPy's pendulum within the intervals; so do folds, until they change."""
-        fit = ("--fit", "spring.stiffness=60:200", "--fit", "spring.damping=0.3:4", "--starts", "3")
+        fit = ("--fit", "spring.stiffness=60:200,spring.damping=0.3:4", "--starts", "3")
 
         def fitted(columns: Columns) -> tuple[dict[str, dict[str, float | list[float]]], list[dict[str, list[float]]]]:
             file = write(tmp_path / "drive.csv", columns)
