@@ -12,6 +12,7 @@ from itertools import zip_longest
 from typing import Any
 
 from fmu_src.variables.units import DISPLAY_UNITS, canonical_unit, parse_unit
+from mbs.kernel.header.limits import LONGEST_SETTLING
 
 _STRUCTURED_NAME = re.compile(r"[A-Za-z_]\w*(\[\d+(,\d+)*\])?(\.[A-Za-z_]\w*(\[\d+(,\d+)*\])?)*", re.ASCII)
 # A part of a structured name begins with a letter: angle.1 of a model is angle_1 of its FMU.
@@ -27,7 +28,6 @@ _POSE = (
 )
 STEP_SIZE = "step_size"
 SETTLING = "initial.settling"
-_LONGEST_SETTLING = 10.0
 _DEPRECATED = "deprecated"
 STEP_ITERATIONS = "solver.step_iterations"
 _MOST_ITERATIONS = 1000.0
@@ -215,7 +215,7 @@ def variable_table(
     )
     if pose:
         text = "How long the start's horizontal motion is held beforehand while tyres, springs and steering settle"
-        table.append(Variable(SETTLING, "parameter", "fixed", "s", text, "settling", 0, 0.0, 0.0, _LONGEST_SETTLING))
+        table.append(Variable(SETTLING, "parameter", "fixed", "s", text, "settling", 0, 0.0, 0.0, LONGEST_SETTLING))
     table += [_sensor(entry, k) for k, entry in enumerate(meta["sensors"])]
     sensed = {entry["name"] for entry in meta["sensors"]}
     table += [

@@ -39,6 +39,7 @@ LIMITS = {
     "ALI3_FARTHEST": "Largest distance of a start, m.",
     "ALI3_FASTEST": "Largest speed of a start, m/s.",
     "ALI3_POSE": "Numbers of a pose.",
+    "ALI3_LONGEST_SETTLING": "For which a start may settle, s.",
     "ALI3_BALANCE_WRONG": "Energy balance above which, at any time, no run was right that was tried.",
     "ALI3_HALVINGS_SUSPECT": "Halvings per step above which a run is suspect.",
     "ALI3_SYSTEM_VERSION": "Of the System file.",

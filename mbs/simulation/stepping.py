@@ -12,8 +12,10 @@ from typing import Any
 from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import Instance, KernelError, Status
+from mbs.kernel.header.limits import LONGEST_SETTLING
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
+from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.shipped import road_path
 from mbs.roads.steep_faces import RoadWarning
@@ -277,6 +279,41 @@ class Simulation(SteppedSystem):
             "No static equilibrium was found near the present position",
             lambda: self.instance.static_equilibrium(self.time, force, most),
         )
+
+    def settle(self, duration: float, h: float) -> None:
+        """Hold the horizontal motion of a start while roll, tyres, springs and steering settle, time unchanged.
+
+        After each step the scene is put back as a whole: place along the ground, heading, horizontal velocity and yaw
+        rate of its heaviest body stay. Works are counted from here on, as in an FMU with `initial.settling`.
+
+        Parameters
+        ----------
+        duration : float
+            s, at most 10.
+        h : float
+            Step, s.
+
+        Raises
+        ------
+        ValueError
+            The duration or the step is none, or joints tie the scene to the ground.
+        SimulationError
+            A step failed; the state is the one before.
+        """
+        lasting, length = number(duration, "The duration of settling", ValueError), check_step(h)
+        if not 0.0 <= lasting <= LONGEST_SETTLING:
+            raise ValueError(
+                f"The duration of settling is {lasting:g} s; it must lie between 0 and {LONGEST_SETTLING:g} s."
+            )
+        if not self._meta.get("floating", True):
+            name = self._meta["name"]
+            raise ValueError(f"The System {name!r} cannot settle in motion: its joints tie it to the ground.")
+        self._twin, state = None, self.instance.save()
+        try:
+            self._call("The start did not settle", lambda: self.instance.settle(lasting, length))
+        except SimulationError:
+            self.instance.restore(state)
+            raise
 
     def step(self, h: float, n: int = 1) -> None:
         """Make steps with the inputs as they are.

@@ -125,7 +125,7 @@ def test_no_time_changes_nothing(car: mbs.System) -> None:
 
 
 @pytest.mark.parametrize(
-    ("duration", "h"), [(-1.0, H), (math.nan, H), (61.0, H), (1.0, 0.0), (1.0, -H), (1.0, math.nan), (60.0, 1e-9)]
+    ("duration", "h"), [(-1.0, H), (math.nan, H), (10.1, H), (1.0, 0.0), (1.0, -H), (1.0, math.nan), (10.0, 1e-9)]
 )
 def test_what_it_refuses(car: mbs.System, duration: float, h: float) -> None:
     instance = started(car, 0.0, 0.0, 0.0, 0.0, 0.0, SPEED)

@@ -207,7 +207,7 @@ class Instance:
         Parameters
         ----------
         duration : float
-            s; at most 60.
+            s, at most `LONGEST_SETTLING`.
         h : float
             Of the steps, s.
         """

@@ -8,6 +8,8 @@ FASTEST = 1e6
 """Largest speed of a start, m/s."""
 POSE = 7
 """Numbers of a pose."""
+LONGEST_SETTLING = 10.0
+"""For which a start may settle, s."""
 BALANCE_WRONG = 0.036
 """Energy balance above which, at any time, no run was right that was tried."""
 HALVINGS_SUSPECT = 0.1

@@ -232,7 +232,7 @@ ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
 /* After ali3_initialise of a scene that a pose may place: place along the ground, heading, horizontal velocity and yaw
  * rate of its heaviest body are held for the duration (s) by steps of h, with the present inputs, while all else settles;
  * then the run begins, at the same time and with books at zero. After a failure the scene must be initialised again. */
-#define ALI3_LONGEST_SETTLING 60.0
+#define ALI3_LONGEST_SETTLING 10.0
 ALI3_API ali3_status ali3_settle(ali3_instance *in, double duration, double h);
 /* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
