@@ -52,6 +52,15 @@ def test_what_it_refuses(car: mbs.System, duration: float, h: float, said: str) 
     assert run.save() == before
 
 
+def test_the_clock_goes_on_where_it_was(car: mbs.System) -> None:
+    run = mbs.Simulation(car, pose=POSE)
+    run.step(H, 100)
+    run.settle(1.0, H)
+    assert run.time == pytest.approx(0.5, abs=1e-12)
+    run.step(H, 100)
+    assert run.time == pytest.approx(1.0, abs=1e-12)
+
+
 def test_a_scene_that_is_tied_to_the_ground_cannot() -> None:
     run = mbs.Simulation(mbs.compile(double_four_bar.build()))
     with pytest.raises(ValueError, match="tie it to the ground"):

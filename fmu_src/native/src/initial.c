@@ -123,10 +123,11 @@ bool slave_initialise(slave *s) {
   s->made.n = 0;
   s->outputs_fresh = false;
   if (status != ALI3_OK && settling != NULL) {
-    slave_say(s, SLAVE_ERROR,
-              "The start did not settle while its motion was held, as '%.64s' asks for: %s. Set it to 0, or 'step_size' "
-              "to less.",
-              settling, ali3_status_text(status));
+    slave_say(
+        s, SLAVE_ERROR,
+        "The start did not settle while its motion was held, as '%.64s' asks for: %s. Set it to 0, or 'step_size' "
+        "to less.",
+        settling, ali3_status_text(status));
     return false;
   }
   if (status != ALI3_OK) {

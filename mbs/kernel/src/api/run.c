@@ -90,14 +90,16 @@ ali3_status ali3_step(ali3_instance *in, double h) {
 }
 
 ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
-  if (in == NULL || !(h > 0.0) || !(duration >= 0.0) || !(duration <= ALI3_LONGEST_SETTLING) || !in->system->size.has_pose)
-    return ALI3_BAD_ARGUMENT;
+  if (in == NULL || !(h > 0.0) || !in->system->size.has_pose) return ALI3_BAD_ARGUMENT;
+  if (!(duration >= 0.0 && duration <= ALI3_LONGEST_SETTLING)) return ALI3_BAD_ARGUMENT;
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   const double t0 = ali3_time(in), steps = ceil(duration / h * (1.0 - 1e-9));
   ali3_held_motion held;
   if (!(steps > 0.0)) return ALI3_OK;
   if (!(steps <= MOST_SETTLING_STEPS) || !ali3_hold(in, &held)) return ALI3_BAD_ARGUMENT;
   in->t_base = t0 - steps * h;
+  in->h_last = 0.0;
+  in->count = 0;
   ali3_status status = ALI3_OK;
   for (int64_t k = 0; k < (int64_t)steps && status == ALI3_OK; k++) {
     status = ali3_step(in, h);
