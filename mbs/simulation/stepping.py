@@ -280,7 +280,7 @@ class Simulation(SteppedSystem):
             lambda: self.instance.static_equilibrium(self.time, force, most),
         )
 
-    def settle(self, duration: float, h: float) -> None:
+    def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while roll, tyres, springs and steering settle, time unchanged.
 
         After each step the scene is put back as a whole: place along the ground, heading, horizontal velocity and yaw
@@ -292,6 +292,11 @@ class Simulation(SteppedSystem):
             s, at most 10.
         h : float
             Step, s.
+
+        Returns
+        -------
+        float
+            The largest speed that is left beside the held motion, m/s: above 0.01 it should have lasted longer.
 
         Raises
         ------
@@ -309,11 +314,13 @@ class Simulation(SteppedSystem):
             name = self._meta["name"]
             raise ValueError(f"The System {name!r} cannot settle in motion: its joints tie it to the ground.")
         self._twin, state = None, self.instance.save()
+        left: list[float] = []
         try:
-            self._call("The start did not settle", lambda: self.instance.settle(lasting, length))
+            self._call("The start did not settle", lambda: left.append(self.instance.settle(lasting, length)))
         except SimulationError:
             self.instance.restore(state)
             raise
+        return left[0]
 
     def step(self, h: float, n: int = 1) -> None:
         """Make steps with the inputs as they are.

@@ -43,6 +43,12 @@ def test_without_it_a_start_is_as_drawn(prototype_fmu: Path, host: HostMaker) ->
     assert abs(driven.get("chassis.roll")) < 1e-3
 
 
+def test_one_that_has_not_settled_is_told(prototype_fmu: Path, host: HostMaker) -> None:
+    short, long = (host(prototype_fmu).start({**START, "initial.settling": t}) for t in (0.1, 3.0))
+    assert any("has not settled" in m and "initial.settling" in m for m in short.messages)
+    assert not any("settle" in m for m in long.messages)
+
+
 @pytest.mark.parametrize("value", [-1.0, 11.0])
 def test_a_time_out_of_its_range_is_refused(prototype_fmu: Path, host: HostMaker, value: float) -> None:
     driven = host(prototype_fmu)

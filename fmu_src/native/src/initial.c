@@ -99,6 +99,8 @@ static ali3_status apply(slave *s) {
   return status == ALI3_OK ? ali3_initialise(s->fidelity.kernel, s->calls.start_time) : status;
 }
 
+static const double STILL = 0.01; /* m/s */
+
 /* Of a start that is found; *name: of the time that it takes. */
 static ali3_status settle(const slave *s, const char **name) {
   const slave_table *t = &slave_the_table;
@@ -135,6 +137,9 @@ bool slave_initialise(slave *s) {
               hint(s, status, text, sizeof text));
     return false;
   }
+  if (settling != NULL && ali3_unsettled(s->fidelity.kernel) > STILL)
+    slave_say(s, SLAVE_WARNING, "The start has not settled: parts still move at %.2g m/s; set '%.64s' to more.",
+              ali3_unsettled(s->fidelity.kernel), settling);
   memset(s->pending, 0, slave_the_table.n_known);
   return true;
 }

@@ -201,7 +201,7 @@ class Instance:
         """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""
         self._start(self._library.ali3_initialise(self._handle, t0))
 
-    def settle(self, duration: float, h: float) -> None:
+    def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while all else settles; after `initialise`.
 
         Parameters
@@ -210,8 +210,14 @@ class Instance:
             s, at most `LONGEST_SETTLING`.
         h : float
             Of the steps, s.
+
+        Returns
+        -------
+        float
+            The largest speed that is left beside the held motion, m/s.
         """
         self._start(self._library.ali3_settle(self._handle, duration, h))
+        return float(self._library.ali3_unsettled(self._handle))
 
     def start_excess(self) -> tuple[float, int, str]:
         """Why a start was refused with `START_REFUSED`.

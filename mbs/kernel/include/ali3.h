@@ -234,6 +234,8 @@ ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
  * then the run begins, at the same time and with books at zero. After a failure the scene must be initialised again. */
 #define ALI3_LONGEST_SETTLING 10.0
 ALI3_API ali3_status ali3_settle(ali3_instance *in, double duration, double h);
+/* After it: the largest speed, m/s, of a point or of the end of a direction beside the held motion. */
+ALI3_API double ali3_unsettled(const ali3_instance *in);
 /* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
 ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words);

@@ -80,6 +80,7 @@ struct ali3_instance {
   ali3_road *road, *own_road; /* in use: the System's own or from files; the System's own */
   int32_t n_roads; /* the System may be gone before its instances */
   bool to_lift; /* the next start is at a place of which it is not known how high its road is */
+  double unsettled; /* m/s: what the last settled start had left */
   double lift, uneven; /* of start_on_road.c, m: what raised the start; how far above its rest the highest part is */
   /* work space */
   double *D, *d0, *r, *x, *w, *hat; /* nq */

@@ -112,11 +112,14 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   }
   const ali3_report none = {0};
   in->report = none;
+  in->unsettled = ali3_unsettled_speed(in, &held);
   ali3_vectors_copy(in, &in->start, &in->now);
   status = begin(in, ali3_solve_rates(in, true), t0);
   in->initialised = status == ALI3_OK;
   return status;
 }
+
+double ali3_unsettled(const ali3_instance *in) { return in != NULL ? in->unsettled : 0.0; }
 
 /* After a unobserved or sampled step the last good state lacks what only a reader needs. */
 static ali3_status give_up(ali3_instance *in, ali3_status status, bool unobserved, bool sampled) {

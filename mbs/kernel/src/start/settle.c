@@ -98,3 +98,15 @@ void ali3_put_back(ali3_instance *in, const ali3_held_motion *start) {
   const double vy = start->velocity[1] - now.velocity[1] - rate * start->place[0];
   for (int32_t i = 0; i < S->size.nq; i++) qd[i] += rate * in->w[i] + vx * S->pose_x[i] + vy * S->pose_y[i];
 }
+
+double ali3_unsettled_speed(const ali3_instance *in, const ali3_held_motion *held) {
+  const ali3_system *S = in->system;
+  const double *q = in->now.q, *qd = in->now.qd, rate = held->rate;
+  const double vx = held->velocity[0] + rate * held->place[1], vy = held->velocity[1] - rate * held->place[0];
+  double most = 0.0;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    if (S->pose_partner[i] == 0 && S->pose_z[i] == 0.0) continue; /* wheels turn */
+    most = fmax(most, fabs(qd[i] - rate * turned(S, q, i, false) - vx * S->pose_x[i] - vy * S->pose_y[i]));
+  }
+  return most;
+}

@@ -11,4 +11,5 @@ typedef struct {
 
 bool ali3_hold(ali3_instance *in, ali3_held_motion *held); /* false: no body has a point and a direction of its own */
 void ali3_put_back(ali3_instance *in, const ali3_held_motion *held);
+double ali3_unsettled_speed(const ali3_instance *in, const ali3_held_motion *held); /* m/s beside the held motion */
 #endif
