@@ -150,7 +150,9 @@ class _Tries:
             elif kind.get(i) != _ECHO and (self.step[i] or i not in kind):
                 self.step[i] |= acting
         if any(v.source == "settling" for v in self.table):
-            self.settling = {i for i in self.sensed if kind[i] != _ECHO and (self.step[i] or self.initial[i])}
+            moving = {i for i in self.sensed if kind[i] != _ECHO and (self.step[i] or self.initial[i])}
+            ahead = {i for i in self.outputs if self.table[i].source == "ahead"}
+            self.settling = moving | {i for i in ahead if {self.table[i].index, self.table[i].other} & moving}
 
     def _steps(self, kernel: Instance, h: float, rng: random.Random) -> None:
         values = {i: self._random(i, rng) for i in self.settable}

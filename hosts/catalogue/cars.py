@@ -18,7 +18,10 @@ AS_IS = "as-is"
 """In place of a parameter set: the FMU as it is."""
 NO_ALIASES = "none"
 """In place of an alias file: the FMU has our names."""
-_OF_THE_TESTS = ("initial.speed", "initial.x", "initial.y", "initial.z", "initial.yaw")
+_OF_THE_TESTS = (
+    *("initial.speed", "initial.lateral_speed", "initial.yaw_rate", "initial.settling"),
+    *("initial.x", "initial.y", "initial.z", "initial.yaw"),
+)
 
 
 def cars_of(

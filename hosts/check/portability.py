@@ -61,12 +61,19 @@ def about_the_file(subject: Subject) -> Finding:
         words.append(f"{len(shared)} descriptions stand at several variables, such as '{shared[0]}'")
     if not any(v.nominal is not None for v in variables):
         words.append("no typical sizes (nominal)")
-    initial = [u.dependencies for u in subject.description.initialUnknowns if u.dependencies]
+    unknowns = subject.description.initialUnknowns
+    initial = [u.dependencies for u in unknowns if u.dependencies]
     if len(initial) > 8 and all(len(d) == len(initial[0]) > 1 for d in initial):
         words.append("every initial output is said to depend on everything")
     if words:
         return Finding("about the file", "bad", "; ".join(words))
-    return Finding("about the file", "good", "rights, date, distinct descriptions, typical sizes, sparse dependencies")
+    left_out = sum(u.dependencies is None for u in unknowns)
+    told = (
+        f"{left_out} of {len(unknowns)} initial outputs depend on all that is set"
+        if left_out
+        else "sparse dependencies"
+    )
+    return Finding("about the file", "good", f"rights, date, distinct descriptions, typical sizes; {told}")
 
 
 def build_files(subject: Subject) -> Finding:

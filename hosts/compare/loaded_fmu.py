@@ -23,14 +23,23 @@ from hosts.fmu.fmu import Fmu
 _GAINS = 0.8, 0.5, 0.1  # pedal per m/s, per m and per m/s2: the speed is to be as measured, not comfortable
 
 _SMOOTHED, _PARABOLA = 0.2, 2  # s; degree
+_UNEVEN = 0.5  # of the time between samples
 
 
 def smoothed(speed: Signal) -> Signal:
-    """By parabolas over 0.2 s: the acceleration that a driver feeds forward is else mostly the noise of samples."""
-    window = 2 * round(0.5 * _SMOOTHED / speed.interval) + 1
-    if window <= _PARABOLA + 1 or len(speed.values) <= window:
+    """By parabolas over 0.2 s: the acceleration that a driver feeds forward is else mostly the noise of samples.
+
+    Parts between gaps are smoothed each for itself, short ones and those of uneven samples are left as they are.
+    """
+    if len(speed.values) < _PARABOLA + 2:
         return speed
-    return replace(speed, values=savgol_filter(speed.values, window, _PARABOLA))
+    window, parts = 2 * round(0.5 * _SMOOTHED / speed.interval) + 1, speed.values.copy()
+    every = np.diff(speed.time)
+    uneven = np.flatnonzero(np.abs(every - speed.interval) > _UNEVEN * speed.interval) + 1
+    for part in np.split(np.arange(len(parts)), uneven):
+        if len(part) >= window > _PARABOLA + 1:
+            parts[part] = savgol_filter(speed.values[part], window, _PARABOLA)
+    return replace(speed, values=parts)
 
 
 def _holder(speed: Signal, pedal: float) -> SpeedHolder:

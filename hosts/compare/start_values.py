@@ -61,7 +61,9 @@ def measured_start(
     if start:
         words = ", ".join(f"{n} = {v:.4g}" for n, v in start.items())
         notes.append(f"The start is as measured: {words}{_WHERE if 'initial.x' in start else ''}.")
-    if abs(float(start.get("initial.speed", 0.0))) > _MOVES and _SETTLING in fmu.variables and _SETTLING not in given:
+    whole = {**start, **given}
+    moves = abs(float(whole.get("initial.speed", 0.0))) > _MOVES and "initial.yaw_rate" in whole
+    if moves and _SETTLING in fmu.variables and _SETTLING not in given:
         start[_SETTLING] = _SETTLED
         notes.append(
             f"Before it the car is held in this motion for {_SETTLED:g} s ({_SETTLING}), so that roll, pitch, tyres "

@@ -18,6 +18,7 @@ from hosts.simulator.saved_states import Mark, SavedStates
 
 _POSE, _INITIAL = ("chassis.x", "chassis.y", "chassis.yaw"), ("initial.x", "initial.y", "initial.yaw")
 _SPEED = "initial.speed"
+_MOVING = ("initial.lateral_speed", "initial.yaw_rate", "initial.settling")
 _AT_REST = (*_INITIAL, _SPEED)
 
 
@@ -239,6 +240,7 @@ class DrivenFmu:
         if not all(map(math.isfinite, initial)):
             raise HostError("The car cannot be set upright: its place is not a finite number; a reset starts it again.")
         start = self._start | dict(zip(_INITIAL, initial, strict=True)) | {_SPEED: 0.0}
+        start |= {name: 0.0 for name in _MOVING if name in start}
         self._new_start(start, self.time, wish)
         self._started()
         return Told("upright", f"The car was set on its wheels at x = {x:.2f} m, y = {y:.2f} m.", {"start": start})

@@ -301,7 +301,7 @@ class Simulation(SteppedSystem):
         Raises
         ------
         ValueError
-            The duration or the step is none, or joints tie the scene to the ground.
+            The duration or the step is out of its range, or joints tie the scene to the ground.
         SimulationError
             A step failed; the state is the one before.
         """
@@ -313,7 +313,7 @@ class Simulation(SteppedSystem):
         if not self._meta.get("floating", True):
             name = self._meta["name"]
             raise ValueError(f"The System {name!r} cannot settle in motion: its joints tie it to the ground.")
-        self._twin, state = None, self.instance.save()
+        self._twin, self.step_tried, state = None, length, self.instance.save()
         left: list[float] = []
         try:
             self._call("The start did not settle", lambda: left.append(self.instance.settle(lasting, length)))

@@ -306,7 +306,7 @@ def test_fmi_3_gives_the_same(
     assert len(set(references.values())) == len(references)
     folder = fmpy.extract(str(path), unzipdir=str(tmp_path / "unpacked"))
     heights_of = {u.variable.name: u for u in description.initialUnknowns}["wheel_FL.travel"]
-    assert "road.file" in {v.name for v in heights_of.dependencies}
+    assert heights_of.dependencies is None  # all that there are
     said: list[str] = []
     slave = FMU3Slave(
         guid=description.guid,

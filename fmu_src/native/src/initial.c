@@ -99,8 +99,6 @@ static ali3_status apply(slave *s) {
   return status == ALI3_OK ? ali3_initialise(s->fidelity.kernel, s->calls.start_time) : status;
 }
 
-static const double STILL = 0.01; /* m/s */
-
 /* Of a start that is found; *name: of the time that it takes. */
 static ali3_status settle(const slave *s, const char **name) {
   const slave_table *t = &slave_the_table;
@@ -125,11 +123,13 @@ bool slave_initialise(slave *s) {
   s->made.n = 0;
   s->outputs_fresh = false;
   if (status != ALI3_OK && settling != NULL) {
-    slave_say(
-        s, SLAVE_ERROR,
-        "The start did not settle while its motion was held, as '%.64s' asks for: %s. Set it to 0, or 'step_size' "
-        "to less.",
-        settling, ali3_status_text(status));
+    if (status == ALI3_BAD_ARGUMENT)
+      slave_say(s, SLAVE_ERROR, "No body of this scene has a direction that can be held; set '%.64s' to 0.", settling);
+    else
+      slave_say(s, SLAVE_ERROR,
+                "The start did not settle while its motion was held, as '%.64s' asks for: %s.%s Set it to 0, or "
+                "'step_size' to less.",
+                settling, ali3_status_text(status), status == ALI3_ROAD_LOST ? hint(s, status, text, sizeof text) : "");
     return false;
   }
   if (status != ALI3_OK) {
@@ -137,9 +137,6 @@ bool slave_initialise(slave *s) {
               hint(s, status, text, sizeof text));
     return false;
   }
-  if (settling != NULL && ali3_unsettled(s->fidelity.kernel) > STILL)
-    slave_say(s, SLAVE_WARNING, "The start has not settled: parts still move at %.2g m/s; set '%.64s' to more.",
-              ali3_unsettled(s->fidelity.kernel), settling);
   memset(s->pending, 0, slave_the_table.n_known);
   return true;
 }

@@ -92,6 +92,8 @@ slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference,
 }
 
 /* What a start on a road from a file is worth a word about. */
+static const double STILL = 0.01; /* m/s */
+
 void slave_texts_remark(slave *s) {
   double uneven;
   const double lift = ali3_start_lift(s->fidelity.kernel, &uneven);
@@ -100,6 +102,10 @@ void slave_texts_remark(slave *s) {
               "The road is not level where this starts: the start is raised by %.3g m so that nothing is in the road, "
               "and the part that hangs highest above its place of rest sinks by %.3g m.",
               lift, uneven);
+  if (ali3_unsettled(s->fidelity.kernel) > STILL)
+    slave_say(s, SLAVE_WARNING,
+              "The start has not settled: parts still move at %.1g m/s; 'initial.settling' should be longer.",
+              ali3_unsettled(s->fidelity.kernel));
   for (size_t i = 0; i < slave_the_table.n_known; i++) {
     const slave_variable *v = &slave_the_table.variable[i];
     if (s->value[i] != v->start && slave_without_effect(s, v))

@@ -21,7 +21,8 @@ class SpeedHolder:
     brakes : bool
         Whether the brake is used; else a car that is too fast rolls.
     pedal : float, optional
-        Of its first act, at the wanted speed; negative: of the brake. Default: what the acceleration asks for.
+        Of its first act, at the wanted speed; negative: of the brake. Default, and
+        without an integral: what the acceleration asks for.
 
     Notes
     -----

@@ -229,12 +229,15 @@ ALI3_API ali3_status ali3_get_switch(const ali3_instance *in, int32_t number, in
  * Position problem (mass-weighted nearest point on Phi = 0), velocity problem, consistent accelerations and
  * multipliers. */
 ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
-/* After ali3_initialise of a scene that a pose may place: place along the ground, heading, horizontal velocity and yaw
- * rate of its heaviest body are held for the duration (s) by steps of h, with the present inputs, while all else settles;
- * then the run begins, at the same time and with books at zero. After a failure the scene must be initialised again. */
+/* After ali3_initialise of a scene that a pose may place: the place along the ground and the velocity of the heaviest
+ * point, the heading and the yaw rate of the heaviest direction, in a car those of its chassis, are held for the duration
+ * (s) by steps of at most h, with the present inputs, or those of the input function before this time, while all else
+ * settles; then the run begins, at the same time and with books at zero. After a failure the scene must be reset.
+ * ALI3_BAD_ARGUMENT, too, where no body has a direction. */
 #define ALI3_LONGEST_SETTLING 10.0
 ALI3_API ali3_status ali3_settle(ali3_instance *in, double duration, double h);
-/* After it: the largest speed, m/s, of a point or of the end of a direction beside the held motion. */
+/* After it: the largest speed beside the held motion, m/s, of a point or, along the ground, of the end of a direction;
+ * of a body that turns by itself it does not become small. 0 after a start that did not settle. */
 ALI3_API double ali3_unsettled(const ali3_instance *in);
 /* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */

@@ -49,6 +49,7 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
   for (int64_t k = 0; k < in->system->n_inertia_real; k += ALI3_INERTIA_REALS)
     if (!ali3_inertia_possible(in->inertia_real + k)) return ALI3_BAD_INERTIA;
   in->report = none;
+  in->unsettled = 0.0;
   ali3_roads_forgive(in);
   ali3_vectors_copy(in, &in->start, &in->now);
   ali3_status status = ali3_roads_normals(in);
@@ -95,12 +96,13 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   const double t0 = ali3_time(in), steps = ceil(duration / h * (1.0 - 1e-9));
   ali3_held_motion held;
-  if (!(steps > 0.0)) return ALI3_OK;
+  ali3_status status = ali3_check_method(in);
+  if (status != ALI3_OK || !(steps > 0.0)) return status;
   if (!(steps <= MOST_SETTLING_STEPS) || !ali3_hold(in, &held)) return ALI3_BAD_ARGUMENT;
+  h = duration / steps;
   in->t_base = t0 - steps * h;
   in->h_last = 0.0;
   in->count = 0;
-  ali3_status status = ALI3_OK;
   for (int64_t k = 0; k < (int64_t)steps && status == ALI3_OK; k++) {
     status = ali3_step(in, h);
     if (status == ALI3_OK) ali3_put_back(in, &held);
