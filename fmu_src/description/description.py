@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from xml.etree import ElementTree
@@ -274,11 +274,7 @@ def with_texts(table: Sequence[Variable], reach: Dependencies, texts: Sequence[T
 def _structure(root: ElementTree.Element, table: Sequence[Variable], reach: Dependencies) -> None:
     """Outputs depend on inputs over a step, initial ones on all that was found to change them."""
     structure = ElementTree.SubElement(root, "ModelStructure")
-    ways: tuple[tuple[str, Mapping[int, tuple[int, ...] | None]], ...] = (
-        ("Outputs", reach.step),
-        ("InitialUnknowns", reach.initial),
-    )
-    for tag, of in ways:
+    for tag, of in (("Outputs", reach.step), ("InitialUnknowns", reach.initial)):
         group = ElementTree.Element(tag)
         for i, v in enumerate(table):
             if v.causality == "output":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from xml.etree import ElementTree
 
 from fmu_src.description.description import (
@@ -228,11 +228,7 @@ def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Depend
     structure = ElementTree.SubElement(root, "ModelStructure")
     array_of = {k: i for i, a in enumerate(arrays) for k in a.items}
     array_of |= {texts[0] + k: len(arrays) + 1 + k for k in range(texts[1])}
-    ways: tuple[tuple[str, Mapping[int, tuple[int, ...] | None]], ...] = (
-        ("Output", reach.step),
-        ("InitialUnknown", reach.initial),
-    )
-    for tag, of in ways:
+    for tag, of in (("Output", reach.step), ("InitialUnknown", reach.initial)):
         for i, a in enumerate(arrays):
             if a.of.causality == "output":
                 reached = [of[item] for item in a.items]

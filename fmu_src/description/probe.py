@@ -47,7 +47,7 @@ class Dependencies:
 
     Parameters
     ----------
-    step : dict of int to tuple of int
+    step : dict of int to tuple of int or None
         Inputs that reach the output at the end of a step.
     initial : dict of int to tuple of int or None
         Inputs and parameters that reach the initial output; None: all of them, as after a start that has settled.
@@ -55,7 +55,7 @@ class Dependencies:
         Largest absolute value seen; 0 where it was never anything else.
     """
 
-    step: dict[int, tuple[int, ...]]
+    step: dict[int, tuple[int, ...] | None]
     initial: dict[int, tuple[int, ...] | None]
     size: dict[int, float]
 

@@ -15,7 +15,6 @@ from mbs.kernel.binding import Instance, KernelError, Status
 from mbs.kernel.header.limits import LONGEST_SETTLING
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
-from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.shipped import road_path
 from mbs.roads.steep_faces import RoadWarning
@@ -283,8 +282,9 @@ class Simulation(SteppedSystem):
     def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while roll, tyres, springs and steering settle, time unchanged.
 
-        After each step the scene is put back as a whole: place along the ground, heading, horizontal velocity and yaw
-        rate of its heaviest body stay. Works are counted from here on, as in an FMU with `initial.settling`.
+        After each step the scene is put back as a whole: place along the ground and horizontal velocity of its heaviest
+        point, heading and yaw rate of its heaviest direction stay. Works are counted from here on, as in an FMU with
+        `initial.settling`.
 
         Parameters
         ----------
@@ -314,13 +314,12 @@ class Simulation(SteppedSystem):
             name = self._meta["name"]
             raise ValueError(f"The System {name!r} cannot settle in motion: its joints tie it to the ground.")
         self._twin, self.step_tried, state = None, length, self.instance.save()
-        left: list[float] = []
         try:
-            self._call("The start did not settle", lambda: left.append(self.instance.settle(lasting, length)))
-        except SimulationError:
+            return self.instance.settle(lasting, length)
+        except KernelError as error:
+            failed = refusal(self, "The start did not settle", error)
             self.instance.restore(state)
-            raise
-        return left[0]
+            raise failed from error
 
     def step(self, h: float, n: int = 1) -> None:
         """Make steps with the inputs as they are.

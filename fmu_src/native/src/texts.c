@@ -91,9 +91,9 @@ slave_status slave_set_text(slave *s, uint32_t first, const uint32_t *reference,
   return SLAVE_OK;
 }
 
-/* What a start on a road from a file is worth a word about. */
 static const double STILL = 0.01; /* m/s */
 
+/* What is worth a word about a start: on a road from a file, or that settles. */
 void slave_texts_remark(slave *s) {
   double uneven;
   const double lift = ali3_start_lift(s->fidelity.kernel, &uneven);

@@ -105,8 +105,9 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   in->count = 0;
   for (int64_t k = 0; k < (int64_t)steps && status == ALI3_OK; k++) {
     status = ali3_step(in, h);
-    if (status == ALI3_OK) ali3_put_back(in, &held);
-    if (status == ALI3_OK) status = ali3_refresh(in);
+    if (status != ALI3_OK) break;
+    ali3_put_back(in, &held);
+    status = ali3_refresh(in);
   }
   if (status != ALI3_OK) {
     in->initialised = 0;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../elements/signal.h"
 #include "../instance.h"
 #include "assembly_mode.h"
 
@@ -19,12 +20,6 @@ static const int32_t *triad(const ali3_system *S, int64_t k) { return S->mode_tr
 int64_t ali3_loop_count(const ali3_system *S) { return S->n_mode_triad_ptr > 0 ? S->n_mode_triad_ptr - 1 : 0; }
 
 int64_t ali3_triad_count(const ali3_system *S) { return S->n_mode_triad / ITEMS; }
-
-static double value(const ali3_system *S, const double *q, int32_t signal) {
-  double sum = S->sig_const[signal];
-  for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) sum += S->sig_val[k] * q[S->sig_col[k]];
-  return sum;
-}
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -41,12 +36,12 @@ static void angle(const ali3_system *S, const double *q, const int32_t *t, doubl
   const double *n = v, *a = v + 3, *b = v + 6;
   if (t[KIND] & PLANAR) {
     for (int i = 3; i < SIGNALS; i++)
-      if (i != 5 && i != 8) v[i] = value(S, q, t[i]);
+      if (i != 5 && i != 8) v[i] = ali3_signal_at(S, t[i], q, false);
     const double det = a[0] * b[1] - a[1] * b[0], c = a[0] * b[0] + a[1] * b[1];
     put(t[KIND], det * fabs(det), c * fabs(c), 0.0, sine, cosine);
     return;
   }
-  for (int i = 0; i < SIGNALS; i++) v[i] = value(S, q, t[i]);
+  for (int i = 0; i < SIGNALS; i++) v[i] = ali3_signal_at(S, t[i], q, false);
   const double nn = dot(n, n), det = n[0] * (a[1] * b[2] - a[2] * b[1]) + n[1] * (a[2] * b[0] - a[0] * b[2]) +
                                      n[2] * (a[0] * b[1] - a[1] * b[0]);
   const double c = nn * dot(a, b) - dot(n, a) * dot(n, b); /* (n x a) . (n x b) */

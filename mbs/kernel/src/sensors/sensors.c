@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "../algebra/elementary.h"
+#include "../elements/signal.h"
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
@@ -14,12 +15,9 @@
 
 /* Signal i (order 0) or its first or second rate. */
 static double signal(const ali3_instance *in, int32_t i, int32_t order) {
-  const ali3_system *S = in->system;
   const double *own = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
-  const double *x = S->n_tabled > 0 ? in->extended[order] : own;
-  double sum = order == 0 ? S->sig_const[i] : 0.0;
-  for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * x[S->sig_col[k]];
-  return sum;
+  const double *x = in->system->n_tabled > 0 ? in->extended[order] : own;
+  return ali3_signal_at(in->system, i, x, order > 0);
 }
 
 static void vector(const ali3_instance *in, const int32_t *v, int32_t order, double out[3]) {

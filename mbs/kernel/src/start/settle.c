@@ -1,12 +1,13 @@
 /* A start in motion, held until what nobody sets has settled: roll and pitch, springs, tyres, steering, the speed of
- * wheels under brakes. The scene makes steps; after each it is put back as a whole to the place along the ground, the
- * heading, the horizontal velocity and the yaw rate of its heaviest body at the start. Only a motion as one rigid body is
- * taken away, so that every part feels the accelerations that the forces give it. */
+ * wheels under brakes. The scene makes steps; after each it is put back as a whole to the start: place along the
+ * ground and horizontal velocity of its heaviest point, heading and yaw rate of its heaviest direction. Only a motion as
+ * one rigid body is taken away, so that every part feels the accelerations that the forces give it. */
 #include "settle.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "../elements/signal.h"
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 
@@ -38,31 +39,17 @@ static void find_heaviest(ali3_instance *in, ali3_held_motion *found) {
   }
 }
 
-/* The other horizontal component of coordinate i, or its rate. */
-static double partner(const ali3_system *S, const double *x, int32_t i, bool rate) {
-  const int32_t signal = (S->pose_partner[i] < 0 ? -S->pose_partner[i] : S->pose_partner[i]) - 1;
-  double sum = rate ? 0.0 : S->sig_const[signal];
-  for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) sum += S->sig_val[k] * x[S->sig_col[k]];
-  return sum;
-}
-
-/* How coordinate i changes by a unit turn to the left about the origin. */
-static double turned(const ali3_system *S, const double *x, int32_t i, bool rate) {
-  if (S->pose_partner[i] == 0) return 0.0;
-  return S->pose_partner[i] < 0 ? -partner(S, x, i, rate) : partner(S, x, i, rate);
-}
-
 static void look(const ali3_instance *in, ali3_held_motion *m) {
   const ali3_system *S = in->system;
-  const double *q = in->now.q, *qd = in->now.qd;
+  const double *q = in->now.q, *qd = in->now.qd; /* the y of a component along x: minus what a turn gives it */
   m->place[0] = q[m->point];
-  m->place[1] = partner(S, q, m->point, false);
+  m->place[1] = -ali3_turned(S, m->point, q, false);
   m->velocity[0] = qd[m->point];
-  m->velocity[1] = partner(S, qd, m->point, true);
-  const double x = q[m->axis], y = partner(S, q, m->axis, false), size = sqrt(x * x + y * y);
+  m->velocity[1] = -ali3_turned(S, m->point, qd, true);
+  const double x = q[m->axis], y = -ali3_turned(S, m->axis, q, false), size = sqrt(x * x + y * y);
   m->direction[0] = x / size;
   m->direction[1] = y / size;
-  m->rate = (x * partner(S, qd, m->axis, true) - y * qd[m->axis]) / (size * size);
+  m->rate = (x * -ali3_turned(S, m->axis, qd, true) - y * qd[m->axis]) / (size * size);
 }
 
 bool ali3_hold(ali3_instance *in, ali3_held_motion *held) {
@@ -75,7 +62,7 @@ bool ali3_hold(ali3_instance *in, ali3_held_motion *held) {
 /* x turned by the angle of this cosine and sine, in place. */
 static void turn(ali3_instance *in, double c, double s, bool rate, double *x) {
   const ali3_system *S = in->system;
-  for (int32_t i = 0; i < S->size.nq; i++) in->w[i] = turned(S, x, i, rate);
+  for (int32_t i = 0; i < S->size.nq; i++) in->w[i] = ali3_turned(S, i, x, rate);
   for (int32_t i = 0; i < S->size.nq; i++)
     if (S->pose_partner[i] != 0) x[i] = c * x[i] + s * in->w[i];
 }
@@ -93,7 +80,7 @@ void ali3_put_back(ali3_instance *in, const ali3_held_motion *start) {
   for (int32_t i = 0; i < S->size.nq; i++)
     q[i] += (start->place[0] - now.place[0]) * S->pose_x[i] + (start->place[1] - now.place[1]) * S->pose_y[i];
   const double rate = start->rate - now.rate;
-  for (int32_t i = 0; i < S->size.nq; i++) in->w[i] = turned(S, q, i, false);
+  for (int32_t i = 0; i < S->size.nq; i++) in->w[i] = ali3_turned(S, i, q, false);
   const double vx = start->velocity[0] - now.velocity[0] + rate * start->place[1];
   const double vy = start->velocity[1] - now.velocity[1] - rate * start->place[0];
   for (int32_t i = 0; i < S->size.nq; i++) qd[i] += rate * in->w[i] + vx * S->pose_x[i] + vy * S->pose_y[i];
@@ -106,7 +93,7 @@ double ali3_unsettled_speed(const ali3_instance *in, const ali3_held_motion *hel
   double most = 0.0;
   for (int32_t i = 0; i < S->size.nq; i++) {
     if (S->pose_partner[i] == 0 && S->pose_z[i] == 0.0) continue; /* wheels turn */
-    most = fmax(most, fabs(qd[i] - rate * turned(S, q, i, false) - vx * S->pose_x[i] - vy * S->pose_y[i]));
+    most = fmax(most, fabs(qd[i] - rate * ali3_turned(S, i, q, false) - vx * S->pose_x[i] - vy * S->pose_y[i]));
   }
   return most;
 }

@@ -3,7 +3,7 @@
 #define ALI3_SETTLE_H
 #include "../instance.h"
 
-/* Of the heaviest body: coordinates along x of a point and of a direction; their place, velocity, direction, rate. */
+/* Coordinates along x of the heaviest point and of the heaviest direction; their place, velocity, direction, rate. */
 typedef struct {
   int32_t point, axis;
   double place[2], velocity[2], direction[2], rate;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../elements/signal.h"
 #include "../instance.h"
 #include "../state/parameters.h"
 #include "../state/vectors.h"
@@ -13,24 +14,17 @@ static const double TOLERANCE = 1e-8; /* N, N m */
 static const double SAME = 1e-9; /* m: of a file that does not say where its equilibrium was sought from */
 enum { ITERATIONS = 400 };
 
-static double signal(const ali3_system *S, const double *q, int32_t i) {
-  double sum = S->sig_const[i];
-  for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * q[S->sig_col[k]];
-  return sum;
-}
-
 /* Start of a scene at q, and how a pose moves it: of a horizontal component the other one turns in. */
 static void set_start(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
   memcpy(in->start_q, q, (size_t)S->size.nq * sizeof(double));
   for (int32_t i = 0; S->size.has_pose && i < S->size.nq; i++) {
-    const int32_t partner = S->pose_partner[i];
-    if (partner == 0) {
+    if (S->pose_partner[i] == 0) {
       const double moved = S->pose_0[i] + (q[i] - S->q0[i]); /* spins have no place */
       in->pose_0[i] = S->pose_0[i] == S->q0[i] ? q[i] : moved; /* the same without round-off */
     } else {
       in->pose_cos[i] = q[i];
-      in->pose_sin[i] = partner < 0 ? -signal(S, q, -partner - 1) : signal(S, q, partner - 1);
+      in->pose_sin[i] = ali3_turned(S, i, q, false);
     }
   }
 }

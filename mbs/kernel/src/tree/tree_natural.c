@@ -1,14 +1,9 @@
 /* Between the relative coordinates of a tree and the natural coordinates of its System. */
 #include "../algebra/elementary.h"
 #include "../algebra/small_vectors.h"
+#include "../elements/signal.h"
 #include "../instance.h"
 #include "tree.h"
-
-static double signal(const ali3_system *S, int32_t i, const double *x, bool rate) {
-  double sum = rate ? 0.0 : S->sig_const[i];
-  for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * x[S->sig_col[k]];
-  return sum;
-}
 
 typedef struct {
   double origin[3], axis[3][3], velocity[3], spin[3];
@@ -20,14 +15,14 @@ static frame frame_of(const ali3_system *S, int32_t b, const double *q, const do
   if (b == 0) return f;
   const int32_t *number = S->tree_frame + 12 * (int64_t)(b - 1);
   for (int i = 0; i < 3; i++) {
-    f.origin[i] = signal(S, number[i], q, false);
-    f.velocity[i] = signal(S, number[i], qd, true);
+    f.origin[i] = ali3_signal_at(S, number[i], q, false);
+    f.velocity[i] = ali3_signal_at(S, number[i], qd, true);
   }
   for (int k = 0; k < 3; k++) {
     double rate[3], part[3];
     for (int i = 0; i < 3; i++) {
-      f.axis[k][i] = signal(S, number[3 + 3 * k + i], q, false);
-      rate[i] = signal(S, number[3 + 3 * k + i], qd, true);
+      f.axis[k][i] = ali3_signal_at(S, number[3 + 3 * k + i], q, false);
+      rate[i] = ali3_signal_at(S, number[3 + 3 * k + i], qd, true);
     }
     ali3_cross(f.axis[k], rate, part);
     for (int i = 0; i < 3; i++) f.spin[i] += 0.5 * part[i];

@@ -1,0 +1,19 @@
+/* Signals: affine functions of the coordinates. */
+#ifndef ALI3_SIGNAL_H
+#define ALI3_SIGNAL_H
+#include "../instance.h"
+
+/* Of coordinates x, or the rate of the signal where x are rates (or accelerations). */
+static inline double ali3_signal_at(const ali3_system *S, int32_t i, const double *x, bool rate) {
+  double sum = rate ? 0.0 : S->sig_const[i];
+  for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * x[S->sig_col[k]];
+  return sum;
+}
+
+/* How coordinate i of x (or its rate) changes by a unit turn of the scene to the left about the origin. */
+static inline double ali3_turned(const ali3_system *S, int32_t i, const double *x, bool rate) {
+  const int32_t partner = S->pose_partner[i];
+  if (partner == 0) return 0.0;
+  return partner < 0 ? -ali3_signal_at(S, -partner - 1, x, rate) : ali3_signal_at(S, partner - 1, x, rate);
+}
+#endif
