@@ -36,7 +36,7 @@ _SEED = 1  # of other starts
 def fit(
     outputs: Mapping[str, Signal],
     unknowns: Sequence[Unknown],
-    simulate: Callable[[Mapping[str, float]], Result | None],
+    simulate: Callable[[Mapping[str, float]], Result | str],
     evaluations: int = 50,
     starts: int = 1,
     parts: Parts | None = None,
@@ -50,19 +50,19 @@ def fit(
     unknowns : sequence of Unknown
         Those of the FMU first.
     simulate : callable
-        Of parameters of the FMU by name; None where it refuses a step.
+        Of parameters of the FMU by name; the reason, a sentence, where it refuses them.
     evaluations : int
         At most, of each round.
     starts : int
         How many searches: one from the given values, the others from points spread over the ranges; of these, such
-        whose steps the FMU refuses are left out.
+        that the FMU refuses are left out.
     parts : Parts, optional
         Of the log, that are left out in turn.
 
     Raises
     ------
     HostError
-        A parameter has no effect at all, or the FMU refuses a step with the given values.
+        A parameter has no effect at all, or the FMU refuses the given values.
 
     Notes
     -----
@@ -72,7 +72,7 @@ def fit(
     """
     runs = 0
 
-    def counted(values: Mapping[str, float]) -> Result | None:
+    def counted(values: Mapping[str, float]) -> Result | str:
         nonlocal runs
         runs += 1
         return simulate(values)

@@ -22,6 +22,7 @@ from hosts.compare.unknown import NUISANCES, Unknown, nuisances
 from hosts.compare.wanted import fit_step, wanted_parameters
 from hosts.compare.words import with_unit
 from hosts.driving.result import Result
+from hosts.fmu.fmu import StartRefusedError
 
 
 @dataclass(frozen=True)
@@ -66,11 +67,16 @@ def fitted(
     unknowns = [*wanted.parameters, *nuisances(wanted.nuisances, outputs, guesses, options.longest_delay)]
     with bar(desc="fit", unit="run") as shown:
 
-        def simulate(values: Mapping[str, float]) -> Result | None:
+        def simulate(values: Mapping[str, float]) -> Result | str:
             shown.update()
-            result = replay.run(wanted.coarse | dict(values))
-            complete = not result.failed_steps and all(math.isfinite(float(result[n].sum())) for n in outputs)
-            return result if complete else None
+            try:
+                result = replay.run(wanted.coarse | dict(values))
+            except StartRefusedError as error:
+                return str(error)
+            if result.failed_steps:
+                return f"{result.failed_steps} steps fail with them."
+            unknown = [n for n in outputs if not math.isfinite(float(result[n].sum()))]
+            return f"{unknown[0]} is not finite with them." if unknown else result
 
         found = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.stretches))
         best = replay.run(dict(found.parameters))

@@ -25,7 +25,7 @@ _REFUSED = 1e3  # residual where the FMU refuses a step: far worse than any fit
 
 
 class RefusedError(HostError):
-    """The FMU refuses steps where derivatives are wanted."""
+    """The FMU refuses parameters where derivatives are wanted."""
 
 
 @dataclass
@@ -41,7 +41,7 @@ class Residuals:
     noise : mapping of str to float
         By signal, in its unit.
     simulate : callable
-        Of the parameters of the FMU; None where it refuses a step.
+        Of the parameters of the FMU; the reason, a sentence, where it refuses them.
 
     Attributes
     ----------
@@ -52,9 +52,9 @@ class Residuals:
     outputs: Mapping[str, Signal]
     unknowns: Sequence[Unknown]
     noise: dict[str, float]
-    simulate: Callable[[Mapping[str, float]], Result | None]
+    simulate: Callable[[Mapping[str, float]], Result | str]
     steps: Array = field(default_factory=lambda: np.zeros(0))
-    _kept: dict[tuple[float, ...], dict[str, Curve] | None] = field(default_factory=dict)
+    _kept: dict[tuple[float, ...], dict[str, Curve] | str] = field(default_factory=dict)
 
     @property
     def count(self) -> int:
@@ -70,7 +70,7 @@ class Residuals:
     def __call__(self, p: Array) -> Array:
         """Residuals of shape (n,)."""
         curves = self._curves(p)
-        if curves is None:
+        if isinstance(curves, str):
             return np.full(sum(len(s.time) for s in self.outputs.values()), _REFUSED)
         return np.concatenate([self._of(n, curves[n], p) for n in self.outputs])
 
@@ -102,18 +102,18 @@ class Residuals:
         return np.column_stack(columns + [self._exact(p, k, curves) for k in range(self.count, len(self.unknowns))])
 
     def accepted(self, p: Array) -> dict[str, Curve]:
-        """Simulated signals; `RefusedError` where the FMU refuses a step."""
+        """Simulated signals; `RefusedError` where the FMU refuses the parameters."""
         curves = self._curves(p)
-        if curves is None:
+        if isinstance(curves, str):
             at = [f"{u.name} = {x:.6g} {u.unit}" for u, x in zip(self.unknowns[: self.count], p, strict=False)]
-            raise RefusedError(f"The FMU refuses steps with {', '.join(at)}.")
+            raise RefusedError(f"The FMU refuses {', '.join(at)}. {curves}")
         return curves
 
     def _one_sided(self, p: Array, k: int) -> Array:
         u, q = self.unknowns[k], p.copy()
         step = max(float(self.steps[k]), _SECANT * (u.high - u.low))
         q[k] += step if u.high - p[k] >= p[k] - u.low else -step
-        if self._curves(q) is None:
+        if isinstance(self._curves(q), str):
             return self._difference(p, k)
         return np.asarray((self(q) - self(p)) / (q[k] - p[k]))
 
@@ -124,13 +124,13 @@ class Residuals:
         for end in ends:
             q = p.copy()
             q[k] = end
-            values.append(self(q) if self._curves(q) is not None else None)
+            values.append(None if isinstance(self._curves(q), str) else self(q))
         at = [(e, v) for e, v in zip(ends, values, strict=True) if v is not None]
         if len(at) < 2:
             at.append((float(p[k]), self(p)))
         if len(at) < 2 or at[0][0] == at[1][0]:
             raise RefusedError(
-                f"The FMU refuses steps on both sides of {u.name} = {p[k]:.6g} {u.unit}; give it another range."
+                f"The FMU refuses what lies on both sides of {u.name} = {p[k]:.6g} {u.unit}; give it another range."
             )
         return np.asarray((at[0][1] - at[1][1]) / (at[0][0] - at[1][0]))
 
@@ -151,12 +151,12 @@ class Residuals:
             parts.append(part / self.noise[name])
         return np.concatenate(parts)
 
-    def _curves(self, p: Array) -> dict[str, Curve] | None:
+    def _curves(self, p: Array) -> dict[str, Curve] | str:
         key = tuple(float(v) for v in p[: self.count])
         if key not in self._kept:
             names = [u.name for u in self.unknowns]
             result = self.simulate(dict(zip(names, key, strict=False)))
             while len(self._kept) > 2 * self.count + 4:
                 del self._kept[next(iter(self._kept))]
-            self._kept[key] = None if result is None else {n: Curve(result, n) for n in self.outputs}
+            self._kept[key] = result if isinstance(result, str) else {n: Curve(result, n) for n in self.outputs}
         return self._kept[key]

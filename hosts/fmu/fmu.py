@@ -37,6 +37,10 @@ class StepRefusedError(Exception):
     """The FMU refused a communication step."""
 
 
+class StartRefusedError(HostError):
+    """The FMU could not be initialised with these values."""
+
+
 def described(path: Path) -> ModelDescription:
     """The description of an FMU of any version that FMPy reads.
 
@@ -140,7 +144,7 @@ class Fmu:
         return [self._places[n] for n in names]
 
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
-        """Set start values and leave initialisation mode."""
+        """Set start values and leave initialisation mode; `StartRefusedError` if the FMU cannot start with them."""
         settable = {n for n, v in self.variables.items() if v.causality in ("parameter", "input")}
         for name in start:
             if name not in settable:
@@ -150,7 +154,7 @@ class Fmu:
         try:
             self._instance.initialise(values, start_time)
         except FMICallException as error:
-            raise HostError(f"The FMU could not be initialised: {self._last_message() or error}") from None
+            raise StartRefusedError(f"The FMU could not be initialised: {self._last_message() or error}") from None
 
     def _fitting(self, name: str, value: Value) -> Value:
         place = self._places[name]

@@ -2,26 +2,32 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
+from hosts.compare.command import main
 from hosts.compare.fit import fit
 from hosts.compare.fit_words import fit_notes
 from hosts.compare.log import Signal
 from hosts.compare.unknown import Unknown
+from hosts.driving.co_simulation import run
+from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
+from hosts.fmu.fmu import Fmu
 
 RATE, REFUSED = 2.0, 3.0
 T = np.linspace(0.0, 3.0, 151)
 
 
-def decaying(values: Mapping[str, float]) -> Result | None:
+def decaying(values: Mapping[str, float]) -> Result | str:
     """exp(-rate t), which is refused from a rate on."""
     if values["rate"] > REFUSED:
-        return None
+        return "It is too fast."
     y = np.exp(-values["rate"] * T)[:, None]
     return Result(["y"], {"y": "m"}, T, y, 0.0, float(T[-1]), 0, [])
 
@@ -45,5 +51,24 @@ def test_refused_starts_are_left_out_and_told() -> None:
 
 
 def test_given_values_that_are_refused_end_the_fit() -> None:
-    with pytest.raises(HostError, match="refuses steps with rate = 4 1/s"):
+    with pytest.raises(HostError, match=r"refuses rate = 4 1/s\. It is too fast\."):
         fitted(4.0, 3)
+
+
+def test_values_with_which_no_run_starts_are_left_out(prototype_fmu: Path, tmp_path: Path) -> None:
+    """A moment of inertia above the other two together is of no body: the FMU is not initialised with it."""
+    t = np.array([0.0, 0.2, 0.3, 2.0])
+    steered = {"steering": np.array([0.0, 0.0, 0.3, 0.3])}
+    with Fmu(prototype_fmu) as fmu:
+        found = run(fmu, Manoeuvre("step", t, steered, 2.0, {"initial.speed": 15.0}), 0.01)
+    log, record = tmp_path / "step.csv", tmp_path / "record.json"
+    columns = np.column_stack([found.time, *(found[n] for n in ("steering", "speed", "chassis.wz"))])
+    np.savetxt(log, columns, delimiter=",", header="time,steering,speed,chassis.wz", comments="", fmt="%.9g")
+    chosen = ["--signals", "chassis.wz", "--set", "chassis.inertia.z=400", "--fit", "chassis.inertia.z=300:900"]
+    written = ["--out", str(tmp_path / "out"), "--json", str(record)]
+    assert main([str(prototype_fmu), str(log), *chosen, "--starts", "5", *written]) == 0
+    fitted = json.loads(record.read_text())["fit"]
+    assert len(fitted["starts"]) + len(fitted["refused_starts"]) == 5
+    assert fitted["refused_starts"]
+    assert all("moments of inertia" in words for words in fitted["refused_starts"])
+    assert [start["end"][0] for start in fitted["starts"]] == pytest.approx([457.7] * len(fitted["starts"]), rel=0.002)
