@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter1d
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.steered_run import level_acceleration
@@ -189,10 +189,10 @@ def _signals(result: Result, watch: _Watch, steering: SteeringInput, step: float
     steady = np.flatnonzero(result.time >= (watch.begin if math.isfinite(watch.begin) else math.inf))
     largest = math.nan
     if len(steady):
-        width = max(1, round(1.0 / _interval(result.time)))
-        mean = uniform_filter1d(watch.side * level_acceleration(result)[steady], width, mode="nearest")
+        width = min(max(1, round(1.0 / _interval(result.time))), len(steady))
+        mean = sliding_window_view(watch.side * level_acceleration(result)[steady], width).mean(axis=1)
         largest = float(mean.max())
-        steady = steady[: int(np.argmax(mean)) + 1]  # behind it the car slides off
+        steady = steady[: int(np.argmax(mean)) + width // 2 + 1]  # behind it the car slides off
 
     def of(name: str) -> NDArray[np.float64]:
         return result[name][steady] if name in result else np.full(len(steady), math.nan)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -34,6 +34,7 @@ from hosts.fmu.variables import Variable
 
 PEDALS = ("throttle", "brake")
 _STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"
+_DEMAND, _RACK_PER_TURN = "steering_wheel_angle_demand", "steering.rack_per_turn"
 _FREQUENCY = "vehicle.steering_frequency"
 
 
@@ -101,7 +102,8 @@ def prepare(options: argparse.Namespace) -> Task:
         inputs, outputs = _chosen(log, fmu, options)
         set_values = settings_of(opened.table, wishes(options)).start
         given = {aliases.names([n])[0]: v for n, v in set_values.items()}
-        followed = _add_steering(fmu, log, inputs, outputs, notes, aliases, given)
+        sought = {aliases.names([t.partition("=")[0].strip()])[0] for t in options.fit}
+        followed = _add_steering(fmu, log, inputs, outputs, notes, aliases, given, sought)
         pedals = _held_speed(fmu, log, inputs, notes) if options.hold_speed else None
         if not inputs and pedals is None:
             raise HostError(
@@ -241,8 +243,12 @@ def _add_steering(
     notes: list[str],
     aliases: Aliases,
     given: Mapping[str, Value],
+    sought: Set[str],
 ) -> dict[str, float]:
     """A car that is steered by a normalised input, and a log with the angle of the steering wheel or of road wheels.
+
+    Where another ratio of the steering is set or sought, full lock is at another angle than the constant of the
+    drawing says: then the angle itself is the input.
 
     Returns
     -------
@@ -258,6 +264,10 @@ def _add_steering(
             return {}
         angle = log.outputs[_ANGLE]
         outputs.pop(_ANGLE, None)  # what drives is not compared
+        if _RACK_PER_TURN in {*given, *sought} and _DEMAND in fmu.names("input"):
+            inputs[_DEMAND] = replace(angle, name=_DEMAND)
+            notes.append(f"'{_DEMAND}' is the measured {_ANGLE}, whatever {_RACK_PER_TURN} is.")
+            return _followed(_DEMAND, frequency, notes)
         inputs[_STEERING] = replace(angle, name=_STEERING, unit="1", values=angle.values / largest)
         notes.append(f"'{_STEERING}' is the measured {_ANGLE} over {_ANGLE_MAX} = {largest:.4g} rad.")
     elif road is not None:
@@ -267,12 +277,16 @@ def _add_steering(
         notes.append(f"'{_STEERING}' is that at which the standing car turns its wheels as measured ({road.source}).")
     else:
         return {}
+    return _followed(_STEERING, frequency, notes)
+
+
+def _followed(name: str, frequency: float | None, notes: list[str]) -> dict[str, float]:
     if not frequency:
         return {}
     notes.append(
         f"The steering wheel turns as measured: the demand leads by what its follower of {frequency:.4g} Hz is late."
     )
-    return {_STEERING: frequency}
+    return {name: frequency}
 
 
 def _shifted(signals: Mapping[str, Signal], options: argparse.Namespace) -> dict[str, Signal]:

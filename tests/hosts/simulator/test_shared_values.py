@@ -12,13 +12,14 @@ from hosts.simulator.shared_values import ByteRing, Ring, SharedValues, Sizes, T
 
 SIZES = Sizes(inputs=2, columns=300, rows=8)
 STEPS = 20000
-_DONE = 7
+_DONE, _SEEN = 7, 6
 
 
 def hammer(name: str) -> None:
-    """Writes moments as fast as it can, each of equal values."""
-    shared = SharedValues(SIZES, name)
-    for k in range(1, STEPS + 1):
+    """Writes moments as fast as it can, each of equal values, until enough were seen."""
+    shared, k = SharedValues(SIZES, name), 0
+    while k < STEPS or not shared.flags[_SEEN]:
+        k += 1
         slot = shared.moments.begin()
         for part in np.array_split(slot, 5):
             part[:] = k
@@ -39,12 +40,13 @@ def test_no_torn_record_and_none_older_than_one_before() -> None:
         assert record.min() == record.max() >= last
         seen += record[0] != last
         last = float(record[0])
+        shared.flags[_SEEN] = seen > 50  # the processes do run at the same time
         if process.exitcode is not None:
             break
     process.join()
     assert process.exitcode == 0
-    assert shared.moments.read()[0] == STEPS
-    assert seen > 50  # the processes did run at the same time
+    assert shared.moments.read()[0] >= STEPS
+    assert seen > 50
     shared.close()
 
 
