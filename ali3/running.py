@@ -37,7 +37,8 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ())
     try:
         with stopped_by_signals():
             status = work()
-            sys.stdout.flush()
+            if sys.stdout is not None:  # closed by the shell
+                sys.stdout.flush()
         return status
     except Stopped as error:
         return _end(f"stopped by {error.number.name}", 128 + error.number)

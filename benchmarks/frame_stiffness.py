@@ -21,10 +21,12 @@ from mbs.vehicle import car_names, load
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, print, and write what was asked for."""
     parser = parser_of("frame_stiffness", __doc__)
-    parser.add_argument("cars", nargs="*", metavar="CAR", help="name, folder or file; default: all of the package")
+    parser.add_argument(
+        "cars", nargs="*", metavar="CAR", help="name, folder or file; default: all of the package that have a frame"
+    )
     options = parser.parse_args(arguments)
     rows = []
-    for name in options.cars or car_names():
+    for name in options.cars or [n for n in car_names() if load(n).chassis.frame is not None]:
         found = stiffness(load(name))
         hertz = {f"f{k + 1}, Hz": float(f) for k, f in enumerate(found.frequencies)}
         rows.append({"car": name, "between": " and ".join(found.joints), "kN m/deg": found.torsion / 1e3, **hertz})

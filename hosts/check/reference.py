@@ -237,8 +237,8 @@ def check_reference(
         print(f"not compared, for {path.name} has no such output: {', '.join(left)}")
     if result.late:
         print(f"inputs that were held, and late by {500.0 * step:.3g} ms on average: {', '.join(result.late)}")
-    if result.missed is not None:
-        print(": ".join(result.missed))
+    for missed in result.missed:
+        print(": ".join(missed))
     for message in dict.fromkeys(result.messages):
         print(f"FMU: {message}")
     bad = sum(not d.good for d in found)

@@ -1,7 +1,8 @@
-"""Jumps of a table of inputs that fall inside a communication step: the FMU cannot be given them there."""
+"""Jumps of inputs, and an end of the run, that fall inside a communication step: the FMU cannot have them there."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable
 
 import numpy as np
@@ -11,6 +12,7 @@ from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 
 # Parts of a communication step that are tried as a shorter one.
 _MOST_PARTS = 100
+_SAME_END = 1e-3  # of a step
 
 
 def missed_jumps(
@@ -47,6 +49,15 @@ def missed_jumps(
     remedy = f"take times that are multiples of {step:g} s" if fits is None else f"--step {fits:.9g} has them all"
     came = "becomes a line over its step" if jumps.keys() & set(straight) else "comes with the next step"
     return "jumps inside a communication step", f"{counted(jumps, times)}: each {came} of {1e3 * step:g} ms; {remedy}"
+
+
+def missed_end(stop_time: float, steps: int, step: float) -> tuple[str, str] | None:
+    """Where a run of whole steps ends otherwise than it should, and the remedy."""
+    if abs(steps * step - stop_time) <= _SAME_END * step:
+        return None
+    fits = stop_time / math.ceil(stop_time / step)
+    ended = f"at {steps * step:g} s, a whole number of steps of {step:g} s, in place of {stop_time:g} s"
+    return "end of the run", f"{ended}; --step {fits:.9g} ends there"
 
 
 def counted(names: Iterable[str], times: NDArray[np.float64]) -> str:

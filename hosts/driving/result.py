@@ -41,8 +41,8 @@ class Result:
         Rows at which runs begin that were put one after the other.
     lost : list of str
         Inputs that moved between the rows otherwise than the rows tell, where not every step has one.
-    missed : (str, str), optional
-        What `missed_jumps` says of the table.
+    missed : list of (str, str)
+        What `missed_jumps` and `missed_end` say of the manoeuvre.
     """
 
     names: list[str]
@@ -58,7 +58,7 @@ class Result:
     jumps: dict[int, list[float]] = field(default_factory=dict)
     starts: list[int] = field(default_factory=lambda: [0])
     lost: list[str] = field(default_factory=list)
-    missed: tuple[str, str] | None = None
+    missed: list[tuple[str, str]] = field(default_factory=list)
 
     def __contains__(self, name: str) -> bool:
         return name in self.names

@@ -150,7 +150,7 @@ def sampled(result: Result, names: Sequence[str], job: Job) -> NDArray[np.float6
 
 def _of_result(result: Result, job: Job) -> Outcome:
     """Whether the run came to its end with numbers."""
-    missed = [] if result.missed is None else [": ".join(result.missed).replace("--step ", "step = ")]
+    missed = [": ".join(told).replace("--step ", "step = ") for told in result.missed]
     end = Outcome(simulated=result.simulated, messages=said(missed + result.messages))
     wrong = ~np.isfinite(result.values)
     if wrong.any():

@@ -240,7 +240,7 @@ def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[s
         told.append(_foreign(path))
     elif driver is not None:
         scene = with_course(scene, driver.course)
-    told += [": ".join(result.missed)] if result.missed is not None else []
+    told += [": ".join(missed) for missed in result.missed]
     told += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
     if result.failed_steps:
         told.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")

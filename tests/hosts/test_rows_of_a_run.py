@@ -137,6 +137,18 @@ def test_every_change_of_an_input_that_the_table_holds_is_a_jump(held: frozenset
     assert ("jumps inside a communication step" in rows) == bool(held)
 
 
+@pytest.mark.parametrize(("stop", "end"), [(1.0, 0.8), (0.6, 0.4), (0.8, None), (0.4, None)])
+def test_a_run_that_ends_at_another_time_says_so(stop: float, end: float | None) -> None:
+    asked = Manoeuvre("m", np.array([0.0]), {"u": np.array([1.0])}, stop)
+    found = run(Integrator(True), asked, 0.4)  # type: ignore[arg-type]
+    said = dict(summary(found, 0.4)).get("end of the run")
+    assert (said is None) == (end is None)
+    if said is not None:
+        assert said.startswith(f"at {end} s, a whole number of steps of 0.4 s, in place of {stop:g} s; --step ")
+        shorter = float(said.split("--step ")[1].split(" ")[0])
+        assert run(Integrator(True), asked, shorter).time[-1] == pytest.approx(stop, abs=1e-8)  # type: ignore[arg-type]
+
+
 def test_time_in_the_air_ends_with_the_run() -> None:
     """0.17 s in rows of 0.05 s."""
     few = driven((0.0, 0.17), (0.0, 0.0), 5)
