@@ -12,9 +12,9 @@ static const double STEP_DEVIATION = 0.05;
 static const double MOST_STEPS = 1e6; /* in one call, which cannot be cancelled: about half a minute of a car */
 static const double CLOCK_TOLERANCE = 1e-3; /* neighbouring times are not farther apart than this share of a step */
 
-/* Number and size of the equal inner steps from time to end. */
+/* Number and size of the equal inner steps from time to end; halves go up, whatever the round-off of the host's times. */
 static int64_t division(slave *s, double time, double end, double *h) {
-  const double step = s->value[s->step_reference], ratio = nearbyint((end - time) / step);
+  const double step = s->value[s->step_reference], ratio = floor((end - time) / step + 0.5 + STEP_TOLERANCE);
   const double n = ratio > 1.0 ? ratio : 1.0;
   *h = step;
   if (fabs(time + n * step - end) <= STEP_TOLERANCE * step) return (int64_t)n;
