@@ -22,9 +22,10 @@ from hosts.driving.co_simulation import run_with_bar
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
-from hosts.driving.manoeuvre_table import read_table, record_of
+from hosts.driving.manoeuvre_table import read_table
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
+from hosts.driving.run_record import record_of
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
@@ -34,7 +35,7 @@ _WORST = 10
 _DIAGNOSTICS = "solver."
 # Of a signal that hardly moves, the least size: shares of its largest value, whose digits a table cuts, and of its
 # nominal value.
-_OF_VALUE, _OF_NOMINAL = 1e-3, 1e-6
+_OF_VALUE, _OF_NOMINAL = 1e-3, 1e-4
 # Of a communication step by which the time of a row may miss a communication point.
 _ROUND_OFF = 1e-4
 
@@ -239,6 +240,8 @@ def check_reference(
     _print_table(found[:_WORST])
     if left:
         print(f"not compared, for {path.name} has no such output: {', '.join(left)}")
+    if times[0] > 0.0 and manoeuvre is None:
+        print(f"{file} begins at {times[0]:g} s: its first row drives the FMU from 0 s, and it is compared from there")
     if result.late:
         print(f"inputs that were held, and late by {500.0 * step:.3g} ms on average: {', '.join(result.late)}")
     for missed in result.missed:
@@ -292,9 +295,11 @@ def _step(fmu: Fmu, driven: Manoeuvre, times: NDArray[np.float64], file: Path) -
 def _check_times(times: NDArray[np.float64], step: float, file: Path) -> None:
     if not step > 0.0:
         raise HostError(f"The step is {step:g} s; it must be positive.")
+    if times[0] < 0.0:
+        raise HostError(f"{file} begins at {times[0]:g} s; a run begins at 0: add {-times[0]:g} s to all its times.")
     off = np.abs(times / step - np.round(times / step))
-    worst = int(np.argmax(off)) if times[0] >= 0.0 else 0
-    if times[0] < 0.0 or off[worst] > _ROUND_OFF:
+    worst = int(np.argmax(off))
+    if off[worst] > _ROUND_OFF:
         raise HostError(
             f"{file} has a row at {times[worst]:.9g} s, which is no communication point of a run from 0 "
             f"s in steps of {step:g} s; --step gives one that divides all times."

@@ -35,11 +35,12 @@ def shown_in(unit: str, name: str = "") -> Shown:
     unit : str
         As units of FMI are written.
     name : str
-        Of the quantity: angular frequencies are shown in Hz, other angular velocities in deg/s.
+        Of the quantity: angular frequencies are shown in Hz, the spin of wheels (``omega``) in rpm, as the FMU declares
+        it, other angular velocities in deg/s.
     """
     if unit == "rad/s" and name.endswith("frequency"):
         return Shown("Hz", 1.0 / _RAD_PER_PERIOD)
-    other = _SHOWN.get(unit, unit)
+    other = "rpm" if unit == "rad/s" and "omega" in name else _SHOWN.get(unit, unit)
     return Shown(other, 1.0 if other == unit else conversion(unit, other))
 
 

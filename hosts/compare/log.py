@@ -16,6 +16,7 @@ from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
 from hosts.compare.spikes import spike_words, spikes
 from hosts.driving.missed_jumps import counted
+from hosts.driving.run_record import record_of
 from hosts.fmu.aliased_fmu import AliasedFmu
 
 FEWEST_SAMPLES = 10
@@ -68,29 +69,39 @@ class Log:
         What drives the FMU, and what is compared with it.
     notes : list of str
         Sentences for the user.
+    held : frozenset of str
+        Inputs that keep the value of a row up to the next one, where the log is the result of a run of ours.
     """
 
     inputs: dict[str, Signal]
     outputs: dict[str, Signal]
     notes: list[str]
+    held: frozenset[str] = frozenset()
 
 
 def log_for(
-    fmu: AliasedFmu, raw: RawLog, aliases: LogAliases, why_missing: Callable[[str], str] = lambda name: ""
+    fmu: AliasedFmu,
+    raw: RawLog,
+    aliases: LogAliases,
+    why_missing: Callable[[str], str] = lambda name: "",
+    chosen: Collection[str] = (),
 ) -> Log:
-    """The signals of a log that an FMU has too.
+    """The signals of a log that an FMU has too; a tunable parameter of the FMU is driven as an input is.
 
     Parameters
     ----------
     why_missing : callable
         Why the FMU does not have one of our names, in a sentence; empty where nothing is known.
+    chosen : collection of str
+        Parameters that are set or sought: the log does not drive them.
 
     Raises
     ------
     HostError
         A column is not there, is no signal of the FMU, or its unit or clock is wrong; one sentence.
     """
-    inputs, outputs = fmu.names("input"), fmu.names("output")
+    tunable = fmu.tunable
+    inputs, outputs = [*fmu.names("input"), *(n for n in tunable if n not in chosen)], fmu.names("output")
     columns = _columns(raw, aliases, fmu, inputs, outputs, why_missing)
     notes: list[str] = []
     clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
@@ -115,9 +126,20 @@ def log_for(
                 f"The log {raw.path} has {len(signal.time)} samples of '{signal.source}' ({name}); at least "
                 f"{FEWEST_SAMPLES} are needed."
             )
-    return Log(
-        {n: s for n, s in signals.items() if n in inputs}, {n: s for n, s in signals.items() if n in outputs}, notes
-    )
+    record = record_of(raw.path)
+    if record.jumps:
+        first = min(t for t, *_ in record.jumps.values())
+        notes.append(
+            f"Inputs of the run that wrote {raw.path.name} jump {len(record.jumps)} times, the first at {first:g} s: "
+            "each becomes a line from the row before; ali3 run -m keeps jumps."
+        )
+    driven = {n: s for n, s in signals.items() if n in inputs}
+    if parameters := [n for n in driven if n in tunable]:
+        notes.append(f"Tunable parameters that the log drives, each kept up to its next row: {', '.join(parameters)}.")
+    if left := [n for n in chosen if n in raw.table.columns]:
+        notes.append(f"In the log, and set or sought instead: {', '.join(left)}.")
+    held = frozenset(n for n in driven if n in parameters or n in (record.held or ()))
+    return Log(driven, {n: s for n, s in signals.items() if n in outputs}, notes, held)
 
 
 def _columns(
@@ -137,7 +159,7 @@ def _columns(
                 use = ": set it by --set, or find it by --fit" if causality == "parameter" else ""
                 raise HostError(
                     f"{where} is a {causality} of {fmu.path.name}, which a column of a log cannot be{use}; "
-                    "a column can be an input or an output."
+                    "a column can be an input, a tunable parameter or an output."
                 )
             why = why_missing(ours)
             hint = f": {why.rstrip('.')}" if why else _near(ours, [*inputs, *outputs])

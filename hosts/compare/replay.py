@@ -29,6 +29,7 @@ def inputs_of(
     held: bool = False,
     whole: Collection[str] = (),
     followed: Mapping[str, float] | None = None,
+    kept: Collection[str] = (),
 ) -> Manoeuvre:
     """The manoeuvre that gives an FMU the measured inputs, with a row a step.
 
@@ -47,22 +48,25 @@ def inputs_of(
         Inputs that are whole numbers, which keep the value of a sample up to the next.
     followed : mapping of str to float, optional
         Inputs that the car follows, by the frequency of its follower in Hz: the measured signal is what follows.
+    kept : collection of str
+        Inputs and tunable parameters that keep the value of a sample up to the next.
     """
     steps = max(1, round(end / step))
     time: NDArray[np.float64] = step * np.arange(steps + 1, dtype=np.float64)
     at = time + 0.5 * step if held else time
     columns = {
-        n: _kept(s, time) if n in whole else np.interp(at, s.time, s.values).astype(np.float64)
+        n: _kept(s, time, n in whole) if n in whole or n in kept else np.interp(at, s.time, s.values).astype(np.float64)
         for n, s in inputs.items()
     }
     for n, frequency in (followed or {}).items():
         columns[n] = demanded(inputs[n], frequency, at)
-    return Manoeuvre(name, time, columns, steps * step, dict(start))
+    return Manoeuvre(name, time, columns, steps * step, dict(start), held=frozenset(kept))
 
 
-def _kept(signal: Signal, time: NDArray[np.float64]) -> NDArray[np.float64]:
+def _kept(signal: Signal, time: NDArray[np.float64], whole: bool) -> NDArray[np.float64]:
     rows = np.searchsorted(signal.time, time + 1e-9, side="right") - 1
-    return np.asarray(np.round(signal.values[np.maximum(rows, 0)]))
+    values = signal.values[np.maximum(rows, 0)]
+    return np.asarray(np.round(values) if whole else values)
 
 
 class Replay:

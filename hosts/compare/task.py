@@ -97,12 +97,12 @@ def prepare(options: argparse.Namespace) -> Task:
     with Fmu(options.fmu) as opened:
         aliases = aliases_of(options.aliases, opened.table)
         fmu = AliasedFmu(opened, aliases)
-        log = log_for(fmu, raw, log_aliases, aliases.why_missing)
-        notes = log.notes
-        inputs, outputs = _chosen(log, fmu, options)
         set_values = settings_of(opened.table, wishes(options)).start
         given = {aliases.names([n])[0]: v for n, v in set_values.items()}
         sought = {aliases.names([t.partition("=")[0].strip()])[0] for t in options.fit}
+        log = log_for(fmu, raw, log_aliases, aliases.why_missing, {*given, *sought})
+        notes = log.notes
+        inputs, outputs = _chosen(log, fmu, options)
         followed = _add_steering(fmu, log, inputs, outputs, notes, aliases, given, sought)
         pedals = _held_speed(fmu, log, inputs, notes) if options.hold_speed else None
         if not inputs and pedals is None:
@@ -138,6 +138,7 @@ def prepare(options: argparse.Namespace) -> Task:
                 not slopes,
                 whole,
                 followed,
+                log.held & inputs.keys(),
             )
             for name in followed:
                 variable = fmu.table[name]

@@ -27,6 +27,8 @@ __all__ = ["Car", "CarSettings", "Event", "Moment", "StepTimes"]
 
 SLOWEST = 0.05
 """Least speed of slow motion, simulated over wall seconds."""
+_RACK_PER_TURN = "steering.rack_per_turn"
+_BY_RATIO = ("vehicle.steering_wheel_angle_max", "vehicle.steering_ratio")
 _ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
 
 
@@ -64,6 +66,7 @@ class Car:
         self.constants = {
             n: float(v.start) for n, v in variables.items() if v.variability == "constant" and v.type == "Real"
         }
+        self.constants |= _steering_as_set(self.constants, table, start)
         self._table, self._ranges = table, [(table[n].low, table[n].high) for n in self.inputs]
         self._places = {n: k for k, n in enumerate(self.inputs)}
         self._lock, self._wishes = threading.Lock(), 0
@@ -241,3 +244,12 @@ class Car:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+def _steering_as_set(constants: Mapping[str, float], table: Variables, start: Mapping[str, Value]) -> dict[str, float]:
+    """Constants of the steering where another ratio of the rack is set: full lock is a travel of the rack."""
+    if _RACK_PER_TURN not in start:
+        return {}
+    drawn = table[_RACK_PER_TURN].start
+    scale = float(drawn or math.nan) / float(start[_RACK_PER_TURN])
+    return {name: scale * constants[name] for name in _BY_RATIO if name in constants}

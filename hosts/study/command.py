@@ -120,8 +120,7 @@ def _out(options: argparse.Namespace) -> Path:
 def _report(folder: Path) -> int:
     from hosts.study.analysis.report import write_report
 
-    files = write_report(folder)
-    print(f"written: {files[0]}" + (f" and {len(files) - 1} files beside it" if len(files) > 1 else ""))
+    print(f"written: {', '.join(map(str, write_report(folder)))}")
     return 0
 
 

@@ -101,6 +101,13 @@ def test_without_a_bound_the_usual_one_is_told(fmu: Path, result: Path) -> None:
     assert "the bound is 1 % of the range of each" in run(main, fmu, "--reference", result).stdout
 
 
+def test_a_table_that_begins_later_is_told(fmu: Path, tmp_path: Path) -> None:
+    (tmp_path / "table.csv").write_text('"time","pull","bob.x"\n0.5,0,0\n1,0,0\n')
+    assert (
+        "begins at 0.5 s: its first row drives the FMU" in run(main, fmu, "--reference", tmp_path / "table.csv").stdout
+    )
+
+
 def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:
     def change(heading: list[str], rows: list[list[str]]) -> None:
         heading[heading.index("bob.y")] = "bob.height"
@@ -116,6 +123,7 @@ def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:
         ('"time","pull"\n0,0\n1,1\n', (), "no column that is an output"),
         ('"time","bob.x"\n0,0\n', (), "a reference goes on after 0 s"),
         ('"time","bob.x"\n0,0\n0.013,0\n0.02,0\n', ("--step", 0.01), "a row at 0.013 s, which is no communication"),
+        ('"time","bob.x"\n-2,0\n1,0\n', (), "begins at -2 s; a run begins at 0: add 2 s to all its times"),
         ('"time","bob.x"\n0,0\n1,0\n', ("--bound", "bob.z=1"), "--bound bob.z:"),
         ('"time","bob.x"\n0,0\n1,0\n', ("--show-parameters",), "--show-parameters does not go with --reference"),
         ('"time","bob.x"\n0,0\n1,0\n', ("--soak",), "--reference does not go with --soak"),

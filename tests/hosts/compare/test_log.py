@@ -161,7 +161,7 @@ BAD = [
         '[signals]\n"bob.X" = "x"',
         "'bob.X' is no input or output of Tuned",
     ),
-    ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\n"spring.damping" = "x"', "is a parameter of Tuned.fmu"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\n"spring.free_length" = "x"', "is a parameter of Tuned.fmu"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "deg" }', "is in 'deg'; 'pull' of"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "kNn" }', "or 'kN'"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { nam = "F" }', "must be a column of the log"),

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.driven_fmu import DrivenFmu
 
 H = 0.002
@@ -56,6 +57,20 @@ def test_upright_after_a_roll_over(fmu: Callable[[str], Path]) -> None:
     assert np.array_equal(drive(car, 2000), rows[1000:])
     car.close()
     car.close()
+
+
+def test_full_lock_is_where_the_ratio_that_is_set_has_it(fmu: Callable[[str], Path]) -> None:
+    """The constant by which a wheel of a device steers, against the angle of the car's steering wheel at full lock."""
+    start = {"steering.rack_per_turn": 0.03}
+    with Car(CarSettings(fmu("prototype_car"), start, paced=False, priority=False)) as made:
+        told = made.constants["vehicle.steering_wheel_angle_max"]
+    car = DrivenFmu(fmu("prototype_car"), start, H)
+    wants = np.zeros((len(car.inputs.values), 3))
+    wants[car.names.index("steering")] = 1.0, math.inf, 1.0
+    car.inputs.want(wants.ravel())
+    angle = drive(car, 500)[-1, car.names.index("steering_wheel_angle")]
+    car.close()
+    assert angle == pytest.approx(told, rel=1e-3)
 
 
 @pytest.mark.slow

@@ -1,0 +1,54 @@
+"""The record beside a table that is the result of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ali3.reading import read_json
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
+from hosts.driving.state_file import read_state
+
+
+@dataclass(frozen=True)
+class RunRecord:
+    """What the record says: first output, start values, held inputs, by rows the time and the inputs before a jump, the
+    state that the run began with and its time, the step and the interval of rows in s, and the inputs of which the rows
+    do not tell all.
+    """
+
+    outputs_from: str = ""
+    start: Mapping[str, Value] = field(default_factory=dict)
+    held: set[str] | None = None
+    jumps: Mapping[int, list[float]] = field(default_factory=dict)
+    state: tuple[bytes | None, float] = (None, 0.0)
+    step: float | None = None
+    interval: float = 0.0
+    lost: tuple[str, ...] = ()
+
+
+def record_of(path: Path) -> RunRecord:
+    """The record beside a table; one that says nothing where there is none."""
+    file = path.with_suffix(".json")
+    try:
+        record = read_json(file, HostError, finite=False) if file.is_file() else None
+    except HostError:
+        return RunRecord()  # of another kind: what is in the table then says what it is
+    if not isinstance(record, dict) or "outputs_from" not in record:
+        return RunRecord()
+    try:
+        first, start, held, state, step = (record[key] for key in ("outputs_from", "start", "held", "state", "step_s"))
+        jumps = {int(k): [float(x) for x in values] for k, values in record["jumps"].items()}
+        texts = [first, *held] if isinstance(held, list) else [None]
+        if any(not isinstance(text, str) for text in texts) or not all(jumps.values()) or not float(step) > 0.0:
+            raise ValueError
+        if any(not isinstance(value, (bool, int, float, str)) for value in start.values()):
+            raise ValueError
+        interval, lost = float(record.get("interval_s", step)), tuple(record.get("lost", ()))
+        saved = (None, 0.0) if state is None else (read_state(path.parent / state["file"], str(file)), state["time"])
+        begun = saved[0], float(saved[1])
+        return RunRecord(first, start, set(held), jumps, begun, float(step), interval, lost)
+    except (AttributeError, KeyError, TypeError, ValueError):
+        raise HostError(f"{file} is no whole record of the run whose result is {path.name}; run it again.") from None

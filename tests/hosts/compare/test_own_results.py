@@ -1,0 +1,52 @@
+"""A result of `ali3 run` as the log: what its record says was held drives the FMU as it did in the run."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hosts.compare.command import main
+from hosts.run.command import main as run
+
+ROWS = (
+    ("time", "pull", "spring.stiffness"),
+    (0.0, 0.0, 100.0),
+    (0.5, 6.0, 100.0),
+    (1.1, -4.0, 180.0),
+    (2.0, 5.0, 90.0),
+)
+
+
+def test_held_inputs_and_parameters_that_change(
+    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table = tmp_path / "drive.csv"
+    table.write_text("# held: pull\n" + "\n".join(",".join(map(str, row)) for row in ROWS) + "\n")
+    assert run([str(tuned), "-m", str(table), "--step", "0.05", "--out", str(tmp_path)]) == 0
+    log = next(tmp_path.glob("*_drive.csv"))
+    capsys.readouterr()
+    assert main([str(tuned), str(log), "--step", "0.05", "--out", str(tmp_path / "compared")]) == 0
+    said = capsys.readouterr().out
+    assert "Tunable parameters that the log drives, each kept up to its next row: spring.stiffness." in said
+    with (tmp_path / "compared" / log.name).open() as file:
+        rows = list(csv.reader(file))
+    heading, values = rows[0], np.array([[float(x or "nan") for x in row] for row in rows[1:]])
+    for name in ("bob.x", "bob.y"):
+        measured, simulated = (values[:, heading.index(f"{name}.{what} [m]")] for what in ("measured", "simulated"))
+        assert np.ptp(measured) > 0.1
+        np.testing.assert_allclose(simulated, measured, rtol=0.0, atol=1e-9)
+
+
+def test_a_set_parameter_is_not_driven_by_the_log(
+    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = tmp_path / "log.csv"
+    rows = [f"{0.02 * k},{np.sin(0.02 * k)},{100 + k},{0.1 * np.sin(0.02 * k)}" for k in range(100)]
+    log.write_text("time,pull,spring.stiffness,bob.x\n" + "\n".join(rows) + "\n")
+    assert main([str(tuned), str(log), "--set", "spring.stiffness=120", "--out", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr().out
+    assert "In the log, and set or sought instead: spring.stiffness." in said
+    assert "Tunable parameters" not in said
