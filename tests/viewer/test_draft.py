@@ -61,6 +61,40 @@ def test_a_draft_has_few_calls_and_triangles_and_the_same_things_at_the_same_pla
     assert np.abs(drawn.picture() - fine).max() <= 2, "back to the picture of before"
 
 
+def test_a_frame_that_bends_has_few_triangles_in_a_draft_and_all_of_them_again(drawn):
+    scene = compile(load("prototype").model(fidelity="dynamic")).scene
+    assert len(scene["flexible"][0]["nodes"]) > 100
+    drawn.show(scene | {"roads": [terrain()], "scenery": scenery()}, camera="chase", quality="low")
+    fine = _cost(drawn)[1]
+    drawn.ask("view.set({ quality: 'draft' })")
+    drawn.picture()
+    draft = _cost(drawn)[1]
+    assert draft < MOST_TRIANGLES
+    drawn.ask("view.set({ quality: 'low' })")
+    drawn.picture()
+    assert _cost(drawn)[1] == fine > 2 * draft
+
+
+def test_a_large_picture_has_fewer_pixels_in_a_draft(drawn, car):
+    """Sizes of the canvas, as the container of the page would have them; afterwards it has its own again."""
+    drawn.show(car, camera="chase", quality="draft")
+    sizes = """pairs => {
+      const { container } = view;
+      const found = pairs.map(([clientWidth, clientHeight]) => {
+        view.container = { clientWidth, clientHeight };
+        view.resize();
+        return [view.renderer.domElement.width, view.renderer.domElement.height];
+      });
+      view.container = container;
+      view.resize();
+      return found;
+    }"""
+    pairs = [[320, 180], [640, 360], [1920, 1080]]
+    assert drawn.ask(f"({sizes})({pairs})") == [[320, 180], [480, 270], [960, 540]]
+    drawn.ask("view.set({ quality: 'low' })")
+    assert drawn.ask(f"({sizes})({pairs})") == pairs
+
+
 def test_cones_stand_where_they_are_in_a_draft(drawn, car):
     drawn.show(car, camera="chase", quality="draft")
     picture = drawn.picture()

@@ -12,6 +12,12 @@ export function lookOf(scene) {
   return (scene.roads ?? []).length > 0 ? "outdoors" : "studio";
 }
 
+/** Pixels of a draft, of which a processor draws more than 15 a second, and the least part of a side that is drawn. */
+const [DRAFT_PIXELS, LEAST] = [480 * 270, 0.5];
+
+/** Pixels that a draft draws for each of the page, by side. @param {number} area of the picture in the page */
+export const draftRatio = (area) => Math.min(1, Math.max(LEAST, Math.sqrt(DRAFT_PIXELS / area)));
+
 /** @param {Data} view the SceneView */
 export function makeLook(view) {
   const { options, scene, renderer, software } = view;
@@ -33,8 +39,10 @@ export function makeLook(view) {
     name,
     caption: look.caption ?? "",
     height: look.height ?? null,
-    get pixelRatio() {
-      return pace.level === "high" ? Math.min(globalThis.devicePixelRatio || 1, 2) : 1;
+    /** Pixels drawn for each of the page. @param {number} width @param {number} height of the picture in the page */
+    pixelRatio: (width, height) => {
+      if (pace.level === "high") return Math.min(globalThis.devicePixelRatio || 1, 2);
+      return pace.level === "low" ? 1 : draftRatio(width * height);
     },
     get quality() {
       return pace.level;

@@ -28,8 +28,8 @@ export const TONES = 61 * 273;
 
 /**
  * Tones as wide as a few pixels are long at their distance: mipmaps blur every layer of one size to its mean there.
- * Their length is that of level ground: facets of a terrain that are finer than pixels would make it flicker. Two
- * sizes, one twice the other, go over into each other, so that no edge between them is seen.
+ * Their length is that of level ground: facets of a terrain that are finer than pixels would make it flicker. A
+ * size goes over into the next, half of it, so that no edge between them is seen; elsewhere it is looked up alone.
  */
 export const DETAIL = /* glsl */ `
 vec3 sight = vGround - cameraPosition;
@@ -40,8 +40,11 @@ float reach = away * pixel / max(abs(dot(sight, cross(aX, aY))), 0.01);
 float octave = clamp(log2(${TONES.toFixed(1)} / (160.0 * max(reach, 1e-4))), 0.0, 14.0);
 float finer = fract(octave);
 vec2 tonesAt = (plane + aTones) / ${TONES.toFixed(1)} * exp2(floor(octave));
-float tones = mix(textureLod(aNoise, tonesAt, 1.0 - finer).g, textureLod(aNoise, 2.0 * tonesAt, 2.0 - finer).g, finer) - 0.518;
-float detail = 1.0 + smoothstep(0.01, 0.06, reach) * inversesqrt(1.0 - 2.0 * finer * (1.0 - finer)) * mix(0.4, 1.3, smoothstep(0.1, 2.0, reach)) * tones;
+float tones = textureLod(aNoise, tonesAt, 1.0 - finer).g;
+float over = smoothstep(0.7, 1.0, finer);
+if (over > 0.0) tones = mix(tones, textureLod(aNoise, 2.0 * tonesAt, 2.0 - finer).g, over);
+tones -= 0.518;
+float detail = 1.0 + smoothstep(0.01, 0.06, reach) * inversesqrt(1.0 - 2.0 * over * (1.0 - over)) * mix(0.4, 0.9, smoothstep(0.1, 2.0, reach)) * tones;
 `;
 
 /** Noise at four scales, and the shares of the surfaces with edges as sharp as noise lets them be. */

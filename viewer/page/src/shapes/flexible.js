@@ -23,6 +23,7 @@ export class Flexible {
     this.object = new THREE.Mesh(this.tubes.geometry, this.plain);
     this.object.frustumCulled = false;
     this.object.userData.alone = true; // it bends
+    this.object.userData.coarse = this.tubes.coarse; // of a draft
     this.colours = !materials.options.ghost;
     this.absent = "";
     this.update(null, 1);

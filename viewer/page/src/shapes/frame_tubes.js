@@ -1,8 +1,11 @@
 // Tubes of a flexible body: one surface for all beams, with balls at the nodes.
 import * as THREE from "three";
+import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { across, add, cross, scale, subtract, unit } from "../scene/math.js";
 
 const AROUND = 12;
+/** Every so many points around, and the corners of a ball without those between them, are drawn in a draft. */
+const COARSE = 3;
 
 /** A surface over nodes and beams that is written again when the nodes move. */
 export class FrameTubes {
@@ -11,27 +14,30 @@ export class FrameTubes {
     this.beams = beams;
     this.radii = radii;
     this.thick = thickness(nodes, beams, radii);
-    const ball = new THREE.IcosahedronGeometry(1, nodes.length > 300 ? 1 : 2);
-    this.ball = ball.getAttribute("position").array;
-    ball.dispose();
+    const [corners, ball] = [0, 1].map(icosphere);
+    this.ball = ball.points;
     this.first = beams.length * 2 * AROUND;
     const count = this.first + nodes.length * (this.ball.length / 3);
     this.geometry = new THREE.BufferGeometry();
     for (const [name, size] of Object.entries({ position: 3, normal: 3, level: 1 })) {
       this.geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(count * size), size));
     }
-    this.geometry.setIndex(this.#triangles(count));
+    this.geometry.setIndex(this.#triangles(nodes.length, 1, ball.index));
+    const kept = corners.index.map((k) => nearest(corners.points.slice(3 * k, 3 * k + 3), ball.points));
+    /** Triangles of a draft, over the same points. */
+    this.coarse = new THREE.BufferAttribute(Uint32Array.from(this.#triangles(nodes.length, COARSE, kept)), 1);
   }
 
-  #triangles(count) {
+  #triangles(nodes, every, ball) {
     const list = [];
     this.beams.forEach((_, b) => {
-      for (let j = 0; j < AROUND; j++) {
-        const [a, c] = [2 * AROUND * b + j, 2 * AROUND * b + ((j + 1) % AROUND)];
+      for (let j = 0; j < AROUND; j += every) {
+        const [a, c] = [2 * AROUND * b + j, 2 * AROUND * b + ((j + every) % AROUND)];
         list.push(a, c, a + AROUND, c, c + AROUND, a + AROUND);
       }
     });
-    for (let i = this.first; i < count; i++) list.push(i);
+    const size = this.ball.length / 3;
+    for (let i = 0; i < nodes; i++) for (const k of ball) list.push(this.first + i * size + k);
     return list;
   }
 
@@ -79,6 +85,22 @@ export class FrameTubes {
     atNode.forEach((value, i) => level.array.fill(value, this.first + i * size, this.first + (i + 1) * size));
     level.needsUpdate = true;
   }
+}
+
+/** Points and triangles of a ball of radius 1. @param {number} detail how often each triangle is divided into four */
+function icosphere(detail) {
+  const soup = new THREE.IcosahedronGeometry(1, detail);
+  for (const name of ["normal", "uv"]) soup.deleteAttribute(name);
+  const made = mergeVertices(soup, 1e-6);
+  const found = { points: [...made.getAttribute("position").array], index: [...made.index.array] };
+  for (const geometry of [soup, made]) geometry.dispose();
+  return found;
+}
+
+/** Place of the point that is nearest to another. @param {number[]} point @param {number[]} points */
+function nearest(point, points) {
+  const away = (k) => Math.hypot(...[0, 1, 2].map((i) => points[3 * k + i] - point[i]));
+  return [...Array(points.length / 3).keys()].reduce((a, b) => (away(b) < away(a) ? b : a));
 }
 
 /** Radius of the ball at each node: that of its thickest beam; without beams nodes are points of one size. */

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { prelit } from "./prelit.js";
 import { within } from "./thinned.js";
 
-/** Triangles of all solid parts together, at most. */
+/** Triangles of all solid parts and of those that change their form together, at most; solid parts have half of them. */
 export const MOST = 17000;
 /** The finest lattice, beside the size of the drawing. */
 const FINEST = 1.5e-3;
@@ -52,10 +52,12 @@ export function baked(parts, light, extent) {
   const hidden = [];
   const movers = [];
   const single = new Map();
+  const thinner = new Set();
   const gather = (object, bends) => {
     const meshes = [];
     object.traverse((part) => {
       if (!(part instanceof THREE.Mesh)) return;
+      if (part.userData.coarse !== undefined) thinner.add(part);
       if (!stays(part)) meshes.push(part);
       else if (!bends || !part.userData.alone) single.set(part, part.material);
     });
@@ -65,10 +67,11 @@ export function baked(parts, light, extent) {
   for (const carrier of carriers) movers.push({ object: carrier, meshes: gather(carrier, true) });
   for (const { object, update } of parts.shapes) if (update) for (const mesh of gather(object, false)) movers.push({ object: mesh, meshes: [mesh] });
   const solid = movers.filter(({ meshes }) => meshes.length > 0);
+  const others = [...thinner].reduce((sum, { userData }) => sum + (userData.coarse.count ?? userData.coarse.length) / 3, 0);
   const surfaces = within(solid.map(({ object, meshes }) => {
     const inverse = object.matrixWorld.clone().invert();
     return together(meshes.map((mesh) => surfaceOf(mesh, inverse.clone())));
-  }), MOST, FINEST * extent); // prettier-ignore
+  }), Math.max(MOST / 2, MOST - others), FINEST * extent); // prettier-ignore
   for (const { meshes } of solid) hidden.push(...meshes);
   const drawn = solid.map((mover, k) => ({ ...mover, surface: surfaces[k] })).filter(({ surface }) => surface.index.length > 0);
   const [points, corners] = ["positions", "index"].map((name) => drawn.reduce((sum, { surface }) => sum + surface[name].length, 0));
@@ -87,10 +90,9 @@ export function baked(parts, light, extent) {
     show(on) {
       batch.visible = on;
       for (const mesh of hidden) mesh.layers.set(on ? UNSEEN : 0);
-      for (const [mesh, own] of single) {
-        mesh.material = on ? twins.get(own) : own;
+      for (const [mesh, own] of single) mesh.material = on ? twins.get(own) : own;
+      for (const mesh of thinner) {
         const { coarse, fine = mesh.geometry.index } = mesh.userData;
-        if (coarse === undefined) continue;
         mesh.userData.fine = fine;
         mesh.geometry.setIndex(on ? coarse : fine);
       }
