@@ -16,7 +16,7 @@ export function lookOf(scene) {
 const [DRAFT_PIXELS, LEAST] = [480 * 270, 0.5];
 
 /** Pixels that a draft draws for each of the page, by side. @param {number} area of the picture in the page */
-export const draftRatio = (area) => Math.min(1, Math.max(LEAST, Math.sqrt(DRAFT_PIXELS / area)));
+const draftRatio = (area) => Math.min(1, Math.max(LEAST, Math.sqrt(DRAFT_PIXELS / area)));
 
 /** @param {Data} view the SceneView */
 export function makeLook(view) {
@@ -39,10 +39,10 @@ export function makeLook(view) {
     name,
     caption: look.caption ?? "",
     height: look.height ?? null,
-    /** Pixels drawn for each of the page. @param {number} width @param {number} height of the picture in the page */
-    pixelRatio: (width, height) => {
+    /** Pixels that are drawn for each of the page, by side. @param {number} area of the picture in the page */
+    pixelRatio: (area) => {
       if (pace.level === "high") return Math.min(globalThis.devicePixelRatio || 1, 2);
-      return pace.level === "low" ? 1 : draftRatio(width * height);
+      return pace.level === "low" ? 1 : draftRatio(area);
     },
     get quality() {
       return pace.level;

@@ -237,7 +237,7 @@ export class SceneView {
   resize() {
     if (this.problem) return;
     this.size = [Math.max(1, this.container.clientWidth), Math.max(1, this.container.clientHeight)];
-    this.renderer.setPixelRatio(this.look.pixelRatio(...this.size));
+    this.renderer.setPixelRatio(this.look.pixelRatio(this.size[0] * this.size[1]));
     this.renderer.setSize(this.size[0], this.size[1], false);
     this.cameras.resize(...this.size);
   }
