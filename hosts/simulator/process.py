@@ -38,6 +38,7 @@ class Process:
     def __init__(self, order: Order) -> None:
         self.ended = ""
         self._asked = False
+        self._watcher = threading.Thread(target=self._watch, name="car watch", daemon=True)
         # Spawned on every system: a copy of this process would hold its threads' locks, sockets and memory.
         context = multiprocessing.get_context("spawn")
         self._link, there = context.Pipe()
@@ -51,7 +52,7 @@ class Process:
         except BaseException:
             self.close()
             raise
-        threading.Thread(target=self._watch, name="car watch", daemon=True).start()
+        self._watcher.start()
 
     @property
     def pid(self) -> int | None:
@@ -62,7 +63,7 @@ class Process:
         self._link.send(start)
 
     def close(self) -> None:
-        """End it, within 2 s whatever it does; it must have been asked to before."""
+        """End it and what watches it, within about 2 s whatever it does; it must have been asked to before."""
         self._asked = True
         if self._process.pid is not None:
             for patience, harder in zip(_PATIENCE, (self._process.kill, None), strict=True):
@@ -71,6 +72,9 @@ class Process:
                     break
                 if harder is not None:
                     harder()
+        # It reads the link, which may close only after it.
+        if self._watcher.ident is not None:
+            self._watcher.join(_PATIENCE[1])
         self._link.close()
 
     def _first_words(self, order: Order) -> str:

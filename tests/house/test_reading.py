@@ -17,7 +17,7 @@ MOST = {
     "run, all of it": 6849,
     "view": 950,
     "simulator": 8950,
-    "simulator, all of it": 16132,
+    "simulator, all of it": 16136,
     "check": 5968,
     "catalogue": 8481,
     "compare": 9271,

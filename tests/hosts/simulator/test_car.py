@@ -9,6 +9,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +18,7 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
+from hosts.simulator import process
 from hosts.simulator.car import Car, CarSettings, Event, Moment
 from hosts.simulator.driven_fmu import DrivenFmu
 from hosts.simulator.shared_values import SharedValues, Sizes
@@ -293,6 +295,21 @@ def test_close_ends_a_process_that_does_not_listen(make: Made) -> None:
     car.close()
     assert gone(pid)
     assert not folder.exists()
+
+
+def test_close_waits_for_the_thread_that_watches_the_process(make: Made, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = set(threading.enumerate())
+    wait = process.connection.wait
+
+    def slow(*arguments: object) -> object:
+        ready = wait(*arguments)
+        if threading.current_thread().name == "car watch":
+            time.sleep(0.1)
+        return ready
+
+    monkeypatch.setattr(process.connection, "wait", slow)
+    make().close()
+    assert set(threading.enumerate()) == before
 
 
 @POSIX
