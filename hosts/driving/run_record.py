@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -41,14 +42,16 @@ def record_of(path: Path) -> RunRecord:
     try:
         first, start, held, state, step = (record[key] for key in ("outputs_from", "start", "held", "state", "step_s"))
         jumps = {int(k): [float(x) for x in values] for k, values in record["jumps"].items()}
-        texts = [first, *held] if isinstance(held, list) else [None]
-        if any(not isinstance(text, str) for text in texts) or not all(jumps.values()) or not float(step) > 0.0:
+        interval, lost = float(record.get("interval_s", step)), record.get("lost", [])
+        texts = [first, *held, *lost] if isinstance(held, list) and isinstance(lost, list) else [None]
+        sizes = (float(step), interval, *(1.0 + abs(x) for values in jumps.values() for x in values))
+        known = all(isinstance(text, str) for text in texts) and all(0.0 < size < math.inf for size in sizes)
+        if not known or not all(jumps.values()):
             raise ValueError
         if any(not isinstance(value, (bool, int, float, str)) for value in start.values()):
             raise ValueError
-        interval, lost = float(record.get("interval_s", step)), tuple(record.get("lost", ()))
         saved = (None, 0.0) if state is None else (read_state(path.parent / state["file"], str(file)), state["time"])
         begun = saved[0], float(saved[1])
-        return RunRecord(first, start, set(held), jumps, begun, float(step), interval, lost)
+        return RunRecord(first, start, set(held), jumps, begun, float(step), interval, tuple(lost))
     except (AttributeError, KeyError, TypeError, ValueError):
         raise HostError(f"{file} is no whole record of the run whose result is {path.name}; run it again.") from None

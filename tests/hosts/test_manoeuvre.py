@@ -173,7 +173,10 @@ def test_a_table_whose_record_does_not_fit_is_refused(tmp_path: Path) -> None:
         {"start": {"a": [1]}},
         {"held": "u"},
         {"jumps": [1]},
+        {"jumps": {"1": [1.0, float("nan")]}},
         {"step_s": -1},
+        {"interval_s": float("inf")},
+        {"lost": "u"},
         {"state": 1},
     ):
         with pytest.raises(HostError, match="is no whole record of the run"):
