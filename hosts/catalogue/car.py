@@ -35,6 +35,8 @@ class CarFacts:
         Of the FMU and of the alias file, by our names.
     step : float
         Communication step, s.
+    token : str
+        That tells another build of the FMU.
     """
 
     inputs: tuple[str, ...]
@@ -43,6 +45,7 @@ class CarFacts:
     units: Mapping[str, str]
     constants: Mapping[str, float]
     step: float
+    token: str = ""
 
 
 @dataclass(frozen=True)
@@ -125,6 +128,7 @@ class TestedCar:
                 {n: v.unit or "1" for n, v in fmu.variables.items()},
                 fmu.constants(),
                 told if self.step is None else self.step,
+                str(fmu.description.guid or fmu.description.instantiationToken or ""),
             )
 
     @property

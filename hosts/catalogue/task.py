@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import time
 import traceback
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ali3.errors import UserError
+from ali3.files import write_text
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import Reason, perform
 from hosts.catalogue.record import TestRecord
@@ -75,10 +77,15 @@ def do(task: Task, progress: Callable[[float], None]) -> Outcome:
 
 
 def _write_runs(task: Task, folder: Path, record: TestRecord) -> None:
+    """A table of each run, and beside it what `ali3 view` needs to draw it."""
     from hosts.run.result_files import write_csv
 
     for name, result in record.runs.items():
-        write_csv(result, folder / run_file(task.test, task.car.label, name))
+        file = folder / run_file(task.test, task.car.label, name)
+        write_csv(result, file)
+        told = [{"name": variable, "new": value} for variable, value in result.start.items()]
+        seen = {"fmu": str(task.car.path), "token": task.car.facts.token, "set": told, "marks": result.marks}
+        write_text(file.with_suffix(".json"), json.dumps(seen, ensure_ascii=False) + "\n")
 
 
 def run_file(test: str, label: str, run: str) -> Path:

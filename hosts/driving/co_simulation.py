@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from fmpy.model_description import ScalarVariable
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.driving.ground_marks import marks_of, marks_of_inputs
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.missed_jumps import missed_end, missed_jumps
 from hosts.driving.pilots.pilot import Pilot
@@ -171,7 +173,7 @@ def run(
     progress(rows.done)
     recorded, values = rows.close(last)
     names = inputs + outputs
-    return Result(
+    made = Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
         step * np.array(recorded, dtype=np.float64),
@@ -185,7 +187,9 @@ def run(
         rows.jumps,
         lost=[n for n, gone in zip(inputs, rows.lost.tolist(), strict=True) if gone],
         missed=[told for told in (missed_jumps(manoeuvre, step, straight, whole, acts), end) if told is not None],
+        start=dict(manoeuvre.start),
     )
+    return replace(made, marks=marks_of_inputs(made) if driver is None else marks_of(driver))
 
 
 def _is_whole(variable: ScalarVariable) -> bool:

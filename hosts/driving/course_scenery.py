@@ -1,4 +1,4 @@
-"""The cones of a course, as a scene draws them."""
+"""What a manoeuvre has on the ground, as a scene draws it: on the heights of its roads."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ali3.cones import cone_places
 from hosts.driving.course import Course
+from hosts.driving.ground_marks import Mark, cones, things_of
 
 
 def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
@@ -28,13 +28,24 @@ def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
         The scene with cones in its scenery; where the height of its road is not known in closed form they stand in
         `missing` instead.
     """
-    places = cone_places(course.gates)
-    heights = [_height(scene.get("roads", []), x, y) for x, y in places]
-    if not np.all(np.isfinite(heights)):
+    return with_marks(scene, cones(course.gates), f"cones of {course.name}")
+
+
+def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> dict[str, Any]:
+    """A scene with marks on its roads; `name` is that of `missing` where they cannot be put there."""
+
+    def placed(x: float, y: float) -> list[float]:
+        return [x, y, _height(scene.get("roads", []), x, y)]
+
+    things = [
+        thing | ({"at": placed(*thing["at"])} if "at" in thing else {"points": [placed(*p) for p in thing["points"]]})
+        for thing in things_of(marks)
+    ]
+    places = [place for thing in things for place in thing.get("points", [thing.get("at")])]
+    if not np.all(np.isfinite(places)):
         why = "they are put onto level roads, planes and kerbs only"
-        return dict(scene) | {"missing": [*scene.get("missing", []), {"name": f"cones of {course.name}", "why": why}]}
-    cones = [{"kind": "cone", "at": [x, y, z]} for (x, y), z in zip(places, heights, strict=True)]
-    return dict(scene) | {"scenery": [*scene.get("scenery", []), *cones]}
+        return dict(scene) | {"missing": [*scene.get("missing", []), {"name": name, "why": why}]}
+    return dict(scene) | ({"scenery": [*scene.get("scenery", []), *things]} if things else {})
 
 
 def _height(roads: Sequence[Mapping[str, Any]], x: float, y: float) -> float:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from hosts.common.numbers import Value
 
 
 @dataclass(frozen=True)
@@ -43,6 +47,10 @@ class Result:
         Inputs that moved between the rows otherwise than the rows tell, where not every step has one.
     missed : list of (str, str)
         What `missed_jumps` and `missed_end` say of the manoeuvre.
+    start : mapping of str to float, int, bool or str
+        What was set before the start.
+    marks : list of dict
+        What the manoeuvre has on the ground, see `hosts.driving.ground_marks`.
     """
 
     names: list[str]
@@ -59,6 +67,8 @@ class Result:
     starts: list[int] = field(default_factory=lambda: [0])
     lost: list[str] = field(default_factory=list)
     missed: list[tuple[str, str]] = field(default_factory=list)
+    start: Mapping[str, Value] = field(default_factory=dict)
+    marks: list[dict[str, Any]] = field(default_factory=list)
 
     def __contains__(self, name: str) -> bool:
         return name in self.names

@@ -91,6 +91,7 @@ def write_record(
         "course": None
         if driver is None
         else {"track": driver.course.name, "vehicle_width": driver.settings.vehicle_width},
+        "marks": result.marks,
         "outputs_from": next(iter(fmu.names("output")), ""),
     }
     write_text(file, json.dumps(record, indent=2, ensure_ascii=False) + "\n")

@@ -22,6 +22,7 @@ from viewer.recording import Recording
 # What a car without inputs of the user's is driven through.
 _CAR_MANOEUVRE = "double_lane_change"
 _WIDEST = 10.0  # m, of a vehicle
+_ON_THE_GROUND = "what the manoeuvre has on the ground"
 
 
 @dataclass(frozen=True)
@@ -137,7 +138,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         if scene is None:
             told.append(_foreign(fmu))
         else:
-            scene = _with_course(scene, record, record_file)
+            scene = _with_marks(_with_course(scene, record, record_file), record, record_file)
         if not same:
             told.append(f"{fmu} was built again since {name} was recorded; what is drawn is that of the new build.")
     else:
@@ -181,6 +182,18 @@ def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> d
     return with_course(scene, course_of(name, float(width)))
 
 
+def _with_marks(scene: dict[str, Any], record: dict[str, Any], file: Path) -> dict[str, Any]:
+    """The scene with what else the manoeuvre has on the ground, where the record names it."""
+    from hosts.driving.course_scenery import with_marks
+
+    try:
+        return with_marks(scene, record.get("marks") or [], _ON_THE_GROUND)
+    except (KeyError, TypeError, ValueError):
+        raise HostError(
+            f"{file}, the record of the result, does not say by 'marks' cones, lines and circles with their places, m."
+        ) from None
+
+
 def _fmu_of(record: dict[str, Any], file: Path) -> Path:
     """The FMU of a record: as it was named, from here or from a folder above the record."""
     named = Path(record["fmu"])
@@ -214,7 +227,7 @@ def _foreign(path: Path) -> str:
 def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[str]]:
     """Run an FMU: through a manoeuvre, or for its default experiment."""
     from hosts.driving.co_simulation import run_with_bar
-    from hosts.driving.course_scenery import with_course
+    from hosts.driving.course_scenery import with_course, with_marks
     from hosts.driving.driver import driver_of
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
@@ -238,8 +251,9 @@ def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[s
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, wanted.step), driver)
     if scene is None:
         told.append(_foreign(path))
-    elif driver is not None:
-        scene = with_course(scene, driver.course)
+    else:
+        scene = scene if driver is None else with_course(scene, driver.course)
+        scene = with_marks(scene, result.marks, _ON_THE_GROUND)
     told += [": ".join(missed) for missed in result.missed]
     told += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
     if result.failed_steps:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
+from hosts.driving.ground_marks import Mark, line_across, marks_of
 from hosts.driving.pilots.pilot import Pilot
 
 
@@ -44,8 +45,14 @@ class Braking:
         self.rise_time = rise_time
         self.gear = dict(gear or {})
         self.onset = math.nan
+        self._place: tuple[float, float, float] | None = None
         self._held: dict[str, float] = {}
         self._last = 0.0
+
+    @property
+    def marks(self) -> list[Mark]:
+        """A line where braking begins, beside what the other pilot drives by."""
+        return marks_of(self.before) + ([] if self._place is None else [line_across(*self._place)])
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """See `hosts.driving.pilots.pilot.Pilot.act`."""
@@ -55,6 +62,8 @@ class Braking:
                 self._held = dict(self.before.act(time, senses))
                 return {"brake": 0.0, **self._held, **{name: values[0] for name, values in self.gear.items()}}
             self.onset = time
+            if {"chassis.x", "chassis.y", "chassis.yaw"} <= set(senses):
+                self._place = senses["chassis.x"], senses["chassis.y"], senses["chassis.yaw"]
         # The input holds through the coming step: its middle gives the same pedal whatever the step.
         share = (time + 0.5 * step - self.onset) / self.rise_time if self.rise_time > 0.0 else 1.0
         pedals = {"throttle": 0.0, "brake": self.pedal * min(share, 1.0)}

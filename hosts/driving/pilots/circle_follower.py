@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
+from hosts.driving.ground_marks import Mark, circle
 from hosts.driving.pilots.speed_holder import SpeedHolder
 
 SENSES = ("chassis.x", "chassis.y", "chassis.yaw", "sideslip", "speed")
@@ -65,6 +66,11 @@ class CircleFollower:
             return 0.0
         distance = math.hypot(senses["chassis.x"] - self._centre[0], senses["chassis.y"] - self._centre[1])
         return math.copysign(abs(self.radius) - distance, self.radius * (abs(self.radius) - distance))
+
+    @property
+    def marks(self) -> list[Mark]:
+        """The circle, once it is known."""
+        return [] if self._centre is None else [circle(self._centre, abs(self.radius))]
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """See `hosts.driving.pilots.pilot.Pilot.act`; steering, throttle and brake from `SENSES`."""

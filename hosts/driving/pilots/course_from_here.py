@@ -6,6 +6,8 @@ import math
 from collections import ChainMap
 from collections.abc import Callable, Mapping
 
+from hosts.driving.course import Course
+from hosts.driving.ground_marks import Mark, cones
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
 
@@ -46,6 +48,12 @@ class CourseFromHere:
         self.pose = (0.0, 0.0, 0.0)
         self.released = False
         self._speed_holder = SpeedHolder(speed, gain=1.0, integral_gain=1.0)
+
+    @property
+    def marks(self) -> list[Mark]:
+        """Cones of the course that is steered along, once it is laid out."""
+        course: Course | None = getattr(self.steering, "course", None)
+        return [] if course is None or math.isnan(self.start) else cones(course.gates, self.pose)
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """See `hosts.driving.pilots.pilot.Pilot.act`."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from hosts.driving.ground_marks import Mark, marks_of
 from hosts.driving.pilots.pilot import Pilot
 
 
@@ -33,6 +34,11 @@ class FixedSteering:
         self.value: float | None = None
         self._sum = 0.0
         self._count = 0
+
+    @property
+    def marks(self) -> list[Mark]:
+        """Of the other pilot."""
+        return marks_of(self.pilot)
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """See `hosts.driving.pilots.pilot.Pilot.act`."""

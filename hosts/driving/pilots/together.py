@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from hosts.driving.ground_marks import Mark, marks_of
 from hosts.driving.pilots.pilot import Pilot
 
 
@@ -18,6 +19,11 @@ class Together:
 
     def __init__(self, *pilots: Pilot) -> None:
         self.pilots = pilots
+
+    @property
+    def marks(self) -> list[Mark]:
+        """Of all of them."""
+        return [mark for pilot in self.pilots for mark in marks_of(pilot)]
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """See `Pilot.act`."""

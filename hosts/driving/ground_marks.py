@@ -1,0 +1,98 @@
+"""What a manoeuvre has on the ground, without heights: cones beside lanes, circles, the line where braking begins."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ali3.cones import cone_places
+from ali3.iso_3888 import Gate
+from hosts.driving.result import Result
+
+Mark: TypeAlias = dict[str, Any]
+"""Kind and places, x and y, m: a cone, a line or a circle."""
+_FEWEST, _MOST = 72, 3600  # sections of a circle; between them one a metre
+_WIDTH = 0.15  # m, of lines
+_ACROSS = 4.0  # m, of a line across the way
+_STEADY, _SETTLED = 10.0, 2.0  # s that a steering angle is held which makes a circle, and after which it is driven
+_MOVES = 1.0  # m/s
+
+
+def marks_of(pilot: object) -> list[Mark]:
+    """What a pilot drives by; nothing of one that drives by nothing that can be seen."""
+    return list(getattr(pilot, "marks", ()))
+
+
+def cones(gates: Sequence[Gate], pose: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> list[Mark]:
+    """Cones of lanes whose axes lie at x, y, yaw, m and rad."""
+    x0, y0, yaw = pose
+    c, s = math.cos(yaw), math.sin(yaw)
+    return [{"kind": "cone", "at": [x0 + c * x - s * y, y0 + s * x + c * y]} for x, y in cone_places(gates)]
+
+
+def circle(centre: tuple[float, float], radius: float) -> Mark:
+    """A circle, m."""
+    return {"kind": "circle", "centre": list(centre), "radius": radius}
+
+
+def things_of(marks: Sequence[Mark]) -> list[Mark]:
+    """Cones and lines, of which scenes are made, for these and circles.
+
+    Raises
+    ------
+    ValueError, KeyError, TypeError
+        They are no marks.
+    """
+    things = []
+    for mark in marks:
+        if mark["kind"] == "circle":
+            (x, y), radius = mark["centre"], mark["radius"]
+            angles = np.linspace(0.0, 2.0 * math.pi, min(max(_FEWEST, math.ceil(2.0 * math.pi * radius)), _MOST) + 1)
+            points = np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)]).tolist()
+            things.append({"kind": "line", "points": points, "width": _WIDTH})
+        elif mark["kind"] == "line":
+            points = [[float(x), float(y)] for x, y in mark["points"]]
+            things.append({"kind": "line", "points": points, "width": _WIDTH, "colour": mark["colour"]})
+        elif mark["kind"] == "cone":
+            x, y = mark["at"]
+            things.append({"kind": "cone", "at": [float(x), float(y)]})
+        else:
+            raise ValueError(mark["kind"])
+    return things
+
+
+def line_across(x: float, y: float, yaw: float) -> Mark:
+    """A line across the way of a car that is at x, y and goes along yaw, m and rad."""
+    dx, dy = -0.5 * _ACROSS * math.sin(yaw), 0.5 * _ACROSS * math.cos(yaw)
+    return {"kind": "line", "points": [[x + dx, y + dy], [x - dx, y - dy]], "colour": "yellow"}
+
+
+def marks_of_inputs(result: Result) -> list[Mark]:
+    """Of inputs over time: the circle that a steering which stays begins with, or where a straight run begins to stop.
+
+    The circle is that of speed and yaw rate 2 s after the steering stays, where it then stays for 10 s or more; a car
+    that is faster later leaves it.
+    """
+    if not {"steering", "brake", "chassis.x", "chassis.y", "chassis.yaw", "speed"} <= set(result.names):
+        return []
+    steering, brake, time = result["steering"], result["brake"], result.time
+    if not steering.any():
+        free = np.flatnonzero(brake <= 0.0)
+        begins = int(free[-1]) if len(free) else len(time) - 1
+        if begins == len(time) - 1 or not abs(result["speed"][begins]) > _MOVES:
+            return []
+        return [line_across(*(float(result[name][begins]) for name in ("chassis.x", "chassis.y", "chassis.yaw")))]
+    stays = int(np.flatnonzero(steering != steering[-1])[-1]) + 1 if (steering != steering[-1]).any() else 0
+    settled = int(np.searchsorted(time, time[stays] + _SETTLED))
+    if steering[-1] == 0.0 or time[-1] - time[stays] < _STEADY or "chassis.wz" not in result:
+        return []
+    names = ("chassis.x", "chassis.y", "chassis.yaw", "speed", "chassis.wz")
+    x, y, yaw, speed, rate = (float(result[name][settled]) for name in names)
+    yaw += float(result["sideslip"][settled]) if "sideslip" in result else 0.0
+    if not (abs(speed) > _MOVES and abs(rate) * 1000.0 > abs(speed)):
+        return []
+    radius = speed / rate
+    return [circle((x - radius * math.sin(yaw), y + radius * math.cos(yaw)), abs(radius))]

@@ -1,0 +1,138 @@
+"""What a manoeuvre has on the ground: the circle, the line where braking begins, and cones of a course laid out."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hosts.common.errors import HostError
+from hosts.driving.course_scenery import with_marks
+from hosts.driving.courses import course_of
+from hosts.driving.ground_marks import cones, marks_of_inputs, things_of
+from hosts.driving.pilots.braking import Braking
+from hosts.driving.pilots.circle_follower import CircleFollower
+from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
+from hosts.driving.pilots.course_from_here import CourseFromHere
+from hosts.driving.pilots.fixed_steering import FixedSteering
+from hosts.driving.result import Result
+from hosts.view.view_sources import _with_marks
+
+TIME = np.arange(0.0, 15.01, 0.01)
+PLANE = {"kind": "plane", "point": [1.0, 0.0, 0.5], "normal": [-0.1, 0.2, 1.0]}
+
+
+def driven(**columns: np.ndarray) -> Result:
+    """A result with these columns; the others are zero."""
+    names = ("steering", "brake", "chassis.x", "chassis.y", "chassis.yaw", "speed", "chassis.wz", "sideslip")
+    values = np.column_stack([np.broadcast_to(columns.get(name.replace(".", "_"), 0.0), TIME.shape) for name in names])
+    return Result(list(names), dict.fromkeys(names, "1"), TIME, values, 0.0, TIME[-1], 0, [])
+
+
+def on_circle(radius: float, speed: float, sideslip: float) -> Result:
+    """Steady driving on a circle about (3, -4), with the steering as it is from 1 s on."""
+    way = TIME * speed / radius
+    return driven(
+        steering=np.where(TIME < 1.0, 0.0, 0.1),
+        chassis_x=3.0 + radius * np.sin(way),
+        chassis_y=-4.0 - radius * np.cos(way),
+        chassis_yaw=way - sideslip,
+        speed=speed,
+        chassis_wz=speed / radius,
+        sideslip=sideslip,
+    )
+
+
+@pytest.mark.parametrize("radius", [40.0, -25.0])
+def test_steering_that_stays_brings_the_circle_it_begins_with(radius: float) -> None:
+    (found,) = marks_of_inputs(on_circle(radius, 8.0, -0.05))
+    assert found["centre"] == pytest.approx([3.0, -4.0], abs=1e-9)
+    assert found["radius"] == pytest.approx(abs(radius))
+
+
+def test_a_straight_run_brings_the_line_where_it_begins_to_stop() -> None:
+    speed = np.where(TIME < 10.0, 20.0, np.maximum(0.0, 20.0 - 8.0 * (TIME - 10.0)))
+    way = np.cumsum(speed) * 0.01
+    brake = np.where(TIME < 0.5, 0.3, np.where(TIME > 10.0, 0.8, 0.0))  # it holds the car at the start, too
+    (found,) = marks_of_inputs(driven(brake=brake, speed=speed, chassis_x=way))
+    begins = np.flatnonzero(TIME <= 10.0)[-1]
+    assert np.array(found["points"])[:, 0] == pytest.approx(way[begins], abs=0.21)
+    assert np.ptp(np.array(found["points"])[:, 1]) == pytest.approx(4.0)
+
+
+@pytest.mark.parametrize(
+    "columns",
+    [
+        {},
+        {"brake": np.full(len(TIME), 0.3), "speed": np.full(len(TIME), 5.0)},  # brakes from the start
+        {"brake": np.where(TIME > 5.0, 0.3, 0.0)},  # stands
+        {"steering": np.where(TIME < 8.0, 0.0, 0.1), "speed": 8.0, "chassis_wz": 0.2},  # stays too short
+        {"steering": np.where(TIME < 1.0, 0.0, 0.1), "speed": 8.0, "chassis_wz": 1e-4},  # goes straight
+    ],
+)
+def test_other_inputs_bring_nothing(columns) -> None:
+    assert marks_of_inputs(driven(**columns)) == []
+
+
+def test_pilots_tell_what_they_drive_by() -> None:
+    circle = CircleFollower(30.0, 10.0, 2.5, 0.5)
+    pilot = Braking(FixedSteering(circle, 1.0, 0.5), lambda time, senses: time > 2.0, 0.5, 0.1)
+    assert pilot.marks == []
+    senses = {"chassis.x": 1.0, "chassis.y": 2.0, "chassis.yaw": 0.5 * math.pi, "sideslip": 0.0, "speed": 10.0}
+    pilot.act(0.0, senses)
+    assert pilot.marks[0]["centre"] == pytest.approx([-29.0, 2.0])
+    pilot.act(2.5, senses | {"chassis.x": 5.0})
+    _, line = pilot.marks
+    assert np.array(line["points"]) == pytest.approx(np.array([[3.0, 2.0], [7.0, 2.0]]))
+
+
+def test_cones_stand_along_the_course_as_it_was_laid_out() -> None:
+    course = course_of("iso_3888_1", 1.6)
+    steering = CourseFollower(course, DriverSettings(15.0, 2.5, 0.5, 4.0, 1.6))
+    pilot = CourseFromHere(steering, 15.0, lambda time, senses: time > 1.0)
+    senses = {"chassis.x": 100.0, "chassis.y": 7.0, "chassis.yaw": 0.5 * math.pi, "speed": 15.0}
+    pilot.act(0.0, senses)
+    assert pilot.marks == []
+    pilot.act(1.5, senses)
+    assert len(pilot.marks) == 34
+    first = course.gates[0]
+    assert pilot.marks[0]["at"] == pytest.approx([100.0 - first.y_right, 7.0 + first.x_start])
+
+
+def test_marks_lie_on_the_road() -> None:
+    marks = [
+        {"kind": "circle", "centre": [2.0, 1.0], "radius": 100.0},
+        {"kind": "line", "points": [[0.0, 1.0], [0.0, -1.0]], "colour": "yellow"},
+        *cones(course_of("iso_3888_2", 1.6).gates),
+    ]
+    circle, line, *upright = with_marks({"roads": [PLANE]}, marks, "marks")["scenery"]
+    assert {thing["kind"] for thing in upright} == {"cone"}
+    points = np.array([*circle["points"], *line["points"], *(thing["at"] for thing in upright)])
+    assert points[:, 2] == pytest.approx(0.5 + 0.1 * (points[:, 0] - 1.0) - 0.2 * points[:, 1], abs=1e-12)
+    round_ = np.array(circle["points"])
+    assert np.hypot(round_[:, 0] - 2.0, round_[:, 1] - 1.0) == pytest.approx(100.0)
+    assert round_[0] == pytest.approx(round_[-1])
+    assert np.linalg.norm(np.diff(round_[:, :2], axis=0), axis=1).max() < 1.01
+
+
+@pytest.mark.parametrize(
+    "marks",
+    [
+        [{"kind": "circle", "centre": [1.0], "radius": 3.0}],
+        [{"kind": "circle", "centre": [1.0, 2.0]}],
+        [{"kind": "tower", "at": [0.0, 0.0]}],
+        [{"kind": "cone", "at": ["a", 0.0]}],
+        "circle",
+        [3],
+    ],
+)
+def test_a_record_whose_marks_are_none_is_refused(marks) -> None:
+    with pytest.raises(HostError, match="does not say by 'marks' cones, lines and circles"):
+        _with_marks({"roads": []}, {"marks": marks}, Path("run.json"))
+
+
+def test_a_large_circle_has_no_more_points_than_are_drawn() -> None:
+    (line,) = things_of([{"kind": "circle", "centre": [0.0, 0.0], "radius": 1e9}])
+    assert len(line["points"]) == 3601
