@@ -61,8 +61,9 @@ export function outdoors(view, fine) {
       draft.follow();
       spots.follow(origin, draft.on);
       for (const surface of [asphalt, road, grass]) surface.follow(origin);
-      roads.follow(origin);
-      land?.follow(origin, view.cameras.current.position.toArray(), renderer.getDrawingBufferSize(pixels));
+      const eye = view.cameras.current.position.toArray();
+      roads.follow(origin, eye);
+      land?.follow(origin, eye, renderer.getDrawingBufferSize(pixels));
     },
     quality(level) {
       sharpen(sun, level === "high" ? 2048 : 1024);

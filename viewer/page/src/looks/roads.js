@@ -7,8 +7,10 @@ import { alongY, turn } from "../shapes/place.js";
 
 /** Half the side of a road without end, in metres. */
 const ENDLESS = 1500;
-/** Metres that the focus goes before a profile is built about it again. */
-const STEP = 200;
+/** Metres from the eye at which ground without end is cut: a processor that draws is off in the depth of large triangles. */
+const EDGES = [-ENDLESS, -320, -80, -20, 20, 80, 320, ENDLESS];
+/** Metres that the eye goes before a profile is built about it again: less than its middle piece reaches. */
+const STEP = 10;
 /** Cells of a grid in one piece: pieces are left out where they are not in the picture. */
 const PIECE = 64;
 
@@ -33,8 +35,9 @@ export function makeRoads(scene, looks) {
   return {
     group,
     unknown,
-    follow(origin) {
-      for (const { follow } of pieces) follow(origin);
+    /** @param {number[]} origin earth position of the picture's origin @param {number[]} eye of the camera, from there */
+    follow(origin, eye) {
+      for (const { follow } of pieces) follow(origin, eye);
     },
     /** Materials in place of others. @param {(material: THREE.Material | THREE.Material[]) => THREE.Material} other */
     dress(other) {
@@ -46,13 +49,18 @@ export function makeRoads(scene, looks) {
   };
 }
 
-/** A square that stays under the focus, on a plane through a point. */
+/** A square that stays under the eye, on a plane through a point. */
 function endless(point, normal, material) {
-  const geometry = new THREE.PlaneGeometry(2 * ENDLESS, 2 * ENDLESS).rotateX(-Math.PI / 2);
+  const cells = EDGES.length - 1;
+  const geometry = new THREE.PlaneGeometry(cells, cells, cells, cells).rotateX(-Math.PI / 2);
+  const places = geometry.getAttribute("position");
+  const edge = (/** @type {number} */ at) => EDGES[Math.round(at + cells / 2)];
+  for (let k = 0; k < places.count; k++) places.setXYZ(k, edge(places.getX(k)), 0, edge(places.getZ(k)));
   dry(geometry);
   const mesh = new THREE.Mesh(geometry, material);
   turn(mesh, alongY(normal));
-  const follow = (origin) => mesh.position.fromArray(scale(normal, dot(normal, subtract(point, origin))));
+  const follow = (origin, eye) =>
+    mesh.position.fromArray(add(eye, scale(normal, dot(normal, subtract(point, add(origin, eye))))));
   return [{ mesh, follow }];
 }
 
@@ -67,15 +75,15 @@ function plane(road, { up, asphalt }) {
   return endless(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt);
 }
 
-/** Levels along a direction of travel; before the first and after the last the road goes on level, under the focus too. */
+/** Levels along a direction of travel; before the first and after the last the road goes on level, under the eye too. */
 function profile(road, { up, road: material }) {
   const forward = unit(road.direction ?? [1, 0, 0]);
   const side = cross(up, forward);
   const base = road.origin ?? [0, 0, 0];
   const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
   let built = null;
-  const follow = (origin) => {
-    const to = subtract(origin, base);
+  const follow = (origin, eye) => {
+    const to = subtract(add(origin, eye), base);
     const [s, aside] = [dot(to, forward), road.width === undefined ? dot(to, side) : 0];
     if (built === null || Math.abs(s - built.s) > STEP || Math.abs(aside - built.aside) > STEP) {
       built = { s, aside, at: add(base, add(scale(forward, s), scale(side, aside))) };
@@ -136,15 +144,26 @@ export function surfaces(pairs) {
 /** Edges sharper than this stay edges. */
 const CREASE = Math.PI / 8;
 
+/** Both ends, and the edges between them. @param {number} from @param {number} to */
+const cut = (from, to) => [from, ...EDGES.filter((edge) => from < edge && edge < to), to];
+
 function rebuild(geometry, pairs, { forward, side, up, half }) {
   const positions = [];
   const wets = [];
-  const point = ([s, level], way) => add(add(scale(forward, s), scale(up, level)), scale(side, way * half));
+  const point = ([s, level], aside) => add(add(scale(forward, s), scale(up, level)), scale(side, aside));
+  const asides = cut(-half, half);
   for (const { from, to, kerb } of surfaces(pairs)) {
-    const corners = [point(from, -1), point(to, -1), point(to, 1), point(from, 1)];
-    for (const i of [0, 1, 2, 0, 2, 3]) {
-      positions.push(...corners[i]);
-      wets.push(kerb ? -1 : 0); // below zero: a kerb's stone
+    const rise = (to[1] - from[1]) / (to[0] - from[0]);
+    const stations = cut(from[0], to[0]).map((s) => (s === to[0] ? to : [s, from[1] + rise * (s - from[0])]));
+    for (let i = 0; i + 1 < stations.length; i++) {
+      for (let j = 0; j + 1 < asides.length; j++) {
+        const [a, b, right, left] = [stations[i], stations[i + 1], asides[j], asides[j + 1]];
+        const corners = [point(a, right), point(b, right), point(b, left), point(a, left)];
+        for (const k of [0, 1, 2, 0, 2, 3]) {
+          positions.push(...corners[k]);
+          wets.push(kerb ? -1 : 0); // below zero: a kerb's stone
+        }
+      }
     }
   }
   const made = new THREE.BufferGeometry();

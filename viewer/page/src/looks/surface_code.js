@@ -96,10 +96,8 @@ float worn = smoothstep(0.74, 0.93, near.r * (0.5 + 0.75 * some.g + 0.15 * wide.
 diffuseColor.rgb *= mix(0.78 + 0.16 * near.r + 0.18 * some.g, 0.3, worn) * (1.0 - 0.35 * first.y);
 #else
 diffuseColor.rgb *= rest * asphalt + first.x * grass + first.y * soaked + first.z * stones + first.w * concrete + second.x * ice + second.y * white + second.z * soil;
-#ifndef A_COARSE
 ${DETAIL}
 diffuseColor.rgb *= detail;
-#endif
 #endif
 float wetness = first.y * (0.35 + 0.65 * film);
 float slick = wetness + 0.55 * second.x;
