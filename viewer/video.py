@@ -31,7 +31,7 @@ SUFFIXES = (".mp4", ".webp", ".gif")
 MOST_FRAMES = 20_000
 Progress = Callable[[float], None]
 _QUALITY = "12"  # of MP4, as x264 counts it: 0 is without loss
-_WEBP = {"quality": 65, "method": 4, "allow_mixed": True}
+_WEBP = {"quality": 50, "method": 4, "allow_mixed": True}
 
 
 class FilmError(UserError, RuntimeError):

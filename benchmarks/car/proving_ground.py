@@ -44,7 +44,8 @@ def jump(stop_time: float = 6.5) -> Recording:
         parameters = {"road.file": str(Path(folder, f"{WORLD}.road"))}
         run = mbs.simulate(car, stop_time, STEP, INPUTS, parameters=parameters, pose=START, every=EVERY, progress=False)
         drawing = json.loads(Path(folder, f"{WORLD}.json").read_text(encoding="utf-8"))
-    assert run.drawing is not None
-    found = run.recording({**run.drawing.scene, "roads": []})  # those of the file have no scenery, and are many
+        assert run.drawing is not None
+        # Those of the file have no scenery, and are many; what was left out of the run is found by its road.
+        found = run.recording({**run.drawing.scene, "roads": []})
     scene = {**(found.scene or {}), "roads": drawing["roads"], "scenery": drawing["scenery"]}
     return Recording(scene, found.t, found.columns, found.units, found.name)

@@ -31,9 +31,7 @@ from mbs.vehicle import Fidelity, load
 from viewer.recording import Recording
 from viewer.video import WrittenFilm, write_mp4
 
-SIZE = (384, 216)
-FILM = (720, 405)
-"""Of the films of README.md."""
+SIZE = (720, 405)
 FPS = 15.0
 
 
@@ -55,8 +53,6 @@ class Animation:
         Its name; by default the first.
     options : mapping
         Of the page.
-    size : (int, int)
-        Pixels.
     """
 
     title: str
@@ -66,7 +62,6 @@ class Animation:
     speed: float = 1.0
     camera: str | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
-    size: tuple[int, int] = SIZE
 
 
 def film(name: str, path: Path, progress: bool | Callable[[float], None] | None = None) -> WrittenFilm:
@@ -86,7 +81,7 @@ def film(name: str, path: Path, progress: bool | Callable[[float], None] | None 
         path,
         a.record(),
         fps=FPS,
-        size=a.size,
+        size=SIZE,
         camera=a.camera,
         speed=a.speed,
         begin=a.begin,
@@ -146,35 +141,31 @@ ANIMATIONS = {
         "The spatial slider-crank", _scene(spatial_slider_crank.build, 5.0, 0.001), 0.0, 5.0
     ),
     "bricard": Animation("Bricard's mechanism", _scene(bricard.build, 5.0, 0.005), 0.0, 5.0),
-    "bicycle": Animation("The bicycle", _scene(bicycle.build, 5.0, 0.005), 0.0, 5.0),
+    "bicycle": Animation("The bicycle", _scene(bicycle.build, 5.0, 0.005), 0.0, 3.0),
     "flyball": Animation("The flyball governor", _scene(flyball.build, 5.0, 0.002), 0.0, 5.0),
     "puma": Animation("The PUMA robot, its hand pinned from 2 s to 6 s", _puma, 0.0, 8.0, 1.6),
     "squeezer": Animation("Andrews' squeezer, 100 times slower", _scene(squeezer.build, 0.05, 1e-5), 0.0, 0.05, 0.01),
     "pendulum": Animation("The pendulum", _scene(pendulum.build, 4.0, 0.002), 0.0, 4.0),
     "cart_pole": Animation("The cart-pole with a light cart", _scene(cart_pole.build, 1.0, 2e-5), 0.0, 1.0, 0.25),
     "spatial_chain": Animation("A chain of ten links", _scene(spatial_chain.build, 5.0, 0.005), 0.0, 5.0),
-    "double_lane_change": Animation(
-        "The prototype car, double lane change", _lane_change, 1.0, 6.0, camera="chase", size=FILM
-    ),
+    "double_lane_change": Animation("The prototype car, double lane change", _lane_change, 1.0, 6.0, camera="chase"),
     "proving_ground": Animation(
         "The proving ground of the simulator: a jump from a metre, a sudden turn",
         proving_ground.jump,
         1.4,
         5.4,
-        size=FILM,
     ),
     "kerb_test": Animation(
         "The car falls from the kerb; stress in the frame, its deformation 30 times larger",
         _kerb_test,
-        7.4,
-        9.4,
+        7.56,
+        8.9,
         0.4,
         options={"stress": True, "deformation": 30.0},
-        size=(640, 360),
     ),
-    "drop": Animation("The car is dropped", _manoeuvre("drop"), 0.0, 2.5, 0.5),
+    "drop": Animation("The car is dropped", _manoeuvre("drop"), 0.0, 1.6, 0.5),
     "hatchback_slalom": Animation(
-        "The hatchback, slalom", _manoeuvre("slalom", "hatchback"), 2.0, 7.0, camera="trackside", size=FILM
+        "The hatchback, slalom", _manoeuvre("slalom", "hatchback"), 2.0, 7.0, camera="trackside"
     ),
 }
 """By the name of their file."""

@@ -41,7 +41,7 @@ def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> di
         thing | ({"at": placed(*thing["at"])} if "at" in thing else {"points": [placed(*p) for p in thing["points"]]})
         for thing in things_of(marks)
     ]
-    places = [place for thing in things for place in thing.get("points", [thing.get("at")])]
+    places = [place for thing in things for place in ([thing["at"]] if "at" in thing else thing["points"])]
     if not np.all(np.isfinite(places)):
         why = "they are put onto level roads, planes and kerbs only"
         return dict(scene) | {"missing": [*scene.get("missing", []), {"name": name, "why": why}]}

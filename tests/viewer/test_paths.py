@@ -88,7 +88,9 @@ FAR_KERB = {"kind": "profile", "stations": [-0.0005, 0.0005], "heights": [0.0, -
 def test_the_path_is_seen_at_every_instant(opened: Callable[..., Opened], road: dict[str, Any]) -> None:
     """Near the eye, where the depth of large triangles is off by more than the path lies above them."""
     straight = run("straight", roads=[road], extent=3.8)
-    values = {"x": 20.0 * T, "y": 0.0 * T, "z": 0.5 + 0.0 * T, "qw": 1.0 + 0.0 * T, "qz": 0.0 * T}
+    yaw = 0.03 * np.sin(5.0 * T)  # another camera at each instant
+    values = {"x": 20.0 * T, "y": 0.0 * T, "z": 0.5 + 0.03 * np.sin(11.0 * T)}
+    values |= {"qw": np.cos(0.5 * yaw), "qz": np.sin(0.5 * yaw)}
     straight.columns |= {f"body.{name}": column for name, column in values.items()}
     page = opened(straight, camera="chase")
     seen = []
@@ -96,6 +98,15 @@ def test_the_path_is_seen_at_every_instant(opened: Callable[..., Opened], road: 
         page.seek(float(t))
         seen.append(yellow(page, [20.0 * t - 0.9, 0.0, 0.0]))
     assert all(seen), seen
+
+
+def test_the_path_goes_over_a_kerb_on_its_surface(opened: Callable[..., Opened]) -> None:
+    """Up to the kerb on its upper side, behind it on the lower one, whatever the wheels do meanwhile."""
+    kerb = {"kind": "profile", "stations": [0.0, 0.001], "heights": [0.0, -0.2], "origin": [15.0, 0.0, 0.0]}
+    page = opened(run("kerb", roads=[kerb]), camera="top")
+    points = np.array(page("() => window.player.player.drawnRuns[0].traces.way"))
+    assert np.ptp(points[:, 0]) > 19.0
+    assert np.allclose(points[:, 2], np.where(points[:, 0] < 15.0, 0.0, -0.2), atol=1e-9)
 
 
 def test_the_path_goes_and_comes_with_its_key(seen: Opened) -> None:

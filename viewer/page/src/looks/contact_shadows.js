@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { add, dot, scale, subtract, unit, cross, rotate } from "../scene/math.js";
 import { lift, LIFT } from "./lifted.js";
-import { roadHeight } from "./road_height.js";
+import { groundHeight } from "./road_height.js";
 
 /** How dark the middle of a shadow is, of the body and of a wheel, beside shadows of the sun and in place of them. */
 const [BESIDE, ALONE] = [[0.4, 0.6], [0.62, 0.62]]; // prettier-ignore
@@ -12,12 +12,6 @@ const [LONG, WIDE, TREAD, FLANK] = [1.42, 1.2, 1.3, 1.3];
 const NEARER = 0.005;
 /** Metres above the ground at which a body throws half of its shadow. */
 const FADE = 1;
-
-/** Height of the ground of a scene at a place; null where none can be told. @param {Data} view the SceneView */
-function ground({ scene, up, look }, point) {
-  if (look?.height && up[2] > 0.9) return look.height(point[0], point[1]);
-  return roadHeight(scene.roads ?? [], up, point);
-}
 
 /** @param {Data} view the SceneView */
 export function contactShadows(view) {
@@ -38,7 +32,7 @@ export function contactShadows(view) {
   const put = (k, middle, ahead, left, dark, origin, least) => {
     corners.forEach(([a, b], i) => {
       const corner = add(middle, add(scale(ahead, a), scale(left, b)));
-      const level = ground(view, corner) ?? least;
+      const level = groundHeight(view, corner) ?? least;
       const gap = Math.max(0, dot(middle, up) - level);
       places.array.set(subtract(add(corner, scale(up, level + LIFT - dot(corner, up))), origin), 12 * k + 3 * i);
       darks.array[4 * k + i] = dark / (1 + (gap / FADE) ** 2);

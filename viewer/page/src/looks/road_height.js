@@ -40,3 +40,12 @@ export function roadHeight(roads, up, point) {
   const heights = roads.map((road) => heightOn(road, up, point)).filter((height) => height !== null);
   return heights.length > 0 ? Math.max(...heights) : null;
 }
+
+/**
+ * Height of the ground of a scene at a place, of its terrain or its roads; null where none can be told.
+ * @param {Data} view the SceneView @param {number[]} point of the earth
+ */
+export function groundHeight({ scene, up, look }, point) {
+  if (look?.height && up[2] > 0.9) return look.height(point[0], point[1]);
+  return roadHeight(scene.roads ?? [], up, point);
+}

@@ -4,6 +4,7 @@ import { Dust } from "../effects/dust.js";
 import { Path, waysOf } from "../effects/path.js";
 import { TyreMarks } from "../effects/tyre_marks.js";
 import { Wheels } from "../effects/wheels.js";
+import { groundHeight } from "../looks/road_height.js";
 import { Frames } from "../scene/frames.js";
 import { add, dot, finite, length, scale, subtract } from "../scene/math.js";
 
@@ -83,7 +84,8 @@ export class Traces {
  * @param {Data} scene @param {(i: number) => (name: string) => number | undefined} lookups @param {import("../scene/scene_view.js").SceneView} view
  * @returns {{move: (i: number) => void, feet: (() => number[] | null)[]}}
  */
-function feetOf(scene, lookups, { up, floor }) {
+function feetOf(scene, lookups, view) {
+  const { up, floor } = view;
   const frames = new Frames(scene);
   const touched = new Wheels(scene).list;
   const wheels = new Map((scene.shapes ?? []).filter(({ kind }) => kind === "wheel").map(({ frame, radius }) => [frame, radius]));
@@ -98,8 +100,7 @@ function feetOf(scene, lookups, { up, floor }) {
   const body = () => {
     const { position, shown } = frames.pose(scene.focus);
     if (!shown) return null;
-    const heights = under.map((foot) => foot()).filter((point) => point !== null).map((point) => dot(point, up)); // prettier-ignore
-    const ground = heights.length > 0 ? heights.reduce((sum, height) => sum + height, 0) / heights.length : floor;
+    const ground = groundHeight(view, position) ?? meanHeight(under, up) ?? floor;
     return add(position, scale(up, ground - dot(position, up)));
   };
   const move = (i) => {
@@ -107,4 +108,10 @@ function feetOf(scene, lookups, { up, floor }) {
     frames.update(lookup);
   };
   return { move, feet: [body, ...under] };
+}
+
+/** Mean height of feet; null where there is none. @param {(() => number[] | null)[]} feet @param {number[]} up */
+function meanHeight(feet, up) {
+  const heights = feet.map((foot) => foot()).filter((point) => point !== null).map((point) => dot(point, up)); // prettier-ignore
+  return heights.length > 0 ? heights.reduce((sum, height) => sum + height, 0) / heights.length : null;
 }
