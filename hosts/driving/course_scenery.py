@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import astuple
 from typing import Any
 
 import numpy as np
 
+from ali3.cones import cone_places
+from ali3.iso_3888 import Gate
 from hosts.driving.course import Course
-from hosts.driving.ground_marks import Mark, cones, things_of
+from hosts.driving.ground_marks import Mark, lanes
+
+_WIDTH = 0.15  # m, of lines
+_FEWEST, _MOST = 72, 3600  # sections of a circle; between them one a metre
 
 
 def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
@@ -28,7 +34,9 @@ def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
         The scene with cones in its scenery; where the height of its road is not known in closed form they stand in
         `missing` instead.
     """
-    return with_marks(scene, cones(course.gates), f"cones of {course.name}")
+    return with_marks(
+        scene, [lanes([astuple(gate) for gate in course.gates], (0.0, 0.0, 0.0))], f"cones of {course.name}"
+    )
 
 
 def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> dict[str, Any]:
@@ -46,6 +54,35 @@ def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> di
         why = "they are put onto level roads, planes and kerbs only"
         return dict(scene) | {"missing": [*scene.get("missing", []), {"name": name, "why": why}]}
     return dict(scene) | ({"scenery": [*scene.get("scenery", []), *things]} if things else {})
+
+
+def things_of(marks: Sequence[Mark]) -> list[Mark]:
+    """Cones and lines, of which scenes are made, for marks.
+
+    Raises
+    ------
+    ValueError, KeyError, TypeError
+        They are no marks.
+    """
+    things = []
+    for mark in marks:
+        if mark["kind"] == "circle":
+            (x, y), radius = mark["centre"], mark["radius"]
+            sections = min(max(_FEWEST, math.ceil(2.0 * math.pi * radius)), _MOST)
+            angles = np.linspace(0.0, 2.0 * math.pi, sections + 1)
+            points = np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)]).tolist()
+            things.append({"kind": "line", "points": points, "width": _WIDTH})
+        elif mark["kind"] == "line":
+            points = [[float(x), float(y)] for x, y in mark["points"]]
+            things.append({"kind": "line", "points": points, "width": _WIDTH, "colour": mark["colour"]})
+        elif mark["kind"] == "lanes":
+            x0, y0, yaw = mark["pose"]
+            c, s = math.cos(yaw), math.sin(yaw)
+            places = cone_places([Gate(*gate) for gate in mark["gates"]])
+            things += [{"kind": "cone", "at": [x0 + c * x - s * y, y0 + s * x + c * y]} for x, y in places]
+        else:
+            raise ValueError(mark["kind"])
+    return things
 
 
 def _height(roads: Sequence[Mapping[str, Any]], x: float, y: float) -> float:

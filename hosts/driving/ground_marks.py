@@ -1,4 +1,4 @@
-"""What a manoeuvre has on the ground, without heights: cones beside lanes, circles, the line where braking begins."""
+"""What a manoeuvre has on the ground, without heights: lanes, circles, the line where braking begins."""
 
 from __future__ import annotations
 
@@ -8,14 +8,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ali3.cones import cone_places
-from ali3.iso_3888 import Gate
 from hosts.driving.result import Result
 
 Mark: TypeAlias = dict[str, Any]
-"""Kind and places, x and y, m: a cone, a line or a circle."""
-_FEWEST, _MOST = 72, 3600  # sections of a circle; between them one a metre
-_WIDTH = 0.15  # m, of lines
+"""Kind and places, x and y, m: lanes, a line or a circle."""
 _ACROSS = 4.0  # m, of a line across the way
 _STEADY, _SETTLED = 10.0, 2.0  # s that a steering angle is held which makes a circle, and after which it is driven
 _MOVES = 1.0  # m/s
@@ -26,42 +22,14 @@ def marks_of(pilot: object) -> list[Mark]:
     return list(getattr(pilot, "marks", ()))
 
 
-def cones(gates: Sequence[Gate], pose: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> list[Mark]:
-    """Cones of lanes whose axes lie at x, y, yaw, m and rad."""
-    x0, y0, yaw = pose
-    c, s = math.cos(yaw), math.sin(yaw)
-    return [{"kind": "cone", "at": [x0 + c * x - s * y, y0 + s * x + c * y]} for x, y in cone_places(gates)]
+def lanes(gates: Sequence[Sequence[float]], pose: tuple[float, float, float]) -> Mark:
+    """Lanes between cones, each by begin, end, right and left edge, in axes that lie at x, y, yaw; m and rad."""
+    return {"kind": "lanes", "gates": [list(gate) for gate in gates], "pose": list(pose)}
 
 
 def circle(centre: tuple[float, float], radius: float) -> Mark:
     """A circle, m."""
     return {"kind": "circle", "centre": list(centre), "radius": radius}
-
-
-def things_of(marks: Sequence[Mark]) -> list[Mark]:
-    """Cones and lines, of which scenes are made, for these and circles.
-
-    Raises
-    ------
-    ValueError, KeyError, TypeError
-        They are no marks.
-    """
-    things = []
-    for mark in marks:
-        if mark["kind"] == "circle":
-            (x, y), radius = mark["centre"], mark["radius"]
-            angles = np.linspace(0.0, 2.0 * math.pi, min(max(_FEWEST, math.ceil(2.0 * math.pi * radius)), _MOST) + 1)
-            points = np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)]).tolist()
-            things.append({"kind": "line", "points": points, "width": _WIDTH})
-        elif mark["kind"] == "line":
-            points = [[float(x), float(y)] for x, y in mark["points"]]
-            things.append({"kind": "line", "points": points, "width": _WIDTH, "colour": mark["colour"]})
-        elif mark["kind"] == "cone":
-            x, y = mark["at"]
-            things.append({"kind": "cone", "at": [float(x), float(y)]})
-        else:
-            raise ValueError(mark["kind"])
-    return things
 
 
 def line_across(x: float, y: float, yaw: float) -> Mark:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+from dataclasses import astuple
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.driving.course_scenery import with_marks
+from hosts.driving.course_scenery import things_of, with_marks
 from hosts.driving.courses import course_of
-from hosts.driving.ground_marks import cones, marks_of_inputs, things_of
+from hosts.driving.ground_marks import lanes, marks_of_inputs
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
@@ -96,16 +97,17 @@ def test_cones_stand_along_the_course_as_it_was_laid_out() -> None:
     pilot.act(0.0, senses)
     assert pilot.marks == []
     pilot.act(1.5, senses)
-    assert len(pilot.marks) == 34
+    places = things_of(pilot.marks)
+    assert len(places) == 34
     first = course.gates[0]
-    assert pilot.marks[0]["at"] == pytest.approx([100.0 - first.y_right, 7.0 + first.x_start])
+    assert places[0]["at"] == pytest.approx([100.0 - first.y_right, 7.0 + first.x_start])
 
 
 def test_marks_lie_on_the_road() -> None:
     marks = [
         {"kind": "circle", "centre": [2.0, 1.0], "radius": 100.0},
         {"kind": "line", "points": [[0.0, 1.0], [0.0, -1.0]], "colour": "yellow"},
-        *cones(course_of("iso_3888_2", 1.6).gates),
+        lanes([astuple(gate) for gate in course_of("iso_3888_2", 1.6).gates], (0.0, 0.0, 0.0)),
     ]
     circle, line, *upright = with_marks({"roads": [PLANE]}, marks, "marks")["scenery"]
     assert {thing["kind"] for thing in upright} == {"cone"}
@@ -123,13 +125,13 @@ def test_marks_lie_on_the_road() -> None:
         [{"kind": "circle", "centre": [1.0], "radius": 3.0}],
         [{"kind": "circle", "centre": [1.0, 2.0]}],
         [{"kind": "tower", "at": [0.0, 0.0]}],
-        [{"kind": "cone", "at": ["a", 0.0]}],
+        [{"kind": "lanes", "gates": [[0.0, 1.0]], "pose": [0.0, 0.0, 0.0]}],
         "circle",
         [3],
     ],
 )
 def test_a_record_whose_marks_are_none_is_refused(marks) -> None:
-    with pytest.raises(HostError, match="does not say by 'marks' cones, lines and circles"):
+    with pytest.raises(HostError, match="does not say by 'marks' lanes, lines and circles"):
         _with_marks({"roads": []}, {"marks": marks}, Path("run.json"))
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections import ChainMap
 from collections.abc import Callable, Mapping
+from dataclasses import astuple
 
 from hosts.driving.course import Course
-from hosts.driving.ground_marks import Mark, cones
+from hosts.driving.ground_marks import Mark, lanes
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
 
@@ -51,9 +52,13 @@ class CourseFromHere:
 
     @property
     def marks(self) -> list[Mark]:
-        """Cones of the course that is steered along, once it is laid out."""
+        """Lanes of the course that is steered along, once it is laid out."""
         course: Course | None = getattr(self.steering, "course", None)
-        return [] if course is None or math.isnan(self.start) else cones(course.gates, self.pose)
+        return (
+            []
+            if course is None or math.isnan(self.start)
+            else [lanes([astuple(gate) for gate in course.gates], self.pose)]
+        )
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """See `hosts.driving.pilots.pilot.Pilot.act`."""
