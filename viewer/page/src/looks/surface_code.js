@@ -97,7 +97,7 @@ diffuseColor.rgb *= mix(0.78 + 0.16 * near.r + 0.18 * some.g, 0.3, worn) * (1.0 
 #else
 diffuseColor.rgb *= rest * asphalt + first.x * grass + first.y * soaked + first.z * stones + first.w * concrete + second.x * ice + second.y * white + second.z * soil;
 ${DETAIL}
-diffuseColor.rgb *= detail;
+diffuseColor.rgb *= mix(detail, 1.0, first.y); // water hides them
 #endif
 float wetness = first.y * (0.35 + 0.65 * film);
 float slick = wetness + 0.55 * second.x;
