@@ -10,7 +10,7 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 46994,
+    "build": 47005,
     "build --kernel": 400,
     "car": 33949,
     "run": 4105,
