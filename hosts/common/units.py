@@ -76,15 +76,16 @@ _OTHER_NAMES = {
     "g's": "g", "mbar": "hPa", "°C": "degC", "C": "degC", "sec": "s", "rad/sec": "rad/s", "kmph": "km/h",
 }  # fmt: skip
 _OF_OUR_NAMES = (
-    (r"steering_wheel_torque|drive_torque|motor_torque|.*\.(brake_torque|M[xyz])", "N.m"),
+    (r"steering_(wheel|arm)_torque|drive_torque|motor_torque|.*\.(brake_torque|M[xyz])", "N.m"),
     (r"steering_wheel_angle.*|used\.steering_wheel_angle_demand|sideslip|steering_demand_excess", "rad"),
+    (r"steering_(arm|link)_angle", "rad"),
     (r"chassis\.(yaw|pitch|roll)|initial\.yaw|wheel_..\.(steer|camber|inclination|slip_angle|angle)", "rad"),
     (r"vehicle\.(steering_wheel_angle_max|front_wheel_angle_max)|anti_roll_bar_..\.angle", "rad"),
     (r"vehicle\.steering_frequency", "Hz"),
     (r"chassis\.w[xyz]|wheel_..\.omega|engine_speed|motor_speed|steering_wheel_speed|initial\.yaw_rate", "rad/s"),
     (r"speed|initial\.(lateral_)?speed|chassis\.v[xyz]", "m/s"),
     (r"chassis\.a[xyz]|accelerometer_..\.a[xyz]", "m/s2"),
-    (r"chassis\.[xyz]|initial\.[xyz]|wheel_..\.(x|y|z|travel|deflection|contact_[xyz])|steering_rack", "m"),
+    (r"chassis\.[xyz]|initial\.[xyz]|wheel_..\.(x|y|z|travel|deflection|contact_[xyz])|steering_(rack|link_[xy])", "m"),
     (r"spring_..\.length|road\.kerb_(x|height)|vehicle\.(wheelbase|track_front|track_rear|length|width)", "m"),
     (r"wheel_..\.F[xyz]|spring_..\.force|steering_rack_force|chassis\.ground_force", "N"),
     (r"energy\..*|solver\.energy_error", "J"),

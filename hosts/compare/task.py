@@ -30,11 +30,12 @@ from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import settings_of
+from hosts.fmu.steering_ratios import RATIOS
 from hosts.fmu.variables import Variable
 
 PEDALS = ("throttle", "brake")
 _STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"
-_DEMAND, _RACK_PER_TURN = "steering_wheel_angle_demand", "steering.rack_per_turn"
+_DEMAND = "steering_wheel_angle_demand"
 _FREQUENCY = "vehicle.steering_frequency"
 
 
@@ -265,9 +266,10 @@ def _add_steering(
             return {}
         angle = log.outputs[_ANGLE]
         outputs.pop(_ANGLE, None)  # what drives is not compared
-        if _RACK_PER_TURN in {*given, *sought} and _DEMAND in fmu.names("input"):
+        ratio = next((name for name in RATIOS if name in {*given, *sought}), "")
+        if ratio and _DEMAND in fmu.names("input"):
             inputs[_DEMAND] = replace(angle, name=_DEMAND)
-            notes.append(f"'{_DEMAND}' is the measured {_ANGLE}, whatever {_RACK_PER_TURN} is.")
+            notes.append(f"'{_DEMAND}' is the measured {_ANGLE}, whatever {ratio} is.")
             return _followed(_DEMAND, frequency, notes)
         inputs[_STEERING] = replace(angle, name=_STEERING, unit="1", values=angle.values / largest)
         notes.append(f"'{_STEERING}' is the measured {_ANGLE} over {_ANGLE_MAX} = {largest:.4g} rad.")

@@ -15,6 +15,7 @@ import numpy as np
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
+from hosts.fmu.steering_ratios import RATIOS
 from hosts.fmu.variables import Variables
 from hosts.simulator.car_process import COMMANDS, Order
 from hosts.simulator.mail import Mail, Records
@@ -27,7 +28,6 @@ __all__ = ["Car", "CarSettings", "Event", "Moment", "StepTimes"]
 
 SLOWEST = 0.05
 """Least speed of slow motion, simulated over wall seconds."""
-_RACK_PER_TURN = "steering.rack_per_turn"
 _BY_RATIO = ("vehicle.steering_wheel_angle_max", "vehicle.steering_ratio")
 _ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
 
@@ -247,9 +247,9 @@ class Car:
 
 
 def _steering_as_set(constants: Mapping[str, float], table: Variables, start: Mapping[str, Value]) -> dict[str, float]:
-    """Constants of the steering where another ratio of the rack is set: full lock is a travel of the rack."""
-    if _RACK_PER_TURN not in start:
-        return {}
-    drawn = table[_RACK_PER_TURN].start
-    scale = float(drawn or math.nan) / float(start[_RACK_PER_TURN])
-    return {name: scale * constants[name] for name in _BY_RATIO if name in constants}
+    """Constants of the steering where another ratio is set: full lock is a place of the rack or the arm."""
+    scale = 1.0
+    for name, power in RATIOS.items():
+        if name in start:
+            scale *= (float(start[name]) / float(table[name].start or math.nan)) ** power
+    return {name: scale * constants[name] for name in _BY_RATIO if scale != 1.0 and name in constants}

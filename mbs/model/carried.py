@@ -127,16 +127,17 @@ class WrittenAxis:
 
 @dataclass(frozen=True)
 class SlidingPoint:
-    """``p(s) = start + s * direction`` with the guide s in m; an end of `Model.distance`.
+    """``p = start + sum of s_k * direction_k`` with the guides s in m; an end of `Model.distance`.
 
     Attributes
     ----------
-    start, direction : AffineVector
-        Point and unit vector of the body.
+    start : AffineVector
+        Point of the body.
+    ways : tuple of (AffineVector, int)
+        Unit vectors of the body, at right angles, each with the number of its guide.
     """
 
     name: str
     body: Body
     start: AffineVector
-    direction: AffineVector
-    guide: int
+    ways: tuple[tuple[AffineVector, int], ...]

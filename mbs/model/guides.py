@@ -92,7 +92,9 @@ def _spline(motion: tuple[ArrayLike, ArrayLike], what: str) -> CubicSpline:
     return CubicSpline(times, values, bc_type="clamped")
 
 
-def guide_table(model: ModelCore, name: str, source: Guide, table: ArrayLike, unit: str) -> Guide:
+def guide_table(
+    model: ModelCore, name: str, source: Guide, table: ArrayLike, slopes: ArrayLike | None, unit: str
+) -> Guide:
     """``s = f(u)`` over another guide u, f a monotone cubic through points, straight beyond them (F. N. Fritsch, R. E.
     Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246; the slopes are those of scipy's PchipInterpolator).
     """
@@ -109,7 +111,9 @@ def guide_table(model: ModelCore, name: str, source: Guide, table: ArrayLike, un
             f"The table of {what} goes from {rows[k, 0]:g} to {rows[k + 1, 0]:g} in its first column; it must rise "
             "from row to row."
         )
-    reals = [float(x) for x in np.concatenate([*rows.T, curve(rows).derivative()(rows[:, 0])])]
+    given = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {what}")
+    m = curve(rows).derivative()(rows[:, 0]) if given is None else given
+    reals = [float(x) for x in np.concatenate([*rows.T, m])]
     guide = _register(model, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
     value, _ = of_table(guide, u.start)
     model.guides[-1] = replace(guide, start=value)
@@ -129,6 +133,15 @@ def of_table(guide: Guide, u: float) -> tuple[float, float]:
 def curve(rows: NDArray[np.float64]) -> PchipInterpolator:
     """The monotone cubic through rows of two numbers, shape (n, 2)."""
     return PchipInterpolator(*rows.T)
+
+
+def at_right_angles(directions: object, count: int, dimension: int, what: str) -> NDArray[np.float64]:
+    """Rows (count, dimension) of directions that are at right angles to each other, of any length."""
+    rows = array(directions, (count, dimension), f"the direction of {what}")
+    sizes = np.linalg.norm(rows, axis=1)
+    if np.abs(rows @ rows.T - np.diag(sizes**2)).max() > 1e-9 * sizes.max() ** 2:
+        raise ModelError(f"The directions of {what}, {rows.tolist()}, are not at right angles to each other.")
+    return rows
 
 
 def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:

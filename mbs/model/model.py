@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from numpy.typing import ArrayLike
 from scipy.interpolate import PPoly
@@ -21,7 +22,7 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.flexible import FlexibleBody
 from mbs.model.force_sensors import ForceSensorVocabulary
 from mbs.model.forces import ForceVocabulary
-from mbs.model.guides import guide_input, guide_inputs, guide_table, guide_time, owned_guide
+from mbs.model.guides import at_right_angles, guide_input, guide_inputs, guide_table, guide_time, owned_guide
 from mbs.model.inputs import new_input
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
@@ -380,7 +381,9 @@ class Model(
         """
         return guide_time(self, name, motion, unit)
 
-    def guide_table(self, name: str, source: Guide, table: ArrayLike, *, unit: str = "1") -> Guide:
+    def guide_table(
+        self, name: str, source: Guide, table: ArrayLike, *, slopes: ArrayLike | None = None, unit: str = "1"
+    ) -> Guide:
         """A motion that follows another guide by a curve, such as a rack the steering wheel.
 
         Parameters
@@ -390,40 +393,58 @@ class Model(
         table : array_like, shape (n, 2)
             Rows of the value of `source`, rising, and of the guide. Between them a monotone cubic with continuous
             slope, beyond them a straight line.
+        slopes : array_like, shape (n,), optional
+            At the rows, where they are known; the cubics are then not held monotone.
         unit : str
             Of the guide, rad or m.
 
         Raises
         ------
         ModelError
-            Fewer than two rows, or the first column does not rise.
+            Fewer than two rows, the first column does not rise, or not as many slopes as rows.
         """
-        return guide_table(self, name, source, table, unit)
+        return guide_table(self, name, source, table, slopes, unit)
 
-    def slide(self, name: str, body: Body, *, point: ArrayLike, direction: ArrayLike, guide: Guide) -> SlidingPoint:
+    def slide(
+        self,
+        name: str,
+        body: Body,
+        *,
+        point: ArrayLike,
+        direction: ArrayLike | Sequence[ArrayLike],
+        guide: Guide | Sequence[Guide],
+    ) -> SlidingPoint:
         """A point that a guide slides along a direction fixed in a body, such as the rack of a car.
 
         Parameters
         ----------
         body : Body
             Of a flexible one its floating frame is meant.
-        point, direction : array_like, shape (dimension,)
-            Where it is when the guide is 0 (m), and along what it slides, of any length; earth axes in the reference
-            configuration.
-        guide : Guide
-            m.
+        point : array_like, shape (dimension,)
+            Where it is when the guide is 0, m, earth axes in the reference configuration.
+        direction : array_like, shape (dimension,) or (n, dimension)
+            Along what it slides, of any length, in the same axes; several are at right angles to each other.
+        guide : Guide or sequence of Guide
+            m; one for each direction.
 
         Returns
         -------
         SlidingPoint
             An end of `distance`.
+
+        Raises
+        ------
+        ModelError
+            Directions are not at right angles, or there are not as many as guides.
         """
         what = f"slide '{name}'"
-        index = owned_guide(self, guide, f"The {what}").index
+        several: Any = guide if isinstance(guide, (list, tuple)) else [guide]
+        guides = [owned_guide(self, g, f"The {what}") for g in several]
         start = self.anchor(body, point, what)
         turning = body.frame if isinstance(body, FlexibleBody) else body
-        along = self.anchor_axis(turning, direction, what)
-        return SlidingPoint(self.unique("slide", name), body, start, along, index)
+        rows = at_right_angles(direction, len(guides), self.dimension, what) if several is guide else [direction]
+        ways = tuple((self.anchor_axis(turning, row, what), g.index) for row, g in zip(rows, guides, strict=True))
+        return SlidingPoint(self.unique("slide", name), body, start, ways)
 
     def parameter(
         self,

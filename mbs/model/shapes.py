@@ -70,7 +70,7 @@ class Turning:
 
     Attributes
     ----------
-    carrier : Body
+    carrier : Body or Turning
         On which it turns.
     centre : ndarray, shape (3,)
         From the origin of the carrier, along the earth axes as drawn, m.
@@ -81,10 +81,15 @@ class Turning:
     """
 
     name: str
-    carrier: Body
+    carrier: Body | Turning
     centre: Vector
     axis_reference: tuple[float, ...]
     angle: Affine | str
+
+    @property
+    def body(self) -> Body:
+        """The body that carries it in the end."""
+        return self.carrier.body if isinstance(self.carrier, Turning) else self.carrier
 
 
 Owner: TypeAlias = "Body | Spin | Turning"
@@ -252,13 +257,13 @@ class ShapeVocabulary(BodyVocabulary):
         return made
 
     def turning(
-        self, name: str, body: Body, *, at: ArrayLike, axis: ArrayLike, angle: Coordinate | Affine | str
+        self, name: str, body: Body | Turning, *, at: ArrayLike, axis: ArrayLike, angle: Coordinate | Affine | str
     ) -> Turning:
         """Something that only its looks turn about an axis of a body, such as a steering wheel or a motor's pulley.
 
         Parameters
         ----------
-        body : Body
+        body : Body or Turning
             What it turns on.
         at : array_like, shape (dimension,)
             A point of the axis, earth axes in the reference configuration, m.
@@ -270,7 +275,7 @@ class ShapeVocabulary(BodyVocabulary):
         self.unique("spin", self.unique("body", name))
         what = f"turning '{name}'"
         owner = self._owner(body, what)
-        if not isinstance(owner, Body):
+        if isinstance(owner, Spin):
             raise ModelError(f"The {what} needs a body to turn on, not {shown(body)}.")
         centre = self._local(owner, at, f"the point of {what}")
         unit = direction(axis, 3, f"the axis of {what}")

@@ -44,12 +44,12 @@ class SlidingVocabulary(ShapeVocabulary):
         self.more_poses: list[Callable[[], list[dict[str, Any]]]] = []
         self.flexible_scene: list[dict[str, Any]] = []
 
-    def sliding(self, name: str, body: Body, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
+    def sliding(self, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
         """Something that only its looks slide along a line of a body, such as a rack that a guide moves.
 
         Parameters
         ----------
-        body : Body
+        body : Body or Turning
             What it slides on.
         at : array_like, shape (dimension,)
             Its origin where the way is 0, earth axes in the reference configuration, m.

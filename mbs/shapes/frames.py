@@ -80,7 +80,11 @@ class FrameNames:
 def turns_of(model: Model) -> list[Spin | Turning]:
     """What turns about an axis of a body; what is on a tabled one has no frame."""
     every: list[Spin | Turning] = [*model.spins, *model.turnings]
-    return [t for t in every if not t.carrier.is_tabled]
+    return [t for t in every if not _body_of(t).is_tabled]
+
+
+def _body_of(turn: Spin | Turning) -> Body:
+    return turn.carrier if isinstance(turn, Spin) else turn.body
 
 
 def modes_of(body: FlexibleBody) -> tuple[str, ...]:
@@ -100,7 +104,7 @@ def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.flo
     for turn in turns_of(model):
         along, value = ("direction", "way") if isinstance(turn, Sliding) else ("axis", "angle")
         frames[names.turns[turn.name]] = {
-            "parent": names.of_body(turn.carrier),
+            "parent": names.of_owner(turn.carrier),
             "at": numbers(origin_of(turn) - origin_of(turn.carrier)),
             along: numbers(turn.axis_reference),
             value: _angle_column(turn, names),
@@ -148,7 +152,7 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
         angles.append(np.asarray(weights @ constant) + angle.constant)
         row = len(full) + len(turns)
         column = names.columns[f"{turn.name}.angle"]
-        carrier, axis = turn.carrier.owner.name, tuple(numbers(turn.axis_reference))
+        carrier, axis = _body_of(turn).owner.name, tuple(numbers(turn.axis_reference))
         turns.append(TurnPlace(turn.name, row, carrier, axis, isinstance(turn, Spin), column))
     matrix = sparse.vstack([T[full], *rows]).tocsr()
     matrix.sort_indices()

@@ -88,13 +88,12 @@ def touched(model: Model, names: FrameNames) -> Touched:
             ends = (names.anchor(bodies[0], places[0]), names.anchor(bodies[1], places[1]))
             if joint.slide is not None:
                 number, slide = joint.slide
-                way = _way(model, slide)
-                if not way:
+                sliding = _sliding_frames(model, names, drawn, slide)
+                if not sliding:
                     found.sliding.append(joint.name)
                     continue
-                sliding = _sliding_frame(model, names, drawn, slide, way)
                 found.frames |= sliding
-                end = next(iter(sliding)), [0.0, 0.0, 0.0]
+                end = list(sliding)[-1], [0.0, 0.0, 0.0]
                 ends = (end, ends[1]) if number == 0 else (ends[0], end)
             found.lines.append(Line(joint.name, ends, drives=joint.actuator is not None))
         elif where.slides and where.axis is not None:
@@ -117,28 +116,30 @@ def touched(model: Model, names: FrameNames) -> Touched:
     return found
 
 
-def _way(model: Model, slide: SlidingPoint) -> str:
-    """The sensor that reads the way of a sliding point in m; empty where none does."""
+def _way(model: Model, guide: int) -> str:
+    """The sensor that reads a guide in m; empty where none does."""
     for sensor in model.sensors:
-        if (
-            sensor.type == SensorType.GUIDE
-            and list(sensor.integers) == [slide.guide, 0]
-            and list(sensor.reals) == [1.0]
-        ):
+        if sensor.type == SensorType.GUIDE and list(sensor.integers) == [guide, 0] and list(sensor.reals) == [1.0]:
             return sensor.name
     return ""
 
 
-def _sliding_frame(
-    model: Model, names: FrameNames, drawn: Vector, slide: SlidingPoint, way: str
-) -> dict[str, dict[str, Any]]:
-    """The frame of a sliding point, by its name."""
+def _sliding_frames(model: Model, names: FrameNames, drawn: Vector, slide: SlidingPoint) -> dict[str, dict[str, Any]]:
+    """Frames of a sliding point by their names, one on the other and the point last; none where no sensor reads it."""
     parent, at = names.anchor(slide.body, place_drawn(drawn, slide.start))
-    direction = numbers(place_drawn(drawn, slide.direction))
-    start = model.guides[slide.guide].start
     taken = {"ground", *names.bodies.values(), *names.turns.values()}
     name = f"end of {slide.name}" if slide.name in taken else slide.name
-    return {name: {"parent": parent, "at": at, "direction": direction, "way": way, "start": float(start)}}
+    found: dict[str, dict[str, Any]] = {}
+    for k, (direction, guide) in enumerate(slide.ways):
+        way = _way(model, guide)
+        if not way:
+            return {}
+        last = k == len(slide.ways) - 1
+        own, start = name if last else f"{name} {k + 1}", float(model.guides[guide].start)
+        along = numbers(place_drawn(drawn, direction))
+        found[own] = {"parent": parent, "at": at, "direction": along, "way": way, "start": start}
+        parent, at = own, [0.0, 0.0, 0.0]
+    return found
 
 
 def _axis(dimension: int, drawn: Vector, joint: Joint) -> Vector | None:

@@ -69,9 +69,13 @@ _NEW = (  # from 6.1 on
     *("LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS", "PCFX1", "PCFX2", "PCFX3", "PCFY1", "PCFY2", "PCFY3"),
 )
 _OLD = ("PHY3", "PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "LGAX", "LGAY", "LGAZ", "LSGKP", "LSGAL", "QBZ4")
+_VERTICAL_UNUSED = (
+    *("Q_FCX", "Q_FCY", "Q_FCY2", "QFCX1", "QFCY1", "Q_FZ3"),
+    *("Q_CAM", "Q_CAM1", "Q_CAM2", "Q_CAM3", "Q_FYS1", "Q_FYS2", "Q_FYS3"),
+)
 _NUMBERS = {  # keys that are read and must be numbers
     *(*MAGIC_COEFFICIENTS, *_NEEDED, *_ALIASES, *POWERS, *PRESSURES),
-    *("FITTYP", "USE_MODE", "LCZ", "Q_FZ1", "Q_FZ2", "Q_FZ3", "Q_FCX", "Q_FCY", "QFCX1", "QFCY1"),
+    *("FITTYP", "USE_MODE", "LCZ", "Q_FZ1", "Q_FZ2", *_VERTICAL_UNUSED),
     *("KPUMIN", "KPUMAX", "ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"),
 }
 _STIFFNESS = (1e3, 1e8)  # N/m
@@ -163,11 +167,12 @@ def read_tyre(file: str | Path) -> TyreFile:
         It cannot be read, is of another format, lacks what is needed or holds what cannot be; one sentence.
     """
     text = read_properties(file)
+    notes: list[str] = []
     missing = [section for section in _SECTIONS if section not in text.sections]
     if missing:
         raise text.fault(f"it has no section [{missing[0]}]; it may be cut, or no tyre property file.")
     found = text.numbers(_NUMBERS)
-    version = _version(text)
+    version = _version(text, notes)
     given = {_ALIASES.get(key, key): value for key, value in found.items()}
     numbers = in_si(text, given)
     lacking = [key for key in _NEEDED if not numbers.get(key)]
@@ -177,7 +182,6 @@ def read_tyre(file: str | Path) -> TyreFile:
         raise text.fault(
             f"PKX1 is {numbers['PKX1']:g}; it must be positive, else the longitudinal force goes with the slip."
         )
-    notes: list[str] = []
     coefficients = {key: numbers[key] for key in MAGIC_COEFFICIENTS if key in numbers}
     if text.word("TYRESIDE", "MODEL") in ("SYMMETRIC", "SYMMETRICAL"):
         coefficients |= dict.fromkeys(one_sided(version), 0.0)
@@ -205,6 +209,9 @@ def read_tyre(file: str | Path) -> TyreFile:
         given_side = f"is '{side}'" if side else "is missing"
         notes.append(f"TYRESIDE {given_side}: coefficients of a left tyre are assumed, and a right one is mirrored.")
         side = "left"
+    if numbers.get("USE_MODE", 4.0) < 0.0 and side in SIDES:
+        side = SIDES[1 - SIDES.index(side)]
+        notes.append(f"USE_MODE is {numbers['USE_MODE']:g}, which mirrors: the coefficients count as a {side} tyre's.")
     nominal = numbers.get("NOMPRES", 0.0)
     return TyreFile(
         text.name,
@@ -221,10 +228,12 @@ def one_sided(version: str) -> tuple[str, ...]:
     return (*_ONE_SIDED, *_ONE_SIDED_OLD) if version in ("PAC2002", "MF52") else _ONE_SIDED
 
 
-def _version(text: PropertyText) -> str:
+def _version(text: PropertyText, notes: list[str]) -> str:
     form = text.word("PROPERTY_FILE_FORMAT", "MODEL")
     fit = text.sections["MODEL"].get("FITTYP")
     if form == "PAC2002":
+        if isinstance(fit, float) and FITS.get(int(fit), "MF52") != "MF52":
+            notes.append(f"FITTYP is {fit:g} and PROPERTY_FILE_FORMAT PAC2002; the equations are those of PAC2002.")
         return form
     if isinstance(fit, float) and (form in _BY_FIT or form.startswith("MF")):
         if fit in FITS:
@@ -245,6 +254,8 @@ def _combination(text: PropertyText, numbers: dict[str, float], notes: list[str]
     mode = abs(numbers.get("USE_MODE", 4.0)) % 10.0
     if mode in (0.0, 1.0, 2.0, 3.0):
         notes.append(f"USE_MODE is {numbers['USE_MODE']:g}; slips are combined nevertheless, by what the file has.")
+    elif mode != 4.0:
+        notes.append(f"USE_MODE is {numbers['USE_MODE']:g}; slips are combined as by 4, without turn slip.")
     lacking = [key for key in _WEIGHTS if not numbers.get(key)]
     if text.word("FE_METHOD", "MODEL") != "YES" and not lacking:
         return "weighting"
@@ -286,7 +297,7 @@ def _vertical(text: PropertyText, numbers: dict[str, float], notes: list[str]) -
     for table in ("DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"):
         if table in text.tables:
             notes.append(f"the table [{table}] is not used; VERTICAL_STIFFNESS and the rim are.")
-    for key in ("Q_FCX", "Q_FCY", "QFCX1", "QFCY1", "Q_FZ3"):
+    for key in _VERTICAL_UNUSED:
         if numbers.get(key):
             notes.append(f"{key} is not used: horizontal forces and camber do not change the vertical stiffness.")
     rim = numbers.get("BOTTOMING_RADIUS") or (

@@ -242,8 +242,9 @@ class Car(CarContent):
         steered = self.steering.build(b, self.rack_way)
         if steered.travel is None:
             raise ModelError(
-                f"{self.steering.key('kind')} is '{self.steering.kind}', whose rack is a body: the suspensions have no "
-                f"tables, fidelity {Fidelity.TABLE.value}, with it. Take 'rack_by_angle' or fidelity 0."
+                f"{self.steering.key('kind')} is '{self.steering.kind}', {self.steering.without_travel}: the "
+                f"suspensions have no tables, fidelity {Fidelity.TABLE.value}, with it. Take "
+                "'rack_by_angle' or fidelity 0."
             )
         from mbs.vehicle.tabled_axle import tabled_axle
 

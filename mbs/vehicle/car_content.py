@@ -32,6 +32,8 @@ from mbs.vehicle.suspensions.curve_table import RACK
 from mbs.vehicle.suspensions.curves import Curves
 from mbs.vehicle.suspensions.twist_beam import TwistBeam
 
+RACK_PORTS = {"rack_by_angle": "rack_position", "column": "rack_force"}
+
 
 class Vehicle(Section):
     """The car as a whole."""
@@ -133,10 +135,10 @@ class CarContent(Section):
             why = "ports.torque leaves the drive out" if self.ports.torque is not None else "an electric drive has none"
             yield f"ports.gear asks for a gear of an automatic drive, and {why}; leave it out."
         port = self.ports.steering
-        if port is not None and (port == "rack_force") != (self.steering.kind == "column"):
+        if port is not None and port != RACK_PORTS.get(self.steering.kind):
             yield (
                 f"ports.steering is '{port}' and steering.kind '{self.steering.kind}'; a rack_by_angle has the port "
-                "rack_position, a column rack_force."
+                "rack_position, a column rack_force, a pitman_arm none."
             )
         if port is not None and isinstance(self.steering, RackByAngle) and self.steering.by_table is not None:
             yield (
@@ -159,10 +161,10 @@ class CarContent(Section):
                 )
         if rear is not None and rear.table.second_name == RACK:
             yield f"{rear.key('file')} ({rear.file}) has the column {RACK}; the rear axle does not steer."
-        if front is not None and not self.steering.on_flexible_chassis:
+        if front is not None and self.steering.without_travel:
             yield (
-                f"{self.steering.key('kind')} is '{self.steering.kind}', whose rack is a body; an axle by its curves "
-                "needs 'rack_by_angle'."
+                f"{self.steering.key('kind')} is '{self.steering.kind}', {self.steering.without_travel}; an axle by "
+                "its curves needs 'rack_by_angle'."
             )
         if (front or rear) and self.chassis.frame is not None:
             yield f"{self.chassis.key('frame')} hangs on links; with an axle by its curves the chassis is rigid."

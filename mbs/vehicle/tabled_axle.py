@@ -133,7 +133,7 @@ def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | No
     linkage = Linkage(car, axle)
     data = getattr(car, axle)
     try:
-        grid = pose_grid(linkage, 0.0 if rack is None else car.steering.rack_travel)
+        grid = pose_grid(linkage, 0.0 if rack is None else car.steering.full)
     except NotReachedError as error:
         raise ModelError(
             f"{data.suspension.key('kind')} '{data.suspension.kind}' makes no table up to its stops: {error}."

@@ -127,7 +127,7 @@ def pac2002(p: Coefficients, g: Given, combination: str) -> Forces:
     Mzr = Dr * cos(atan(Br * ar_eq)) * cos(alpha)
     s = (p.SSZ1 + p.SSZ2 * Fy / Fz0 + (p.SSZ3 + p.SSZ4 * dfz) * gamma) * p.R0 * p.LS
     Mz = -t * (Fy - SVyk) + Mzr + s * Fx
-    return Forces(Fx, Fy, _mx(p, g, Fy, Fz0), _my(p, g, Fx), Mz)
+    return Forces(Fx, Fy, _mx(p, g, Fy), _my(p, g, Fx), Mz)
 
 
 def mf6(p: Coefficients, g: Given, combination: str) -> Forces:
@@ -214,12 +214,12 @@ def mf6(p: Coefficients, g: Given, combination: str) -> Forces:
     Mzr = Dr * cos(atan(Br * ar_eq))  # 4.E75
     s = p.R0 * (p.SSZ1 + p.SSZ2 * Fy / Fz0 + (p.SSZ3 + p.SSZ4 * dfz) * gam) * p.LS  # 4.E76
     Mz = -t * F_ + Mzr + s * Fx  # 4.E71, 4.E72
-    return Forces(Fx, Fy, _mx(p, g, Fy, Fz0), _my(p, g, Fx), Mz)
+    return Forces(Fx, Fy, _mx(p, g, Fy), _my(p, g, Fx), Mz)
 
 
-def _mx(p: Coefficients, g: Given, Fy: float, Fz0: float) -> float:
-    """4.E69, with QSX12 to QSX14."""
-    Fz, gam = g.Fz, g.gamma
+def _mx(p: Coefficients, g: Given, Fy: float) -> float:
+    """4.E69, with QSX12 to QSX14; over the nominal load without LFZO."""
+    Fz, Fz0, gam = g.Fz, p.Fz0, g.gamma
     Mx = p.QSX1 * p.LVMX - p.QSX2 * gam * (1 + p.PPMX1 * g.dpi) - p.QSX12 * gam * abs(gam) + p.QSX3 * Fy / Fz0
     angle = p.QSX7 * gam + p.QSX8 * atan(p.QSX9 * Fy / Fz0)
     Mx += p.QSX4 * cos(p.QSX5 * atan((p.QSX6 * Fz / Fz0) ** 2)) * sin(angle)

@@ -207,7 +207,13 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
         "unit": "m",
     },
     "guide_time": lambda b: {"name": "new", "motion": ([0.0, 1.0, 2.0], [0.0, 1.0, 1.0]), "unit": "m"},
-    "guide_table": lambda b: {"name": "new", "source": b.guide, "table": [[0.0, 0.0], [1.0, 2.0]], "unit": "m"},
+    "guide_table": lambda b: {
+        "name": "new",
+        "source": b.guide,
+        "table": [[0.0, 0.0], [1.0, 2.0]],
+        "slopes": [1.0, 3.0],
+        "unit": "m",
+    },
     "constant": lambda b: {"name": "new", "value": 1.0, "unit": "m", "description": "a length"},
     "slide": lambda b: {"name": "new", "body": b.arm, "point": X, "direction": X, "guide": b.guide},
     "parameter": lambda b: {

@@ -48,6 +48,23 @@ def test_value_and_both_rates_are_those_of_the_curve():
     np.testing.assert_allclose(t["s2"], f(u, 1) * udd + f(u, 2) * ud**2, rtol=0, atol=1e-12)
 
 
+def test_slopes_that_are_given_are_those_of_the_curve():
+    """Cubics with the slopes of a sine: no slope is held at zero at its peak, as a monotone cubic has it there."""
+    u = np.linspace(-3.0, 3.0, 61)
+    m = Model("sine")
+    angle = m.guide_input("angle", input=m.input("angle", min=-3, max=3, unit="rad"), frequency=2.0, unit="rad")
+    sine = m.guide_table("sine", angle, np.column_stack([u, np.sin(u)]), slopes=np.cos(u))
+    plain = m.guide_table("plain", angle, np.column_stack([u, np.sin(u)]))
+    m.point_mass("ball", mass=1.0, position=(0.0, 0.0, 0.0))
+    for name, guide in (("u", angle), ("sine", sine), ("plain", plain)):
+        m.sense_guide(name, guide)
+    t = Simulation(compile(m)).run(1.0, 0.005, inputs={"angle": 2.7}, estimate_error=False)
+    assert np.abs(t["sine"] - np.sin(t["u"])).max() < 0.1**4 / 384.0
+    assert np.abs(t["plain"] - np.sin(t["u"])).max() > 1e-4
+    with pytest.raises(ModelError, match="the slopes of guide 'short'|The slopes of guide 'short'"):
+        m.guide_table("short", angle, np.column_stack([u, np.sin(u)]), slopes=[1.0, 2.0])
+
+
 def test_beyond_the_table_the_slope_stays():
     t, f = run(lever(), {"angle": 1.4}), PchipInterpolator(*np.transpose(ROWS))
     beyond = t["u0"] > 1.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import cumulative_trapezoid, solve_ivp
 from scipy.interpolate import PPoly
 
 from mbs import Model, ModelError, Simulation, compile
@@ -37,6 +37,57 @@ def test_the_rod_keeps_its_length_while_its_end_slides():
     np.testing.assert_allclose(length, np.hypot(0.8, 0.1), rtol=0, atol=CLOSED)
     assert t["s"][-1] == pytest.approx(0.15, abs=1e-6)
     assert t["tip.x"][-1] > 0.1
+
+
+def crank(*, directions=((0.6, 0.8), (-4.0, 3.0)), angle_slopes=True):
+    """A lever that a rod ties to a point which two tables over one angle lead around a circle of 0.2 m."""
+    m = Model("crank", dimension=2, gravity=(0, 0))
+    lever = m.body("lever", mass=1.0, com=(0.0, 0.5), inertia=0.1)
+    m.revolute("pin", m.ground, lever, point=(0, 0))
+    angle = m.guide_input("angle", input=m.input("angle", min=-9, max=9, unit="rad"), frequency=1.0, unit="rad")
+    u = np.linspace(-4.0, 4.0, 401)
+    ways = [
+        m.guide_table(name, angle, np.column_stack([u, way]), slopes=slope if angle_slopes else None, unit="m")
+        for name, way, slope in (
+            ("along", 0.2 * (np.cos(u) - 1.0), -0.2 * np.sin(u)),
+            ("across", 0.2 * np.sin(u), 0.2 * np.cos(u)),
+        )
+    ]
+    end = m.slide("pin of the crank", m.ground, point=(0.8, 0.9), direction=directions, guide=ways)
+    m.distance("rod", (lever, (0.0, 1.0)), end)
+    m.sense_position("tip.x", lever, (0, 1), "x")
+    m.sense_position("tip.y", lever, (0, 1), "y")
+    m.sense_guide("u", angle)
+    m.sense_guide("ud", angle, order=1)
+    m.sense_guide("torque", angle, "force")
+    m.sense_energy("energy")
+    return m
+
+
+def test_a_point_that_two_guides_lead_around_a_circle():
+    """The rod keeps its length to the circle; the torque on the angle works what the lever gains."""
+    t = Simulation(compile(crank())).run(1.0, 0.001, inputs={"angle": 3.0}, estimate_error=False)
+    u = t["u"]
+    assert u[-1] > 2.9
+    along, across = 0.2 * (np.cos(u) - 1.0), 0.2 * np.sin(u)
+    pin = 0.8 + 0.6 * along - 0.8 * across, 0.9 + 0.8 * along + 0.6 * across
+    length = np.hypot(t["tip.x"] - pin[0], t["tip.y"] - pin[1])
+    np.testing.assert_allclose(length, np.hypot(0.8, 0.1), rtol=0, atol=CLOSED)
+    work = cumulative_trapezoid(t["torque"] * t["ud"], t.t, initial=0.0)
+    np.testing.assert_allclose(t["energy"] - t["energy"][0], work, rtol=0, atol=2e-3 * np.ptp(t["energy"]))
+
+
+@pytest.mark.parametrize(
+    ("directions", "said"),
+    [
+        (((1.0, 0.0), (0.1, 1.0)), "are not at right angles"),
+        (((1.0, 0.0),), "shape"),
+        ((1.0, 0.0), "shape"),
+    ],
+)
+def test_directions_that_do_not_fit_the_guides_are_refused(directions, said):
+    with pytest.raises(ModelError, match=said):
+        crank(directions=directions)
 
 
 def test_a_filtered_guide_is_that_of_a_critically_damped_filter():

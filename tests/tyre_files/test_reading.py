@@ -252,3 +252,32 @@ def test_a_side_that_is_not_known_is_said(tmp_path: Path) -> None:
     f = read_tyre(changed(tmp_path, ("TYRESIDE", "TYRESIDE = 'UNKNOWN'")))
     assert f.notes == ("TYRESIDE is 'unknown': coefficients of a left tyre are assumed, and a right one is mirrored.",)
     assert f.side == "left"
+
+
+def test_a_negative_use_mode_mirrors(tmp_path: Path) -> None:
+    """A wheel of the left side then has the mirror image of what the coefficients of a left tyre say."""
+    plain = read_tyre(OWN)
+    f = read_tyre(changed(tmp_path, ("USE_MODE", "USE_MODE = -14")))
+    assert f.notes == ("USE_MODE is -14, which mirrors: the coefficients count as a right tyre's.",)
+    assert (plain.side, f.side) == ("left", "right")
+    assert f.tyre("left") == plain.tyre("right")
+    assert f.tyre("right") == plain.tyre("left")
+    assert f.tyre("left") != plain.tyre("left")
+
+
+@pytest.mark.parametrize("mode", ["5", "15", "99"])
+def test_a_use_mode_that_is_not_4_is_said(tmp_path: Path, mode: str) -> None:
+    (note,) = read_tyre(changed(tmp_path, ("USE_MODE", f"USE_MODE = {mode}"))).notes
+    assert note == f"USE_MODE is {mode}; slips are combined as by 4, without turn slip."
+
+
+def test_what_the_vertical_force_has_besides_is_said(tmp_path: Path) -> None:
+    (note,) = read_tyre(changed(tmp_path, ("USE_MODE", "USE_MODE = 14\nQ_CAM2 = 1.5"))).notes
+    assert note == "Q_CAM2 is not used: horizontal forces and camber do not change the vertical stiffness."
+
+
+def test_pac2002_with_a_newer_fittyp_is_said(tmp_path: Path) -> None:
+    text = SEDAN.read_bytes().replace(b"[MODEL]", b"[MODEL]\nFITTYP = 61")
+    f = read_tyre(written(tmp_path, text))
+    assert f.notes[0] == "FITTYP is 61 and PROPERTY_FILE_FORMAT PAC2002; the equations are those of PAC2002."
+    assert f.values == read_tyre(SEDAN).values

@@ -54,12 +54,13 @@ def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: f
     length = positive(length, f"The length of {what}")
     constant = Affine({}, -0.5 * length * length)
     slide, sign = (slide_1, 1.0) if slide_1 is not None else (slide_2, -1.0)
-    guides = []
+    guides: list[GuideTerm] = []
     if slide is not None:
-        guides = [
-            GuideTerm(slide.guide, 1, dot_products(gap, slide.direction, sign)),
-            GuideTerm(slide.guide, 2, linear=Affine({}, 0.5)),
-        ]
+        for way, guide in slide.ways:
+            guides += [
+                GuideTerm(guide, 1, dot_products(gap, way, sign)),
+                GuideTerm(guide, 2, linear=Affine({}, 0.5)),
+            ]
     joint = Joint(
         name,
         "distance",

@@ -29,14 +29,14 @@ def steering_oddities(car: CarContent) -> Iterator[str]:
             f"divided by {table.factor:.6g}. To have them as they are write {turn:.6g}."
         )
     arm = getattr(car.front.suspension, "steering_arm", None)
-    travel = getattr(car.steering, "rack_travel", None)
-    if arm is None or travel is None:
+    if arm is None:
         return
+    key, travel = car.steering.lateral_travel
     length = abs(arm[0] - car.front.wheel.centre[0])
     about = math.asin(min(1.0, travel / max(length, 1e-3)))
     given = car.steering.front_wheel_angle_max
     if not about / FACTOR <= given <= about * FACTOR:
         yield (
-            f"{car.steering.key('front_wheel_angle_max')} is {given:g} rad, but {car.steering.key('rack_travel')} of "
-            f"{travel:g} m on a steering arm {length:.3g} m long gives about {about:.2g} rad."
+            f"{car.steering.key('front_wheel_angle_max')} is {given:g} rad, but {key}, "
+            f"{travel:.3g} m to the side, on a steering arm {length:.3g} m long gives about {about:.2g} rad."
         )

@@ -106,7 +106,7 @@ def kinematics(
             curves[axle, motion] = travel_curve(linkage, motion, _grid(*ends, points))
             _tell(progress, len(curves))
         if axle == "front":
-            full = car.steering.rack_travel
+            full = car.steering.full
             curves[axle, "steer"] = steer_curve(linkage, _grid(-full, full, points), wheel_by_rack(car))
             _tell(progress, len(curves))
         notes += stop_notes(linkage, curves[axle, "parallel"])
@@ -115,8 +115,8 @@ def kinematics(
 
 
 def wheel_by_rack(car: Car) -> WheelByRack:
-    """What gives the angle of the steering wheel, rad, and its change per travel of the rack, rad/m, at a travel, m."""
-    way = car.rack_way
+    """What gives the angle of the steering wheel, rad, and its change per motion of the steering, at a motion."""
+    way = car.steering.signed(car.rack_way)
 
     def at(travel: float) -> tuple[float, float]:
         angle, rate = car.steering.wheel_at(travel)

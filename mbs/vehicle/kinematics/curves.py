@@ -120,10 +120,11 @@ def _curve(linkage: Linkage, motion: str, values: Array, measures: Callable[[Pos
     above, high = reached(linkage, direction, values[values > 0.0])
     for end, last in ((low, values[0]), (high, values[-1])):
         if end is not None:
-            what = "rack travel" if motion == "steer" else "wheel travel"
+            over = quantity_of(linkage.car.steering.motion if motion == "steer" else "wheel_travel")
             notes.append(
-                f"{linkage.name} axle, {WORDS[motion]}: the links allow no more than {1e3 * end:+.1f} mm of {what} (a "
-                f"dead point, or a link too short or too long); the curve ends there, not at {1e3 * last:+.1f} mm."
+                f"{linkage.name} axle, {WORDS[motion]}: the links allow no more than {over.factor * end:+.1f} "
+                f"{over.shown} of {over.title} (a dead point, or a link too short or too long); the curve ends there, "
+                f"not at {over.factor * last:+.1f} {over.shown}."
             )
     middle = [linkage.drawn] if np.any(values == 0.0) else []
     rows = [measures(at) for at in (*below[::-1], *middle, *above)]

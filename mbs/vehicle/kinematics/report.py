@@ -32,6 +32,7 @@ def report(options: argparse.Namespace) -> int:
     from mbs.vehicle.kinematics.table import rows, text
     from mbs.vehicle.linkages.curve_grid import write_curve_table
     from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
+    from mbs.vehicle.suspensions.curve_table import RACK
 
     travel = TRAVEL if options.travel is None else options.travel
     low, high = checked_travel(tuple(1e-3 * v for v in travel))
@@ -57,7 +58,11 @@ def report(options: argparse.Namespace) -> int:
     for curve in found.curves.values():
         write_curve(curve, folder / curve_file(curve))
     tables = []
-    for axle, rack in (("front", car.steering.rack_travel), ("rear", 0.0)):
+    for axle, rack in (("front", car.steering.full), ("rear", 0.0)):
+        if rack and car.steering.motion != RACK:
+            kind = f"{car.steering.key('kind')} is '{car.steering.kind}'"
+            print(f"note: no {axle}_table.csv, which is over the travel of a rack; {kind}.", file=sys.stderr)
+            continue
         try:
             write_curve_table(Linkage(car, axle), rack, folder / f"{axle}_table.csv")
             tables.append(f"{axle}_table.csv")

@@ -41,7 +41,7 @@ def steer_measures(linkage: Linkage, at: Position, wheel_by_rack: WheelByRack) -
     angle, wheel_per_rack = wheel_by_rack(at.rack)
     found = {
         "steering_wheel_angle": angle,
-        "rack_travel": at.rack,
+        linkage.car.steering.motion: at.rack,
         "mean_steer_angle": mean,
         "steering_ratio": wheel_per_rack / rate if rate else math.nan,
         **dict.fromkeys(("ackermann_steer_angle", "ackermann_error", "ackermann", "turning_circle"), math.nan),

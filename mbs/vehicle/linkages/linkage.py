@@ -26,12 +26,12 @@ from mbs.model import Model
 from mbs.model.ends import End
 from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
 from mbs.simulation.standing_system import StandingSystem
-from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.mount import Mount
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.springs import AxleSprings
+from mbs.vehicle.steering.rack_section import rack_ends
 from mbs.vehicle.suspensions.anti_roll_bar import LINK
 
 Array = NDArray[np.float64]
@@ -99,11 +99,12 @@ class Linkage:
         b.chassis = _held(m, car)
         ramp = PPoly(np.array([[1.0], [-FARTHEST]]), np.array([-FARTHEST, FARTHEST]))  # the rack's travel is the time
         rack = m.guide_time("rack", ramp, unit="m")
+        steered = car.steering.ends(b, rack, car.rack_way) if axle == "front" else rack_ends(b, rack)
         rods: list[str] = []
 
         def end(side: Side, point: Point) -> End:
             rods.append(side.wheel)
-            return m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=LEFT, guide=rack)
+            return steered(side, point)
 
         springs = AxleSprings(self.data.spring, self.data.damper, self.data.stops)
         corners = list(self.data.suspension.corners(b, axle, springs, end))

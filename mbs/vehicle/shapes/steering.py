@@ -1,4 +1,4 @@
-"""Looks of the steering: rack that slides, column, steering wheel that turns."""
+"""Looks of the steering: rack that slides or linkage of a Pitman arm, column, steering wheel that turns."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from mbs.model.shapes import Owner
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.shapes.looks import BARE, DARK, POLISHED, Looks
+from mbs.vehicle.shapes.looks import BARE, CAST, DARK, POLISHED, Looks
 from mbs.vehicle.shapes.occupants import driver_place
+from mbs.vehicle.side import Point
+from mbs.vehicle.steering.pitman_arm import LINK, PitmanArm
 
 TILT = math.radians(24.0)  # of the column from the level
 HANDS = 0.42, 0.26  # m: steering wheel before and above the driver's centre of mass
@@ -17,23 +19,47 @@ RADIUS = 0.185  # m, of the steering wheel
 
 
 def rack_of(b: CarBuilder, car: CarContent) -> Owner:
-    """What the inner ends of the tie rods move with: a slide by the travel of the rack, which is always an output."""
-    inner = car.rack_ends
+    """What the inner ends of the tie rods move with: a rack slides by its travel, a link goes about in its plane."""
+    inner, frame = car.rack_ends, b.chassis.frame
+    if isinstance(car.steering, PitmanArm):
+        ahead, left = car.steering.plane
+        x = b.m.sliding("link ahead", frame, at=inner, direction=ahead, way=LINK[0])
+        y = b.m.sliding("link aside", x, at=inner, direction=left, way=LINK[1])
+        return b.m.turning("centre link", y, at=inner, axis=car.steering.axis, angle=LINK[2])
     name = "sliding rack" if any(body.name == "rack" for body in b.m.bodies) else "rack"
-    return b.m.sliding(name, b.chassis.frame, at=(inner[0], 0.0, inner[2]), direction=LEFT, way="steering_rack")
+    return b.m.sliding(name, frame, at=(inner[0], 0.0, inner[2]), direction=LEFT, way="steering_rack")
 
 
 def steering_shapes(looks: Looks) -> None:
-    """Draw rack, column and steering wheel."""
-    car, chassis = looks.car, looks.chassis
-    x, y, z = car.rack_ends
-    looks.cylinder(looks.rack, ((x, -y, z), (x, y, z)), 0.010 * looks.scale, **POLISHED)
-    looks.cylinder(chassis, ((x, -0.55 * y, z), (x, 0.55 * y, z)), 0.022 * looks.scale, **BARE)
-    seat = driver_place(car)
+    """Draw rack or linkage, column and steering wheel."""
+    steering = looks.car.steering
+    foot = _linkage(looks, steering) if isinstance(steering, PitmanArm) else _rack(looks)
+    chassis = looks.chassis
+    seat = driver_place(looks.car)
     centre = seat[0] + HANDS[0], seat[1], seat[2] + HANDS[1]
     axis = -math.cos(TILT), 0.0, math.sin(TILT)  # to the driver: positive turns are to the left
     wheel = looks.m.turning("steering wheel", chassis, at=centre, axis=axis, angle="steering_wheel_angle")
     looks.m.shape(wheel, "steering_wheel", radius=RADIUS, **DARK)
     bearing = centre[0] - 0.30 * axis[0], centre[1], centre[2] - 0.30 * axis[2]
-    pinion = x, 0.5 * y * math.copysign(1.0, seat[1] or 1.0), z
-    looks.tube((chassis, centre), (chassis, bearing), (chassis, pinion), radius=0.012, **BARE)
+    looks.tube((chassis, centre), (chassis, bearing), (chassis, foot), radius=0.012, **BARE)
+
+
+def _rack(looks: Looks) -> Point:
+    """Draw the rack; gives the place of its pinion."""
+    x, y, z = looks.car.rack_ends
+    looks.cylinder(looks.rack, ((x, -y, z), (x, y, z)), 0.010 * looks.scale, **POLISHED)
+    looks.cylinder(looks.chassis, ((x, -0.55 * y, z), (x, 0.55 * y, z)), 0.022 * looks.scale, **BARE)
+    return x, 0.5 * y * math.copysign(1.0, driver_place(looks.car)[1] or 1.0), z
+
+
+def _linkage(looks: Looks, steering: PitmanArm) -> Point:
+    """Draw arms and link; gives the place of the steering box."""
+    arms = (steering.arm_pivot, steering.arm_joint), steering.idler
+    for pivot, joint in arms:
+        looks.tube((looks.chassis, pivot), (looks.rack, joint), radius=0.014, **CAST)
+        looks.ball((looks.chassis, pivot), 0.030, **BARE)
+        looks.ball((looks.rack, joint), 0.018)
+    x, y, z = looks.car.rack_ends
+    ends = sorted([arms[0][1], arms[1][1], (x, y, z), (x, -y, z)], key=lambda point: point[1])
+    looks.tube(*((looks.rack, point) for point in ends), radius=0.011, **CAST)
+    return steering.arm_pivot

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Literal
+from typing import ClassVar, Literal
 
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.elements.input_force import InputForce
@@ -31,8 +31,9 @@ from mbs.vehicle.quantities import (
 )
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
-from mbs.vehicle.steering.rack_section import COLUMN_STICK, RackSection
+from mbs.vehicle.steering.rack_section import RackSection
 from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.steering_section import COLUMN_STICK
 
 LARGEST_TORQUE = 100.0  # N m, of the driver's hands
 LARGEST_FORCE = 3e4  # N, of an actuator on the rack
@@ -44,6 +45,8 @@ RACK_RADIUS = 0.013  # m: of a rack, for its inertia
 
 class Column(RackSection):
     """Rack, pinion, torsion bar and steering wheel, which the driver holds at an angle or turns by a torque."""
+
+    without_travel: ClassVar[str] = "whose rack is a body"
 
     kind: Literal["column"]
     """Names this template."""

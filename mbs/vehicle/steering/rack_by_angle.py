@@ -12,17 +12,15 @@ from pydantic import ConfigDict, model_validator
 
 from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.model.coordinate import Coordinate
-from mbs.model.ends import End
 from mbs.model.records import Input
-from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import PrescribedFriction
-from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
-from mbs.vehicle.steering.rack_section import COLUMN_STICK, RackSection
+from mbs.vehicle.steering.rack_section import RackSection, rack_ends
 from mbs.vehicle.steering.rack_table import RackTable, Rows, table_faults
 from mbs.vehicle.steering.ratio import tie_ratio
 from mbs.vehicle.steering.steered import RACK, Steered, tie_rods
+from mbs.vehicle.steering.steering_section import COLUMN_STICK
 
 
 def _not_required(schema: dict[str, Any]) -> None:
@@ -70,9 +68,9 @@ class RackByAngle(RackSection):
         """By the table where there is one."""
         return super().wheel_angle_max if self.by_table is None else self.by_table.at(self.rack_travel)[0]
 
-    def wheel_at(self, travel: float) -> tuple[float, float]:
+    def wheel_at(self, motion: float) -> tuple[float, float]:
         """By the table where there is one."""
-        return super().wheel_at(travel) if self.by_table is None else self.by_table.at(travel)
+        return super().wheel_at(motion) if self.by_table is None else self.by_table.at(motion)
 
     def build(self, b: CarBuilder, way: float) -> Steered:
         """Add the rack.
@@ -117,9 +115,6 @@ class RackByAngle(RackSection):
             friction = CoordinateFriction(self.friction, *COLUMN_STICK)
             m.add(friction.record("steering friction", wheel.affine))
 
-        def end(side: Side, point: Point) -> End:
-            return m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=LEFT, guide=rack)
-
         def travel() -> Coordinate:
             way_of_rack = m.travel(RACK)
             m.drive(RACK, way_of_rack.affine, rack)
@@ -148,6 +143,6 @@ class RackByAngle(RackSection):
             if demand is not None:
                 demand_outputs(m, demand, held, 1.0 / per_radian)
             if self.friction == 0.0:  # with friction the ratio is in an equation, which no parameter writes
-                tie_ratio(b, self, held, turn)
+                tie_ratio(b, self, "rack_per_turn", held, turn, inverse=False)
 
-        return Steered(end, outputs, torque_outputs, travel)
+        return Steered(rack_ends(b, rack), outputs, torque_outputs, travel)

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 
+from mbs.model.ends import End
+from mbs.model.records import Guide
+from mbs.vehicle.axes import LEFT
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.quantities import Frequency, RackPerTurn, RoadWheelAngle, Travel
-from mbs.vehicle.section import Section
+from mbs.vehicle.side import Point, Side
+from mbs.vehicle.steering.steering_section import SteeringSection
 
-COLUMN_STICK = 200.0, 5.0  # N m/rad, N m s/rad of a column that sticks: 1 N m of friction gives by 5 mrad
 
-
-class RackSection(Section):
+class RackSection(SteeringSection):
     """Rack and steering wheel."""
 
     rack_travel: Travel
@@ -27,26 +31,24 @@ class RackSection(Section):
         """Angle of the steering wheel at full travel, rad."""
         return 2.0 * math.pi * self.rack_travel / self.rack_per_turn
 
-    def wheel_at(self, travel: float) -> tuple[float, float]:
-        """Angle of the steering wheel, rad, and its change per travel of the rack, rad/m.
+    @property
+    def full(self) -> float:
+        """Travel of the rack."""
+        return self.rack_travel
 
-        Parameters
-        ----------
-        travel : float
-            Of the rack, m, to the side to which it steers to the left.
-        """
+    @property
+    def lateral_travel(self) -> tuple[str, float]:
+        """The travel."""
+        return self.key("rack_travel"), self.rack_travel
+
+    def wheel_at(self, motion: float) -> tuple[float, float]:
+        """By the travel per turn."""
         rate = 2.0 * math.pi / self.rack_per_turn
-        return rate * travel, rate
+        return rate * motion, rate
 
-    @property
-    def on_flexible_chassis(self) -> bool:
-        """Whether the chassis may bend or have ports."""
-        return True
-
-    @property
-    def moving_mass(self) -> float:
-        """Mass of what is a body of its own, kg."""
-        return 0.0
+    def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
+        """Ends of the rack."""
+        return rack_ends(b, guide)
 
     def travel_text(self, way: float) -> str:
         """Description of the travel.
@@ -57,3 +59,18 @@ class RackSection(Section):
             1 where the rack moves to the left to steer to the left, else -1.
         """
         return f"rack travel, positive to the left (turns the wheels {'left' if way > 0.0 else 'right'})"
+
+
+def rack_ends(b: CarBuilder, guide: Guide) -> TieRodEnd:
+    """Ends of a rack without mass.
+
+    Parameters
+    ----------
+    guide : Guide
+        Its travel, m, positive to the left.
+    """
+
+    def end(side: Side, point: Point) -> End:
+        return b.m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=LEFT, guide=guide)
+
+    return end

@@ -222,9 +222,9 @@ static void aligning(const ali3_magic_state *s, const terms *q, const pure *x, c
   out->Mz = -out->trail * lateral_force + residual + out->arm * out->F[0];
 }
 
-/* 4.E69; QSX12 to QSX14 are those of 6.2 */
+/* 4.E69; QSX12 to QSX14 are those of 6.2. As in 4.E70 the nominal load is that without LFZO. */
 static double overturning(const ali3_magic_state *s, const terms *q, double Fy) {
-  const double *c = s->c, gamma = s->camber, side = Fy / q->nominal, load = s->load / q->nominal;
+  const double *c = s->c, gamma = s->camber, side = Fy / s->nominal_load, load = s->load / s->nominal_load;
   const double more =
       c[ALI3_MF_QSX4] == 0.0
           ? 0.0

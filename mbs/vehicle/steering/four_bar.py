@@ -1,0 +1,104 @@
+"""Planar linkage of a Pitman arm, a centre link and an idler arm: where its parts stand at an angle of the arm.
+
+In the plane of the linkage, points as complex numbers, the arm turned by phi about P: ``A = P + (A0 - P) e^(i phi)``;
+the joint B of link and idler arm is where circles about A and about the idler's pivot I meet, on the side on which it
+is drawn. The rates follow from the velocity of B, which is at right angles to the idler arm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """A linkage as drawn.
+
+    Attributes
+    ----------
+    pivot, joint : complex
+        Of the Pitman arm: on the chassis, and with the link, m.
+    idler_pivot, idler_joint : complex
+        Likewise of the idler arm.
+    """
+
+    pivot: complex
+    joint: complex
+    idler_pivot: complex
+    idler_joint: complex
+
+    def turned(self, phi: Array) -> tuple[Array, Array, Array]:
+        """Joint of the arm and turn of the link at angles of the arm.
+
+        Parameters
+        ----------
+        phi : ndarray, shape (n,)
+            rad, continuous from the drawing on.
+
+        Returns
+        -------
+        joint : ndarray of complex, shape (n,)
+            m; NaN where the linkage does not close.
+        turn, rate : ndarray, shape (n,)
+            Of the link, rad, and its change per angle of the arm.
+        """
+        lever, link = self.joint - self.pivot, self.idler_joint - self.joint
+        idler = self.idler_joint - self.idler_pivot
+        joint = self.pivot + lever * np.exp(1j * phi)
+        gap = self.idler_pivot - joint
+        along = (abs(link) ** 2 - abs(idler) ** 2 + np.abs(gap) ** 2) / (2.0 * np.abs(gap))
+        with np.errstate(invalid="ignore"):
+            across = np.sign(_cross(self.idler_pivot - self.joint, link)) * np.sqrt(abs(link) ** 2 - along**2)
+            now = gap / np.abs(gap) * (along + 1j * across)
+            turn = np.angle(now / link)
+            end = joint + now - self.idler_pivot
+            rate = -_cross(end, joint - self.pivot) / _cross(end, now)
+        return joint, turn, rate
+
+    def lever(self, phi: Array) -> Array:
+        """Cosine of the angle of the arm from straight ahead or back (n,), as drawn positive.
+
+        Parameters
+        ----------
+        phi : ndarray, shape (n,)
+            rad.
+        """
+        arm = self.joint - self.pivot
+        return np.asarray(np.copysign(1.0, arm.real) * np.real(arm * np.exp(1j * phi)) / abs(arm))
+
+    def transmission(self, phi: Array) -> Array:
+        """Sine of the angle between link and idler arm (n,), as drawn positive: 0 where they lock, NaN beyond.
+
+        Parameters
+        ----------
+        phi : ndarray, shape (n,)
+            rad.
+        """
+        joint, turn, _ = self.turned(phi)
+        link = (self.idler_joint - self.joint) * np.exp(1j * turn)
+        idler = joint + link - self.idler_pivot
+        drawn = np.sign(_cross(self.idler_joint - self.joint, self.idler_joint - self.idler_pivot))
+        return np.asarray(drawn * _cross(link, idler) / np.abs(link * idler))
+
+    def carried(self, point: complex, phi: Array) -> tuple[Array, Array]:
+        """Way (n,) of a point of the link from the drawing, m, and its rate per angle of the arm, both complex.
+
+        Parameters
+        ----------
+        point : complex
+            As drawn, m.
+        phi : ndarray, shape (n,)
+            rad.
+        """
+        joint, turn, rate = self.turned(phi)
+        arm = (point - self.joint) * np.exp(1j * turn)
+        return joint + arm - point, 1j * (joint - self.pivot + rate * arm)
+
+
+def _cross(a: Array | complex, b: Array | complex) -> Array:
+    return np.asarray(np.imag(np.conj(a) * b))

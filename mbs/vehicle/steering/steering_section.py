@@ -1,0 +1,78 @@
+"""What the rest of a car asks of every steering in a file."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from mbs.model.records import Guide
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.corner import TieRodEnd
+from mbs.vehicle.section import Section
+
+COLUMN_STICK = 200.0, 5.0  # N m/rad, N m s/rad of a column that sticks: 1 N m of friction gives by 5 mrad
+
+
+class SteeringSection(Section):
+    """A steering, whose motion is one number: the travel of a rack or the angle of an arm."""
+
+    motion: ClassVar[str] = "rack_travel"
+    """Name of its motion, which is one of the quantities of kinematic curves."""
+    without_travel: ClassVar[str] = ""
+    """Why tables over the travel of a rack cannot be steered by it; empty where they can."""
+
+    @property
+    def wheel_angle_max(self) -> float:
+        """Angle of the steering wheel at full lock, rad."""
+        raise NotImplementedError
+
+    @property
+    def full(self) -> float:
+        """Its motion at full lock, m or rad."""
+        raise NotImplementedError
+
+    @property
+    def lateral_travel(self) -> tuple[str, float]:
+        """Key that gives it and how far the ends of the tie rods go aside at full lock, m."""
+        raise NotImplementedError
+
+    def wheel_at(self, motion: float) -> tuple[float, float]:
+        """Angle of the steering wheel, rad, and its change per motion.
+
+        Parameters
+        ----------
+        motion : float
+            m or rad, positive where it steers to the left.
+        """
+        raise NotImplementedError
+
+    def signed(self, way: float) -> float:
+        """Sign of its motion where it steers to the left.
+
+        Parameters
+        ----------
+        way : float
+            1 where a rack that moves to the left steers to the left, else -1.
+        """
+        return way
+
+    def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
+        """What the inner ends of the tie rods hang on where a guide gives its motion.
+
+        Parameters
+        ----------
+        guide : Guide
+            m or rad.
+        way : float
+            As of `signed`.
+        """
+        raise NotImplementedError
+
+    @property
+    def on_flexible_chassis(self) -> bool:
+        """Whether the chassis may bend or have ports."""
+        return True
+
+    @property
+    def moving_mass(self) -> float:
+        """Mass of what is a body of its own, kg."""
+        return 0.0
