@@ -134,13 +134,13 @@ class CarContent(Section):
                 continue
             why = "ports.torque leaves the drive out" if self.ports.torque is not None else "an electric drive has none"
             yield f"ports.{port} {what} of an automatic drive, and {why}; leave it out."
-        steering = self.ports.steering
-        if steering is not None and (steering == "rack_force") != (self.steering.kind == "column"):
+        port_of_rack = self.ports.steering
+        if port_of_rack is not None and (port_of_rack == "rack_force") != (self.steering.kind == "column"):
             yield (
-                f"ports.steering is '{steering}' and steering.kind '{self.steering.kind}'; a rack_by_angle has the port "
-                "rack_position, a column rack_force."
+                f"ports.steering is '{port_of_rack}' and steering.kind '{self.steering.kind}'; a rack_by_angle has the "
+                "port rack_position, a column rack_force."
             )
-        if steering is not None and isinstance(self.steering, RackByAngle) and self.steering.by_table is not None:
+        if port_of_rack is not None and isinstance(self.steering, RackByAngle) and self.steering.by_table is not None:
             yield (
                 f"{self.steering.key('rack_by_wheel_angle')} is there, and ports.steering asks for the travel of the "
                 "rack itself; leave one of them out."

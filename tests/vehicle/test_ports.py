@@ -279,7 +279,7 @@ def test_a_gear_that_is_asked_for_is_engaged_and_the_drive_shifts_by_itself_with
 
 
 def test_a_clutch_hands_on_what_its_pedal_leaves() -> None:
-    """Released it changes no bit; pressed the car rolls as in neutral; between it pulls with the torque that is left."""
+    """Released it changes no bit; pressed the car rolls as in neutral; between it has the torque that is left."""
     plain, ported = simulation(rigid, 3.0), simulation(rigid, 3.0, clutch="pedal")
     for s in (plain, ported):
         s.set_input("throttle", 1.0)
