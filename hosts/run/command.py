@@ -53,6 +53,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
     add_option(parser, "--interval", "the step; stresses that an FMU computes on reading are then read at rows only")
     add_option(parser, "--fidelity", "that of the FMU")
     add_setting_options(parser)
+    add_option(parser, "--aliases")
     add_option(parser, "--road")
     add_option(parser, "--out", "out", default=Path("out"))
     options = parser.parse_args(arguments)
@@ -62,7 +63,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
 def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.run.kerb import kerb_test
 
-    given = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "road", "driver"))
+    given = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
     if given:
         raise HostError(f"{given[0]} does not go with --kerb, which says what is driven.")
     if options.fmu is not None and is_car(options.fmu):
@@ -74,9 +75,12 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from hosts.driving.co_simulation import run_with_bar
+    from hosts.driving.derived_columns import derive_columns
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
     from hosts.driving.run_checks import check_columns, communication_step, steps_of
+    from hosts.fmu.aliased_fmu import seen_through
+    from hosts.fmu.aliases.of_file import aliases_of
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
     from hosts.recordings.load_manoeuvre import manoeuvre_of
@@ -86,7 +90,9 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.run.run_summary import energy_balance, summary
 
     path, known = fmu_file(options.fmu), dict(options.driver)
-    with Fmu(path) as fmu:
+    with Fmu(path) as opened:
+        aliases = aliases_of(options.aliases, opened.table)
+        fmu = seen_through(opened, aliases)
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
         if known and not manoeuvre.driver:
             raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
@@ -98,13 +104,14 @@ def _run(options: argparse.Namespace) -> int:
             from hosts.driving.driver import driver_of
 
             driver = driver_of(fmu, manoeuvre)
-        manoeuvre, settings = set_in(fmu, manoeuvre, wishes(options), options.fidelity)
+        manoeuvre, settings = set_in(opened, manoeuvre, wishes(options), options.fidelity, aliases)
         still = options.manoeuvre is None
         stem = path.stem if still else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
         every = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
         result = run_with_bar(fmu, manoeuvre, step, driver, every)
+        derive_columns(result, aliases, every > 1)
     rows = summary(result, step, passed(result, driver) if driver is not None else ())
     write_csv(result, table)
     write_record(fmu, manoeuvre, step, settings, result, record, driver)

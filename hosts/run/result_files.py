@@ -11,7 +11,7 @@ from ali3.files import check_writable, whole_file, write_text
 from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
-from hosts.fmu.fmu import Fmu
+from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.settings import Settings
 
 
@@ -47,7 +47,7 @@ def write_csv(result: Result, file: Path) -> None:
 
 
 def write_record(
-    fmu: Fmu,
+    fmu: SimulatedFmu,
     manoeuvre: Manoeuvre,
     step: float,
     settings: Settings,
@@ -84,7 +84,7 @@ def write_record(
         "simulated_s": result.simulated,
         "failed_steps": result.failed_steps,
         "set": settings.records(),
-        "start": settings.start,
+        "start": dict(manoeuvre.start),
         "held": result.held,
         "jumps": {k: [float(result.time[k]), *before] for k, before in result.jumps.items()},
         "state": state,
