@@ -11,6 +11,7 @@ import re
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,6 +24,9 @@ from hosts.fmu.car import is_car
 
 if TYPE_CHECKING:
     from hosts.driving.driver import Driver
+    from hosts.driving.simulated_fmu import SimulatedFmu
+    from hosts.fmu.fmu import Fmu
+    from hosts.run.other_names import OtherNames
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.run.command") -> int:
@@ -75,12 +79,9 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from hosts.driving.co_simulation import run_with_bar
-    from hosts.driving.derived_columns import derive_columns
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
     from hosts.driving.run_checks import check_columns, communication_step, steps_of
-    from hosts.fmu.aliased_fmu import seen_through
-    from hosts.fmu.aliases.of_file import aliases_of
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
     from hosts.recordings.load_manoeuvre import manoeuvre_of
@@ -91,8 +92,8 @@ def _run(options: argparse.Namespace) -> int:
 
     path, known = fmu_file(options.fmu), dict(options.driver)
     with Fmu(path) as opened:
-        aliases = aliases_of(options.aliases, opened.table)
-        fmu = seen_through(opened, aliases)
+        other = None if options.aliases is None else _other_names(opened, options.aliases)
+        fmu: SimulatedFmu = opened if other is None else other.fmu
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
         if known and not manoeuvre.driver:
             raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
@@ -104,20 +105,28 @@ def _run(options: argparse.Namespace) -> int:
             from hosts.driving.driver import driver_of
 
             driver = driver_of(fmu, manoeuvre)
-        manoeuvre, settings = set_in(opened, manoeuvre, wishes(options), options.fidelity, aliases)
+        set_all = partial(set_in, opened) if other is None else other.set_in
+        manoeuvre, settings = set_all(manoeuvre, wishes(options), options.fidelity)
         still = options.manoeuvre is None
         stem = path.stem if still else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
         every = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
         result = run_with_bar(fmu, manoeuvre, step, driver, every)
-        derive_columns(result, aliases, every > 1)
+        if other is not None:
+            other.derive(result, every)
     rows = summary(result, step, passed(result, driver) if driver is not None else ())
     write_csv(result, table)
     write_record(fmu, manoeuvre, step, settings, result, record, driver)
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, None if driver is None else gate_edges(driver))
     return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
+
+
+def _other_names(fmu: Fmu, file: Path) -> OtherNames:
+    from hosts.run.other_names import OtherNames
+
+    return OtherNames(fmu, file)
 
 
 def _words(name: str) -> str:
