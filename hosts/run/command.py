@@ -117,7 +117,8 @@ def _run(options: argparse.Namespace) -> int:
             other.derive(result, every)
     rows = summary(result, step, passed(result, driver) if driver is not None else ())
     write_csv(result, table)
-    write_record(fmu, manoeuvre, step, settings, result, record, driver)
+    names = None if other is None else other.names
+    write_record(fmu, manoeuvre, step, settings, result, record, driver, names)
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, None if driver is None else gate_edges(driver))
     return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))

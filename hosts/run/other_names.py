@@ -43,6 +43,11 @@ class OtherNames:
         theirs, settings = set_in(self._own, manoeuvre, wishes, fidelity, self._aliases.values)
         return replace(theirs, start=self._aliases.own_values(theirs.start)), settings
 
+    @property
+    def names(self) -> dict[str, tuple[str, float, float]]:
+        """By the FMU's names ours, factor and offset, where they differ."""
+        return {a.theirs: (a.ours, a.factor, a.offset) for a in self._aliases.aliases}
+
     def derive(self, result: Result, every: int) -> None:
         """Computed columns of a result with a row every so many steps, with rates of both sides."""
         derive_columns(result, self._aliases, every > 1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from ali3.files import check_writable, whole_file, write_text
@@ -54,6 +54,7 @@ def write_record(
     result: Result,
     file: Path,
     driver: Driver | None = None,
+    names: Mapping[str, tuple[str, float, float]] | None = None,
 ) -> None:
     """What was run, and what was set in the FMU, as JSON.
 
@@ -67,6 +68,8 @@ def write_record(
         Its folder is made if it is not there.
     driver : Driver, optional
         Who has steered; with its course the view draws its cones.
+    names : mapping of str to (str, float, float), optional
+        By the FMU's names those of the table, with factor and offset: value of the FMU = factor * that + offset.
     """
     state = None
     if manoeuvre.state is not None:
@@ -93,6 +96,8 @@ def write_record(
         else {"track": driver.course.name, "vehicle_width": driver.settings.vehicle_width},
         "outputs_from": next(iter(fmu.names("output")), ""),
     }
+    if names:
+        record["names"] = names
     write_text(file, json.dumps(record, indent=2, ensure_ascii=False) + "\n")
 
 

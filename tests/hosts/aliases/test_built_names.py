@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from hosts.catalogue.car import TestedCar
+from hosts.common.options import Wishes
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import find_aliases
@@ -18,6 +19,7 @@ from hosts.fmu.geometry import scene_of
 from hosts.fmu.variables import Variables
 from hosts.run.command import main as run
 from hosts.view.recorded import read_table
+from hosts.view.view_sources import RunWishes, recordings_of
 
 CAR = ("--car", "prototype", "--fidelity", "0")
 NAMES = (
@@ -74,6 +76,8 @@ def test_run_drives_a_car_under_other_names(
         bound = 1e-7 * float(np.max(np.abs(one[name])))
         assert two[name] == pytest.approx(one[name], abs=bound), name
         assert three[name] == pytest.approx(one[name], abs=bound), name
+    (shown,), _ = recordings_of([again], None, RunWishes(None, None, None, Wishes([], [])))
+    assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"
     capsys.readouterr()
     assert run([theirs, *drive, "--out", str(tmp_path / "none")]) != 0
     assert "steering" in (said := capsys.readouterr().err)
