@@ -109,8 +109,9 @@ static double selector_input(const ali3_element_args *a) { return a->input[a->in
 /* The part of the torque of a gear that its clutch hands on, 1 where it does not slip. */
 static double clutched(ali3_element_args *a, double ratio, double total) {
   const double *p = a->real, pedal = a->nint > 4 ? ali3_clamp(a->input[a->integer[4]], 0.0, 1.0) : 0.0;
+  if (!(pedal > 0.0)) return 1.0;
   const double most = (1.0 - pedal) * (ratio * p[EFFICIENCY] * p[STALL_FACTOR] * p[MAX_TORQUE] + 2.0 * p[CREEP_TORQUE]);
-  if (!(pedal > 0.0) || fabs(total) <= most) return 1.0;
+  if (fabs(total) <= most) return 1.0;
   a->piece |= SLIPS;
   return most / fabs(total);
 }
