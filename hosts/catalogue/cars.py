@@ -83,17 +83,13 @@ def _cars_of_one(
 
 def _ours(start: Mapping[str, Value], aliases: Aliases, path: Path) -> dict[str, Value]:
     """Start values under our names, in our units."""
-    names = list(start)
-    factors, offsets = aliases.scales(names)
-    made: dict[str, Value] = {}
-    for ours, value, factor, offset in zip(aliases.names(names), start.values(), factors, offsets, strict=True):
+    made = aliases.own_values(start)
+    for ours in made:
         if ours in _OF_THE_TESTS:
             raise HostError(
                 f"'{ours}' of {path.name} cannot be given: the tests themselves say where a car starts and how fast; "
                 "--test-setting sets what may be changed (--list shows it)."
             )
-        plain = isinstance(value, (str, bool)) or (factor, offset) == (1.0, 0.0)
-        made[ours] = value if plain else (float(value) - float(offset)) / float(factor)
     return made
 
 

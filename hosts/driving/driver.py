@@ -89,4 +89,7 @@ def _check_drivable(fmu: SimulatedFmu) -> None:
     inputs, outputs = fmu.names("input"), fmu.names("output")
     missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
     if missing:
-        raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
+        raise HostError(
+            f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}. "
+            "Where they have other names, an alias file says which (ali3 run --aliases)."
+        )

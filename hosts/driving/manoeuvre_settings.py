@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Any
 
 from hosts.common.options import Wishes
 from hosts.driving.manoeuvre import Manoeuvre
@@ -11,7 +13,13 @@ from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import START_OF, Settings
 
 
-def set_in(fmu: Fmu, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | None = None) -> tuple[Manoeuvre, Settings]:
+def set_in(
+    fmu: Fmu,
+    manoeuvre: Manoeuvre,
+    wishes: Wishes,
+    fidelity: float | None = None,
+    theirs: Callable[[Mapping[str, Any]], Mapping[str, Any]] = dict,
+) -> tuple[Manoeuvre, Settings]:
     """The manoeuvre with all that the user sets, and what to say of it.
 
     Parameters
@@ -24,6 +32,8 @@ def set_in(fmu: Fmu, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | Non
         Of the command line.
     fidelity : float, optional
         Of the option ``--fidelity``.
+    theirs : callable
+        Gives values of the manoeuvre by the names and in the units of the FMU, in which the start values are returned.
 
     Raises
     ------
@@ -31,9 +41,10 @@ def set_in(fmu: Fmu, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | Non
         A name, value, kind or unit is wrong.
     """
     settings = Settings(fmu.table)
-    settings.add_numbers(manoeuvre.start, f"{START_OF}{manoeuvre.name}")
+    settings.add_numbers(theirs(manoeuvre.start), f"{START_OF}{manoeuvre.name}")
     settings.add_wishes(wishes, fidelity)
-    settings.overwritten(manoeuvre.inputs, f"it is a column of the manoeuvre {manoeuvre.name}")
+    settings.overwritten(theirs(manoeuvre.inputs), f"it is a column of the manoeuvre {manoeuvre.name}")
     if manoeuvre.driver:
-        settings.overwritten(ACTS, f"the driver of the manoeuvre {manoeuvre.name} acts on it")
+        acts = theirs(dict.fromkeys(ACTS, 0.0))
+        settings.overwritten(acts, f"the driver of the manoeuvre {manoeuvre.name} acts on it")
     return replace(manoeuvre, start=settings.start), settings

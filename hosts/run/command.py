@@ -11,6 +11,7 @@ import re
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,6 +24,9 @@ from hosts.fmu.car import is_car
 
 if TYPE_CHECKING:
     from hosts.driving.driver import Driver
+    from hosts.driving.simulated_fmu import SimulatedFmu
+    from hosts.fmu.fmu import Fmu
+    from hosts.run.other_names import OtherNames
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.run.command") -> int:
@@ -53,6 +57,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
     add_option(parser, "--interval", "the step; stresses that an FMU computes on reading are then read at rows only")
     add_option(parser, "--fidelity", "that of the FMU")
     add_setting_options(parser)
+    add_option(parser, "--aliases")
     add_option(parser, "--road")
     add_option(parser, "--out", "out", default=Path("out"))
     options = parser.parse_args(arguments)
@@ -62,7 +67,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ru
 def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.run.kerb import kerb_test
 
-    given = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "road", "driver"))
+    given = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
     if given:
         raise HostError(f"{given[0]} does not go with --kerb, which says what is driven.")
     if options.fmu is not None and is_car(options.fmu):
@@ -86,7 +91,9 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.run.run_summary import energy_balance, summary
 
     path, known = fmu_file(options.fmu), dict(options.driver)
-    with Fmu(path) as fmu:
+    with Fmu(path) as opened:
+        other = None if options.aliases is None else _other_names(opened, options.aliases)
+        fmu: SimulatedFmu = opened if other is None else other.fmu
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
         if known and not manoeuvre.driver:
             raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
@@ -98,19 +105,29 @@ def _run(options: argparse.Namespace) -> int:
             from hosts.driving.driver import driver_of
 
             driver = driver_of(fmu, manoeuvre)
-        manoeuvre, settings = set_in(fmu, manoeuvre, wishes(options), options.fidelity)
+        set_all = partial(set_in, opened) if other is None else other.set_in
+        manoeuvre, settings = set_all(manoeuvre, wishes(options), options.fidelity)
         still = options.manoeuvre is None
         stem = path.stem if still else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
         every = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
         result = run_with_bar(fmu, manoeuvre, step, driver, every)
+        if other is not None:
+            other.derive(result, every)
     rows = summary(result, step, passed(result, driver) if driver is not None else ())
     write_csv(result, table)
-    write_record(fmu, manoeuvre, step, settings, result, record, driver)
+    names = None if other is None else other.names
+    write_record(fmu, manoeuvre, step, settings, result, record, driver, names)
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, None if driver is None else gate_edges(driver))
     return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
+
+
+def _other_names(fmu: Fmu, file: Path) -> OtherNames:
+    from hosts.run.other_names import OtherNames
+
+    return OtherNames(fmu, file)
 
 
 def _words(name: str) -> str:

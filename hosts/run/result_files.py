@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from ali3.files import check_writable, whole_file, write_text
 from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
-from hosts.fmu.fmu import Fmu
+from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.settings import Settings
 
 
@@ -47,13 +47,14 @@ def write_csv(result: Result, file: Path) -> None:
 
 
 def write_record(
-    fmu: Fmu,
+    fmu: SimulatedFmu,
     manoeuvre: Manoeuvre,
     step: float,
     settings: Settings,
     result: Result,
     file: Path,
     driver: Driver | None = None,
+    names: Mapping[str, tuple[str, float, float]] | None = None,
 ) -> None:
     """What was run, and what was set in the FMU, as JSON.
 
@@ -67,6 +68,8 @@ def write_record(
         Its folder is made if it is not there.
     driver : Driver, optional
         Who has steered; with its course the view draws its cones.
+    names : mapping of str to (str, float, float), optional
+        By the FMU's names those of the table, with factor and offset: value of the FMU = factor * that + offset.
     """
     state = None
     if manoeuvre.state is not None:
@@ -84,7 +87,7 @@ def write_record(
         "simulated_s": result.simulated,
         "failed_steps": result.failed_steps,
         "set": settings.records(),
-        "start": settings.start,
+        "start": dict(manoeuvre.start),
         "held": result.held,
         "jumps": {k: [float(result.time[k]), *before] for k, before in result.jumps.items()},
         "state": state,
@@ -94,6 +97,8 @@ def write_record(
         "marks": result.marks,
         "outputs_from": next(iter(fmu.names("output")), ""),
     }
+    if names:
+        record["names"] = names
     write_text(file, json.dumps(record, indent=2, ensure_ascii=False) + "\n")
 
 

@@ -16,7 +16,7 @@ from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.scene_file import scene_from
 from hosts.recordings.format import is_recording
 from hosts.recordings.recorded_view import recorded_view
-from hosts.view.recorded import read_table
+from hosts.view.recorded import Table, read_table
 from viewer.recording import Recording
 
 # What a car without inputs of the user's is driven through.
@@ -134,6 +134,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         fmu = _fmu_of(record, record_file)
         described, same = _units(fmu, str(record.get("token", "")))
         units = described | units
+        _add_names_of_fmu(table, units, record, record_file)
         scene = scene_of(fmu, settings)
         if scene is None:
             told.append(_foreign(fmu))
@@ -163,6 +164,23 @@ def _record(file: Path) -> dict[str, Any] | None:
     if not isinstance(entries, list) or not all(isinstance(e, dict) and {"name", "new"} <= set(e) for e in entries):
         raise HostError(f"{file}, the record of the result, does not say by 'set' what was set in the FMU.")
     return record | {"set": entries}
+
+
+def _add_names_of_fmu(table: Table, units: dict[str, str], record: dict[str, Any], file: Path) -> None:
+    """Columns that a run with an alias file has under our names, under those of the FMU too: its drawing reads them."""
+    names = record.get("names", {})
+    try:
+        known = {str(theirs): (str(ours), float(f), float(o)) for theirs, (ours, f, o) in names.items()}
+    except (AttributeError, TypeError, ValueError):
+        raise HostError(
+            f"{file}, the record of the result, does not say by 'names' a name, a factor and an offset for each of the "
+            "FMU's names."
+        ) from None
+    for theirs, (ours, factor, offset) in known.items():
+        if ours in table.columns and theirs not in table.columns:
+            table.columns[theirs] = factor * table.columns[ours] + offset
+            if (factor, offset) == (1.0, 0.0):
+                units.setdefault(ours, units.get(theirs, ""))
 
 
 def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> dict[str, Any]:

@@ -75,6 +75,7 @@ class AutomaticDrive:
         gear: int = 1,
         selector: int | None = None,
         request: int | None = None,
+        clutch: int | None = None,
     ) -> ElementRecord:
         """The force element; the frame carries the reaction.
 
@@ -92,6 +93,9 @@ class AutomaticDrive:
             Number of an input: -1 reverse, 0 neutral, 1 drive; without one the drive is in drive.
         request : int, optional
             Number of an input that asks for a forward gear, from 1; 0: as the drive shifts by itself. Needs a selector.
+        clutch : int, optional
+            Number of an input, the pedal of a clutch behind the converter, 0 released to 1 pressed: it hands on at most
+            the part 1 - pedal of the largest torque that the drive has in its gear. Needs a selector.
 
         Raises
         ------
@@ -122,10 +126,13 @@ class AutomaticDrive:
             of_selector = {}
         else:
             inputs.append(index(selector, f"The selector of {what}"))
-        if request is not None:
-            if selector is None:
-                raise ValueError(f"T{what[1:]} has a request of gears and no selector; give it one.")
-            inputs.append(index(request, f"The request of {what}"))
+        for number, asked in ((request, "request of gears"), (clutch, "clutch")):
+            if number is not None and selector is None:
+                raise ValueError(f"T{what[1:]} has a {asked} and no selector; give it one.")
+        if request is not None or clutch is not None:
+            inputs.append(-1 if request is None else index(request, f"The request of {what}"))
+        if clutch is not None:
+            inputs.append(index(clutch, f"The clutch of {what}"))
         return ElementRecord(
             name,
             ElementType.AUTOMATIC_DRIVE,

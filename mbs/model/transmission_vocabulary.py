@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.joint_vocabulary import JointVocabulary
+from mbs.model.joints.coupled_slides import Slide, coupled_slides
 from mbs.model.joints.drop_link import drop_link
 from mbs.model.joints.gear import gear
 from mbs.model.joints.joint import Joint
@@ -77,6 +78,44 @@ class TransmissionVocabulary(JointVocabulary):
             The radius is zero, the carrier is a point mass, or the rack is the ground or the carrier.
         """
         return self._join(rack(self, name, pinion, body, carrier, axis, radius, point))
+
+    def coupled_slides(
+        self,
+        name: str,
+        body_1: Body,
+        body_2: Body,
+        *,
+        carrier_1: Body,
+        carrier_2: Body,
+        axis_1: ArrayLike,
+        axis_2: ArrayLike,
+        ratio: float,
+    ) -> Joint:
+        """Two bodies that slide on their carriers in a constant ratio, as the fingers of a gripper; guides nothing.
+
+        Parameters
+        ----------
+        body_1, body_2 : Body
+            What slides.
+        carrier_1, carrier_2 : Body
+            What they slide on.
+        axis_1, axis_2 : array_like, shape (dimension,)
+            Directions of the slides, fixed in their carriers, earth axes as drawn.
+        ratio : float
+            Way of the first for one of the second.
+
+        Returns
+        -------
+        Joint
+            For sensors: its force on the first body along its axis.
+
+        Raises
+        ------
+        ModelError
+            The ratio is zero, both bodies are one, a carrier is a point mass, or a body is the ground or its carrier.
+        """
+        slides = Slide(body_1, carrier_1, axis_1), Slide(body_2, carrier_2, axis_2)
+        return self._join(coupled_slides(self, name, *slides, ratio))
 
     def screw(self, name: str, body_1: Body, body_2: Body, *, point: ArrayLike, axis: ArrayLike, pitch: float) -> Screw:
         """Screw joint: a shared axis along which body 1 moves in proportion to its turn against body 2.

@@ -23,6 +23,7 @@ from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
 from mbs.model.perpendicular import perpendicular
+from mbs.urdf.mimic import Follower, followers_of, start_of
 
 Pose = NDArray[np.float64]
 TURNING, FREE = ("revolute", "continuous"), 1e9  # N m: range of the torque of a joint without a limit
@@ -40,7 +41,8 @@ class Robot:
     ----------
     model : Model
         Its inputs are ``JOINT.torque``, N m, or ``JOINT.force``, N, unless the joint has a guide; its sensors
-        ``JOINT.angle`` and ``JOINT.rate``, ``JOINT.position`` and ``JOINT.speed``, and of guides ``JOINT.torque``.
+        ``JOINT.angle`` and ``JOINT.rate``, ``JOINT.position`` and ``JOINT.speed``, and of guides ``JOINT.torque``. A
+        joint that follows another has sensors only.
     bodies : dict of str to Body
         By the names of links; links that are fixed to each other are one body, the ground where they are fixed to it.
     poses : dict of str to ndarray, shape (4, 4)
@@ -84,8 +86,8 @@ def read_urdf(
     Raises
     ------
     ModelError
-        The file cannot be read, the package is missing, a joint is planar, floating or follows another one, a moving
-        link has no mass, a name is none of a joint.
+        The file cannot be read, the package is missing, a joint is planar or floating, follows one that is not there or
+        is moved by what is given besides, a moving link has no mass, a name is none of a joint.
 
     Warns
     -----
@@ -105,20 +107,20 @@ def read_urdf(
             raise ModelError(
                 f"{file.name}: the joint '{name}' is {joint.type}; revolute, continuous and prismatic are read."
             )
-        if joint.mimic is not None:
-            raise ModelError(
-                f"{file.name}: the joint '{name}' follows '{joint.mimic.joint}' (mimic), which is not read."
-            )
         if name in guides and joint.type == "prismatic":
             raise ModelError(f"{file.name}: the joint '{name}' is prismatic; guides move turning joints.")
     at |= {name: float(motion(0.0)) for name, motion in guides.items()}
+    followers = followers_of(joints, at, file.name)
+    at |= start_of(followers, at)
     robot = Robot(Model(urdf.name or file.stem))
     robot.model.floating = floating
     below = _tree(urdf, file.name)
     _place(robot, below, at)
     _bodies(robot, urdf, below, floating, file.name)
     for name, joint in joints.items():
-        _joint(robot, joint, at.get(name, 0.0), guides.get(name))
+        _joint(robot, joint, at.get(name, 0.0), guides.get(name), driven=name not in followers)
+    for follower in followers.values():
+        _couple(robot, joints, follower)
     _tell_left_out(joints.values(), file.name)
     return robot
 
@@ -213,7 +215,7 @@ def _mass(parts: Iterable[tuple[Any, Pose]]) -> tuple[float, Pose, Pose]:
     return mass, com, inertia
 
 
-def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None) -> None:
+def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None, *, driven: bool) -> None:
     """A joint with what moves it and what reads it."""
     m, name, frame = robot.model, joint.name, robot.poses[joint.child]
     first, second = robot.bodies[joint.parent], robot.bodies[joint.child]
@@ -225,13 +227,8 @@ def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None) -> None:
         along = first.vector(axis)
         base = robot.poses[joint.parent] @ _pose(joint.origin)
         way = second.point(point) - first.point(base[:3, 3])
-        force = m.input(f"{name}.force", min=-most, max=most, unit="N", description=f"force along the joint '{name}'")
-        across = perpendicular(axis)
-        for body, sign in ((second, 1.0), (first, -1.0)):
-            if not body.is_ground:
-                axes = [first.vector(sign * axis), *(first.vector(v) for v in across)]
-                record = BodyForce([force.index, None, None]).record(f"{name} on {body.name}", body.point(point), axes)
-                m.add(record)
+        if driven:
+            _push(robot, joint, axis, point, most)
         m.sense_vector(f"{name}.position", way, [along], description=f"of the joint '{name}'")
         m.sense_vector(f"{name}.speed", way, [along], order=1, description=f"of the joint '{name}'")
         return
@@ -240,7 +237,7 @@ def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None) -> None:
     if guide is not None:
         motor = m.drive(f"{name} drive", angle, m.guide_time(f"{name} guide", guide, unit="rad"))
         m.sense_joint(f"{name}.torque", motor, "drive", unit="N.m", description=f"that moves the joint '{name}'")
-    else:
+    elif driven:
         text = f"torque of the joint '{name}'"
         m.torque_on(
             f"{name} motor", angle, input=m.input(f"{name}.torque", min=-most, max=most, unit="N.m", description=text)
@@ -250,6 +247,39 @@ def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None) -> None:
         m.add(ScalarSpringDamper(0.0, damping).record(f"{name} damping", angle.affine))
     m.sense_coordinate(f"{name}.angle", angle, description=f"of the joint '{name}'")
     m.sense_coordinate(f"{name}.rate", angle, order=1, description=f"of the joint '{name}'")
+
+
+def _push(robot: Robot, joint: Any, axis: Pose, point: Pose, most: float) -> None:
+    """A force along a sliding joint, with its reaction."""
+    m, name = robot.model, joint.name
+    first, second = robot.bodies[joint.parent], robot.bodies[joint.child]
+    force = m.input(f"{name}.force", min=-most, max=most, unit="N", description=f"force along the joint '{name}'")
+    across = perpendicular(axis)
+    for body, sign in ((second, 1.0), (first, -1.0)):
+        if not body.is_ground:
+            axes = [first.vector(sign * axis), *(first.vector(v) for v in across)]
+            m.add(BodyForce([force.index, None, None]).record(f"{name} on {body.name}", body.point(point), axes))
+
+
+def _couple(robot: Robot, joints: Mapping[str, Any], follower: Follower) -> None:
+    """A joint that follows another one."""
+    m, name, ratio = robot.model, f"{follower.name} follows {follower.leader}", follower.multiplier
+
+    def slides(joint: Any) -> tuple[Body, Body, Pose]:
+        return robot.bodies[joint.child], robot.bodies[joint.parent], robot.poses[joint.child][:3, :3] @ _axis(joint)
+
+    own, leader = joints[follower.name], joints[follower.leader]
+    if own.type in TURNING and leader.type in TURNING:
+        m.gear(name, robot.angles[own.name], robot.angles[leader.name], ratio=ratio)
+    elif own.type in TURNING:
+        body, carrier, axis = slides(leader)
+        m.rack(name, robot.angles[own.name], body, carrier=carrier, axis=axis, radius=1.0 / ratio)
+    elif leader.type in TURNING:
+        body, carrier, axis = slides(own)
+        m.rack(name, robot.angles[leader.name], body, carrier=carrier, axis=axis, radius=ratio)
+    else:
+        (a, on_a, axis_a), (b, on_b, axis_b) = slides(own), slides(leader)
+        m.coupled_slides(name, a, b, carrier_1=on_a, carrier_2=on_b, axis_1=axis_a, axis_2=axis_b, ratio=ratio)
 
 
 def _tell_left_out(joints: Iterable[Any], what: str) -> None:

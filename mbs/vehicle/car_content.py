@@ -131,16 +131,18 @@ class CarContent(Section):
                 "ports.tyre and ports.road are both there; the road under a tyre at a port is that of the program that "
                 "has the tyre, so leave one of them out."
             )
-        if self.ports.gear is not None and (self.ports.torque is not None or self.drive.kind != "automatic"):
+        for port, what in (("gear", "asks for a gear"), ("clutch", "opens the clutch")):
+            if getattr(self.ports, port) is None or (self.ports.torque is None and self.drive.kind == "automatic"):
+                continue
             why = "ports.torque leaves the drive out" if self.ports.torque is not None else "an electric drive has none"
-            yield f"ports.gear asks for a gear of an automatic drive, and {why}; leave it out."
-        port = self.ports.steering
-        if port is not None and port != RACK_PORTS.get(self.steering.kind):
+            yield f"ports.{port} {what} of an automatic drive, and {why}; leave it out."
+        port_of_rack = self.ports.steering
+        if port_of_rack is not None and port_of_rack != RACK_PORTS.get(self.steering.kind):
             yield (
-                f"ports.steering is '{port}' and steering.kind '{self.steering.kind}'; a rack_by_angle has the port "
-                "rack_position, a column rack_force, a pitman_arm none."
+                f"ports.steering is '{port_of_rack}' and steering.kind '{self.steering.kind}'; a rack_by_angle has the "
+                "port rack_position, a column rack_force, a pitman_arm none."
             )
-        if port is not None and isinstance(self.steering, RackByAngle) and self.steering.by_table is not None:
+        if port_of_rack is not None and isinstance(self.steering, RackByAngle) and self.steering.by_table is not None:
             yield (
                 f"{self.steering.key('rack_by_wheel_angle')} is there, and ports.steering asks for the travel of the "
                 "rack itself; leave one of them out."

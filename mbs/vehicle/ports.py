@@ -10,7 +10,7 @@ from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import BrakePressure, Frequency, Point
 from mbs.vehicle.section import Section
 
-PORTS = ("torque", "brakes", "steering", "road", "tyre", "forces", "wind", "gear")
+PORTS = ("torque", "brakes", "steering", "road", "tyre", "forces", "wind", "gear", "clutch")
 
 
 class Ports(Section):
@@ -36,6 +36,8 @@ class Ports(Section):
     """Speed and heading of air that moves over the ground."""
     gear: Literal["request"] | None = None
     """A forward gear that is asked for, beside an `automatic` drive, which shifts by itself where none is."""
+    clutch: Literal["pedal"] | None = None
+    """A clutch behind the converter of an `automatic` drive: the part 1 - pedal of its largest torque in a gear."""
     force_points: dict[Name, Point] = Field(default_factory=dict)
     """Where the forces act, as drawn, such as a hitch; left and right are as given; by default the reference point."""
     full_pressure: BrakePressure = 10e6

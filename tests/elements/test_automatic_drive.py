@@ -350,6 +350,38 @@ def test_a_gear_that_is_asked_for_is_engaged_in_the_time_of_a_shift_whatever_the
     assert asked(9.0, W, 0.01, 100, begin)[2].out["gear"] == 3.0, "the tallest there is"
 
 
+def test_a_clutch_hands_on_the_lesser_of_its_torque_and_of_the_drive_s() -> None:
+    """Against the drive without one; beyond its torque it slips, and the torque does not change with the speed."""
+    left, right, f, g = vectors(1, 1, 3, 3)
+    element = Element(DRIVE.record("drive", left[0], right[0], f, g, 0, selector=1, clutch=2), n_inputs=3)
+    assert "input that does not exist" in (element.check(n_inputs=2) or "")
+    y, slipped = np.array(element.element.states), 0
+    for pedal in (0.0, 0.2, 0.5, 0.9, 1.0):
+        for direction, ratio in ((1.0, DRIVE.ratios[0]), (-1.0, DRIVE.reverse_ratio)):
+            most = ratio * DRIVE.efficiency * DRIVE.stall_factor * DRIVE.max_torque + 2.0 * DRIVE.creep_torque
+            y[4] = direction
+            for throttle in (0.0, 0.3, 1.0):
+                for W in (-3.0, 0.0, 4.0, 30.0):
+                    signals, inputs = signals_of(direction * W, direction * W), [throttle, direction]
+                    free = selected(direction, 0.0, throttle)(*signals, y, 0.0, 0.005, 0.0, inputs)
+                    r = element(*signals, y, 0.0, 0.005, 0.0, [*inputs, pedal])
+                    whole = 2.0 * free.out["wheel_torque"]
+                    held = min(abs(whole), (1.0 - pedal) * most)
+                    assert 2.0 * r.out["wheel_torque"] == pytest.approx(np.copysign(held, whole), rel=1e-12)
+                    if held < abs(whole):
+                        slipped += 1
+                        assert not r.S.any()
+                        least, fastest = sorted((free.out["engine_speed"], DRIVE.limit_speed))
+                        assert min(least, DRIVE.idle_speed) <= r.out["engine_speed"] <= fastest
+                    else:
+                        assert np.array_equal(r.f, free.f)
+                        assert np.array_equal(r.S, free.S)
+                        assert r.out == free.out
+    assert slipped > 40
+    with pytest.raises(ValueError, match="has a clutch and no selector"):
+        DRIVE.record("D", left[0], right[0], f, g, 0, clutch=1)
+
+
 def test_powers_on_the_wheels_are_torque_times_what_they_turn_in_the_frame() -> None:
     rng = np.random.default_rng(3)
     R, omega = frame(rng), rng.normal(size=3)

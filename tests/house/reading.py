@@ -52,6 +52,7 @@ WAYS = {
         **STATE,
         **NEW_ROAD,
         "--kerb": "hosts.run.kerb",
+        "--aliases": "hosts.run.other_names",
     },
     "view": {**EVERY, "RESULT": "hosts.view.show", "--live": "hosts.view.live", **PARAMETERS},
     "simulator": {

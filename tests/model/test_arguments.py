@@ -110,6 +110,16 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
         "radius": 0.1,
         "point": X,
     },
+    "coupled_slides": lambda b: {
+        "name": "new",
+        "body_1": b.arm,
+        "body_2": b.box,
+        "carrier_1": b.box,
+        "carrier_2": b.m.ground,
+        "axis_1": X,
+        "axis_2": Y,
+        "ratio": 2.0,
+    },
     "screw": lambda b: between(b, point=X, axis=X, pitch=0.01),
     "drop_link": lambda b: {
         "name": "new",

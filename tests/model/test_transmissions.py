@@ -281,6 +281,31 @@ def test_a_bar_may_be_twisted_and_its_angles_mirrored():
     assert max(mode.frequency_hz for mode in mbs.linearise(mbs.Simulation(compile(m))).modes) > 1.0
 
 
+def slides(m, a, b, **other):
+    """Two bodies whose slides along x and y are coupled, the first one's twice as far."""
+    usual = {"carrier_1": m.ground, "carrier_2": m.ground, "axis_1": (1, 0), "axis_2": (0, 1), "ratio": 2.0}
+    return m.coupled_slides("c", a, b, **(usual | other))
+
+
+@pytest.mark.parametrize("method", STEPPERS)
+def test_coupled_slides_carry_the_mass_of_both(method):
+    """A force on the second, a = F / (m2 + ratio2 m1), of which the first takes what it needs."""
+    m = at_rest("gripper")
+    a, b = (m.body(n, mass=mass, com=(x, 0.1), inertia=1.0) for n, mass, x in (("a", 1.5, 0.0), ("b", 4.0, 1.0)))
+    m.prismatic("guide a", a, m.ground, axis=(1.0, 0.0))
+    m.prismatic("guide b", b, m.ground, axis=(0.0, 1.0))
+    joint = slides(m, a, b, ratio=-2.0)
+    m.force("push", b, inputs=(None, m.input("push", unit="N")))
+    m.sense_position("a", a, None, "x")
+    m.sense_position("b", b, None, "y")
+    m.sense_joint("c.force", joint, "force")
+    r = run(m, method, {"push": 5.0})
+    acceleration = 5.0 / (4.0 + 4.0 * 1.5)
+    assert r["b"][-1] - 0.1 == pytest.approx(0.5 * acceleration * r.t[-1] ** 2, rel=close(method))
+    assert r["a"][-1] == pytest.approx(-2.0 * (r["b"][-1] - 0.1), rel=1e-9)
+    assert r["c.force"][-1] == pytest.approx(-1.5 * 2.0 * acceleration, rel=close(method))
+
+
 def planar_pair():
     m = at_rest()
     a, b = (m.body(n, mass=1.0, com=(x, 0.0), inertia=1.0) for n, x in (("a", 0.0), ("b", 1.0)))
@@ -298,6 +323,11 @@ def planar_pair():
         (lambda m, a, b, x, y: m.rack("r", x, b, carrier=b, axis=(1, 0), radius=0.1), "with itself"),
         (lambda m, a, b, x, y: m.rack("r", x, m.ground, carrier=b, axis=(1, 0), radius=0.1), "is the ground"),
         (lambda m, a, b, x, y: m.rack("r", x, b, carrier=m.ground, axis=(0, 0), radius=0.1), "axis of rack 'r'"),
+        (lambda m, a, b, x, y: slides(m, a, a), "couple 'a' with itself"),
+        (lambda m, a, b, x, y: slides(m, a, b, ratio=0.0), "ratio of coupled slides 'c' is 0"),
+        (lambda m, a, b, x, y: slides(m, m.ground, b, carrier_1=a), "is the ground"),
+        (lambda m, a, b, x, y: slides(m, a, b, carrier_1=a), "with itself"),
+        (lambda m, a, b, x, y: slides(m, a, b, axis_1=(0, 0)), "axis of coupled slides 'c'"),
         (lambda m, a, b, x, y: m.screw("s", a, b, point=(0, 0), axis=(1, 0), pitch=1.0), "needs a spatial model"),
         (lambda m, a, b, x, y: m.anti_roll_bar("k", x, x, stiffness=1.0), "joins 'angle a' with itself"),
         (lambda m, a, b, x, y: m.anti_roll_bar("k", x, b, stiffness=1.0), "two relative angles or two bodies"),

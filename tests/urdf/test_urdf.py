@@ -96,6 +96,32 @@ def test_a_slide_moves_by_its_force_with_its_reaction(tmp_path: Path) -> None:
     assert 2.0 * (now["a"] - first["a"]) + 3.0 * (now["b"] - first["b"]) == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.parametrize("leader", ["revolute", "prismatic"])
+@pytest.mark.parametrize("follower", ["revolute", "prismatic"])
+def test_a_joint_that_follows_another_moves_and_loads_it(leader: str, follower: str, tmp_path: Path) -> None:
+    """Both on a body that turns, without gravity, from rest: a = F / (m1 + k2 m2), with 1 kg m2 for a turning one."""
+    k, offset, push = -1.5, 0.2, 3.0
+    mimic = f'<mimic joint="lead" multiplier="{k}" offset="{offset}"/>'
+    text = LINK.format("b", 2.0) + LINK.format("c", 3.0) + JOINT.format("lead", leader, "a", "b", "")
+    text += JOINT.format("follow", follower, "a", "c", mimic)
+    file = tmp_path / "coupled.urdf"
+    file.write_text(f'<robot name="coupled"><link name="a"/>{text}</robot>', encoding="utf-8")
+    robot = read_urdf(file, at={"lead": 0.1})
+    robot.model.gravity = np.zeros(3)
+    names = {"revolute": ("torque", "angle", "rate"), "prismatic": ("force", "position", "speed")}
+    (act, place, rate), (_, own, _) = names[leader], names[follower]
+    assert [i.name for i in robot.model.inputs] == [f"lead.{act}"]
+    s = mbs.Simulation(mbs.compile(robot.model), inputs={f"lead.{act}": push})
+    assert s.sensors[f"follow.{own}"] == pytest.approx(0.1 * k + offset)
+    s.step(0.002, 100)
+    now = s.sensors
+    inertia = (1.0 if leader == "revolute" else 2.0) + k**2 * (1.0 if follower == "revolute" else 3.0)
+    assert now[f"lead.{rate}"] == pytest.approx(push / inertia * 0.2, rel=1e-6)
+    assert now[f"follow.{own}"] == pytest.approx(now[f"lead.{place}"] * k + offset, abs=1e-9)
+    with pytest.raises(ModelError, match=r"is given a place or a motion; give it to 'lead'"):
+        read_urdf(file, at={"follow": 0.0})
+
+
 def test_damping_turns_and_what_is_left_out_is_told(tmp_path: Path) -> None:
     """A rod about its vertical axis loses its rate as exp(-c t / I)."""
     dynamics = '<dynamics damping="0.5" friction="0.1"/>'
@@ -122,7 +148,18 @@ def test_damping_turns_and_what_is_left_out_is_told(tmp_path: Path) -> None:
         (LINK.format("b", 1.0), "2 links are no child of a joint"),
         (
             LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", '<mimic joint="k" multiplier="2"/>'),
-            "follows 'k'",
+            r"follows 'k' \(mimic\), which is no joint that moves; these are j",
+        ),
+        (
+            LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", '<mimic joint="j"/>'),
+            "the joints j follow each other in a ring",
+        ),
+        (
+            LINK.format("b", 1.0)
+            + LINK.format("c", 1.0)
+            + JOINT.format("j", "revolute", "a", "b", "")
+            + JOINT.format("k", "revolute", "a", "c", '<mimic joint="j" multiplier="0"/>'),
+            "with a multiplier of 0",
         ),
         (
             LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", "").replace("0.6 0 0.8", "0 0 0"),

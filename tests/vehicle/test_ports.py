@@ -278,6 +278,45 @@ def test_a_gear_that_is_asked_for_is_engaged_and_the_drive_shifts_by_itself_with
     assert [n for n in senses if n in sensors] == sensors
 
 
+def test_a_clutch_hands_on_what_its_pedal_leaves() -> None:
+    """Released it changes no bit; pressed the car rolls as in neutral; between it has the torque that is left."""
+    plain, ported = simulation(rigid, 3.0), simulation(rigid, 3.0, clutch="pedal")
+    for s in (plain, ported):
+        s.set_input("throttle", 1.0)
+        s.step(STEP, 200)
+    same = plain.sensors
+    assert all(ported.sensors[name] == value for name, value in same.items())
+    drive = rigid().drive
+    assert drive.kind == "automatic"
+    most = drive.ratios[0] * drive.efficiency * drive.stall_factor * drive.max_torque + 2.0 * drive.creep_torque
+    ported.set_input("clutch", 0.8)
+    ported.step(STEP, 200)
+    now = ported.sensors
+    assert (now["gear"], now["used.clutch"]) == (1.0, 0.8)
+    assert 2.0 * now["drive_torque"] == pytest.approx(0.2 * most, rel=1e-12)
+    assert now["engine_speed"] > same["engine_speed"]
+    ported.set_input("clutch", 1.0)
+    ported.step(STEP)
+    work = ported.sensors["energy.drive"]
+    ported.step(STEP, 250)
+    assert ported.sensors["energy.drive"] == work
+    ported.set_input("clutch", 0.0)
+    ported.step(STEP, 50)
+    assert ported.sensors["drive_torque"] > 0.1 * most
+    # closed throttle brakes with the engine; in neutral and with an open clutch nothing does, from 0.3 s on
+    lost = []
+    for inputs in ({"selector": 0.0}, {"clutch": 1.0}, {}):
+        s = simulation(rigid, 15.0, clutch="pedal")
+        for name, value in inputs.items():
+            s.set_input(name, value)
+        s.step(STEP, 250)
+        before = s.sensors["speed"]
+        s.step(STEP, 500)
+        lost.append(before - s.sensors["speed"])
+    assert lost[1] == pytest.approx(lost[0], rel=0.01)
+    assert lost[2] > 1.2 * lost[0]
+
+
 def test_ports_that_do_not_fit_are_one_sentence() -> None:
     cases = {
         "torque": lambda: with_ports(rigid(), torque="axles"),
@@ -285,6 +324,9 @@ def test_ports_that_do_not_fit_are_one_sentence() -> None:
         "rack_force": lambda: with_ports(rigid(), steering="rack_force"),
         "rack_position": lambda: with_ports(column_car(), steering="rack_position"),
         "an electric drive has none": lambda: with_ports(hatchback(), gear="request"),
+        "ports.clutch opens the clutch of an automatic drive, and an electric drive has none": lambda: with_ports(
+            hatchback(), clutch="pedal"
+        ),
         "leaves the drive out": lambda: with_ports(rigid(), gear="request", torque="half_shafts"),
     }
     for word, make in cases.items():

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.common.numbers import Value
 from hosts.fmu.aliases.derivation import Derivation
 from hosts.fmu.aliases.derived import Derived
 
@@ -99,4 +100,14 @@ class Aliases:
             alias = by_name.get(name, Alias(name, name))
             plain = isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
             made[alias.theirs] = value if plain else alias.factor * value + alias.offset
+        return made
+
+    def own_values(self, values: Mapping[str, Value]) -> dict[str, Value]:
+        """Start values of the FMU under our names, in our units; texts stay as they are."""
+        by_name = {alias.theirs: alias for alias in self.aliases}
+        made: dict[str, Value] = {}
+        for name, value in values.items():
+            alias = by_name.get(name, Alias(name, name))
+            plain = isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
+            made[alias.ours] = value if plain else (float(value) - alias.offset) / alias.factor
         return made

@@ -130,7 +130,11 @@ class Automatic(Section):
         if b.ports.gear is not None:
             text = "forward gear that is asked for; 0: as the drive shifts by itself"
             request = b.port("gear_request", 0.0, float(len(self.ratios)), "1", text, whole=True).index
-        element = b.m.add(drive.record("drive", left, right, z, x, *inputs, request))
+        clutch = None
+        if b.ports.clutch is not None:
+            text = "clutch pedal: 0 released, 1 pressed, where nothing of the drive's torque is left"
+            clutch = b.port("clutch", 0.0, 1.0, "1", text).index
+        element = b.m.add(drive.record("drive", left, right, z, x, *inputs, request, clutch))
         for name in ("max_torque", "max_power", "locking"):
             b.tie(self, name, element, name)
         for k, ratio in enumerate(self.ratios):

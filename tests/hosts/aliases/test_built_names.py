@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from hosts.catalogue.car import TestedCar
+from hosts.common.options import Wishes
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import find_aliases
@@ -16,6 +17,9 @@ from hosts.fmu.built_fmu import build_fmu
 from hosts.fmu.fmu import described
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.variables import Variables
+from hosts.run.command import main as run
+from hosts.view.recorded import read_table
+from hosts.view.view_sources import RunWishes, recordings_of
 
 CAR = ("--car", "prototype", "--fidelity", "0")
 NAMES = (
@@ -50,6 +54,34 @@ def test_a_car_under_other_names_is_driven_through_its_alias_file(names: str, ma
     assert np.ptp(one["chassis.yaw"]) > 0.3
     for name in NAMES:
         assert two[name] == pytest.approx(one[name], rel=1e-7, abs=1e-9 * np.max(np.abs(one[name]))), name
+
+
+@pytest.mark.slow
+def test_run_drives_a_car_under_other_names(
+    made_once: Made, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A manoeuvre with a driver, values of --set in the FMU's names, and a table that repeats the run."""
+    plain = made_once("rigid_prototype", lambda folder: build_fmu("a car", CAR, folder))
+    other = made_once("rigid_carsim", lambda folder: build_fmu("a car", (*CAR, "--names", "carsim"), folder))
+    theirs = str(next(other.glob("*.fmu")))
+    drive = ["-m", "double_lane_change", "--stop-time", "4", "--step", "0.01", "--set", "road.friction=0.8"]
+    alias = ["--aliases", "carsim"]
+    assert run([str(next(plain.glob("*.fmu"))), *drive, "--out", str(tmp_path / "plain")]) == 0
+    assert run([theirs, *alias, *drive, "--out", str(tmp_path / "theirs")]) == 0
+    (again,) = (tmp_path / "theirs").glob("*.csv")
+    assert run([theirs, *alias, "-m", str(again), "--out", str(tmp_path / "again")]) == 0
+    one, two, three = (read_table(next((tmp_path / n).glob("*.csv"))).columns for n in ("plain", "theirs", "again"))
+    assert np.ptp(one["steering"]) > 0.1
+    for name in NAMES:
+        bound = 1e-7 * float(np.max(np.abs(one[name])))
+        assert two[name] == pytest.approx(one[name], abs=bound), name
+        assert three[name] == pytest.approx(one[name], abs=bound), name
+    (shown,), _ = recordings_of([again], None, RunWishes(None, None, None, Wishes([], [])))
+    assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"
+    capsys.readouterr()
+    assert run([theirs, *drive, "--out", str(tmp_path / "none")]) != 0
+    assert "steering" in (said := capsys.readouterr().err)
+    assert "--aliases" in said
 
 
 @pytest.mark.slow

@@ -22,7 +22,7 @@ CARS = (
     "hatchback: torque, brakes=pressure, road, forces, wind",
     "hatchback: tyre, forces=vehicle",
     "prototype: torque=hub_motors, brakes, steering=rack_position, tyre",
-    "ferrari_250_lm: brakes, steering=rack_force, road, gear, hitch",
+    "ferrari_250_lm: brakes, steering=rack_force, road, gear, clutch, hitch",
 )
 """Every kind of port is in one; `hitch` is a point of forces."""
 
@@ -50,7 +50,7 @@ def ported(made_once: Made, request: pytest.FixtureRequest) -> Path:
 
 def ports_of(car: Car) -> list[str]:
     """Those of its inputs that are ports."""
-    return [n for n in car.inputs if n.startswith(("wheel_", "point_", "wind.", "gear_", "steering_rack"))]
+    return [n for n in car.inputs if n.startswith(("wheel_", "point_", "wind.", "gear_", "clutch", "steering_rack"))]
 
 
 def level(car: Car) -> dict[str, float]:

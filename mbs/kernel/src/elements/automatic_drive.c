@@ -10,7 +10,9 @@
  * With a selector its input is a third integer, ratio of reverse, engage speed and engage time are three more reals, and
  * the states of selector.h follow. Reverse is one gear, with the torque of a first gear of its ratio turned round.
  * A fourth integer is an input that asks for a forward gear, 0: as the drive shifts by itself. A shift that is asked for
- * begins with the step that has the request, once the last one is over.
+ * begins with the step that has the request, once the last one is over. With a fifth integer it may be -1: none.
+ * A fifth integer is the input of a clutch pedal, 0 released to 1 pressed: a friction clutch behind the converter, whose
+ * torque is at most the part 1 - pedal of the largest that the drive has in its gear. Where the drive has more, it slips.
  *
  * There is no engine inertia: with turbine speed wt = ratio * W and stall speed ws (idle .. stall with the throttle)
  * the engine turns at sqrt(ws^2 + wt^2). Gears change only in `accept`, between steps, and the ratio then moves over
@@ -48,8 +50,8 @@ enum { STATES = 4 };
 #define LOCKING_RATE 0.5 /* rad/s */
 #define BARELY 1e-6 /* of the stall speed: round-off of a car at rest */
 /* Bits of the pieces of its law: the turbine turns forward, the converter raises the torque, the largest power or the
- * limit of speed holds; from GEARS on the gear, 0 for none, one more than there are for reverse. */
-enum { TURNS = 1, CONVERTS = 2, BY_POWER = 4, LIMITED = 8, CUT_OFF = 16, GEARS = 32 };
+ * limit of speed holds; from GEARS on the gear, 0 for none, one more than there are for reverse; the clutch slips. */
+enum { TURNS = 1, CONVERTS = 2, BY_POWER = 4, LIMITED = 8, CUT_OFF = 16, GEARS = 32, SLIPS = 1 << 16 };
 
 static int gear_of(double slot, int gears) { return slot >= gears ? gears : slot >= 1.0 ? (int)slot : 1; }
 
@@ -61,7 +63,7 @@ static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + 
 
 /* The gear that is asked for, 0 for none. */
 static int asked_gear(const ali3_element_args *a) {
-  return a->nint > 3 ? (int)ali3_clamp(a->input[a->integer[3]], 0.0, a->integer[1]) : 0;
+  return a->nint > 3 && a->integer[3] >= 0 ? (int)ali3_clamp(a->input[a->integer[3]], 0.0, a->integer[1]) : 0;
 }
 
 static double throttle_of(const ali3_element_args *a) { return ali3_clamp(a->input[a->integer[0]], 0.0, 1.0); }
@@ -104,8 +106,18 @@ static const double *of_selector(const ali3_element_args *a) { return a->real + 
 
 static double selector_input(const ali3_element_args *a) { return a->input[a->integer[2]]; }
 
+/* The part of the torque of a gear that its clutch hands on, 1 where it does not slip. */
+static double clutched(ali3_element_args *a, double ratio, double total) {
+  const double *p = a->real, pedal = a->nint > 4 ? ali3_clamp(a->input[a->integer[4]], 0.0, 1.0) : 0.0;
+  if (!(pedal > 0.0)) return 1.0;
+  const double most = (1.0 - pedal) * (ratio * p[EFFICIENCY] * p[STALL_FACTOR] * p[MAX_TORQUE] + 2.0 * p[CREEP_TORQUE]);
+  if (fabs(total) <= most) return 1.0;
+  a->piece |= SLIPS;
+  return most / fabs(total);
+}
+
 /* In the direction of the selector with the share of the torque that is engaged; without torque the engine runs up to
- * its limit speed. */
+ * its limit speed. The torque of a clutch that slips does not change with the speed. */
 static double selected(ali3_element_args *a, double ratio, double *slope, double *speed, double *engine,
                        int *direction) {
   const double *p = a->real, *q = of_selector(a), throttle = throttle_of(a), W = wheel_rate(a);
@@ -116,8 +128,11 @@ static double selected(ali3_element_args *a, double ratio, double *slope, double
   *slope = *engine = 0.0;
   *speed = free;
   if (*direction == 0) return 0.0;
-  const double sign = *direction, total = torque(p, sign < 0.0 ? q[REVERSE_RATIO] : ratio, throttle, sign * W, slope,
-                                                 speed, engine, &a->piece);
+  const double sign = *direction, geared = sign < 0.0 ? q[REVERSE_RATIO] : ratio;
+  const double total = torque(p, geared, throttle, sign * W, slope, speed, engine, &a->piece);
+  const double held = clutched(a, geared, total);
+  if (held < 1.0) *slope = 0.0;
+  share *= held;
   *slope *= share;
   *engine *= share;
   *speed = share * *speed + (1.0 - share) * free;
@@ -224,10 +239,11 @@ static void accept(ali3_element_args *a) {
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
   (void)nsig, (void)n_roads;
-  if (nint < 2 || nint > 4) return "an automatic drive has two integers, with a selector three, with a request four";
+  if (nint < 2 || nint > 5)
+    return "an automatic drive has two integers, with a selector three, a request four, a clutch five";
   const int32_t more = nint > 2 ? OF_SELECTOR : 0;
   for (int i = 0; i < nint; i++)
-    if (i != 1 && (integer[i] < 0 || integer[i] >= n_inputs))
+    if (i != 1 && (integer[i] < (i == 3 && nint > 4 ? -1 : 0) || integer[i] >= n_inputs))
       return "an automatic drive names an input that does not exist";
   if (integer[1] < 1 || integer[1] != nreal - RATIOS - more)
     return "an automatic drive needs one ratio per gear, at least one";
