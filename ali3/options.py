@@ -13,14 +13,7 @@ from ali3.words import brief, shortened
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser of a command line whose messages quote the beginning of what is long.
-
-    A description may be the docstring of the module: its marks of code are left out.
-    """
-
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        super().__init__(*arguments, **named)
-        self.description = (self.description or "").replace("``", "") or None
+    """A parser of a command line whose messages quote the beginning of what is long."""
 
     def error(self, message: str) -> NoReturn:
         """End the program with a message."""
