@@ -12,18 +12,15 @@ from hosts.catalogue.car import TestedCar
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import find_aliases
-from hosts.fmu.built_fmu import build_fmu
 from hosts.fmu.fmu import described
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.variables import Variables
 
-CAR = ("--car", "prototype", "--fidelity", "0")
 NAMES = (
     *("chassis.x", "chassis.yaw", "chassis.roll", "chassis.vx", "chassis.vy", "chassis.wz", "chassis.ay", "sideslip"),
     *("wheel_FL.Fz", "wheel_RR.omega", "wheel_FL.slip", "wheel_FR.steer", "wheel_RL.travel", "engine_speed"),
 )
 THEIRS = {"carmaker": "Car.YawRate", "carsim": "IMP_STEER_SW", "chrono": "ref_frame.rot.e0"}
-Made = Callable[[str, Callable[[Path], None]], Path]
 
 
 def driven(fmu: Path, names: str | None) -> dict[str, np.ndarray]:
@@ -41,21 +38,20 @@ def driven(fmu: Path, names: str | None) -> dict[str, np.ndarray]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("names", THEIRS)
-def test_a_car_under_other_names_is_driven_through_its_alias_file(names: str, made_once: Made) -> None:
-    plain = made_once("rigid_prototype", lambda folder: build_fmu("a car", CAR, folder))
-    other = made_once(f"rigid_{names}", lambda folder: build_fmu("a car", (*CAR, "--names", names), folder))
-    theirs = next(other.glob("*.fmu"))
+def test_a_car_under_other_names_is_driven_through_its_alias_file(
+    names: str, prototype_fmu: Path, renamed_fmu: Callable[[str], Path]
+) -> None:
+    theirs = renamed_fmu(names)
     assert THEIRS[names] in Variables(described(theirs)).names
-    one, two = driven(next(plain.glob("*.fmu")), None), driven(theirs, names)
+    one, two = driven(prototype_fmu, None), driven(theirs, names)
     assert np.ptp(one["chassis.yaw"]) > 0.3
     for name in NAMES:
         assert two[name] == pytest.approx(one[name], rel=1e-7, abs=1e-9 * np.max(np.abs(one[name]))), name
 
 
 @pytest.mark.slow
-def test_marks_of_tyres_know_the_slips_of_a_car_under_other_names(made_once: Made) -> None:
-    folder = made_once("rigid_carmaker", lambda folder: build_fmu("a car", (*CAR, "--names", "carmaker"), folder))
-    theirs = next(folder.glob("*.fmu"))
+def test_marks_of_tyres_know_the_slips_of_a_car_under_other_names(renamed_fmu: Callable[[str], Path]) -> None:
+    theirs = renamed_fmu("carmaker")
     names = Variables(described(theirs)).names
     scene = scene_of(theirs)
     assert scene is not None
