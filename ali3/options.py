@@ -78,7 +78,7 @@ SHARED: dict[str, Option] = {
     "--list": Option("", "list what there is to choose from, and stop"),
     "--again": Option("", "make again what an earlier call has left"),
     "--no-open": Option("", "do not open a browser"),
-    "--show-parameters": Option("", "print the parameters too"),
+    "--show-parameters": Option("", "print the parameters"),
     "--jobs": Option("N", "processes at a time", count),
     "--fidelity": Option("N", "how much of the model is computed, where there is a choice", number),
     "--step": Option("H", "communication step, s", number),
@@ -97,7 +97,7 @@ SHARED: dict[str, Option] = {
     "--parameters": Option("SSV", "parameter set (SSV file) that is set before the start; repeatable", Path),
     "--set": Option(
         "NAME=VALUE",
-        "value of a parameter or input at the start, in the unit of the FMU; wins over --parameters; repeatable",
+        "value of a parameter or input at the start, in the unit of the FMU; wins over a parameter set; repeatable",
         name_and_text,
     ),
     "--aliases": Option(

@@ -104,6 +104,19 @@ def prototype_fmu(scene_fmu: Callable[..., Path]) -> Path:
     return scene_fmu("prototype_car")
 
 
+@pytest.fixture(scope="session")
+def renamed_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[[str], Path]:
+    """The FMU of the rigid prototype under the names of another program, built once for all processes."""
+
+    def make(names: str) -> Path:
+        from hosts.fmu.built_fmu import build_fmu
+
+        options = ("--car", "prototype", "--fidelity", "0", "--names", names)
+        return next(made_once(f"rigid_{names}", lambda folder: build_fmu("a car", options, folder)).glob("*.fmu"))
+
+    return make
+
+
 @pytest.fixture(autouse=True)
 def _typed_as_modules(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sentences name commands as the test calls them, whatever a test before has typed."""

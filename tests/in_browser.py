@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import os
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from viewer.browser import VARIABLE, BrowserError, find_chromium
+from viewer.browser import VARIABLE, BrowserError, find_chromium, launch_arguments
+from viewer.bundle import bundle
 
 
 def chromium_or_skip() -> Path:
@@ -24,6 +28,27 @@ def chromium_or_skip() -> Path:
     except BrowserError as error:
         if os.environ.get(VARIABLE):
             raise
+        pytest.skip(str(error))
+
+
+@contextmanager
+def headless_chromium() -> Iterator[Any]:
+    """A Chromium without a window, started by playwright; the test is skipped where one of them is not there."""
+    play = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    program = chromium_or_skip()
+    gc.collect()  # an error of another test may hold a browser of its own, beside which there can be no second
+    with play.sync_playwright() as started:
+        arguments = ["--headless=new", *launch_arguments()]
+        made = started.chromium.launch(executable_path=program, args=arguments, timeout=60_000)
+        yield made
+        made.close()
+
+
+def bundle_or_skip() -> Path:
+    """The script of the pages; the test is skipped where it cannot be built."""
+    try:
+        return bundle()
+    except RuntimeError as error:
         pytest.skip(str(error))
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import importlib.metadata
 import re
-import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -19,6 +18,7 @@ from ali3.files import check_writable
 from ali3.parameter_set import ParameterSet
 from fmu_src.build.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
 from fmu_src.build.parameter_file import parameter_set
+from fmu_src.build.progress_line import watched
 from fmu_src.description.nominal import drive_sizes, with_nominal
 from fmu_src.description.probe import probe
 from fmu_src.geometry.geometry import geometry, geometry_file
@@ -35,7 +35,7 @@ from mbs.common.checks import instance_of
 from mbs.compiler.ports import following
 
 Say = Callable[[str], None]
-_PATIENCE = 2.0
+_REPEATED = 10.0  # s
 
 KINDS = {
     "native": "FMI 2.0 in C, for every tool",
@@ -255,19 +255,7 @@ def _label(number: int) -> str:
 @contextmanager
 def _told(say: Say, what: str, note: str = "") -> Iterator[None]:
     """Says what is going on once it takes long, and that it still goes on."""
-    begin, finished = time.perf_counter(), threading.Event()
-
-    def watch() -> None:
-        wait = _PATIENCE
-        while not finished.wait(wait):
-            say(f"{what}: {time.perf_counter() - begin:.0f} s{f' ({note})' if note else ''} ...")
-            wait = 10.0
-
-    watcher = threading.Thread(target=watch, daemon=True)
-    watcher.start()
-    try:
+    begin = time.perf_counter()
+    with watched(lambda lasted: say(f"{what}: {lasted:.0f} s{f' ({note})' if note else ''} ..."), _REPEATED):
         yield
-    finally:
-        finished.set()
-        watcher.join()
     say(f"{what}: done in {time.perf_counter() - begin:.1f} s")

@@ -85,7 +85,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         help="the names and units that another program has for the variables: carmaker, carsim, chrono, osi, "
         "vehicle_interfaces, or an alias file",
     )
-    add_option(parser, "--fidelity", "of a CAR, alone in the FMU; default: all that an FMU offers")
+    add_option(parser, "--fidelity", "the FMU of a car offers all; with N it has this one alone")
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
     parser.add_argument("--license", default="", help="of the model; default: the solver's")

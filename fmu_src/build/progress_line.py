@@ -5,13 +5,33 @@ from __future__ import annotations
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
 PATIENCE = 2.0
 """What takes longer is reported, s."""
 _REDRAWN, _REPEATED = 0.5, 30.0
+
+
+@contextmanager
+def watched(tell: Callable[[float], None], then: float) -> Iterator[None]:
+    """A context that calls `tell` with its duration, s: after two seconds, and every `then` seconds from there."""
+    begin, finished = time.perf_counter(), threading.Event()
+
+    def watch() -> None:
+        wait = PATIENCE
+        while not finished.wait(wait):
+            tell(time.perf_counter() - begin)
+            wait = then
+
+    watcher = threading.Thread(target=watch, daemon=True)
+    watcher.start()
+    try:
+        yield
+    finally:
+        finished.set()
+        watcher.join()
 
 
 class ProgressLine:
@@ -38,27 +58,23 @@ class ProgressLine:
     @contextmanager
     def told(self, what: str, note: str = "") -> Iterator[None]:
         """A context in which `what` is done; `note` says why it may take long."""
-        begin, finished = time.perf_counter(), threading.Event()
-        watcher = threading.Thread(target=self._watch, args=(what, note, begin, finished), daemon=True)
-        watcher.start()
+        words = f" ({note})" if note else ""
+
+        def tell(lasted: float) -> None:
+            line = f"{self._count(1)}{what}, {lasted:.0f} s{words} ..."
+            self._say(f"\r\033[K{line}" if self._drawn else line + "\n")
+
+        begin = time.perf_counter()
         try:
-            yield
+            with watched(tell, _REDRAWN if self._drawn else _REPEATED):
+                yield
         finally:
-            finished.set()
-            watcher.join()
             took = time.perf_counter() - begin
             self._done += 1
             if self._drawn:
                 self._say("\r\033[K")
             elif took > PATIENCE:
                 self._say(f"{self._count()}{what}: {took:.0f} s\n")
-
-    def _watch(self, what: str, note: str, begin: float, finished: threading.Event) -> None:
-        wait, words = PATIENCE, f" ({note})" if note else ""
-        while not finished.wait(wait):
-            wait = _REDRAWN if self._drawn else _REPEATED
-            line = f"{self._count(1)}{what}, {time.perf_counter() - begin:.0f} s{words} ..."
-            self._say(f"\r\033[K{line}" if self._drawn else line + "\n")
 
     def _count(self, more: int = 0) -> str:
         return f"[{self._done + more}/{self._total}] " if self._total else ""

@@ -1,4 +1,4 @@
-"""Standard tests with cars side by side: ``ali3 catalogue FMU|CAR... [--tests NAME,...] [--out DIR]``.
+"""Standard tests with cars side by side: ali3 catalogue FMU|CAR... [--tests NAME,...] [--out DIR].
 
 Cars are FMUs, each with each parameter set that is given. The folder gets measures.csv, measures.json, a table of each
 run and report.html. Exit code 1: a test could not be done, or a limit is not kept.

@@ -22,6 +22,8 @@ class GivenLimits:
 
     Parameters
     ----------
+    file : Path
+        The file, for messages and for the source of a limit.
     entries : mapping of str to LimitEntry
         By ``TEST.MEASURE``, or the measure alone where one test has it.
     """

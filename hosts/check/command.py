@@ -1,4 +1,4 @@
-"""Checks a co-simulation FMU (FMI 2.0 or 3.0) and prints a verdict: ``ali3 check FMU|CAR``.
+"""Checks a co-simulation FMU (FMI 2.0 or 3.0) and prints a verdict: ali3 check FMU|CAR.
 
 In place of that: its parameters (--show-parameters), its results against a table (--reference), or hours of driving by
 chance (--soak).

@@ -1,4 +1,4 @@
-"""Runs an FMU, or drives a car through a manoeuvre: ``ali3 run [FMU|CAR] [--manoeuvre NAME|FILE] [--stop-time T]``.
+"""Runs an FMU, or drives a car through a manoeuvre: ali3 run [FMU|CAR] [--manoeuvre NAME|FILE] [--stop-time T].
 
 Without a manoeuvre inputs keep their start values. The folder gets a table (CSV), a picture (PNG) and a record of what
 was run (JSON).

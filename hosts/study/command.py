@@ -1,4 +1,4 @@
-"""Runs many variants of a car or another FMU: ``ali3 study STUDY.toml [--scheduler ADDRESS] [--out DIR]``.
+"""Runs many variants of a car or another FMU: ali3 study STUDY.toml [--scheduler ADDRESS] [--out DIR].
 
 The study file names an FMU or a car, manoeuvres, parameters and what is measured. Started again, the command makes the
 runs that are missing. A folder of results takes the place of the file to repeat a run or to write the report.

@@ -11,8 +11,8 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import number, one_of, positive
 from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import index, size
-from mbs.elements.tyre import TYRE_OUTPUTS
+from mbs.elements.record_checks import index
+from mbs.elements.tyre import TYRE_OUTPUTS, check_rim, wheel_signals
 from mbs.elements.tyre_bore import TyreBore, bore_reals
 from mbs.kernel.header.enumerations import ElementType
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
@@ -109,19 +109,15 @@ class MagicTyre:
             A number or a coefficient is not what it must be.
         """
         what = f"the tyre '{name}'"
-        size(centre, (3,), f"The centre of {what}")
-        size(axis, (3,), f"The axis of {what}")
+        signals = wheel_signals(centre, axis, spin, what)
         version = VERSIONS[one_of(self.version, tuple(VERSIONS), f"The version of {what}")]
         combination = COMBINATIONS.index(one_of(self.combination, COMBINATIONS, f"The combination of {what}"))
         reals, bore = self._reals(what), bore_reals(self.bore, what)
-        if not self.bottoming_radius < self.radius:
-            raise ValueError(
-                f"The bottoming radius {self.bottoming_radius:g} m of {what} must be less than {self.radius:g} m."
-            )
+        check_rim(self.bottoming_radius, self.radius, what)
         return ElementRecord(
             name,
             ElementType.MAGIC_TYRE,
-            (*centre.components, *axis.components, spin),
+            signals,
             *columns(reals | bore),
             (index(road, f"The road of {what}"), version, combination, *([1] if bore else [])),
             (0.0,) * (6 if bore else 4),

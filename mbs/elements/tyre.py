@@ -43,6 +43,19 @@ TYRE_OUTPUTS = (
 """What every tyre tells first, in the order of the kernel."""
 
 
+def wheel_signals(centre: AffineVector, axis: AffineVector, spin: Affine, what: str) -> tuple[Affine, ...]:
+    """What every tyre reads of its wheel, in the order of the kernel."""
+    size(centre, (3,), f"The centre of {what}")
+    size(axis, (3,), f"The axis of {what}")
+    return (*centre.components, *axis.components, spin)
+
+
+def check_rim(bottoming_radius: float, radius: float, what: str) -> None:
+    """Refuse a rim that does not lie within the free tyre; radii in m."""
+    if not bottoming_radius < radius:
+        raise ValueError(f"The bottoming radius {bottoming_radius:g} m of {what} must be less than {radius:g} m.")
+
+
 @dataclass(frozen=True)
 class TyreCurve:
     """Steady force over slip in one direction (TMeasy, Vehicle System Dynamics 45(S1), 2007, 101-119).
@@ -126,19 +139,15 @@ class Tyre:
             A curve is not in order at some load up to the largest.
         """
         what = f"the tyre '{name}'"
-        size(centre, (3,), f"The centre of {what}")
-        size(axis, (3,), f"The axis of {what}")
+        signals = wheel_signals(centre, axis, spin, what)
         reals = self._reals(what)
-        if not self.bottoming_radius < self.radius:
-            raise ValueError(
-                f"The bottoming radius {self.bottoming_radius:g} m of {what} must be less than {self.radius:g} m."
-            )
+        check_rim(self.bottoming_radius, self.radius, what)
         self._check_curves(what)
         more = self._more_reals(what)
         return ElementRecord(
             name,
             ElementType.TYRE,
-            (*centre.components, *axis.components, spin),
+            signals,
             *columns(reals | more),
             (index(road, f"The road of {what}"), *([int(self.bore is not None)] if more else [])),
             (0.0,) * (6 if more else 4),

@@ -31,7 +31,7 @@ ENUMERATIONS = {
     "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
     "RoadType": ("src/elements/road.h", "ALI3_ROAD_PLANE", "ALI3_ROAD_", "Types of roads."),
     "SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "What the value of a sensor comes from."),
-    "Doubt": (PUBLIC, "ALI3_DOUBT_NONE", "ALI3_DOUBT_", "`ali3_doubt`: what a run says against itself."),
+    "Doubt": (PUBLIC, "ALI3_DOUBT_NONE", "ALI3_DOUBT_", "`ali3_doubt`: why the results of a run may be wrong."),
 }
 """Per Python name: header, first item, what its items begin with, docstring."""
 LIMITS = {
@@ -39,7 +39,7 @@ LIMITS = {
     "ALI3_FARTHEST": "Largest distance of a start, m.",
     "ALI3_FASTEST": "Largest speed of a start, m/s.",
     "ALI3_POSE": "Numbers of a pose.",
-    "ALI3_LONGEST_SETTLING": "For which a start may settle, s.",
+    "ALI3_LONGEST_SETTLING": "Longest time for which a start may settle, s.",
     "ALI3_BALANCE_WRONG": "Energy balance above which, at any time, no run was right that was tried.",
     "ALI3_HALVINGS_SUSPECT": "Halvings per step above which a run is suspect.",
     "ALI3_SYSTEM_VERSION": "Of the System file.",

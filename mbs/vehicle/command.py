@@ -1,4 +1,4 @@
-"""Copies a car of the package to a folder, or checks a car file and prints what the car is: ``ali3 car``.
+"""Copies a car of the package to a folder, or checks a car file and prints what the car is: ali3 car.
 
 With --kinematics: draws its wheel travel and steer curves in the terms of ISO 8855, and prints what its axles are as
 drawn.

@@ -1,4 +1,4 @@
-"""Makes, checks and shows road files: ``ali3 road INPUT [OUTPUT.road] [--picture FILE] [--part FILE]``.
+"""Makes, checks and shows road files: ali3 road INPUT [OUTPUT.road] [--picture FILE] [--part FILE].
 
 With --world: makes the road file and the drawing of a world to drive in.
 """

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import fmpy
 import pytest
-from filelock import FileLock
 
-from fmu_src.build.build import build_fmu
+from fmu_src.build.build import build_fmu, face_name
 from fmu_src.build.scene_registry import load_scene
+from fmu_src.native.sources import DETOUR, HERE, KERNEL_INCLUDE, shell_files
 from mbs.kernel import build
 
 ROOT = Path(__file__).parents[2]
@@ -35,33 +35,26 @@ def findings(fmu: Path) -> dict[str, str]:
     return {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in lines}
 
 
-def changed(fmu: Path, copy: Path, changes: list[Change], shared: Path | None = None) -> Path:
-    """A copy with texts of its files replaced; where sources are among them, its library is compiled from them.
+def changed(fmu: Path, copy: Path, changes: list[Change], face: str = "") -> Path:
+    """A copy with texts of its files replaced; with a face its library is compiled with the sources among them.
 
-    The sources of all copies lie in turn in one folder of `shared`: the compiler knows a file that it has compiled
-    by its place and time.
+    The others are compiled where they are: the compiler knows a file that it has compiled by its place.
     """
     with zipfile.ZipFile(fmu) as source:
         files = {name: source.read(name) for name in source.namelist()}
     for name, old, new in changes:
         assert old.encode() in files[name], (name, old)
         files[name] = files[name].replace(old.encode(), new.encode())
-    if any(name.endswith(".c") for name, _, _ in changes):
-        assert shared is not None
-        folder = shared / "changed_sources"
+    if face:
         (library,) = (name for name in files if name.startswith("binaries/"))
-        made = copy.with_name(Path(library).name)
-        with FileLock(f"{folder}.lock"):
-            texts = {folder / name: data for name, data in files.items() if name.startswith("sources/")}
-            for file, data in texts.items():
-                if not file.is_file() or file.read_bytes() != data:
-                    file.parent.mkdir(parents=True, exist_ok=True)
-                    file.write_bytes(data)
-            sources = sorted(file for file in texts if file.suffix == ".c")
-            include = (folder / "sources", folder / "sources" / "kernel" / "include")
-            build.compile_c(
-                sources, build.host_target(), made, include=include, defines=("ALI3_INSIDE",), what="a copy"
-            )
+        made, own = copy.with_name(Path(library).name), {}
+        for name in ("sources/table.c", *(name for name, _, _ in changes)):
+            own[Path(name).name] = copy.with_name(Path(name).name)
+            own[Path(name).name].write_bytes(files[name])
+        shell = {file.name: file for file in shell_files(face)} | own
+        assert len(shell) == len(shell_files(face)) + 1, "a table, and only files that there are"
+        sources, include = [*build.sources(lanes=False), *shell.values()], (KERNEL_INCLUDE, HERE, DETOUR)
+        build.compile_c(sources, build.host_target(), made, include=include, defines=("ALI3_INSIDE",), what="a copy")
         files[library] = made.read_bytes()
     with zipfile.ZipFile(copy, "w") as target:
         for name, data in files.items():
@@ -187,9 +180,7 @@ CALLS: list[tuple[str, str, str, Change]] = [
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("kind", "check", "said", "change"), CALLS)
-def test_calls(
-    fmus: dict[str, Path], tmp_path: Path, shared: Path, kind: str, check: str, said: str, change: Change
-) -> None:
-    words = findings(changed(fmus[kind], tmp_path / "copy.fmu", [change], shared))[check]
+def test_calls(fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, said: str, change: Change) -> None:
+    words = findings(changed(fmus[kind], tmp_path / "copy.fmu", [change], face_name(kind)))[check]
     assert words.startswith("BAD")
     assert said in words

@@ -23,11 +23,10 @@ from hosts.catalogue.report import write_report
 from hosts.compare.command import main as compare
 from hosts.view.command import main
 from tests.hosts.catalogue import synthetic_records
-from tests.in_browser import wait_until
+from tests.in_browser import headless_chromium, wait_until
 from tests.quick import quick
 from tests.viewer.hand_scenes import floats
 from tests.viewer.simulator_program import Program
-from viewer.browser import BrowserError, find_chromium, launch_arguments
 from viewer.page_file import write_page
 from viewer.recording import Recording
 from viewer.scene import scene_errors
@@ -78,15 +77,8 @@ def foreign(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Any]:
-    playwright = pytest.importorskip("playwright.sync_api")
-    try:
-        program = find_chromium()
-    except BrowserError as error:
-        pytest.skip(str(error))
-    with playwright.sync_playwright() as play:
-        browser = play.chromium.launch(executable_path=program, args=["--headless=new", *launch_arguments()])
-        yield browser
-        browser.close()
+    with headless_chromium() as made:
+        yield made
 
 
 def opened(chromium: Any, file: Path) -> Any:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import io
 import pickle
 from collections.abc import Callable, Iterator
@@ -12,7 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from viewer import browser, bundle
+from tests.in_browser import bundle_or_skip, headless_chromium
+from viewer import bundle
 from viewer.recording import Recording
 
 _MAKE = """([scene, options]) => {
@@ -58,16 +58,9 @@ class DrawnPage:
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Any]:
     """A Chromium without a window; tests are skipped where there is none."""
-    play = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    try:
-        program, _ = browser.find_chromium(), bundle.bundle()
-    except RuntimeError as error:
-        pytest.skip(str(error))
-    gc.collect()  # an error of another test may hold a browser of its own, beside which there can be no second
-    with play.sync_playwright() as started:
-        chromium = started.chromium.launch(executable_path=program, args=browser.launch_arguments())
-        yield chromium
-        chromium.close()
+    bundle_or_skip()
+    with headless_chromium() as made:
+        yield made
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,6 @@ from hosts.view import page_parts
 from hosts.view.command import main as view
 from mbs.scenes import prototype_car
 from tests.in_browser import wait_until
-from viewer.browser import BrowserError, find_chromium, launch_arguments
 
 SCENES = Path(__file__).parents[1] / "fmu" / "scenes.py"
 PLATFORMS = [fmpy.platform, "wasm32"]
@@ -58,20 +57,6 @@ def reach(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A mass on a rod and a cable that a winch pulls beyond its reach, if it is told to."""
     name, system = load_scene(f"{SCENES}:sprung_reach")
     return build_fmu(system, name, tmp_path_factory.mktemp("reach"), PLATFORMS)
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    try:
-        program = find_chromium()
-    except BrowserError as error:
-        pytest.skip(str(error))
-    playwright = pytest.importorskip("playwright.sync_api")
-    with playwright.sync_playwright() as play:
-        arguments = ["--headless=new", *launch_arguments()]
-        browser = play.chromium.launch(executable_path=program, args=arguments, timeout=60_000)
-        yield browser
-        browser.close()
 
 
 class Page:

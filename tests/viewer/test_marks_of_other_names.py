@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from hosts.fmu.built_fmu import build_fmu
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.geometry import scene_of
 from viewer.page_file import write_page
@@ -36,14 +36,15 @@ def braked(fmu: Path, names: str) -> Recording:
 
 
 @pytest.mark.slow
-def test_a_run_with_the_names_of_carmaker_leaves_the_marks_of_ours(chromium: Any, tmp_path: Path) -> None:
+def test_a_run_with_the_names_of_carmaker_leaves_the_marks_of_ours(
+    chromium: Any, prototype_fmu: Path, renamed_fmu: Callable[[str], Path], tmp_path: Path
+) -> None:
     counts = []
-    for names in ("", "carmaker"):
-        folder = tmp_path / (names or "ours")
-        build_fmu("a car", ("--car", "prototype", "--fidelity", "0", *(("--names", names) if names else ())), folder)
-        write_page(folder / "page.html", braked(next(folder.glob("*.fmu")), names or "ours"), options={"time": 1.0})
+    for names, fmu in (("ours", prototype_fmu), ("carmaker", renamed_fmu("carmaker"))):
+        file = tmp_path / f"{names}.html"
+        write_page(file, braked(fmu, names), options={"time": 1.0})
         page = chromium.new_page(viewport={"width": 320, "height": 180})
-        page.goto((folder / "page.html").as_uri())
+        page.goto(file.as_uri())
         page.evaluate("async () => { await player.ready; }")
         assert page.evaluate("player.player.drawnRuns[0].traces.marks.problem") == ""
         counts.append(page.evaluate("player.player.drawnRuns[0].traces.marks.count"))

@@ -7,7 +7,7 @@ axe-core looks for controls without a name, faint words, and parts that no reade
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ import pytest
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.view.command import main as view
+from tests.in_browser import wait_until
 from tests.viewer.hand_scenes import crank
 from tests.viewer.simulator_program import Program
 from viewer.page_file import write_page
@@ -42,13 +43,12 @@ ROWS = """(bar) => {
   return { count: boxes.length, rows, right: Math.max(...of("right")), width: innerWidth };
 }"""
 INK = """bar => getComputedStyle(document.querySelector(bar + ' button')).color
-  .match(/[0-9]+/g).slice(0, 3).map(Number)"""
+  .match(/[0-9]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0)"""
 NAMES = f"""() => ({SEEN})().map((part) =>
   (part.labels?.[0] ?? part).textContent.trim() || part.title || part.ariaLabel)"""
 with_axe = pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm --prefix viewer/page ci")
 KINDS = ("live", "recorded", "plots", "simulator")
 BARS = {"live": ".a3-bar", "recorded": ".ali3-bar", "plots": ".ali3-bar", "simulator": ".a3-controls"}
-Opened = Callable[..., Any]
 
 
 @pytest.fixture(scope="module")
@@ -67,33 +67,52 @@ def written(folder: Path, kind: str) -> Path:
     return folder / f"{kind}.html"
 
 
-@pytest.fixture
-def opened(chromium: Any, request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Opened]:
-    """Opens a page of a kind, in colours and a width."""
+@contextmanager
+def dark_page(chromium: Any) -> Iterator[Any]:
+    """An empty page in a browser whose user likes it dark."""
+    context = chromium.new_context(viewport={"width": 900, "height": 500}, color_scheme="dark")
+    context.set_default_timeout(60_000)
+    yield context.new_page()
+    context.close()
 
-    @contextmanager
-    def open_page(
-        kind: str, colours: str = "light", width: int = 900, change: Callable[[str], str] = str
-    ) -> Iterator[Any]:
-        context = chromium.new_context(viewport={"width": width, "height": 500}, color_scheme=colours)
-        context.set_default_timeout(60_000)
-        page = context.new_page()
+
+def open_file(page: Any, file: Path) -> None:
+    page.goto(file.as_uri())
+    page.evaluate("async () => { await player.ready; }")
+
+
+def open_simulator(page: Any) -> None:
+    places = [{"name": "start", "x": 0.0, "y": 0.0, "yaw": 0.0}]
+    world = {"name": "here", "places": places, "bounds": [-9, -9, 9, 9]}
+    program = Program(page, crank(np.linspace(0.0, 1.0, 11)), world=world)
+    program.open()
+    program.send(0.5, 0)
+
+
+def use_colours(page: Any, kind: str, colours: str) -> None:
+    """Until its words are as dark as they are to be; those of the simulator stand on dark glass over the picture."""
+    page.emulate_media(color_scheme=colours)
+    bright = "> 500" if colours == "dark" or kind == "simulator" else "< 300"
+    wait_until(page, f"(bar) => ({INK})(bar) {bright}", BARS[kind])
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def kind(request: pytest.FixtureRequest) -> str:
+    """One after the other: a page that is open slows all others down."""
+    return str(request.param)
+
+
+@pytest.fixture(scope="module")
+def shown(kind: str, chromium: Any, request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """A page of the kind for all tests, each of which says in which colours and width it wants it."""
+    with dark_page(chromium) as page:
         if kind == "simulator":
-            places = [{"name": "start", "x": 0.0, "y": 0.0, "yaw": 0.0}]
-            world = {"name": "here", "places": places, "bounds": [-9, -9, 9, 9]}
-            program = Program(page, crank(np.linspace(0.0, 1.0, 11)), world=world)
-            program.open()
-            program.send(0.5, 0)
+            open_simulator(page)
+        elif kind == "live":
+            open_file(page, request.getfixturevalue("live"))
         else:
-            file = request.getfixturevalue("live") if kind == "live" else written(tmp_path, kind)
-            text = change(file.read_text(encoding="utf-8"))
-            (tmp_path / "shown.html").write_text(text, encoding="utf-8")
-            page.goto((tmp_path / "shown.html").as_uri())
-            page.evaluate("async () => { await player.ready; }")
+            open_file(page, written(tmp_path_factory.mktemp("shown"), kind))
         yield page
-        context.close()
-
-    return open_page
 
 
 def findings(page: Any) -> list[str]:
@@ -105,56 +124,50 @@ def findings(page: Any) -> list[str]:
 
 @with_axe
 @pytest.mark.slow
-@pytest.mark.parametrize("colours", ["light", "dark"])
-@pytest.mark.parametrize("kind", KINDS)
-def test_axe_finds_nothing(opened: Opened, kind: str, colours: str) -> None:
-    with opened(kind, colours) as page:
-        assert findings(page) == []
-
-
-@with_axe
-@pytest.mark.slow
-def test_axe_would_find_a_control_without_a_name(opened: Opened) -> None:
-    with opened("recorded", change=lambda text: text.replace('<main id="view">', "<input><main id=view>")) as page:
+def test_axe_would_find_a_control_without_a_name(chromium: Any, tmp_path: Path) -> None:
+    file = written(tmp_path, "recorded")
+    text = file.read_text(encoding="utf-8").replace('<main id="view">', "<input><main id=view>")
+    file.write_text(text, encoding="utf-8")
+    with dark_page(chromium) as page:
+        open_file(page, file)
         assert any(words.startswith("label: 1") for words in findings(page))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
-def test_pages_are_dark_where_everything_is(opened: Opened, kind: str) -> None:
-    """Words and what is behind them change their places between light and dark."""
-    inks = []
-    for colours in ("light", "dark"):
-        with opened(kind, colours) as page:
-            inks.append(sum(page.evaluate(INK, BARS[kind])))
-    if kind == "simulator":
-        assert max(inks) == min(inks), "its words stand on the picture, on dark glass"
-    else:
-        assert inks[0] < 300 < 500 < inks[1]
+def test_pages_are_dark_where_everything_is(shown: Any, kind: str) -> None:
+    """Words and what is behind them change their places between light and dark, also while the page is open."""
+    for colours in ("dark", "light"):  # it was opened in the dark
+        use_colours(shown, kind, colours)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("width", [800, 1000])
-@pytest.mark.parametrize("kind", KINDS)
-def test_the_bar_is_one_line(opened: Opened, kind: str, width: int) -> None:
-    with opened(kind, width=width) as page:
-        found = page.evaluate(ROWS, BARS[kind])
+def test_the_bar_is_one_line(shown: Any, kind: str) -> None:
+    for width in (800, 1000):
+        shown.set_viewport_size({"width": width, "height": 500})
+        found = shown.evaluate(ROWS, BARS[kind])
+        assert found["width"] == width
         assert found["count"] > 3
         assert found["rows"] == 1
-        assert found["right"] <= found["width"]
+        assert found["right"] <= width
+
+
+@with_axe
+@pytest.mark.slow
+@pytest.mark.parametrize("colours", ["light", "dark"])
+def test_axe_finds_nothing(shown: Any, kind: str, colours: str) -> None:
+    use_colours(shown, kind, colours)
+    assert findings(shown) == []
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
-def test_the_tabulator_reaches_every_control_and_all_have_names(opened: Opened, kind: str) -> None:
-    with opened(kind) as page:
-        page.evaluate(OPEN)
-        names = page.evaluate(NAMES)
-        assert len(names) > 5
-        assert all(names), names
-        page.evaluate(f"() => {{ window.left = new Set(({SEEN})()); }}")
-        for _ in range(3 * len(names) + 20):
-            page.keyboard.press("Tab")
-            if page.evaluate("() => (left.delete(document.activeElement), left.size)") == 0:
-                break
-        assert page.evaluate("() => [...left].map((part) => part.outerHTML.slice(0, 100))") == []
+def test_the_tabulator_reaches_every_control_and_all_have_names(shown: Any) -> None:
+    shown.evaluate(OPEN)
+    names = shown.evaluate(NAMES)
+    assert len(names) > 5
+    assert all(names), names
+    shown.evaluate(f"() => {{ window.left = new Set(({SEEN})()); }}")
+    for _ in range(3 * len(names) + 20):
+        shown.keyboard.press("Tab")
+        if shown.evaluate("() => (left.delete(document.activeElement), left.size)") == 0:
+            break
+    assert shown.evaluate("() => [...left].map((part) => part.outerHTML.slice(0, 100))") == []

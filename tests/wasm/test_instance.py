@@ -7,6 +7,8 @@ from typing import Any
 import pytest
 from wasm_hosts import Fmu, Plan, told_by_node
 
+pytestmark = pytest.mark.slow  # the C library of WebAssembly is compiled for the first of them
+
 
 @pytest.fixture(scope="module")
 def told(prototype: Fmu) -> Any:
@@ -80,7 +82,6 @@ def test_states_go_back_bit_for_bit(told: Any) -> None:
     assert told["states"] == [[told["time"], True, True]] * 2
 
 
-@pytest.mark.slow
 def test_memory_is_given_back(told: Any) -> None:
     """A leak of 200 instances would be about 100 MB, of 3000 states 60 MB."""
     assert told["grown"] < 2e6

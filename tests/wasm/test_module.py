@@ -41,6 +41,7 @@ def module(fmu: Fmu, **more: Any) -> FmuModule:
     return FmuModule(fmu.wasm, fmu.resources, fmu.description.guid, **more)
 
 
+@pytest.mark.slow
 def test_it_imports_nothing_and_exports_fmi(small: Callable[[str], Fmu]) -> None:
     import wasmtime
 
@@ -54,6 +55,7 @@ def test_it_imports_nothing_and_exports_fmi(small: Callable[[str], Fmu]) -> None
     assert names == fmi | HELPERS
 
 
+@pytest.mark.slow
 def test_the_stack_lies_below_all_data(small: Callable[[str], Fmu]) -> None:
     """An overflow is then a trap, and no change of data."""
     made = module(small("crane"))
@@ -61,6 +63,7 @@ def test_the_stack_lies_below_all_data(small: Callable[[str], Fmu]) -> None:
     assert made.address("ali3_callbacks") >= STACK
 
 
+@pytest.mark.slow
 def test_memory_that_runs_out_is_a_sentence(prototype: Fmu) -> None:
     made = module(prototype)
     assert made.there
@@ -71,6 +74,7 @@ def test_memory_that_runs_out_is_a_sentence(prototype: Fmu) -> None:
             assert any("memory" in text for _, text in limited.messages), limited.messages
 
 
+@pytest.mark.slow
 def test_a_road_for_which_there_is_no_memory(prototype: Fmu) -> None:
     made = module(prototype, memory_limit=module(prototype).memory_size + (1 << 16))
     with pytest.raises(FMICallException):
@@ -80,6 +84,7 @@ def test_a_road_for_which_there_is_no_memory(prototype: Fmu) -> None:
         made.add_file("roads/large.road", bytes(1 << 20))
 
 
+@pytest.mark.slow
 def test_a_table_whose_points_exceed_32_bits_is_refused(prototype: Fmu) -> None:
     """65536 x 65536 points are 0 in 32 bits."""
     made, n = module(prototype), 1 << 16
@@ -89,6 +94,7 @@ def test_a_table_whose_points_exceed_32_bits_is_refused(prototype: Fmu) -> None:
     assert "it has fewer cells than rows and columns" in made.messages[-1][1]
 
 
+@pytest.mark.slow
 def test_messages_beyond_the_room_for_them_are_counted(small: Callable[[str], Fmu]) -> None:
     fmu = small("crane")
     made = module(fmu)
@@ -108,6 +114,7 @@ def test_messages_beyond_the_room_for_them_are_counted(small: Callable[[str], Fm
     assert made.messages[-1] == kept[0]
 
 
+@pytest.mark.slow
 def test_a_percent_sign_is_one(prototype: Fmu) -> None:
     made = module(prototype)
     with pytest.raises(FMICallException):
@@ -195,6 +202,7 @@ def test_other_sources_than_those_installed_are_compiled(bare: Path, tmp_path: P
         assert_same(wasmtime(fmu, plan), native(fmu, plan), fmu, plan)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_compiled_again(
     bare: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], small: Callable[[str], Fmu]
 ) -> None:

@@ -18,6 +18,8 @@ from hosts.fmu.variables import Variables
 H = 0.002
 HOSTS = [pytest.param(wasmtime, id="wasmtime"), pytest.param(node, id="node")]
 
+pytestmark = pytest.mark.slow  # as in test_instance.py
+
 
 def drive(steps: int, start: dict[str, Any], every: int = 250, h: float = H) -> Plan:
     """A start from rest, a slalom on the throttle, then the brakes."""
@@ -56,7 +58,6 @@ PLANS = {
 }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", PLANS)
 @pytest.mark.parametrize("host", HOSTS)
 def test_the_prototype(prototype: Fmu, expected: Any, name: str, host: Callable[[Fmu, Plan], Driven]) -> None:
@@ -70,7 +71,6 @@ def test_the_prototype(prototype: Fmu, expected: Any, name: str, host: Callable[
 
 @pytest.mark.parametrize("name", ["rigid", "load paths"])
 @pytest.mark.parametrize("host", HOSTS)
-@pytest.mark.slow
 def test_the_hatchback(hatchback: Fmu, expected: Any, name: str, host: Callable[[Fmu, Plan], Driven]) -> None:
     steps, start = PLANS[name]
     plan = drive(steps // 2, dict(start), every=125)
@@ -99,7 +99,6 @@ def refused_steps() -> Plan:
     return Plan({}, ["pull"], steps)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("host", HOSTS)
 def test_steps_that_are_refused(small: Callable[[str], Fmu], host: Callable[[Fmu, Plan], Driven]) -> None:
     fmu, plan = small("reach"), refused_steps()
@@ -110,7 +109,6 @@ def test_steps_that_are_refused(small: Callable[[str], Fmu], host: Callable[[Fmu
     assert_same(host(fmu, plan), compared, fmu, plan)
 
 
-@pytest.mark.slow
 def test_in_chromium(prototype: Fmu, hatchback: Fmu, small: Callable[[str], Fmu], expected: Any) -> None:
     """One start of the browser for all drives."""
     with Chromium() as chromium:

@@ -86,8 +86,8 @@ def saltelli_indices(
             "given."
         )
     used = blocks[whole].ravel()
-    if is_round_off(float(np.ptp(used)), float(np.abs(used).max())):
-        return f"The measure is {used[0]:.6g} in all runs."
+    if same := _all_the_same(used):
+        return same
     found = sobol.analyze(_problem(names), used, calc_second_order=second_order, seed=seed)
     left_out = f"; blocks with a missing or failed run left out: {len(whole) - whole.sum()}" * (not whole.all())
     how = f"Sobol' indices by Saltelli's estimators from {whole.sum()} blocks of {width} runs{left_out}. {_BARS}"
@@ -120,8 +120,8 @@ def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.flo
     table[places] = y
     table = table.reshape(shape)
     variance = table.var()
-    if is_round_off(float(np.ptp(y)), float(np.abs(y).max())):
-        return f"The measure is {y[0]:.6g} in all runs."
+    if same := _all_the_same(y):
+        return same
     axes = range(len(names))
     first = [table.mean(axis=tuple(k for k in axes if k != i)).var() / variance for i in axes]
     total = [table.var(axis=i).mean() / variance for i in axes]
@@ -156,8 +156,8 @@ def estimated_indices(
 
     if len(y) < _FEWEST_FOR_ESTIMATE:
         return f"{len(y)} runs yield the measure; from {_FEWEST_FOR_ESTIMATE} on indices are estimated."
-    if is_round_off(float(np.ptp(y)), float(np.abs(y).max())):
-        return f"The measure is {y[0]:.6g} in all runs."
+    if same := _all_the_same(y):
+        return same
     if len(y) > _MOST_FOR_ESTIMATE:
         some = np.random.default_rng(seed).choice(len(y), _MOST_FOR_ESTIMATE, replace=False)
         x, y = x[some], y[some]
@@ -168,6 +168,13 @@ def estimated_indices(
         f"method saltelli. {_BARS}"
     )
     return Indices(tuple(names), np.asarray(found["S1"]), np.asarray(found["S1_conf"]), none, none, how)
+
+
+def _all_the_same(values: NDArray[np.float64]) -> str:
+    """A sentence where values differ by rounding only; else empty."""
+    if is_round_off(float(np.ptp(values)), float(np.abs(values).max())):
+        return f"The measure is {values[0]:.6g} in all runs."
+    return ""
 
 
 def _problem(names: Sequence[str]) -> dict[str, object]:

@@ -113,7 +113,7 @@ class SensorReads(IntEnum):
 
 
 class Doubt(IntEnum):
-    """`ali3_doubt`: what a run says against itself."""
+    """`ali3_doubt`: why the results of a run may be wrong."""
 
     NONE = 0
     HALVINGS = 1

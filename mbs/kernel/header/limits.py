@@ -9,7 +9,7 @@ FASTEST = 1e6
 POSE = 7
 """Numbers of a pose."""
 LONGEST_SETTLING = 10.0
-"""For which a start may settle, s."""
+"""Longest time for which a start may settle, s."""
 BALANCE_WRONG = 0.036
 """Energy balance above which, at any time, no run was right that was tried."""
 HALVINGS_SUSPECT = 0.1

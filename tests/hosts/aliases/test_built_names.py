@@ -13,7 +13,6 @@ from hosts.common.options import Wishes
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import find_aliases
-from hosts.fmu.built_fmu import build_fmu
 from hosts.fmu.fmu import described
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.variables import Variables
@@ -21,13 +20,11 @@ from hosts.run.command import main as run
 from hosts.view.recorded import read_table
 from hosts.view.view_sources import RunWishes, recordings_of
 
-CAR = ("--car", "prototype", "--fidelity", "0")
 NAMES = (
     *("chassis.x", "chassis.yaw", "chassis.roll", "chassis.vx", "chassis.vy", "chassis.wz", "chassis.ay", "sideslip"),
     *("wheel_FL.Fz", "wheel_RR.omega", "wheel_FL.slip", "wheel_FR.steer", "wheel_RL.travel", "engine_speed"),
 )
 THEIRS = {"carmaker": "Car.YawRate", "carsim": "IMP_STEER_SW", "chrono": "ref_frame.rot.e0"}
-Made = Callable[[str, Callable[[Path], None]], Path]
 
 
 def driven(fmu: Path, names: str | None) -> dict[str, np.ndarray]:
@@ -45,12 +42,12 @@ def driven(fmu: Path, names: str | None) -> dict[str, np.ndarray]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("names", THEIRS)
-def test_a_car_under_other_names_is_driven_through_its_alias_file(names: str, made_once: Made) -> None:
-    plain = made_once("rigid_prototype", lambda folder: build_fmu("a car", CAR, folder))
-    other = made_once(f"rigid_{names}", lambda folder: build_fmu("a car", (*CAR, "--names", names), folder))
-    theirs = next(other.glob("*.fmu"))
+def test_a_car_under_other_names_is_driven_through_its_alias_file(
+    names: str, prototype_fmu: Path, renamed_fmu: Callable[[str], Path]
+) -> None:
+    theirs = renamed_fmu(names)
     assert THEIRS[names] in Variables(described(theirs)).names
-    one, two = driven(next(plain.glob("*.fmu")), None), driven(theirs, names)
+    one, two = driven(prototype_fmu, None), driven(theirs, names)
     assert np.ptp(one["chassis.yaw"]) > 0.3
     for name in NAMES:
         assert two[name] == pytest.approx(one[name], rel=1e-7, abs=1e-9 * np.max(np.abs(one[name]))), name
@@ -58,15 +55,13 @@ def test_a_car_under_other_names_is_driven_through_its_alias_file(names: str, ma
 
 @pytest.mark.slow
 def test_run_drives_a_car_under_other_names(
-    made_once: Made, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    prototype_fmu: Path, renamed_fmu: Callable[[str], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A manoeuvre with a driver, values of --set in the FMU's names, and a table that repeats the run."""
-    plain = made_once("rigid_prototype", lambda folder: build_fmu("a car", CAR, folder))
-    other = made_once("rigid_carsim", lambda folder: build_fmu("a car", (*CAR, "--names", "carsim"), folder))
-    theirs = str(next(other.glob("*.fmu")))
+    theirs = str(renamed_fmu("carsim"))
     drive = ["-m", "double_lane_change", "--stop-time", "4", "--step", "0.01", "--set", "road.friction=0.8"]
     alias = ["--aliases", "carsim"]
-    assert run([str(next(plain.glob("*.fmu"))), *drive, "--out", str(tmp_path / "plain")]) == 0
+    assert run([str(prototype_fmu), *drive, "--out", str(tmp_path / "plain")]) == 0
     assert run([theirs, *alias, *drive, "--out", str(tmp_path / "theirs")]) == 0
     (again,) = (tmp_path / "theirs").glob("*.csv")
     assert run([theirs, *alias, "-m", str(again), "--out", str(tmp_path / "again")]) == 0
@@ -85,9 +80,8 @@ def test_run_drives_a_car_under_other_names(
 
 
 @pytest.mark.slow
-def test_marks_of_tyres_know_the_slips_of_a_car_under_other_names(made_once: Made) -> None:
-    folder = made_once("rigid_carmaker", lambda folder: build_fmu("a car", (*CAR, "--names", "carmaker"), folder))
-    theirs = next(folder.glob("*.fmu"))
+def test_marks_of_tyres_know_the_slips_of_a_car_under_other_names(renamed_fmu: Callable[[str], Path]) -> None:
+    theirs = renamed_fmu("carmaker")
     names = Variables(described(theirs)).names
     scene = scene_of(theirs)
     assert scene is not None

@@ -6,23 +6,17 @@ import pytest
 
 from hosts.catalogue.report import write_report
 from tests.hosts.catalogue.synthetic_records import synthetic
-from viewer import browser
+from tests.in_browser import headless_chromium
 
 
 @pytest.fixture(scope="module")
 def seen(tmp_path_factory):
     """Pages by width, what they told and asked for, and how they stand."""
-    play = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    try:
-        program = browser.find_chromium()
-    except RuntimeError as error:
-        pytest.skip(str(error))
     folder = tmp_path_factory.mktemp("report")
     file = folder / "report.html"
     write_report(file, *synthetic(folder / "none.fmu", tests=2, points=500))
     told, asked = [], []
-    with play.sync_playwright() as started:
-        chromium = started.chromium.launch(executable_path=program, args=browser.launch_arguments())
+    with headless_chromium() as chromium:
         pages = {}
         for width, colours in ((1280, "light"), (390, "dark")):
             page = chromium.new_page(viewport={"width": width, "height": 900}, color_scheme=colours)
@@ -34,7 +28,6 @@ def seen(tmp_path_factory):
             page.evaluate("Promise.all([...document.images].map(i => i.decode()))")
             pages[width] = page
         yield pages, told, asked
-        chromium.close()
 
 
 def test_it_opens_without_a_word_and_loads_nothing(seen):

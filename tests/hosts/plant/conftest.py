@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-import tomli_w
 
 from hosts.fmu.built_fmu import build_fmu
-from mbs.vehicle import load
+from tests.vehicle.rigid_car import rigid_car
 
 
 def _built(folder: Path, *options: str) -> None:
-    data = copy.deepcopy(load("prototype")._data)
-    del data["chassis"]["frame"]
-    file = folder / "car.toml"
-    file.write_text(tomli_w.dumps(data), encoding="utf-8")
+    file = rigid_car("prototype", folder / "source")
     build_fmu("a rigid car", ("--car", str(file), *options), folder)
 
 

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import shutil
-import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
-import tomli_w
 
-import mbs.vehicle
 from hosts.common.errors import HostError
 from hosts.fmu.built_fmu import build_fmu
 from hosts.fmu.fmu import StepRefusedError
 from hosts.plant import Car
 from tests.hosts.plant.conftest import Made
+from tests.vehicle.rigid_car import rigid_car
 
 WHEELS = ("FL", "FR", "RL", "RR")
 CARS = (
@@ -33,15 +30,11 @@ def ported(made_once: Made, request: pytest.FixtureRequest) -> Path:
     name, _, ports = str(request.param).replace(" ", "").partition(":")
 
     def build(at: Path) -> None:
-        source = at / "source"
-        shutil.copytree(Path(mbs.vehicle.__file__).parent / "cars" / name, source)
-        file = source / "car.toml"
-        data = tomllib.loads(file.read_text(encoding="utf-8"))
-        chosen = ports.removesuffix(",hitch")
-        if chosen != ports:
-            data["ports"] = {"forces": "earth", "force_points": {"hitch": [-3.0, 0.0, 0.4]}}
-            chosen += ",forces"
-        file.write_text(tomli_w.dumps(data), encoding="utf-8")
+        chosen, more = ports, {}
+        if ports.endswith(",hitch"):
+            chosen = ports.removesuffix("hitch") + "forces"
+            more["ports"] = {"forces": "earth", "force_points": {"hitch": [-3.0, 0.0, 0.4]}}
+        file = rigid_car(name, at / "source", **more)
         build_fmu("a car", ("--car", str(file), "--ports", chosen), at)
 
     folder = made_once(f"{name}_{ports.replace(',', '_')}", build)

@@ -20,8 +20,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.in_browser import picture_of_simulator, wait_until
-from viewer.browser import BrowserError, find_chromium, launch_arguments
+from tests.in_browser import headless_chromium, picture_of_simulator, wait_until
 
 WORLDS = ("plane", "kerb", "washboard", "rough", "split")
 CAMERAS = ("driver", "chase", "wheel FL", "wheel RR", "orbit", "side", "top", "map")
@@ -71,15 +70,8 @@ def running(fmu: Path, world: str, *more: str) -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    playwright = pytest.importorskip("playwright.sync_api")
-    try:
-        program = find_chromium()
-    except BrowserError as error:
-        pytest.skip(str(error))
-    with playwright.sync_playwright() as play:
-        made = play.chromium.launch(executable_path=program, args=["--headless=new", *launch_arguments()])
+    with headless_chromium() as made:
         yield made
-        made.close()
 
 
 class Driver:

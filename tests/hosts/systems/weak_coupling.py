@@ -21,6 +21,7 @@ from tests.hosts.systems import trailer
 from tests.hosts.systems.fmus.second_road import ANSWER
 from tests.hosts.systems.fmus.second_tyres import READ
 from tests.vehicle import test_road_port
+from tests.vehicle.rigid_car import rigid_car
 from tests.vehicle.second_tyres import HUB
 from tests.vehicle.test_ports import WHEELS, throttle_at
 
@@ -97,9 +98,11 @@ def partner_fmu(name: str) -> Path:
 
 
 @cache
-def car_fmu(car: str, ports: str) -> Path:
-    """The car with its ports; kept."""
-    return fmu_of_car(car, lambda text: None, ports=ports)
+def car_fmu(car: str, ports: str | None) -> Path:
+    """The car without its flexible frame, with its ports; kept."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = rigid_car(car, Path(folder) / car)
+        return fmu_of_car(str(file), lambda text: None, ports=ports)
 
 
 def parts_of(name: str) -> dict[str, Path]:

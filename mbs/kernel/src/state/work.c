@@ -28,19 +28,24 @@ void ali3_work_start(const ali3_instance *in, ali3_vectors *v) {
   if (S->n_input_work > 0) memset(v->by_inputs, 0, (size_t)S->n_input_work * sizeof(double));
 }
 
-/* Forces at in->now with the inputs of the last step, for a method that did not make that step. */
-void ali3_work_reopen(ali3_instance *in) {
-  ali3_vectors *v = &in->now;
-  if (in->system->n_work == 0) return;
+/* Forces at a state, with what its elements have stored. */
+static void forces_at(ali3_instance *in, const ali3_vectors *v, double *potential) {
   const ali3_force_call call = {.q = v->q,
                                 .qd = v->qd,
                                 .y_old = v->y,
                                 .Q = in->Q,
                                 .y_new = in->y_work,
                                 .out = in->out_work,
-                                .potential = in->potential_work};
-  in->force_input = v->used;
+                                .potential = potential};
   ali3_forces(in, &call);
+}
+
+/* Forces at in->now with the inputs of the last step, for a method that did not make that step. */
+void ali3_work_reopen(ali3_instance *in) {
+  ali3_vectors *v = &in->now;
+  if (in->system->n_work == 0) return;
+  in->force_input = v->used;
+  forces_at(in, v, in->potential_work);
   in->force_input = in->input;
   ali3_work_store(in, v);
 }
@@ -83,14 +88,7 @@ void ali3_work_first(ali3_instance *in, double weight) {
 void ali3_work_beside(ali3_instance *in, double dt) {
   ali3_vectors *v = &in->next;
   if (in->system->n_work == 0) return;
-  const ali3_force_call call = {.q = v->q,
-                                .qd = v->qd,
-                                .y_old = v->y,
-                                .Q = in->Q,
-                                .y_new = in->y_work,
-                                .out = in->out_work,
-                                .potential = v->potential};
-  ali3_forces(in, &call);
+  forces_at(in, v, v->potential);
   ali3_work_stage(in, dt, in->watched, v->work);
 }
 

@@ -11,7 +11,8 @@ import pytest
 from hosts.common.errors import HostError
 from tests.hosts.simulator.devices.haptics import Haptics
 from tests.hosts.simulator.devices.virtual import until
-from viewer import browser, bundle
+from tests.in_browser import bundle_or_skip, headless_chromium
+from viewer import bundle
 
 WHEEL = "device Wheel"
 _MAKE = """() => {
@@ -23,15 +24,9 @@ _MAKE = """() => {
 
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Any]:
-    play = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    try:
-        program, _ = browser.find_chromium(), bundle.bundle()
-    except RuntimeError as error:
-        pytest.skip(str(error))
-    with play.sync_playwright() as started:
-        chromium = started.chromium.launch(executable_path=program, args=browser.launch_arguments())
-        yield chromium
-        chromium.close()
+    bundle_or_skip()
+    with headless_chromium() as made:
+        yield made
 
 
 class Panel:

@@ -40,7 +40,7 @@ export function button(data, text, work, title = "") {
 }
 
 /**
- * A choice that gives the focus back.
+ * A choice that gives the focus back, unless it was made by keys.
  * @param {string} data
  * @param {string} title
  * @param {(string | number)[][]} options - Values and their words.
@@ -52,9 +52,14 @@ export function select(data, title, options, work, value) {
   if (value !== undefined) made.value = String(value);
   made.addEventListener("change", () => {
     work(made.value);
-    made.blur();
+    if (!made.matches(":focus-visible")) made.blur();
   });
   return made;
+}
+
+/** Options of `select` whose words are their values. @param {string[]} names */
+export function named(names) {
+  return names.map((name) => [name, name]);
 }
 
 /** Write a text, where it is another one. @param {HTMLElement} element @param {string} text */

@@ -1,5 +1,5 @@
 // A line of the panel for one variable: slider and number, steps, choice or switch, with unit, range and description.
-import { el, short } from "../common/dom.js";
+import { el, select, short } from "../common/dom.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "./ranges.js";
 
 const POSITIONS = 1000;
@@ -58,10 +58,8 @@ function number(variable, change) {
 }
 
 function chooser(variable, change, choices) {
-  const options = choices.map(([value, words]) => el("option", { value }, words));
-  const select = el("select", { data: "choice" }, ...options);
-  select.addEventListener("change", () => change(select.value));
-  return { body: [select], show: (value) => (select.value = String(value)) };
+  const made = select("choice", "", choices, change);
+  return { body: [made], show: (value) => (made.value = String(value)) };
 }
 
 function toggle(variable, change) {

@@ -1,6 +1,6 @@
 // The panel beside the picture: inputs, the gamepad, parameters by group.
 import { control } from "./controls.js";
-import { el, select, short } from "../common/dom.js";
+import { el, named, select, short } from "../common/dom.js";
 import { sourcesOf } from "./gamepad.js";
 
 /** A part of the panel that opens and closes. */
@@ -79,10 +79,8 @@ export function gamepadPanel(gamepad, inputs) {
       return;
     }
     const lines = inputs.map((name) => {
-      const options = sourcesOf(gamepad.pad).map((one) => el("option", { value: one }, one));
-      const source = el("select", { data: `assign ${name}` }, ...options);
-      source.value = gamepad.assigned[name] ?? "none";
-      source.addEventListener("change", () => gamepad.assign(name, source.value));
+      const assign = (one) => gamepad.assign(name, one);
+      const source = select(`assign ${name}`, "", named(sourcesOf(gamepad.pad)), assign, gamepad.assigned[name] ?? "none");
       return el("label.a3-control", {}, `${name} `, source);
     });
     const zone = el("input", { type: "range", min: 0, max: 0.3, step: 0.01, value: gamepad.zone, data: "dead zone" });

@@ -1,5 +1,5 @@
 // Plots of chosen outputs, in step with the run.
-import { button, el } from "../common/dom.js";
+import { button, el, named, select } from "../common/dom.js";
 import { COLOURS, TimePlot } from "../common/time_plot.js";
 import { section } from "./panel.js";
 
@@ -20,15 +20,12 @@ export class Plots {
     this._span = SPANS[0][0];
     this._plots = new Map();
     this._list = el("div");
-    const options = names.map((name) => el("option", { value: name }, name));
-    const choice = el("select", { data: "plot", title: "a signal that is plotted" }, el("option", { value: "" }, "plot …"), ...options);
-    choice.addEventListener("change", () => {
-      if (choice.value) this.add(choice.value);
+    const choice = select("plot", "a signal that is plotted", [["", "plot …"], ...named(names)], (name) => {
+      if (name) this.add(name);
       choice.value = "";
     });
-    const span = el("select", { data: "span", title: "how much time the plots show" }, ...SPANS.map(([value, words]) => el("option", { value }, words)));
-    span.addEventListener("change", () => {
-      this._span = Number(span.value);
+    const span = select("span", "how much time the plots show", SPANS, (value) => {
+      this._span = Number(value);
       this.stale = true;
     });
     this.element = section("Plots", true, el("div.a3-control", {}, choice, span), this._list);

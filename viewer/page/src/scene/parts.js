@@ -58,7 +58,7 @@ export class Parts {
     this.shapes.push(made);
   }
 
-  /** Wheels that a tyre is known of, and can be flattened. */
+  /** Wheels whose tyre is known and whose shape can be flattened. */
   #tyres() {
     return tyresOf(this.scene)
       .map(({ tyre, shape }) => ({ tyre, frame: shape?.frame, stand: this.shapes.find((made) => made.shape === shape)?.stand }))
@@ -110,7 +110,7 @@ export class Parts {
     for (const { object } of this.flexible) object.visible = !this.closed;
   }
 
-  /** Puts everything to its place relative to the origin of the picture. @param {number[]} origin earth position */
+  /** Puts everything in its place relative to the origin of the picture. @param {number[]} origin earth position */
   place(origin) {
     for (const body of this.flexible) body.paint(this.bending.coloured, this.bending.most || 1);
     this.arrows.place(origin);

@@ -1,5 +1,5 @@
 // The panel of the host's devices: their axes as bars, what each drives, calibration, force.
-import { button, el, short } from "../common/dom.js";
+import { button, el, named, select, short } from "../common/dom.js";
 import { section } from "../live/panel.js";
 import { styled } from "../styles.js";
 import style from "./calibration.css";
@@ -134,16 +134,11 @@ class DevicePart {
   /** An input: what drives it, and its value. */
   _input(device, input) {
     const mapping = device.mapping[input];
-    const options = sourcesFor(device, input).map((source) => el("option", { value: source }, source));
-    const select = el("select", { data: `source ${input}` }, ...options);
-    select.value = mapping?.source ?? "none";
-    select.addEventListener("change", () => {
-      this._assign(input, chosen(this.device.mapping[input], select.value, input));
-      select.blur(); // the answer of the host is drawn at once
-    });
+    const assign = (source) => this._assign(input, chosen(this.device.mapping[input], source, input));
+    const source = select(`source ${input}`, `what drives ${input}`, named(sourcesFor(device, input)), assign, mapping?.source ?? "none");
     const waiting = device.assigning === input;
     const move = button(`move ${input}`, waiting ? "Cancel" : "Move it now", () => this._say("assign by moving", { input, on: !waiting }));
-    const children = [el("span", {}, input), select, move];
+    const children = [el("span", {}, input), source, move];
     if (waiting) children.push(el("span.a3-device-more", { data: "moving" }, movingWords(input)));
     if (mapping && !input.startsWith("selector")) {
       const bar = track(`value ${input}`);
@@ -170,15 +165,12 @@ class DevicePart {
     /** @type {HTMLElement[]} */
     const parts = [el("label", {}, inverted, "inverted"), el("label", {}, "dead zone", zone, short(mapping.dead_zone))];
     if (isPedal(input)) {
-      const names = [...PARTS.map(([name]) => name), ...(partOf(mapping) === "calibrated" ? ["calibrated"] : [])];
-      const part = el("select", { data: `part ${input}` }, ...names.map((name) => el("option", { value: name }, name)));
-      part.value = String(partOf(mapping));
-      part.addEventListener("change", () => {
-        const found = PARTS.find(([name]) => name === part.value);
+      const names = [...PARTS.map(([name]) => String(name)), ...(partOf(mapping) === "calibrated" ? ["calibrated"] : [])];
+      const take = (part) => {
+        const found = PARTS.find(([name]) => name === part);
         if (found) this._assign(input, changed(now(), { low: found[1], high: found[2] }));
-        part.blur();
-      });
-      parts.push(part);
+      };
+      parts.push(select(`part ${input}`, `part of the axis for ${input}`, named(names), take, partOf(mapping)));
     }
     return el("div.a3-device-more", {}, ...parts);
   }
