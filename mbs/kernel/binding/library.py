@@ -126,7 +126,7 @@ def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
     key = str(Path(path) if path is not None else library_path())
     if key in _libraries:
         return _libraries[key]
-    if os.path.dirname(key) and not os.path.isfile(key):  # a bare name is sought by the system
+    if Path(key).name != key and not Path(key).is_file():  # a bare name is sought by the system
         raise OSError(f"There is no kernel {key}. Compile it: python -m ali3 build --kernel")
     library = ctypes.CDLL(key)
     for name, (result, arguments) in _SIGNATURES.items():
