@@ -53,6 +53,9 @@ class Report:
     quick_change, quick_time, quick_step : float
         Where a wheel dropped onto the metal of its rebound stop too hard for the steps: by how much the force of the
         stop changes in the worst step by its tangent, N, 0: nowhere; when the first began, s; a step that would do, s.
+    quick_load, load_time, load_step : float
+        Where the loads of tyres changed too quickly for the steps: the worst step times its root, times the root of the
+        squares of their changes in a step, over the largest load, s^1.5, 0: nowhere; when, s; a step that would do, s.
     largest_force : float
         Of a tyre, a contact or a spring with end stops in a System with roads, N.
     branch_changes : int
@@ -98,6 +101,9 @@ class Report:
     quick_change: float = 0.0
     quick_time: float = 0.0
     quick_step: float = 0.0
+    quick_load: float = 0.0
+    load_time: float = 0.0
+    load_step: float = 0.0
     largest_force: float = 0.0
     branch_changes: int = 0
     branch_time: float = 0.0
@@ -137,6 +143,12 @@ class Report:
     @property
     def coarse_text(self) -> str:
         """A sentence about a contact with a road that was too quick for the step; empty where none was."""
+        if self.quick_load > 0.0:
+            return (
+                f"At {self.load_time:.4g} s a wheel swings on its tyre too quickly for the step: its load changes so "
+                "much from step to step that loads may be off by more than 5 %. Run again with a step of "
+                f"{self.load_step:.2g} s."
+            )
         if self.coarse_event == 0.0:
             return ""
         return (

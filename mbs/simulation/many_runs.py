@@ -211,8 +211,8 @@ def simulate_many(
     -----
     AccuracyWarning, BranchWarning, BendingWarning, ParameterWarning, RoadWarning
         As `simulate`, with the number of the variant. No run is repeated: where the energy balance is kept, nothing is
-        known of the error but `Trajectory.accuracy`, and `Report.coarse_event` and `Report.quick_change`, which are
-        warned of.
+        known of the error but `Trajectory.accuracy`, and `Report.coarse_event`, `Report.quick_load` and
+        `Report.quick_change`, which are warned of.
 
     Raises
     ------

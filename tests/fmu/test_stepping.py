@@ -108,6 +108,22 @@ def test_a_step_far_from_the_tuned_one_is_said_once(crane: Path, host: HostMaker
     assert len(driven.messages) == 1
 
 
+def test_steps_longer_than_the_tuned_one_are_said_after_shorter_ones_too(crane: Path, host: HostMaker) -> None:
+    """With what they cost, and a step_size that has none: 14.9 ms are two steps of 7.45 ms."""
+    driven, time = host(crane).start(), 0.0
+    for step in (0.005, 0.0149, 0.0149, 0.005, 0.0125):
+        driven.slave.doStep(time, step)
+        time += step
+    shorter, longer = driven.messages
+    assert "inner steps of 0.005 s" in shorter
+    assert "inner steps of 0.0149 s" in longer
+    assert "errors are 2.2 times as large" in longer
+    assert "A step_size of 0.00745 s" in longer
+    again = host(crane).start({"step_size": 0.00745})
+    again.slave.doStep(0.0, 0.0149)
+    assert again.messages == []
+
+
 def test_a_host_that_adds_up_its_time_hits_the_engine_steps(crane: Path, host: HostMaker) -> None:
     expected = mbs.simulate(system("crane"), t_end=3.0, h=0.01)
     driven = host(crane).start()

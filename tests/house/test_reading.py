@@ -10,21 +10,21 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 46447,
+    "build": 46461,
     "build --kernel": 400,
-    "car": 33399,
+    "car": 33417,
     "run": 4105,
     "run, all of it": 6852,
-    "view": 943,
+    "view": 950,
     "simulator": 8950,
     "simulator, all of it": 16139,
     "check": 5971,
-    "catalogue": 8483,
+    "catalogue": 8481,
     "compare": 9274,
-    "study": 7438,
+    "study": 7439,
     "study --run": 8410,
-    "study, all of it": 16202,
-    "road": 681,
+    "study, all of it": 16195,
+    "road": 700,
 }
 """Lines; a command that needs fewer takes its number down with it."""
 _SLACK = 300

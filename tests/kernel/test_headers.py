@@ -82,6 +82,11 @@ def test_the_kernel_has_the_same_structures(name):
     assert load_library().ali3_structure_size(name.encode()) == ctypes.sizeof(STRUCTURES[name])
 
 
+def test_a_kernel_that_is_not_there_says_how_it_is_made(tmp_path):
+    with pytest.raises(OSError, match=r"There is no kernel .*gone\.so\. Compile it: python -m ali3 build --kernel"):
+        load_library(tmp_path / "gone.so")
+
+
 def test_a_library_with_another_structure_is_refused(monkeypatch, tmp_path):
     class Other(ctypes.Structure):
         _fields_ = (*STRUCTURES["ali3_report"]._fields_, ("more", ctypes.c_double))

@@ -97,10 +97,12 @@ enum {
   SLAVE_SAID = 63
 }; /* bits of an input: set by the host, said once */
 enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* what was said of limited iterations */
+enum { SLAVE_SHORTER_STEPS = 1, SLAVE_LONGER_STEPS }; /* and of inner steps that are not step_size */
 
 typedef struct { /* what a state is beside the kernel's bytes; numbers only */
   slave_phase phase;
-  int32_t initialised, step_warned, energy_warned, mode_warned, capped_warned; /* said once a run, the last twice */
+  int32_t initialised, step_warned, energy_warned, mode_warned,
+      capped_warned; /* said once a run, the first and the last twice */
   double start_time, stop_time; /* infinite where not given */
   double capped_residual; /* m, largest of the last communication step */
 } slave_call_state;

@@ -12,6 +12,23 @@ static const double STEP_DEVIATION = 0.05;
 static const double MOST_STEPS = 1e6; /* in one call, which cannot be cancelled: about half a minute of a car */
 static const double CLOCK_TOLERANCE = 1e-3; /* neighbouring times are not farther apart than this share of a step */
 
+/* Once of shorter inner steps, which are no worse, and once of longer ones. */
+static void say_step(slave *s, double whole, double h, double step) {
+  const int32_t said = h > step ? SLAVE_LONGER_STEPS : SLAVE_SHORTER_STEPS;
+  if (said <= s->calls.step_warned) return;
+  s->calls.step_warned = said;
+  if (said == SLAVE_SHORTER_STEPS)
+    slave_say(s, SLAVE_WARNING,
+              "The communication step %.6g s gives inner steps of %.6g s, while step_size is %.6g s; results will "
+              "differ a little. This is said once.",
+              whole, h, step);
+  else
+    slave_say(s, SLAVE_WARNING,
+              "The communication step %.6g s gives inner steps of %.6g s, while step_size is %.6g s; their errors are "
+              "%.2g times as large. A step_size of %.6g s or less has shorter ones. This is said once.",
+              whole, h, step, (h / step) * (h / step), whole / ceil(whole / step));
+}
+
 /* Number and size of the equal inner steps from time to end; halves go up, whatever the round-off of the host's times. */
 static int64_t division(slave *s, double time, double end, double *h) {
   const double step = s->value[s->step_reference], ratio = floor((end - time) / step + 0.5 + STEP_TOLERANCE);
@@ -19,13 +36,7 @@ static int64_t division(slave *s, double time, double end, double *h) {
   *h = step;
   if (fabs(time + n * step - end) <= STEP_TOLERANCE * step) return (int64_t)n;
   *h = (end - time) / n;
-  if (fabs(*h - step) > STEP_DEVIATION * step && !s->calls.step_warned) {
-    s->calls.step_warned = 1;
-    slave_say(s, SLAVE_WARNING,
-              "The communication step %.6g s gives inner steps of %.6g s, while step_size is %.6g s; results will "
-              "differ a little. This is said once.",
-              end - time, *h, step);
-  }
+  if (fabs(*h - step) > STEP_DEVIATION * step) say_step(s, end - time, *h, step);
   return (int64_t)n;
 }
 

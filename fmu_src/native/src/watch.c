@@ -60,10 +60,16 @@ static slave_status watch_rims(slave *s, const ali3_report *report) {
   return slave_say(s, SLAVE_WARNING, "%s This is said once.", text);
 }
 
-/* An edge at speed, or a fall: a run of an FMU repeats nothing, and one step tells it. */
+/* An edge at speed, or a fall: a run of an FMU repeats nothing, and its steps tell it. */
 static slave_status watch_events(slave *s, const ali3_report *report) {
-  if (s->coarse_said || !(report->coarse_event > 0.0)) return SLAVE_OK;
+  if (s->coarse_said || !(report->coarse_event > 0.0 || report->quick_load > 0.0)) return SLAVE_OK;
   s->coarse_said = true;
+  if (report->quick_load > 0.0)
+    return slave_say(s, SLAVE_WARNING,
+                     "At %.4g s a wheel swings on its tyre too quickly for the step: its load changes so much from "
+                     "step to step that loads may be off by more than 5 %%. Run again with a step_size of %.2g s. This "
+                     "is said once.",
+                     report->load_time, report->load_step);
   return slave_say(
       s, SLAVE_WARNING,
       "At %.4g s a contact with the road was too quick for the step: what steps missed of the velocities is %.2g "

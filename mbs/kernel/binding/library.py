@@ -126,6 +126,8 @@ def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
     key = str(Path(path) if path is not None else library_path())
     if key in _libraries:
         return _libraries[key]
+    if Path(key).name != key and not Path(key).is_file():  # a bare name is sought by the system
+        raise OSError(f"There is no kernel {key}. Compile it: python -m ali3 build --kernel")
     library = ctypes.CDLL(key)
     for name, (result, arguments) in _SIGNATURES.items():
         function = getattr(library, name, None)

@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 7
+#define ALI3_STATE_VERSION 8
 
 typedef enum {
   ALI3_OK = 0,
@@ -127,6 +127,12 @@ typedef struct {
    * began, s; a step that would do, s. The same of a hit that is not judged yet, its step and the time left of it, s */
   double largest_force, quick_change, quick_time, quick_step;
   double hit_change, hit_time, hit_h, hit_left;
+  /* Systems with tyres: largest load, N; where loads changed too quickly for the step, the worst h sqrt(h) times the
+   * root of the squares of their changes in a step over the largest load, s^1.5, 0: nowhere; when the first began, s; a
+   * step that would do, s. The sum of the squares now, N^2; largest h^3 times it that is not judged yet, N^2 s^3, when it
+   * began, its step and the time left of it, s */
+  double largest_load, quick_load, load_time, load_step;
+  double load_sum, load_squares, load_begin, load_h, load_left;
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */

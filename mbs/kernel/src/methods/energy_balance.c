@@ -8,6 +8,7 @@
 #include "../method.h"
 #include "coarse_event.h"
 #include "energy_balance.h"
+#include "quick_load.h"
 #include "quick_stop.h"
 
 static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its round-off as no error of the energy */
@@ -59,6 +60,7 @@ void ali3_balance_motion(ali3_instance *in, double h, double speed, double chang
   report->predictor_path += sqrt(miss);
   if (in->system->nr == 0) return;
   ali3_quick_stop(in, h);
+  ali3_quick_load(in, h);
   ali3_coarse_event(in, h, sqrt(change), sqrt(miss));
 }
 
@@ -104,4 +106,13 @@ void ali3_balance_restore(ali3_report *report, const ali3_report *before) {
   report->hit_time = before->hit_time;
   report->hit_h = before->hit_h;
   report->hit_left = before->hit_left;
+  report->largest_load = before->largest_load;
+  report->quick_load = before->quick_load;
+  report->load_time = before->load_time;
+  report->load_step = before->load_step;
+  report->load_sum = before->load_sum;
+  report->load_squares = before->load_squares;
+  report->load_begin = before->load_begin;
+  report->load_h = before->load_h;
+  report->load_left = before->load_left;
 }

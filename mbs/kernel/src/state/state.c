@@ -95,8 +95,14 @@ static bool stop_valid(const ali3_report *r) {
          r->hit_time - r->hit_time == 0.0 && r->hit_left - r->hit_left == 0.0;
 }
 
+static bool load_valid(const ali3_report *r) {
+  return magnitude(r->largest_load) && magnitude(r->quick_load) && magnitude(r->load_step) && magnitude(r->load_sum) &&
+         magnitude(r->load_squares) && magnitude(r->load_h) && r->load_time - r->load_time == 0.0 &&
+         r->load_begin - r->load_begin == 0.0 && r->load_left - r->load_left == 0.0;
+}
+
 static bool report_valid(const ali3_system *s, const ali3_report *r) {
-  return branch_valid(s, r) && stop_valid(r) && magnitude(r->work) && magnitude(r->kinetic_peak) &&
+  return branch_valid(s, r) && stop_valid(r) && load_valid(r) && magnitude(r->work) && magnitude(r->kinetic_peak) &&
          magnitude(r->speed_peak) && magnitude(r->velocity_path) && magnitude(r->predictor_path) &&
          r->energy - r->energy == 0.0 && r->open_power - r->open_power == 0.0 && magnitude(r->energy_floor) &&
          magnitude(r->rim_pressed) && magnitude(r->event_miss) && magnitude(r->event_squares) &&

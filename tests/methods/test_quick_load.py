@@ -1,0 +1,75 @@
+"""What a report says of loads of tyres that change too quickly for the step, against the loads themselves."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.elements.road import KerbRoad
+from mbs.vehicle import load
+
+WHEELS = ("FL", "FR", "RL", "RR")
+SPAN = 0.8  # s
+LIMIT, MEMORY, LATER = 6e-4, 0.1, 0.2  # s^1.5, s, s
+
+
+@pytest.fixture(scope="module")
+def edge() -> mbs.System:
+    """The hatchback before an edge of 5 cm."""
+    return mbs.compile(load("hatchback").model(KerbRoad(3.0, 0.05, 0.05, "after", 1.0)))
+
+
+def drive(system, h, every=1, method="ali3p"):
+    pose = mbs.Pose(speed=20.0)
+    return mbs.simulate(
+        system, SPAN, h, pose=pose, every=every, method=method, progress=False, estimate_error=False
+    )  # fmt: skip
+
+
+def loads(run):
+    return np.array([run[f"wheel_{w}.Fz"] for w in WHEELS])
+
+
+def found(run, h):
+    """The largest memory of squared changes, its step, and the largest load within 0.2 s of it."""
+    forces, total, best, begin = loads(run), 0.0, 0.0, 0
+    for k, change in enumerate(np.abs(np.diff(forces)).max(axis=0)):
+        total = total / (1.0 + h / MEMORY) + change**2
+        if total > best:
+            best, begin = total, k
+    return h * np.sqrt(h * best) / forces[:, : begin + 1 + round(LATER / h)].max(), run.t[begin]
+
+
+@pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "energy_momentum"])
+def test_an_edge_at_10_ms_is_found(edge, method):
+    run = drive(edge, 0.01, method=method)
+    report, (worst, when) = run.report, found(run, 0.01)
+    assert LIMIT < report.quick_load == pytest.approx(worst, rel=1e-9)
+    assert report.load_time == pytest.approx(when, abs=1e-9)
+    assert report.load_step == pytest.approx(0.01 * np.sqrt(0.3 * LIMIT / worst), rel=1e-9)
+    assert f"a step of {report.load_step:.2g} s" in report.coarse_text
+
+
+def test_the_step_that_it_names_is_enough(edge):
+    """Loads that are off by more than 5 % at 10 ms are right with the named step, of which nothing is said."""
+    coarse, fine = drive(edge, 0.01), drive(edge, 1e-4, every=100)
+    every = int(np.ceil(0.01 / coarse.report.load_step))
+    again = drive(edge, 0.01 / every, every)
+    size = loads(fine).max()
+    assert np.abs(loads(coarse) - loads(fine)).max() > 0.05 * size
+    assert np.abs(loads(again) - loads(fine)).max() < 0.05 * size
+    assert again.report.quick_load == 0.0
+    assert again.report.coarse_text == ""
+
+
+def test_small_falls_and_jumps_of_pedals_say_nothing():
+    """Of the prototype at 10 ms, right within 3 %."""
+    system = mbs.compile(load("prototype").model())
+    t = np.array([0.0, 0.4, 0.4, 1.0])
+    inputs = {"brake": (t, np.array([0.0, 0.0, 1.0, 1.0])), "steering": (t, np.array([0.0, 0.0, 0.8, 0.8]))}
+    for z in (0.0, 0.05):
+        pose = mbs.Pose(speed=15.0, z=z)
+        run = mbs.simulate(system, 1.0, 0.01, inputs, pose=pose, progress=False, estimate_error=False)
+        assert run.report.quick_load == 0.0
+        assert run.report.coarse_text == ""
