@@ -39,7 +39,7 @@ static void look_at(ali3_instance *in, double h, int32_t e) {
   const double change = kind->rebound(in->el_real + S->el_real_ptr[e], nreal, from[0], to[0]);
   if (!(change > fmax(limit(r, h), r->hit_change))) return;
   if (r->hit_change == 0.0) {
-    r->hit_time = ali3_time(in) - h;
+    r->hit_time = ali3_time(in);
     r->hit_left = SPAN;
   }
   r->hit_change = change;
