@@ -233,7 +233,7 @@ def _times(
         )
     first = np.concatenate(([True], np.diff(t) > 0.0))
     if not first.all():
-        notes.append(f"Rows of '{name}' with the time of the row before them, of which the first is used: {sum(~first)}.")
+        notes.append(f"Rows of '{name}' that are left out, with the time of the row before them: {np.sum(~first)}.")
     interval = float(np.median(np.diff(t[first]))) if first.sum() > 1 else 0.0
     if clock.unit is None and unit == "s" and interval > _SLOWEST:
         raise HostError(

@@ -130,8 +130,8 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     found = deviations(signal.time, y, x)
     what = f"'{signal.source}' ({signal.name})"
-    # A wave of the other sign is also one that is late by half a period, but not as well. One that falls where the other
-    # rises has the same sign where both are positive, as a speed.
+    # A wave of the other sign is also one that is late by half a period, but not as well. One that falls where the
+    # other rises has the same sign where both are positive, as a speed.
     now = curve(signal.time)
     still = deviations(signal.time, y, now).correlation
     if still < -_ALIKE and not found.correlation > 0.05 - still and float(y @ now) < 0.0:

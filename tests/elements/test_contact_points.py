@@ -234,7 +234,7 @@ def test_a_stop_without_stiffness_has_no_metal_end_either():
 
 @pytest.mark.parametrize("heading", [0.0, 0.4])
 def test_a_point_deep_in_a_wall_is_pushed_out_of_its_face(heading):
-    """Not out of its top, which is farther: the force is that of the way to the face, and the gradient of its energy."""
+    """Not out of its top, which is farther: the force is that of the way to the face, the gradient of its energy."""
     n = np.array([np.cos(heading), np.sin(heading)])
     x = np.arange(-3.0, 3.01, 0.1)
     heights = np.clip((np.add.outer(n[0] * x, n[1] * x) - 0.05) / 0.1, 0.0, 1.0)

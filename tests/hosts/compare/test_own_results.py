@@ -60,7 +60,8 @@ def test_a_car_starts_as_the_run_did(prototype_fmu: Path, tmp_path: Path, capsys
     log = next(tmp_path.glob("*_slalom.csv"))
     capsys.readouterr()
     record = tmp_path / "compared.json"
-    assert main([str(prototype_fmu), str(log), "--signals", "wheel_FL.Fz,chassis.vy", *step, "--json", str(record)]) == 0
+    names = ["--signals", "wheel_FL.Fz,chassis.vy", "--json", str(record)]
+    assert main([str(prototype_fmu), str(log), *names, *step]) == 0
     assert "the start is that of its record: initial.speed = 12.0, initial.z = 0.05." in capsys.readouterr().out
     largest = {m["name"]: m["value"] for m in json.loads(record.read_text())["measures"]}
     assert abs(largest["wheel_FL.Fz.largest"]) < 1e-6
