@@ -97,7 +97,7 @@ SHARED: dict[str, Option] = {
     "--parameters": Option("SSV", "parameter set (SSV file) that is set before the start; repeatable", Path),
     "--set": Option(
         "NAME=VALUE",
-        "value of a parameter or input at the start, in the unit of the FMU; wins over a parameter set; repeatable",
+        "value of a parameter or input at the start, in the unit of the FMU; wins over parameter sets; repeatable",
         name_and_text,
     ),
     "--aliases": Option(

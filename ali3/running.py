@@ -12,9 +12,9 @@ from ali3.files import reason
 from ali3.signals import Stopped, stopped_by_signals
 from ali3.words import shortened
 
-GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED = 0, 1, 2, 130
+GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED, NO_READER = 0, 1, 2, 130, 141
 """Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT; so for others
-that end programs)."""
+that end programs); what reads the output has gone (128 + SIGPIPE)."""
 
 _prefix: str | None = None
 
@@ -46,7 +46,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ())
         return _end("stopped by Ctrl-C", INTERRUPTED)
     except BrokenPipeError:  # the reader of our output has gone: nobody is there to be told
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return NOT_GOOD
+        return NO_READER
     except Exception as error:
         words = sentence(error, errors)
         if words is None:

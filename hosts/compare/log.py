@@ -10,7 +10,9 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from ali3.near_names import did_you_mean
+from ali3.words import brief
 from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 from hosts.common.units import known_unit, unit_definition, unit_of
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
@@ -71,12 +73,15 @@ class Log:
         Sentences for the user.
     held : frozenset of str
         Inputs that keep the value of a row up to the next one, where the log is the result of a run of ours.
+    begun : dict of str to float, int, bool or str, optional
+        Start values of that run, where its first row is the first of the log.
     """
 
     inputs: dict[str, Signal]
     outputs: dict[str, Signal]
     notes: list[str]
     held: frozenset[str] = frozenset()
+    begun: Mapping[str, Value] | None = None
 
 
 def log_for(
@@ -112,7 +117,7 @@ def log_for(
         if clock not in clocks:
             times, origin = _times(raw, aliases, clock, origin, notes)
             clocks[clock] = times
-        signals[ours] = _without_spikes(fmu, _signal(fmu, raw, ours, column, *clocks[clock]), notes)
+        signals[ours] = _without_spikes(fmu, _signal(fmu, raw, ours, column, *clocks[clock], notes), notes)
         if ours in inputs and len(at := _jumps(raw, column.name, clock, *clocks[clock])):
             jumps[ours] = at
     if jumps:
@@ -139,7 +144,8 @@ def log_for(
     if left := [n for n in chosen if n in raw.table.columns]:
         notes.append(f"In the log, and set or sought instead: {', '.join(left)}.")
     held = frozenset(n for n in driven if n in parameters or n in (record.held or ()))
-    return Log(driven, {n: s for n, s in signals.items() if n in outputs}, notes, held)
+    begun = record.start if record.outputs_from and record.state[0] is None and origin == 0.0 else None
+    return Log(driven, {n: s for n, s in signals.items() if n in outputs}, notes, held, begun)
 
 
 def _columns(
@@ -227,7 +233,7 @@ def _times(
         )
     first = np.concatenate(([True], np.diff(t) > 0.0))
     if not first.all():
-        notes.append(f"{np.sum(~first)} rows have the time of the row before them in '{name}'; the first is used.")
+        notes.append(f"Rows of '{name}' that are left out, with the time of the row before them: {np.sum(~first)}.")
     interval = float(np.median(np.diff(t[first]))) if first.sum() > 1 else 0.0
     if clock.unit is None and unit == "s" and interval > _SLOWEST:
         raise HostError(
@@ -253,7 +259,13 @@ def _moments(raw: RawLog, name: str, unit: str | None) -> NDArray[np.float64]:
 
 
 def _signal(
-    fmu: AliasedFmu, raw: RawLog, ours: str, column: Column, time: NDArray[np.float64], rows: NDArray[np.int64]
+    fmu: AliasedFmu,
+    raw: RawLog,
+    ours: str,
+    column: Column,
+    time: NDArray[np.float64],
+    rows: NDArray[np.int64],
+    notes: list[str],
 ) -> Signal:
     values = (raw.numbers(column.name)[rows] - column.offset) / column.factor
     variable = fmu.variables[ours]
@@ -262,6 +274,11 @@ def _signal(
     if written is None:  # a heading may hold anything in brackets; only what is known as a unit counts
         heading = raw.units.get(column.name, "").strip()
         written = heading if heading and known_unit(heading) is not None else None
+        if heading and written is None:
+            notes.append(
+                f"What stands with '{column.name}' of the log is no unit that is known, {brief(heading)}: its numbers "
+                f"are taken in '{unit}', that of '{ours}'; the alias file can give another unit."
+            )
     if written is not None and written != unit:
         where = f"The column '{column.name}' of the log ({ours})"
         theirs, own = unit_definition(written, where), known_unit(unit)

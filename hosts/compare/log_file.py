@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -110,7 +111,10 @@ def read_log(path: Path, form: Form) -> RawLog:
     except UnicodeDecodeError as error:
         raise HostError(f"The log {path} is not written in {found.encoding}: {error}.") from None
     except (pd.errors.ParserError, pd.errors.EmptyDataError, ValueError) as error:
-        raise HostError(f"The log {path} is no table: {one_line(str(error)).rstrip('.')}.") from None
+        if cells := re.search(r"Expected (\d+) fields in line (\d+), saw (\d+)", str(error)):
+            width, line, seen = cells.groups()
+            raise HostError(f"The log {path}, line {line}: {seen} cells; the heading has {width}.") from None
+        raise HostError(f"The log {path} is no table: {one_line(str(error).strip()).rstrip('.')}.") from None
     return RawLog(path, table, found.units, found.first_row)
 
 

@@ -50,16 +50,16 @@ def check_inputs(fmu: AliasedFmu, inputs: Mapping[str, Signal], longest: float, 
     for name, signal in inputs.items():
         steps = np.diff(signal.time)
         k, usual = int(np.argmax(steps)), signal.interval
-        begin, end, what = signal.time[k], signal.time[k + 1], f"the input '{signal.source}' ({name})"
+        begin, end, what = signal.time[k], signal.time[k + 1], f"input '{signal.source}' ({name})"
         if steps[k] > max(longest, 1.5 * usual):
             raise HostError(
-                f"The log has no samples of {what} from {begin:.6g} s to {end:.6g} s ({steps[k]:.3g} s; usual are "
+                f"The log has no samples of the {what} from {begin:.6g} s to {end:.6g} s ({steps[k]:.3g} s; usual are "
                 f"{usual:.3g} s): compare what lies before (--to {begin:.6g}) or after (--from {end:.6g}), or bridge "
                 f"it by a straight line with --longest-gap {math.ceil(100.0 * steps[k]) / 100.0:g}."
             )
         if steps[k] > _MANY * usual:
             notes.append(
-                f"A gap of {steps[k]:.3g} s in {what}, at {begin:.6g} s, is bridged by a straight line "
+                f"A gap of {steps[k]:.3g} s in the {what}, at {begin:.6g} s, is bridged by a straight line "
                 f"(usual are {usual:.3g} s)."
             )
         variable = fmu.table[name]
@@ -68,18 +68,18 @@ def check_inputs(fmu: AliasedFmu, inputs: Mapping[str, Signal], longest: float, 
         if low < variable.low - room or high > variable.high + room:
             raise HostError(
                 f"The log's {what} reaches from {low:.4g} to {high:.4g} {signal.unit}; the range of the FMU's input is "
-                f"{variable.range}{_hint(max(-low, high), max(-variable.low, variable.high))}."
+                f"{variable.range}{_hint(max(-low, high), max(-variable.low, variable.high))}"
             )
 
 
 def _hint(reached: float, limit: float) -> str:
     if not (math.isfinite(limit) and limit > 0.0):
-        return ""
+        return "."
     ratio = reached / limit
     if 1.0 < ratio <= 1.2:
-        return "; it may be clipped by a factor or an offset in the alias file"
+        return "; it may be clipped by a factor or an offset in the alias file."
     if 20.0 < ratio <= 120.0:
-        return '; it looks like percent or degrees: give its unit in the alias file, such as unit = "%" or "deg"'
+        return '; it looks like percent or degrees: give its unit in the alias file, such as unit = "%" or "deg".'
     return "; is its unit in the alias file right?"
 
 
@@ -130,9 +130,11 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     found = deviations(signal.time, y, x)
     what = f"'{signal.source}' ({signal.name})"
-    # A wave of the other sign is also one that is late by half a period, but not as well.
-    still = deviations(signal.time, y, curve(signal.time)).correlation
-    if still < -_ALIKE and not found.correlation > 0.05 - still:
+    # A wave of the other sign is also one that is late by half a period, but not as well. One that falls where the
+    # other rises has the same sign where both are positive, as a speed.
+    now = curve(signal.time)
+    still = deviations(signal.time, y, now).correlation
+    if still < -_ALIKE and not found.correlation > 0.05 - still and float(y @ now) < 0.0:
         return (
             f"{what} has the opposite sign of the simulation (correlation {still:.2f}): factor = -1.0 in the alias "
             "file turns it."

@@ -21,7 +21,7 @@ _SETTLING, _SETTLED = "initial.settling", 2.0  # s: roll of a car on soft spring
 
 
 def measured_start(
-    fmu: AliasedFmu, signals: Mapping[str, Signal], given: Mapping[str, Value]
+    fmu: AliasedFmu, signals: Mapping[str, Signal], given: Mapping[str, Value], begun: Mapping[str, Value] | None = None
 ) -> tuple[dict[str, Value], list[str]]:
     """Start values of speeds and pose as they are measured, where the FMU has such parameters.
 
@@ -33,6 +33,8 @@ def measured_start(
         Of the log, which begins at time 0.
     given : mapping of str to float, int, bool or str
         What the user sets, which wins.
+    begun : mapping of str to float, int, bool or str, optional
+        Start values of the run whose result the log is: then the start is as there, and not as measured.
 
     Returns
     -------
@@ -41,6 +43,10 @@ def measured_start(
     notes : list of str
         What the start is, in sentences.
     """
+    if begun is not None:
+        same = {n: v for n, v in begun.items() if n.startswith("initial.") and n in fmu.variables and n not in given}
+        words = ", ".join(f"{n} = {v}" for n, v in same.items()) or "as drawn"
+        return same, [f"The log is a result of ali3 run, and the start is that of its record: {words}."]
     start: dict[str, Value] = {}
     notes, held = [], []
     speed = next((at_start(signals[n]) for n in ("speed", "chassis.vx") if n in signals), None)

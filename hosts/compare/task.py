@@ -128,12 +128,13 @@ def prepare(options: argparse.Namespace) -> Task:
         point = reference_point(options.fmu, aliases, given)
         stretches: list[Stretch] = []
         for begin, length in parts:
-            start, words = measured_start(fmu, cut(everything, begin, begin + length), given)
+            begun = None if begin or options.begin else log.begun
+            start, words = measured_start(fmu, cut(everything, begin, begin + length), given, begun)
             notes += words if not stretches else []
             manoeuvre = inputs_of(
                 options.log.stem,
                 cut(inputs, begin, begin + length),
-                of_origin(start | given, start, point),
+                of_origin(start | given, start if begun is None else (), point),
                 length,
                 step,
                 not slopes,

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ali3.errors import TableError, UserError
 from ali3.files import whole_file
+from ali3.near_names import did_you_mean
 from ali3.tables import TextTable
 from ali3.words import brief
 from mbs.common.checks import flag, shown, whole
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from viewer.recording import Recording
+
+
+_LISTED = 12  # names in a sentence
 
 
 class Trajectory(Mapping[str, NDArray[np.float64]]):
@@ -107,8 +111,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         if isinstance(name, str) and name in self._left_out.names:
             return self._left_out.column(name)
         if not isinstance(name, str) or name not in self._columns:
-            known = ", ".join(self.units) or "none"
-            raise KeyError(f"There is no sensor {shown(name)}; the trajectory has: {known}.")
+            known = ", ".join(list(self.units)[:_LISTED]) or "none"
+            more = f" and {len(self) - _LISTED} more" if len(self) > _LISTED else ""
+            hint = did_you_mean(str(name), self.units, f"the trajectory has: {known}{more}")
+            raise KeyError(f"There is no sensor {shown(name)}{hint}")
         return self._columns[name]
 
     def __iter__(self) -> Iterator[str]:

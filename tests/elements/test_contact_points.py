@@ -230,3 +230,24 @@ def test_a_stop_without_stiffness_has_no_metal_end_either():
     e = Element(SpringDamper(0.0, 0.0, 0.75, bump).record("stop", d))
     assert not np.any(e(np.array([0.0, 0.0, 0.9]), np.ones(3)).f)
     assert e(np.array([0.0, 0.0, 0.55]), np.zeros(3)).out["force"] < -8e4 * 0.05
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.4])
+def test_a_point_deep_in_a_wall_is_pushed_out_of_its_face(heading):
+    """Not out of its top, which is farther: the force is that of the way to the face, the gradient of its energy."""
+    n = np.array([np.cos(heading), np.sin(heading)])
+    x = np.arange(-3.0, 3.01, 0.1)
+    heights = np.clip((np.add.outer(n[0] * x, n[1] * x) - 0.05) / 0.1, 0.0, 1.0)
+    e = element(GridRoad((-3.0, -3.0), (0.1, 0.1), heights, 0.8), ContactPoints(2e5, 2e5, 1e4, friction_factor=0.0),
+                points=[[0.0, 0.0, 0.0]])  # fmt: skip
+    axes = np.eye(3).ravel()
+    for into in (0.12, 0.25, 0.35):
+        o = np.r_[(0.1 + into) * n, 0.4]
+        r = e(np.r_[o, axes], np.zeros(12), h=0.0)
+        assert r.out["depth"] == pytest.approx(into, abs=0.03)  # heights on the grid make the face ragged
+        assert r.f[:2] @ n < -0.8 * np.linalg.norm(r.f[:3])
+        slope = [(e(np.r_[o + 1e-6 * d, axes], np.zeros(12)).potential
+                  - e(np.r_[o - 1e-6 * d, axes], np.zeros(12)).potential) / 2e-6 for d in np.eye(3)]  # fmt: skip
+        assert np.allclose(r.f[:3], -np.array(slope), atol=0.05 * np.linalg.norm(r.f[:3]))
+    above = e(np.r_[1.5 * n, 0.9, axes], np.zeros(12), h=0.0)
+    assert above.out["depth"] == pytest.approx(0.1)

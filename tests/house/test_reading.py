@@ -20,7 +20,7 @@ MOST = {
     "simulator, all of it": 16139,
     "check": 5971,
     "catalogue": 8481,
-    "compare": 9274,
+    "compare": 9304,
     "study": 7439,
     "study --run": 8410,
     "study, all of it": 16195,

@@ -24,9 +24,14 @@ def test_it_maps_names_to_arrays_with_units(trajectory):
     assert len(trajectory) == 3
 
 
-def test_an_unknown_name_lists_the_known_ones(trajectory):
-    with pytest.raises(KeyError, match=r"no sensor 'bob.y'; the trajectory has: bob.x, wheel"):
+def test_an_unknown_name_is_told_with_the_known_ones(trajectory):
+    with pytest.raises(KeyError, match=r"no sensor 'bob.y'; did you mean 'bob.x'\?"):
         trajectory["bob.y"]
+    with pytest.raises(KeyError, match=r"no sensor 'speed'; the trajectory has: bob.x, wheel\[1\], load, energy\."):
+        trajectory["speed"]
+    many = Trajectory(np.arange(2.0), np.zeros((2, 30)), [f"row{k}" for k in range(30)], ["m"] * 30, wall_s=0.2)
+    with pytest.raises(KeyError, match=r"row11 and 18 more\."):
+        many["speed"]
 
 
 def test_realtime_factor_is_simulated_over_wall_time(trajectory):

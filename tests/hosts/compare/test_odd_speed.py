@@ -1,4 +1,4 @@
-"""A speed in another unit, which the log tells by itself."""
+"""A speed in another unit, which the log tells by itself; one that falls where that of the simulation rises."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hosts.compare.log import Signal
-from hosts.compare.plausibility import odd_speed
+from hosts.compare.plausibility import odd_scale, odd_speed
 
 
 @pytest.mark.parametrize(("factor", "told"), [(1.0, False), (3.6, True), (2.0, False), (1.0 / 3.6, False)])
@@ -21,3 +21,10 @@ def test_the_lateral_acceleration_tells_the_unit_of_the_speed(factor: float, tol
     }
     words = odd_speed(measured)
     assert ("'v' (speed)" in words and 'unit = "km/h"' in words) if told else not words
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_speed_that_falls_where_the_simulated_rises_has_no_other_sign(turned: bool) -> None:
+    t = np.arange(0.0, 6.0, 0.01)
+    measured = Signal("speed", "v", "m/s", t, -15.0 - t if turned else 15.0 - t)
+    assert ("factor = -1.0" in odd_scale(measured, lambda when: 15.0 + when)) == turned

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 
 import numpy as np
@@ -50,3 +51,21 @@ def test_a_set_parameter_is_not_driven_by_the_log(
     said = capsys.readouterr().out
     assert "In the log, and set or sought instead: spring.stiffness." in said
     assert "Tunable parameters" not in said
+
+
+def test_a_car_starts_as_the_run_did(prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    step = ["--step", "0.01", "--out", str(tmp_path)]
+    start = ["--set", "initial.speed=12", "--set", "initial.z=0.05", "--stop-time", "1.5"]
+    assert run([str(prototype_fmu), "-m", "slalom", *start, *step]) == 0
+    log = next(tmp_path.glob("*_slalom.csv"))
+    capsys.readouterr()
+    record = tmp_path / "compared.json"
+    names = ["--signals", "wheel_FL.Fz,chassis.vy", "--json", str(record)]
+    assert main([str(prototype_fmu), str(log), *names, *step]) == 0
+    assert "the start is that of its record: initial.speed = 12.0, initial.z = 0.05." in capsys.readouterr().out
+    largest = {m["name"]: m["value"] for m in json.loads(record.read_text())["measures"]}
+    assert abs(largest["wheel_FL.Fz.largest"]) < 1e-6
+    assert abs(largest["chassis.vy.largest"]) < 1e-9
+    # a part of it begins in motion, which the record does not tell
+    main([str(prototype_fmu), str(log), "--signals", "chassis.vy", *step, "--from", "0.5"])
+    assert "The start is as measured" in capsys.readouterr().out

@@ -6,6 +6,7 @@
 #include "disc_on_grid.h"
 #include "plane_and_kerb.h"
 #include "road_port.h"
+#include "way_out_of_grid.h"
 
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
 
@@ -122,7 +123,8 @@ static int kerb_clearance(const double *p, const double point[3], ali3_clearance
 
 #define NEAR 0.1 /* m: farther from the tangent plane under it a point is not evaluated again */
 
-/* Distance to the nearest point of the surface: tangent plane under the point, then twice at the foot it gives. */
+/* Distance to the nearest point of the surface: tangent plane under the point, then twice at the foot it gives. Deeper
+ * than NEAR the face of a wall may be nearer, of which the tangent plane on top knows nothing. */
 static int grid_clearance(const ali3_road *road, const double point[3], ali3_clearance *out) {
   ali3_grid g;
   if (!grid_of(road, &g)) return 0;
@@ -136,6 +138,13 @@ static int grid_clearance(const ali3_road *road, const double point[3], ali3_cle
     const double reach = ali3_clamp(out->distance, -NEAR, NEAR);
     x = point[0] - reach * under.normal[0];
     y = point[1] - reach * under.normal[1];
+  }
+  double foot[2];
+  if (out->distance < -NEAR && ali3_way_out_of_grid(&g, point, -out->distance, foot)) {
+    const ali3_surface face = ali3_grid_at(&g, foot[0], foot[1]);
+    const double q[3] = {foot[0], foot[1], face.height};
+    plane_clearance(face.normal, q, point, out);
+    out->friction = face.friction;
   }
   return 1;
 }
