@@ -125,6 +125,7 @@ struct ali3_system {
   int32_t n_tabled, n_dependent; /* tabled bodies and numbers, their coordinates */
   int32_t n_tabled_base, n_tabled_parameter, n_tabled_group, tabled_square; /* the last: numbers that a group needs */
   bool senses_rows; /* a sensor reads multipliers or violations */
+  bool has_avx2; /* the processor, see algebra/processor.h */
   /* derived at load, in one block */
   void *derived;
   ali3_system *turned; /* turned.c: with room for all directions of axes that parameters write; NULL: there are none */

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "../algebra/elementary.h"
+#include "../algebra/processor.h"
 #include "../algebra/real.h"
 #include "../algebra/stretch.h"
 #include "../instance.h"
@@ -237,7 +238,7 @@ static inline void add_triple(real *block, int64_t n, const real *J, int32_t j, 
 
 /* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are
  * contiguous. */
-void ali3_rows_square(ali3_instance *in, const real *J, double weight, real *F) {
+ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, real *F) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *loc = S->row_loc;
   real *restrict spread = in->local;
@@ -267,6 +268,9 @@ void ali3_rows_square(ali3_instance *in, const real *J, double weight, real *F) 
     }
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, rows_square, (ali3_instance * in, const real *J, double weight, real *F),
+                  (in, J, weight, F))
 
 /* F += weight * A' J, whole blocks. */
 void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double weight, real *F) {

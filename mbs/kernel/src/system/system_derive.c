@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../algebra/processor.h"
 #include "../elements/element.h"
 #include "../elements/road.h"
 #include "../system.h"
@@ -284,6 +285,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   pool.block = s->derived;
   pool.used = 0;
   place(s, &pool, (size_t)n_entry);
+  s->has_avx2 = ali3_processor_lanes() > 2;
   derive_rows(s);
   derive_round(s);
   derive_hessian(s);
