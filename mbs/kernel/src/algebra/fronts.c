@@ -97,6 +97,25 @@ ALI3_INLINED ali3_status factorise(ali3_instance *in, real *F) {
   return ALI3_OK;
 }
 
+/* x becomes L^-1' x front by front; `far`: sums from the far end, for large fronts. */
+ALI3_INLINED void substitute_back(ali3_instance *in, const real *F, real *b, bool far) {
+  const ali3_system *S = in->system;
+  real *restrict x = in->local;
+  for (int32_t f = S->size.nf - 1; f >= 0; f--) {
+    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
+    for (int32_t i = n_pivot; i < n; i++) x[i] = b[idx[i]];
+    const real *block = F + S->front_off[f];
+    for (int64_t p = n_pivot - 1; p >= 0; p--) {
+      const real *after = block + p * n + p + 1;
+      const real taken =
+          far ? ali3_product_from_far(after, x + p + 1, n - p - 1) : ali3_product_in_two(after, x + p + 1, n - p - 1);
+      x[p] = b[first + p] * after[-1] - taken;
+      b[first + p] = x[p];
+    }
+  }
+}
+
 /* b becomes the solution. The pivots of a front lie side by side in b. */
 ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
@@ -111,17 +130,10 @@ ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
     ali3_copy(b + first, x, n_pivot);
     for (int32_t i = n_pivot; i < n; i++) b[idx[i]] = x[i];
   }
-  for (int32_t f = S->size.nf - 1; f >= 0; f--) {
-    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
-    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-    for (int32_t i = n_pivot; i < n; i++) x[i] = b[idx[i]];
-    const real *block = F + S->front_off[f];
-    for (int64_t p = n_pivot - 1; p >= 0; p--) {
-      const real *column = block + p * n;
-      x[p] = b[first + p] * column[p] - ali3_product_in_two(column + p + 1, x + p + 1, n - p - 1);
-      b[first + p] = x[p];
-    }
-  }
+  if (S->n_flexible > 0)
+    substitute_back(in, F, b, true);
+  else
+    substitute_back(in, F, b, false);
 }
 
 ALI3_BY_PROCESSOR(in->system, ali3_status, factorise, (ali3_instance * in, real *F), (in, F))

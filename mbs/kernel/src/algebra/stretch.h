@@ -57,6 +57,25 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
   return even + odd;
 }
 
+#ifndef ALI3_WIDTH
+typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias));
+
+/* x y in four sums from the far end on: what is nearest, which a back substitution has found last, is waited for by the
+ * last additions only. For flexible Systems, which are not stepped in lanes. */
+static inline double ali3_product_from_far(const double *restrict x, const double *restrict y, int64_t n) {
+  ali3_four sum = {0};
+  int64_t i = n;
+  ALI3_SHORT
+  for (; i >= 4; i -= 4) sum += *(const ali3_four *)(x + i - 4) * *(const ali3_four *)(y + i - 4);
+  double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  ALI3_SHORT
+  while (i-- > 0) all += x[i] * y[i];
+  return all;
+}
+#else
+#define ali3_product_from_far ali3_product_in_two
+#endif
+
 /* Three numbers, the components of a point or a direction. */
 static inline real ali3_triple_sum(real sum, const real *x, const real *y) {
   return sum + x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
