@@ -1,8 +1,8 @@
 """Error against time: ``python -m benchmarks.work_precision [--scene NAME ...] [--json FILE] [--charts DIR]``.
 
 Every method over a range of steps, and under error control over a range of tolerances, against the exact motion, one
-chart a scene; Exudyn, MuJoCo and Pinocchio in the same run when they are installed, and the ratio of our time to the
-best of theirs at equal error.
+chart a scene; Drake, Exudyn, MuJoCo and Pinocchio in the same run when they are installed, and the ratio of our time to
+the best of theirs at equal error.
 """
 
 from __future__ import annotations

@@ -24,6 +24,7 @@ KERNEL = {
 """Colours of Okabe and Ito, and wine of Tol, the same in every chart; methods that are not here are in the tables."""
 OTHERS = {
     "classical": ("#777777", ":"),
+    "drake": ("#bbbbbb", ":"),
     "exudyn": ("#444444", "--"),
     "mujoco": ("#999999", "--"),
     "pinocchio": ("#bbbbbb", "--"),
@@ -31,7 +32,7 @@ OTHERS = {
 MARKERS = "osD^vPX"
 CONTROLLED = {controlled(title): style for title, style in KERNEL.items()}
 """Runs to a tolerance: the same colours, dash-dotted with open marks."""
-PANELS = {"wall_s": ("kernel", "exudyn", "mujoco", "pinocchio"), "factorizations": ("kernel", "classical")}
+PANELS = {"wall_s": ("kernel", "drake", "exudyn", "mujoco", "pinocchio"), "factorizations": ("kernel", "classical")}
 """What is compared: times of compiled programs, factorizations of the methods that count them."""
 
 

@@ -7,13 +7,15 @@ import importlib.util
 from types import ModuleType
 
 NAMES = {
+    "drake": "benchmarks.peers.drake_peer",
     "exudyn": "benchmarks.peers.exudyn_peer",
     "mujoco": "benchmarks.peers.mujoco_peer",
     "pinocchio": "benchmarks.peers.pinocchio_peer",
 }
+PACKAGES = {"drake": "pydrake"}  # where the name to import is another
 
 
 def available() -> tuple[dict[str, ModuleType], list[str]]:
     """Modules of the engines that are installed, by engine, and the names of those that are not."""
-    found = {n: importlib.import_module(m) for n, m in NAMES.items() if importlib.util.find_spec(n) is not None}
-    return found, [n for n in NAMES if n not in found]
+    missing = [n for n in NAMES if importlib.util.find_spec(PACKAGES.get(n, n)) is None]
+    return {n: importlib.import_module(m) for n, m in NAMES.items() if n not in missing}, missing

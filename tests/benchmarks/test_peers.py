@@ -11,18 +11,21 @@ from benchmarks.references.cases import CASES, SAMPLES, exact_of
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("scene", "integrator", "h", "most"),
+    ("name", "scene", "integrator", "h", "most", "falls"),
     [
-        ("double_four_bar", "RK4, corrected", 0.02, 1e-4),
-        ("bricard", "RK4", 0.01, 1e-5),
-        ("spatial_chain", "RK4", 0.01, 1e-3),
+        ("pinocchio", "double_four_bar", "RK4, corrected", 0.02, 1e-4, 8.0),
+        ("pinocchio", "bricard", "RK4", 0.01, 1e-5, 8.0),
+        ("pinocchio", "spatial_chain", "RK4", 0.01, 1e-3, 8.0),
+        ("drake", "double_four_bar", "SAP, semi-implicit Euler", 0.01, 0.1, 1.8),
+        ("drake", "spatial_chain", "RK5", 0.01, 1e-4, 25.0),
     ],
 )
-def test_pinocchio_comes_to_the_exact_motion_with_order_four(
-    scene: str, integrator: str, h: float, most: float
+def test_it_comes_to_the_exact_motion_with_its_order(
+    name: str, scene: str, integrator: str, h: float, most: float, falls: float
 ) -> None:
-    pytest.importorskip("pinocchio")
-    engine = peers.available()[0]["pinocchio"]
+    engine = peers.available()[0].get(name)
+    if engine is None:
+        pytest.skip(f"{name} is not installed")
     errors = []
     for step in (h, 0.5 * h):
         run = engine.run(scene, step, CASES[scene].end, SAMPLES, integrator)
@@ -30,4 +33,4 @@ def test_pinocchio_comes_to_the_exact_motion_with_order_four(
         assert run.wall_s > 0.0
         errors.append(np.linalg.norm(run.positions - exact_of(scene), axis=1).max())
     assert errors[0] < most
-    assert errors[0] / errors[1] > 8.0
+    assert errors[0] / errors[1] > falls

@@ -50,7 +50,9 @@ def run(code, folder):
 def defines(file, name):
     """Whether a C or Python file defines a function, class or macro of that name."""
     text = (ROOT / file).read_text(encoding="utf-8")
-    pattern = rf"^\s*(?:def|class) {name}\b" if file.endswith(".py") else rf"^(?:#define {name}\b|\w[^;=\n]*\b{name}\()"
+    bare = name.removeprefix("ali3_")
+    in_c = rf"^(?:#define {name}\b|\w[^;=\n]*\b{name}\(|ALI3_BY_PROCESSOR\([^,]*, \w+, {bare},)"
+    pattern = rf"^\s*(?:def|class) {name}\b" if file.endswith(".py") else in_c
     return re.search(pattern, text, re.MULTILINE) is not None
 
 

@@ -125,6 +125,7 @@ struct ali3_system {
   int32_t n_tabled, n_dependent; /* tabled bodies and numbers, their coordinates */
   int32_t n_tabled_base, n_tabled_parameter, n_tabled_group, tabled_square; /* the last: numbers that a group needs */
   bool senses_rows; /* a sensor reads multipliers or violations */
+  bool has_avx2; /* the processor, see algebra/processor.h */
   /* derived at load, in one block */
   void *derived;
   ali3_system *turned; /* turned.c: with room for all directions of axes that parameters write; NULL: there are none */
@@ -135,6 +136,8 @@ struct ali3_system {
   double *row_round; /* round-off of the violation at the reference position, m */
   unsigned char *row_wide; /* 1: the row fills most of its front */
   unsigned char *row_triples; /* 1: its coordinates are points and directions, three neighbours each */
+  int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
+                           with the same ones, those of modes; they stand by columns. Else the end of the row */
   ali3_term *quad; /* as quad_* */
   ali3_angle_term *angle; /* as angle_a */
   int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;
@@ -144,6 +147,8 @@ struct ali3_system {
   double *mass_floor; /* nq: M_ii, or a typical mass for massless coordinates */
   double *mass_floor_inverse; /* nq */
   double *mass_missing; /* nq: mass_floor - M_ii where M_ii is zero, else 0 */
+  int32_t *mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns */
+  int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;
   int32_t *el_S_off; /* ne+1: offsets of the elements' signal tangents */

@@ -5,8 +5,7 @@
 #include "../instance.h"
 #include "front_block.h"
 #include "fronts.h"
-
-#define ALI3_INLINED __attribute__((always_inline)) /* compiled apart for each width */
+#include "processor.h"
 
 /* Panels of pivots: columns of the panel among themselves, then the others lose the panel at once. */
 static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, int32_t n_pivot, int32_t n,
@@ -60,7 +59,7 @@ void ali3_mirror(const ali3_instance *in, double *F) {
 }
 
 /* The offset of a front in F is width^2 that of the tangent. */
-ALI3_INLINED static inline ali3_status factorise(ali3_instance *in, int32_t width, double *F) {
+ALI3_INLINED ali3_status factorise(ali3_instance *in, int32_t width, double *F) {
   const ali3_system *S = in->system;
   const int64_t square = (int64_t)width * width;
   in->report.factorizations++;
@@ -91,8 +90,8 @@ ali3_status ali3_factorise_lu(ali3_instance *in, int32_t width, double *F) {
 }
 
 /* The part of b that belongs to a front of so many coordinates. */
-ALI3_INLINED static inline void gather(const int32_t *idx, int32_t width, int32_t coordinates, const double *restrict b,
-                                       double *restrict x) {
+ALI3_INLINED void gather(const int32_t *idx, int32_t width, int32_t coordinates, const double *restrict b,
+                         double *restrict x) {
   for (int32_t i = 0; i < coordinates; i++)
     for (int32_t s = 0; s < width; s++) x[width * i + s] = b[width * idx[i] + s];
 }
@@ -117,7 +116,7 @@ static void backward(const double *block, double *restrict x, int32_t n_pivot, i
 }
 
 /* b becomes the solution. */
-ALI3_INLINED static inline void solve(ali3_instance *in, int32_t width, const double *F, double *b) {
+ALI3_INLINED void solve(ali3_instance *in, int32_t width, const double *F, double *b) {
   const ali3_system *S = in->system;
   const int64_t square = (int64_t)width * width;
   double *restrict x = in->local;

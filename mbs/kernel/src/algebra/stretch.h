@@ -13,27 +13,35 @@
 #define ALI3_SHORT
 #endif
 
+/* Before a loop over few numbers, four of which are one instruction of AVX2 and two of others. */
+#if defined(__clang__) && !defined(ALI3_WIDTH)
+#define ALI3_BY_FOURS _Pragma("clang loop vectorize_width(4) interleave_count(1)")
+#else
+#define ALI3_BY_FOURS
+#endif
+
 /* y += a x */
 static inline void ali3_add_multiple(real *restrict y, const real *restrict x, real a, int64_t n) {
-  int64_t i = 0;
-  ALI3_SHORT
-  for (; i + 1 < n; i += 2) {
-    y[i] += a * x[i];
-    y[i + 1] += a * x[i + 1];
-  }
-  if (i < n) y[i] += a * x[i];
+  ALI3_BY_FOURS
+  for (int64_t i = 0; i < n; i++) y[i] += a * x[i];
+}
+
+/* y += x */
+static inline void ali3_add(real *restrict y, const real *restrict x, int64_t n) {
+  ALI3_BY_FOURS
+  for (int64_t i = 0; i < n; i++) y[i] += x[i];
+}
+
+static inline void ali3_copy(real *restrict y, const real *restrict x, int64_t n) {
+  ALI3_BY_FOURS
+  for (int64_t i = 0; i < n; i++) y[i] = x[i];
 }
 
 /* y -= a x + b z */
 static inline void ali3_take_two(real *restrict y, const real *restrict x, real a, const real *restrict z, real b,
                                  int64_t n) {
-  int64_t i = 0;
-  ALI3_SHORT
-  for (; i + 1 < n; i += 2) {
-    y[i] -= x[i] * a + z[i] * b;
-    y[i + 1] -= x[i + 1] * a + z[i + 1] * b;
-  }
-  if (i < n) y[i] -= x[i] * a + z[i] * b;
+  ALI3_BY_FOURS
+  for (int64_t i = 0; i < n; i++) y[i] -= x[i] * a + z[i] * b;
 }
 
 /* x y in two sums, by turns, so that additions need not wait for each other */
@@ -48,6 +56,25 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
   if (i < n) even += x[i] * y[i];
   return even + odd;
 }
+
+#ifndef ALI3_WIDTH
+typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias));
+
+/* x y in four sums from the far end on: what is nearest, which a back substitution has found last, is waited for by the
+ * last additions only. For flexible Systems, which are not stepped in lanes. */
+static inline double ali3_product_from_far(const double *restrict x, const double *restrict y, int64_t n) {
+  ali3_four sum = {0};
+  int64_t i = n;
+  ALI3_SHORT
+  for (; i >= 4; i -= 4) sum += *(const ali3_four *)(x + i - 4) * *(const ali3_four *)(y + i - 4);
+  double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  ALI3_SHORT
+  while (i-- > 0) all += x[i] * y[i];
+  return all;
+}
+#else
+#define ali3_product_from_far ali3_product_in_two
+#endif
 
 /* Three numbers, the components of a point or a direction. */
 static inline real ali3_triple_sum(real sum, const real *x, const real *y) {

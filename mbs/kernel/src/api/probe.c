@@ -5,6 +5,7 @@
 #include "../algebra/finite.h"
 #include "../elements/forces.h"
 #include "../flexible/bodies.h"
+#include "../flexible/mass.h"
 #include "../instance.h"
 #include "../methods/newton.h"
 #include "../rows/constraints.h"
@@ -76,7 +77,7 @@ static void spread(const ali3_instance *in, double *dense) {
 
 ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) {
   if (in == NULL || q == NULL || dense == NULL || !ali3_finite(q, in->system->size.nq)) return ALI3_BAD_ARGUMENT;
-  memcpy(in->F, in->front_mass, (size_t)in->system->size.front_size * sizeof(double));
+  ali3_mass_to_fronts(in, in->F);
   ali3_bodies_prepare(in, q);
   ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
   spread(in, dense);
@@ -86,7 +87,6 @@ ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) 
 ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double *dense) {
   if (in == NULL || dense == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
   if (lam != NULL && !ali3_finite(lam, in->system->size.nc)) return ALI3_BAD_ARGUMENT;
-  const ali3_system *S = in->system;
   const double c = 0.25 * h * h;
   const ali3_vectors *v = &in->now;
   const ali3_force_call call = {.q = v->q,
@@ -103,7 +103,7 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
   ali3_roads_forgive(in);
   ali3_forces(in, &call);
-  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_mass_to_fronts(in, in->F);
   ali3_rows_square(in, in->J, c * ali3_penalty(in, h), in->F);
   if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->F);
   ali3_forces_tangent(in, in->F);

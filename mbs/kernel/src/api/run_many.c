@@ -2,6 +2,7 @@
  * that cannot make a step with the others makes it alone from there. */
 #include <string.h>
 
+#include "../algebra/processor.h"
 #include "../instance.h"
 #include "../lanes/lanes.h"
 #include "../method.h"
@@ -31,6 +32,13 @@ struct ali3_many {
 
 int32_t ali3_widest_lanes(void) { return ali3_processor_lanes(); }
 
+static ali3_lane_step *step_of(int32_t width) {
+#if defined(__x86_64__)
+  if (width > 2) return width == 4 ? ali3_step_lanes_4 : ali3_step_lanes_8;
+#endif
+  return width == 2 ? ali3_step_lanes_2 : NULL;
+}
+
 size_t ali3_many_size(const ali3_system *s, int32_t width) {
   return s == NULL || width < 2 ? 0 : sizeof(ali3_many) + ali3_group_bytes(ali3_widest_system(s), width);
 }
@@ -43,7 +51,7 @@ ali3_status ali3_many_new(const ali3_system *s, int32_t width, ali3_many **out) 
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_many *many = (ali3_many *)block;
   many->release = s->memory.release;
-  many->step = ali3_lane_step_of(width);
+  many->step = step_of(width);
   many->base = s;
   many->group.system = ali3_widest_system(s);
   many->group.width = width;

@@ -1,6 +1,8 @@
 /* From coordinates to the signals of elements, and from the tangents of signals back to coordinates. */
 #include <string.h>
 
+#include "../algebra/processor.h"
+#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "signals.h"
 
@@ -22,9 +24,19 @@ void ali3_active_signals(ali3_instance *in, const real *q, const real *qd) {
   }
 }
 
+/* y += a x but for the idle lanes */
+ALI3_INLINED void add_row(real *restrict y, const real *restrict x, double a, truth idle, int64_t n) {
+#ifdef ALI3_WIDTH
+  for (int64_t i = 0; i < n; i++) y[i] = ali3_where(idle, y[i], y[i] + a * x[i]);
+#else
+  (void)idle;
+  ali3_add_multiple(y, x, a, n);
+#endif
+}
+
 /* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a
  * tangent. */
-void ali3_elements_tangent(ali3_instance *in, real *F) {
+ALI3_INLINED void elements_tangent(ali3_instance *in, real *F) {
   const ali3_system *S = in->system;
   const int32_t *signal = S->el_entry_signal, *local = S->el_entry_local;
   const double *entry = S->el_entry_value;
@@ -39,6 +51,8 @@ void ali3_elements_tangent(ali3_instance *in, real *F) {
     if (m == 0) continue; /* on a tabled body */
     const int32_t *loc = S->el_coordinate_loc + S->el_coordinate_ptr[e];
     const int32_t size = S->front_ptr[front + 1] - S->front_ptr[front];
+    int32_t apart = m - 1; /* coordinates before those that lie side by side up to the last */
+    while (apart > 0 && loc[apart - 1] == loc[apart] - 1) apart--;
     real *block = F + S->front_off[front];
     memset(SB, 0, (size_t)(n * m) * sizeof *SB);
     for (int32_t k = first; k < end; k++) {
@@ -52,11 +66,11 @@ void ali3_elements_tangent(ali3_instance *in, real *F) {
       const double value = entry[k];
       const int32_t j = local[k];
       real *restrict column = block + (int64_t)loc[j] * size;
-      if (loc[m - 1] - loc[0] == m - 1) {
-        for (int32_t i = j; i < m; i++) column[loc[0] + i] = ali3_add_unless(idle, column[loc[0] + i], value * row[i]);
-      } else {
-        for (int32_t i = j; i < m; i++) column[loc[i]] = ali3_add_unless(idle, column[loc[i]], value * row[i]);
-      }
+      int32_t i = j;
+      for (; i < apart; i++) column[loc[i]] = ali3_add_unless(idle, column[loc[i]], value * row[i]);
+      add_row(column + loc[m - 1] - (m - 1) + i, row + i, value, idle, m - i);
     }
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, elements_tangent, (ali3_instance * in, real *F), (in, F))

@@ -6,11 +6,12 @@
 #include <string.h>
 
 #include "../algebra/fronts.h"
+#include "../algebra/processor.h"
 #include "../instance.h"
 #include "body_arrays.h"
 #include "flexible_body.h"
 
-static void prepare_body(const ali3_instance *in, const ali3_flexible *f, const double *q) {
+ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, const double *q) {
   const int32_t n = f->n;
   const int64_t square = (int64_t)n * n;
   double *restrict eta = in->flex_work, *restrict even = eta + n, *restrict odd = even + n;
@@ -38,7 +39,7 @@ static void prepare_body(const ali3_instance *in, const ali3_flexible *f, const 
   }
 }
 
-void ali3_flexible_prepare(const ali3_instance *in, const double *q) {
+ALI3_INLINED void flexible_prepare(const ali3_instance *in, const double *q) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     prepare_body(in, &f, q);
@@ -46,7 +47,7 @@ void ali3_flexible_prepare(const ali3_instance *in, const double *q) {
 }
 
 /* out += (M(q) - constant part) x at the q that was prepared. */
-void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *out) {
+ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const double *x, double *out) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
@@ -81,7 +82,7 @@ void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *
 
 /* Q += Q_v, weight beside its constant part, elastic and damping forces, at the q that was prepared. Without Q_v in a
  * step by discrete gradients, whose inertia is in discrete_inertia.c. */
-void ali3_flexible_forces(const ali3_instance *in, const double *q, const double *qd, double *Q) {
+ALI3_INLINED void flexible_forces(const ali3_instance *in, const double *q, const double *qd, double *Q) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
@@ -141,7 +142,7 @@ void ali3_flexible_energy(const ali3_instance *in, const double *q, double *grav
 }
 
 /* Lower triangle of wC C + wK K into the body's front. */
-static void add_moduli(const ali3_flexible *f, int32_t size, double wC, double wK, double *block) {
+ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, double wK, double *block) {
   const int32_t n = f->n, *mode = f->loc + 12;
   const bool together = mode[n - 1] - mode[0] == n - 1;
   for (int32_t j = 0; j < n; j++) {
@@ -155,7 +156,7 @@ static void add_moduli(const ali3_flexible *f, int32_t size, double wC, double w
 }
 
 /* F += wM (M(q) - constant part) + wC C + wK K at the q that was prepared; K with the part of the weight. */
-void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, double *F) {
+ALI3_INLINED void flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, double *F) {
   const ali3_system *s = in->system;
   for (int32_t b = 0; b < s->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
@@ -199,3 +200,14 @@ void ali3_flexible_elastic(const ali3_instance *in, double weight, const double 
     for (int32_t j = 0; j < f.n; j++) out[f.mode[j]] += weight * force[j];
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_prepare, (const ali3_instance *in, const double *q), (in, q))
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_mass_times, (const ali3_instance *in, const double *x, double *out),
+                  (in, x, out))
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_forces,
+                  (const ali3_instance *in, const double *q, const double *qd, double *Q), (in, q, qd, Q))
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
+                  (const ali3_instance *in, double wM, double wC, double wK, double *F), (in, wM, wC, wK, F))

@@ -1,5 +1,7 @@
 /* M x: the constant mass matrix and what flexible bodies add to it. */
 #include "mass.h"
+#include "../algebra/processor.h"
+#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "../tabled/tabled.h"
 #include "flexible_body.h"
@@ -17,3 +19,16 @@ double ali3_mass_product(const ali3_instance *in, const double *a, const double 
   for (int32_t i = 0; i < in->system->size.nq; i++) sum += work[i] * a[i];
   return sum;
 }
+
+ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
+  const ali3_system *S = in->system;
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int64_t n = S->front_ptr[f + 1] - S->front_ptr[f], block = S->front_off[f];
+    for (int64_t j = 0; j < n; j++) {
+      const int64_t diagonal = block + j * n + j;
+      ali3_copy(F + diagonal, in->front_mass + diagonal, n - j);
+    }
+  }
+}
+
+ALI3_BY_PROCESSOR(in->system, void, mass_to_fronts, (const ali3_instance *in, double *F), (in, F))

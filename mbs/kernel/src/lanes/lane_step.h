@@ -140,7 +140,11 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
   const ali3_system *S = in->system;
   real *F = first ? in->F : in->F_new;
   *in->at_work = lanes;
-  memset(F, 0, (size_t)S->size.front_size * sizeof *F);
+  for (int32_t f = 0; f < S->size.nf; f++) {
+    const int64_t n = S->front_ptr[f + 1] - S->front_ptr[f];
+    real *block = F + S->front_off[f];
+    for (int64_t j = 0; j < n; j++) memset(block + j * n + j, 0, (size_t)(n - j) * sizeof *F);
+  }
   for (int64_t k = 0; k < S->n_mass_col; k++)
     if (S->mass_pos[k] >= 0) F[S->mass_pos[k]] = in->mass_val[k];
   ali3_rows_square(in, in->J, in->rule.c * in->alpha, F);

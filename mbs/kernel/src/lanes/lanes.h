@@ -3,8 +3,6 @@
 #define ALI3_LANES_H
 #include "group.h"
 
-int32_t ali3_processor_lanes(void); /* the most that this processor has instructions for */
-ali3_lane_step *ali3_lane_step_of(int32_t width);
 size_t ali3_group_bytes(const ali3_system *s, int32_t width);
 void ali3_group_place(ali3_lane_group *group, void *block);
 void ali3_group_parameters(ali3_lane_group *group);

@@ -71,7 +71,7 @@ static bool judge(ali3_instance *in) {
 /* The tangent (23) of the present iterate, factorised. */
 static ali3_status tangent(ali3_instance *in, double alpha) {
   const ali3_system *S = in->system;
-  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_mass_to_fronts(in, in->F);
   ali3_rows_square(in, in->J, in->rule.c * alpha, in->F);
   if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, in->rule.c, in->F);
   ali3_forces_tangent(in, in->F);

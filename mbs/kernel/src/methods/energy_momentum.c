@@ -129,9 +129,8 @@ static bool same_place(ali3_instance *in, const ali3_vectors *v) {
 
 /* The exact tangent M + h^2/4 (K + sum lam_k H_k) + h/2 C + weight A' Phi_q(q1), slightly unsymmetric. */
 static ali3_status factorise(ali3_instance *in, double h, double weight) {
-  const ali3_system *S = in->system;
   double *J = in->J, *A = in->A;
-  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_mass_to_fronts(in, in->F);
   if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, 0.25 * h * h, in->F);
   ali3_forces_tangent(in, in->F);
   ali3_mirror(in, in->F);

@@ -6,6 +6,7 @@
 #include "../algebra/fronts.h"
 #include "../elements/forces.h"
 #include "../flexible/bodies.h"
+#include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
 #include "../start/index_one.h"
@@ -45,7 +46,7 @@ static ali3_status input_change(ali3_instance *in, double h, const double *befor
   if (!*jumps) return ALI3_OK;
   for (int32_t i = 0; i < nq; i++) in->x[i] = in->Q[i] - in->x[i];
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
-  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_mass_to_fronts(in, in->F);
   ali3_rows_square(in, in->J, ALI3_INDEX_ONE_PENALTY, in->F);
   if (S->n_flexible + S->n_tabled > 0) ali3_bodies_tangent(in, 1.0, 0.5 * h, 0.25 * h * h, in->F);
   const ali3_status status = ali3_factorise(in, in->F);

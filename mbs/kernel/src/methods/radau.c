@@ -144,7 +144,7 @@ static ali3_status factorise(ali3_instance *in, double t, double h, double alpha
   memcpy(in->stage_J_tangent, in->stage_J, STAGES * (size_t)S->size.nnz_rows * sizeof(double));
   for (int i = 0; i < STAGES; i++) {
     place(in, t, h, i);
-    memcpy(in->F, in->front_mass, size);
+    ali3_mass_to_fronts(in, in->F);
     memset(in->F_C, 0, size);
     memset(in->F_K, 0, size);
     forces(in, 1.0, 0.0);
@@ -295,7 +295,7 @@ static ali3_status project(ali3_instance *in, double h, double alpha) {
   memcpy(in->J, of_entries(in, in->stage_J, LAST), entries);
   memcpy(in->J_tangent, in->J, entries);
   if (in->settings.project) {
-    memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+    ali3_mass_to_fronts(in, in->F);
     if (S->n_flexible > 0) ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
     ali3_rows_square(in, in->J, weight, in->F);
     const ali3_status status = ali3_factorise(in, in->F);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "../algebra/elementary.h"
+#include "../algebra/processor.h"
 #include "../algebra/real.h"
 #include "../algebra/stretch.h"
 #include "../instance.h"
@@ -50,6 +51,17 @@ static inline void add_terms(const ali3_system *S, int32_t i, const real *q, rea
   entry[0] = x, entry[1] = y, entry[2] = z;
 }
 
+/* Adds the terms of entries i to i + n - 1 of Phi_q, a stretch, to them. */
+static inline void add_stretch(const ali3_system *S, int32_t i, int32_t n, const real *q, real *entry) {
+  const int32_t first = S->hess_ptr[i], terms = S->hess_ptr[i + 1] - first;
+  for (int32_t t = 0; t < terms; t++) {
+    const double *restrict hess = S->hess_val + first + t * n;
+    const real x = q[S->hess_col[first + t * n]];
+    ALI3_BY_FOURS
+    for (int32_t k = 0; k < n; k++) entry[k] += hess[k] * x;
+  }
+}
+
 /* w = h s^power and its two rates. */
 static real guide_factor(const ali3_guide_term *g, const real *s) {
   const real v = s[g->guide];
@@ -66,7 +78,7 @@ static real guide_second_rate(const ali3_guide_term *g, const ali3_vectors *x) {
   return g->power == 1 ? g->term.h * vdd : 2.0 * g->term.h * (x->s[g->guide] * vdd + vd * vd);
 }
 
-void ali3_constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
+ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *col = S->row_col, *hess_ptr = S->hess_ptr, *hess_col = S->hess_col;
   const double *row_lin = S->row_lin, *hess = S->hess_val;
@@ -83,13 +95,17 @@ void ali3_constraints(ali3_instance *in, const real *q, const real *s, real *Phi
       const real both[3] = {entry[0] + lin[0], entry[1] + lin[1], entry[2] + lin[2]};
       value = ali3_triple_sum(value, both, v);
     }
-    for (; i < ptr[k + 1]; i++) {
+    for (; i < S->row_stretch[k]; i++) {
       const double lin = row_lin[i];
       real sum = ali3_same(lin);
       for (int32_t t = hess_ptr[i]; t < hess_ptr[i + 1]; t++) sum += hess[t] * q[hess_col[t]];
       J[i] = sum;
       value += (sum + lin) * q[col[i]];
     }
+    const int32_t first = i;
+    for (; i < ptr[k + 1]; i++) J[i] = ali3_same(row_lin[i]);
+    if (i > first) add_stretch(S, first, i - first, q, J + first);
+    for (i = first; i < ptr[k + 1]; i++) value += (J[i] + row_lin[i]) * q[col[i]];
     Phi[k] = S->row_const[k] + 0.5 * value;
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
@@ -119,6 +135,9 @@ void ali3_constraints(ali3_instance *in, const real *q, const real *s, real *Phi
   ali3_switch_rows(in, Phi, J);
 }
 
+ALI3_BY_PROCESSOR(in->system, void, constraints, (ali3_instance * in, const real *q, const real *s, real *Phi, real *J),
+                  (in, q, s, Phi, J))
+
 /* Phit = d Phi / dt */
 void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *guides, real *Phit) {
   const ali3_system *S = in->system;
@@ -134,7 +153,8 @@ void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *
 }
 
 /* gamma = d(Phi_q)/dt qd + d(Phi_t)/dt, so that Phi'' = Phi_q qdd + gamma. */
-void ali3_constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma) {
+ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides,
+                                   real *gamma) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *col = S->row_col, *hess_ptr = S->hess_ptr, *hess_col = S->hess_col;
   const double *hess = S->hess_val;
@@ -147,11 +167,15 @@ void ali3_constraint_gamma(ali3_instance *in, const real *q, const real *qd, con
       add_terms(S, i, qd, entry);
       value = ali3_triple_sum(value, entry, qd + col[i]);
     }
-    for (; i < ptr[k + 1]; i++) {
+    for (; i < S->row_stretch[k]; i++) {
       real sum = {0};
       for (int32_t t = hess_ptr[i]; t < hess_ptr[i + 1]; t++) sum += hess[t] * qd[hess_col[t]];
       value += sum * qd[col[i]];
     }
+    const int32_t first = i;
+    for (; i < ptr[k + 1]; i++) in->local[i - first] = ali3_same(0.0);
+    if (i > first) add_stretch(S, first, i - first, qd, in->local);
+    for (i = first; i < ptr[k + 1]; i++) value += in->local[i - first] * qd[col[i]];
     gamma[k] = value;
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
@@ -179,6 +203,10 @@ void ali3_constraint_gamma(ali3_instance *in, const real *q, const real *qd, con
   ali3_velocity_gamma(in, qd, gamma);
   ali3_switch_values(in, gamma);
 }
+
+ALI3_BY_PROCESSOR(in->system, void, constraint_gamma,
+                  (ali3_instance * in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma),
+                  (in, q, qd, guides, gamma))
 
 /* F += weight * sum_k lam_k d2(Phi_k)/dq2, lower triangles. */
 void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight, real *F) {
@@ -237,7 +265,7 @@ static inline void add_triple(real *block, int64_t n, const real *J, int32_t j, 
 
 /* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are
  * contiguous. */
-void ali3_rows_square(ali3_instance *in, const real *J, double weight, real *F) {
+ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, real *F) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *loc = S->row_loc;
   real *restrict spread = in->local;
@@ -268,6 +296,9 @@ void ali3_rows_square(ali3_instance *in, const real *J, double weight, real *F) 
   }
 }
 
+ALI3_BY_PROCESSOR(in->system, void, rows_square, (ali3_instance * in, const real *J, double weight, real *F),
+                  (in, J, weight, F))
+
 /* F += weight * A' J, whole blocks. */
 void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double weight, real *F) {
   const ali3_system *S = in->system;
@@ -282,24 +313,46 @@ void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double w
   }
 }
 
-void ali3_rows_times(const ali3_system *S, const real *J, const real *x, real *out) {
-  const int32_t *ptr = S->row_ptr, *col = S->row_col;
+/* `stretches`: rows end with modes side by side, which are one sum of four. */
+ALI3_INLINED void times(const ali3_system *S, const real *J, const real *x, real *out, bool stretches) {
+  const int32_t *ptr = S->row_ptr, *col = S->row_col, *end = ptr + 1, *stretch = stretches ? S->row_stretch : end;
   for (int32_t k = 0; k < S->size.nc; k++) {
     real sum = {0};
     int32_t i = ptr[k];
-    for (; S->row_triples[k] && i < ptr[k + 1]; i += 3) sum = ali3_triple_sum(sum, J + i, x + col[i]);
-    for (; i < ptr[k + 1]; i++) sum += J[i] * x[col[i]];
+    for (; S->row_triples[k] && i < end[k]; i += 3) sum = ali3_triple_sum(sum, J + i, x + col[i]);
+    for (; i < stretch[k]; i++) sum += J[i] * x[col[i]];
+    if (stretches && i < end[k]) sum += ali3_product_from_far(J + i, x + col[i], end[k] - i);
     out[k] = sum;
   }
 }
 
-void ali3_rows_transposed(const ali3_system *S, const real *J, const real *w, real *out) {
-  const int32_t *ptr = S->row_ptr, *col = S->row_col;
+ALI3_INLINED void rows_times(const ali3_system *S, const real *J, const real *x, real *out) {
+  if (S->n_flexible > 0)
+    times(S, J, x, out, true);
+  else
+    times(S, J, x, out, false);
+}
+
+ALI3_BY_PROCESSOR(S, void, rows_times, (const ali3_system *S, const real *J, const real *x, real *out), (S, J, x, out))
+
+ALI3_INLINED void transposed(const ali3_system *S, const real *J, const real *w, real *out, bool stretches) {
+  const int32_t *ptr = S->row_ptr, *col = S->row_col, *end = ptr + 1, *stretch = stretches ? S->row_stretch : end;
   memset(out, 0, (size_t)S->size.nq * sizeof *out);
   for (int32_t k = 0; k < S->size.nc; k++) {
     const real weight = w[k];
     int32_t i = ptr[k];
-    for (; S->row_triples[k] && i < ptr[k + 1]; i += 3) ali3_triple_add(out + col[i], J + i, weight);
-    for (; i < ptr[k + 1]; i++) out[col[i]] += J[i] * weight;
+    for (; S->row_triples[k] && i < end[k]; i += 3) ali3_triple_add(out + col[i], J + i, weight);
+    for (; i < stretch[k]; i++) out[col[i]] += J[i] * weight;
+    if (stretches && i < end[k]) ali3_add_multiple(out + col[i], J + i, weight, end[k] - i);
   }
 }
+
+ALI3_INLINED void rows_transposed(const ali3_system *S, const real *J, const real *w, real *out) {
+  if (S->n_flexible > 0)
+    transposed(S, J, w, out, true);
+  else
+    transposed(S, J, w, out, false);
+}
+
+ALI3_BY_PROCESSOR(S, void, rows_transposed, (const ali3_system *S, const real *J, const real *w, real *out),
+                  (S, J, w, out))

@@ -24,7 +24,7 @@ ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
   const ali3_force_call call = {
       .q = v->q, .qd = v->qd, .y_old = in->now.y, .Q = in->Q, .y_new = v->y, .out = v->out, .potential = v->potential};
   ali3_forces(in, &call);
-  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_mass_to_fronts(in, in->F);
   if (S->n_flexible + S->n_tabled > 0) ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
   ali3_rows_square(in, in->J, ALPHA, in->F);
   const ali3_status status = ali3_factorise(in, in->F);
@@ -47,7 +47,7 @@ ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
 /* F = M(q) + ALPHA Phi_q' Phi_q, factorised; Phi_q in in->J. */
 ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q) {
   ali3_bodies_prepare(in, q);
-  memcpy(in->F, in->front_mass, (size_t)in->system->size.front_size * sizeof(double));
+  ali3_mass_to_fronts(in, in->F);
   ali3_rows_square(in, in->J, ALPHA, in->F);
   ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
   return ali3_factorise(in, in->F);

@@ -32,7 +32,7 @@ enum { POSITION_ITERATIONS = 200 };
 static ali3_status factorise_metric(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
   ali3_bodies_prepare(in, q);
-  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_mass_to_fronts(in, in->F);
   for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += in->mass_missing[i];
   ali3_rows_square(in, in->J, ALPHA, in->F);
   ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);

@@ -8,6 +8,7 @@
 #include "../algebra/finite.h"
 #include "../algebra/fronts.h"
 #include "../elements/forces.h"
+#include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
 #include "../rows/violation.h"
@@ -56,7 +57,7 @@ static double balance(ali3_instance *in, double c) {
 /* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q; an indefinite T gives no descent direction. */
 static ali3_status factorise(ali3_instance *in, double c) {
   const ali3_system *S = in->system;
-  memcpy(in->F, in->front_mass, (size_t)S->size.front_size * sizeof(double));
+  ali3_mass_to_fronts(in, in->F);
   for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += in->mass_missing[i];
   ali3_rows_square(in, in->J, PENALTY, in->F);
   ali3_geometric(in, in->next.q, in->next.s, in->next.lam, c, in->F);

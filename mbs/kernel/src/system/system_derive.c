@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../algebra/processor.h"
 #include "../elements/element.h"
 #include "../elements/road.h"
 #include "../system.h"
@@ -16,7 +17,7 @@
 #include "pool.h"
 #include "sensor_types.h"
 
-enum { MAX_SIGNAL_ENTRIES = 1 << 26, TRIPLE = 3, MOST_TERMS = 32 };
+enum { MAX_SIGNAL_ENTRIES = 1 << 26, TRIPLE = 3, MOST_TERMS = 32, SHORTEST = 8, MOST_IN_TURN = 2048 };
 
 static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   const size_t nq = (size_t)s->size.nq, ne = (size_t)s->size.ne, na = (size_t)s->n_angle_row;
@@ -26,6 +27,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->row_round = ali3_pool_items(p, (size_t)s->size.nc, sizeof(double));
   s->row_wide = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_triples = ali3_pool_items(p, (size_t)s->size.nc, 1);
+  s->row_stretch = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->quad = ali3_pool_items(p, (size_t)s->n_quad_a, sizeof *s->quad);
   s->angle = ali3_pool_items(p, (size_t)s->n_angle_a, sizeof *s->angle);
   s->angle_theta_col = ali3_pool_items(p, na, sizeof(int32_t));
@@ -37,6 +39,8 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->mass_floor = ali3_pool_items(p, nq, sizeof(double));
   s->mass_floor_inverse = ali3_pool_items(p, nq, sizeof(double));
   s->mass_missing = ali3_pool_items(p, nq, sizeof(double));
+  s->mass_alike = ali3_pool_items(p, nq, sizeof(int32_t));
+  s->mass_mirror = ali3_pool_items(p, (size_t)s->n_mass_col, sizeof(int32_t));
   s->diagonal_pos = ali3_pool_items(p, nq, sizeof(int32_t));
   s->el_kind = ali3_pool_items(p, ne, sizeof *s->el_kind);
   s->el_S_off = ali3_pool_items(p, ne + 1, sizeof(int32_t));
@@ -136,16 +140,30 @@ static bool in_triples(const ali3_system *s, int32_t k) {
   return true;
 }
 
-/* The terms of three entries from `first` on, one after the other, in turn. */
-static void interleave(ali3_system *s, int32_t first, int32_t terms) {
-  int32_t col[TRIPLE * MOST_TERMS];
-  double val[TRIPLE * MOST_TERMS];
-  memcpy(col, s->hess_col + first, (size_t)(TRIPLE * terms) * sizeof *col);
-  memcpy(val, s->hess_val + first, (size_t)(TRIPLE * terms) * sizeof *val);
+/* Entry from which row k is a stretch, the end of the row where it would be short. */
+static int32_t stretch_of(const ali3_system *s, int32_t k) {
+  const int32_t *ptr = s->hess_ptr, *col = s->hess_col, end = s->row_ptr[k + 1];
+  int32_t i = end - 1;
+  for (; i > s->row_ptr[k]; i--) {
+    const int32_t terms = ptr[i + 1] - ptr[i];
+    if (s->row_col[i - 1] != s->row_col[i] - 1 || ptr[i] - ptr[i - 1] != terms ||
+        (end - i + 1) * terms > MOST_IN_TURN ||
+        memcmp(col + ptr[i - 1], col + ptr[i], (size_t)terms * sizeof *col) != 0)
+      break;
+  }
+  return end - i < SHORTEST ? end : i;
+}
+
+/* The terms of `count` entries from `first` on, one after the other, in turn. */
+static void interleave(ali3_system *s, int32_t first, int32_t count, int32_t terms) {
+  int32_t col[MOST_IN_TURN];
+  double val[MOST_IN_TURN];
+  memcpy(col, s->hess_col + first, (size_t)(count * terms) * sizeof *col);
+  memcpy(val, s->hess_val + first, (size_t)(count * terms) * sizeof *val);
   for (int32_t t = 0; t < terms; t++)
-    for (int32_t i = 0; i < TRIPLE; i++) {
-      s->hess_col[first + TRIPLE * t + i] = col[i * terms + t];
-      s->hess_val[first + TRIPLE * t + i] = val[i * terms + t];
+    for (int32_t i = 0; i < count; i++) {
+      s->hess_col[first + count * t + i] = col[i * terms + t];
+      s->hess_val[first + count * t + i] = val[i * terms + t];
     }
 }
 
@@ -174,11 +192,30 @@ static void derive_hessian(ali3_system *s) {
     s->row_wide[k] = 2 * (s->row_ptr[k + 1] - s->row_ptr[k]) > n && n > 8;
     s->row_triples[k] = in_triples(s, k);
     for (int32_t i = s->row_ptr[k]; s->row_triples[k] && i < s->row_ptr[k + 1]; i += TRIPLE)
-      interleave(s, s->hess_ptr[i], s->hess_ptr[i + 1] - s->hess_ptr[i]);
+      interleave(s, s->hess_ptr[i], TRIPLE, s->hess_ptr[i + 1] - s->hess_ptr[i]);
+    const int32_t first = s->row_triples[k] ? s->row_ptr[k + 1] : stretch_of(s, k);
+    s->row_stretch[k] = first;
+    if (first < s->row_ptr[k + 1])
+      interleave(s, s->hess_ptr[first], s->row_ptr[k + 1] - first, s->hess_ptr[first + 1] - s->hess_ptr[first]);
+  }
+}
+
+static void derive_mass_rows(ali3_system *s) {
+  const int32_t *ptr = s->mass_ptr, *col = s->mass_col;
+  for (int32_t i = s->size.nq - 1; i >= 0; i--) {
+    const int32_t n = ptr[i + 1] - ptr[i];
+    const bool alike = i + 1 < s->size.nq && ptr[i + 2] - ptr[i + 1] == n &&
+                       memcmp(col + ptr[i], col + ptr[i + 1], (size_t)n * sizeof *col) == 0;
+    s->mass_alike[i] = alike ? s->mass_alike[i + 1] + 1 : 1;
+    for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
+      const int32_t j = col[k];
+      s->mass_mirror[k] = ptr[j] + ali3_find(col + ptr[j], ptr[j + 1] - ptr[j], i);
+    }
   }
 }
 
 static void derive_mass(ali3_system *s) {
+  derive_mass_rows(s);
   for (int32_t i = 0, f = 0; i < s->size.nq; i++) {
     while (i >= s->front_col[f + 1]) f++;
     const int32_t n = s->front_ptr[f + 1] - s->front_ptr[f], local = i - s->front_col[f];
@@ -284,6 +321,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   pool.block = s->derived;
   pool.used = 0;
   place(s, &pool, (size_t)n_entry);
+  s->has_avx2 = ali3_processor_lanes() > 2;
   derive_rows(s);
   derive_round(s);
   derive_hessian(s);

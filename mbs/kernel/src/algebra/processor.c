@@ -1,5 +1,5 @@
-/* How many lanes the processor has instructions for. */
-#include "lanes.h"
+/* How long the vectors are that the processor has instructions for. */
+#include "processor.h"
 
 #if defined(__x86_64__)
 #include <cpuid.h>
@@ -15,12 +15,6 @@ int32_t ali3_processor_lanes(void) {
   if (!__get_cpuid_count(7, 0, &a, &b, &c, &d) || (low & YMM_SAVED) != YMM_SAVED || !(b & AVX2)) return 2;
   return (low & ZMM_SAVED) == ZMM_SAVED && (b & AVX512F) && (b & AVX512DQ) && (b & AVX512VL) ? 8 : 4;
 }
-
-ali3_lane_step *ali3_lane_step_of(int32_t width) {
-  return width == 2 ? ali3_step_lanes_2 : width == 4 ? ali3_step_lanes_4 : ali3_step_lanes_8;
-}
 #else
 int32_t ali3_processor_lanes(void) { return 2; }
-
-ali3_lane_step *ali3_lane_step_of(int32_t width) { return width == 2 ? ali3_step_lanes_2 : NULL; }
 #endif

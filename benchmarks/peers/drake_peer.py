@@ -1,0 +1,86 @@
+"""The shared scenes in Drake: its MultibodyPlant, stepped by its own Simulator, all compiled.
+
+A continuous plant takes no constraints, so loops are closed by ball constraints of a discrete one (SAP, semi-implicit
+Euler, of order one); the chain, which has none, is integrated by Runge and Kutta's rules of Drake. A ball constraint
+with the ground ends Drake 1.51 with a fault of memory, so that Bricard's mechanism is left out.
+"""
+
+from __future__ import annotations
+
+import time
+from importlib.metadata import version
+
+import numpy as np
+from pydrake.math import RigidTransform
+from pydrake.multibody.plant import DiscreteContactApproximation, MultibodyPlant
+from pydrake.multibody.tree import FixedOffsetFrame, RevoluteJoint, RotationalInertia, SpatialInertia
+from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
+
+from benchmarks.peers.common import PeerRun, samples_times
+from benchmarks.peers.trees import SCENES, Link, Tree, tree_of
+
+SAP = "SAP, semi-implicit Euler"
+RULES = {"RK5": "runge_kutta5", "RK3": "runge_kutta3"}
+VERSION = version("drake")
+FAR = 1e3
+
+
+def run(scene: str, h: float, end: float, samples: int, integrator: str) -> PeerRun:
+    """One run; the wall time is that of the steps alone."""
+    if integrator not in integrators(scene):
+        raise ValueError(f"{integrator!r} is not for {scene}")
+    tree = tree_of(scene)
+    plant = _build(tree, h if integrator == SAP else 0.0)
+    simulator = Simulator(plant)
+    if integrator != SAP:
+        ResetIntegratorFromFlags(simulator, RULES[integrator], h)
+        simulator.get_mutable_integrator().set_fixed_step_mode(True)
+    context = simulator.get_mutable_context()
+    plant.SetVelocities(context, np.array([link.rate for link in tree.links]))
+    simulator.Initialize()
+    body, world = plant.GetBodyByName(f"body {tree.body}").body_frame(), plant.world_frame()
+    times, places, energies, wall = samples_times(end, samples), [], [], 0.0
+    for t in times:
+        begin = time.perf_counter()
+        simulator.AdvanceTo(t)
+        wall += time.perf_counter() - begin
+        places.append(plant.CalcPointsPositions(context, body, tree.point, world).ravel())
+        energies.append(plant.EvalKineticEnergy(context) + plant.EvalPotentialEnergy(context))
+        if not np.abs(plant.GetVelocities(context)).max() < FAR:
+            break
+    n = len(places)
+    return PeerRun(times[:n], np.array(places)[:, tree.components], np.array(energies), wall, n == samples + 1)
+
+
+def scenes() -> tuple[str, ...]:
+    """Names of the shared scenes."""
+    return tuple(scene for scene in SCENES if scene != "bricard")
+
+
+def integrators(scene: str) -> tuple[str, ...]:
+    """Those that make sense: loops ask for the discrete plant."""
+    if scene not in scenes():
+        return ()
+    return tuple(RULES) if scene == "spatial_chain" else (SAP,)
+
+
+def _build(tree: Tree, step: float) -> MultibodyPlant:
+    plant = MultibodyPlant(step)
+    if step > 0.0:
+        plant.set_discrete_contact_approximation(DiscreteContactApproximation.kSap)
+    plant.mutable_gravity_field().set_gravity_vector(tree.gravity)
+    bodies = [plant.world_body()]
+    for number, link in enumerate(tree.links, start=1):
+        bodies.append(plant.AddRigidBody(f"body {number}", _inertia(link)))
+        base = FixedOffsetFrame(f"place {number}", bodies[link.parent].body_frame(), RigidTransform(link.place))
+        plant.AddJoint(RevoluteJoint(f"joint {number}", plant.AddFrame(base), bodies[-1].body_frame(), link.axis))
+    for loop in tree.closures:
+        plant.AddBallConstraint(bodies[loop.body_1], loop.place_1, bodies[loop.body_2], loop.place_2)
+    plant.Finalize()
+    return plant
+
+
+def _inertia(link: Link) -> SpatialInertia:
+    i = link.inertia
+    central = RotationalInertia(i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2])
+    return SpatialInertia.MakeFromCentralInertia(link.mass, link.centre, central)

@@ -1,0 +1,107 @@
+"""The shared scenes as trees of links on revolute joints whose loops points close, for engines of joint coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.scenes import bricard, spatial_chain
+
+SCENES = ("double_four_bar", "bricard", "spatial_chain", "four_bar_40", "four_bar_200")
+Vector = NDArray[np.float64]
+Y, Z = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class Link:
+    """A body and the joint it hangs on, at `place` of the parent (0: the ground), with axes parallel at the start.
+
+    Centre of mass, inertia about it (kg m^2), mass (kg), rate of the joint at the start (rad/s).
+    """
+
+    parent: int
+    place: Vector
+    axis: Vector
+    centre: Vector
+    inertia: Vector
+    mass: float
+    rate: float = 0.0
+
+
+@dataclass(frozen=True)
+class Closure:
+    """Two points that coincide: bodies (0: the ground) and places on them."""
+
+    body_1: int
+    place_1: Vector
+    body_2: int
+    place_2: Vector
+
+
+@dataclass
+class Tree:
+    """A scene: bodies are numbered from 1 on; the point that is compared, and its components."""
+
+    gravity: Vector
+    body: int
+    point: Vector
+    components: list[int]
+    links: list[Link] = field(default_factory=list)
+    closures: list[Closure] = field(default_factory=list)
+
+    def add(self, link: Link) -> int:
+        """Number of the new body."""
+        self.links.append(link)
+        return len(self.links)
+
+
+def tree_of(scene: str) -> Tree:
+    """A shared scene."""
+    if "four_bar" in scene:
+        return _four_bar(int(scene.rpartition("_")[2]) if scene[-1].isdigit() else 2)
+    return _bricard() if scene == "bricard" else _chain()
+
+
+def _four_bar(windows: int) -> Tree:
+    right, inertia = np.array([1.0, 0.0, 0.0]), np.eye(3) / 12.0
+    tree = Tree(-9.81 * Z, 1, Z, [0, 2])
+    cranks, couplers = [], []
+    for i in range(windows + 1):
+        cranks.append(tree.add(Link(0, i * right, Y, 0.5 * Z, inertia, 1.0, 1.0)))
+        if i < windows:
+            couplers.append(tree.add(Link(cranks[i], Z, Y, 0.5 * right, inertia, 1.0, -1.0)))
+    tree.closures += [Closure(couplers[i], right, cranks[i + 1], Z) for i in range(windows)]
+    return tree
+
+
+def _bricard() -> Tree:
+    points, last = np.array(bricard.POINTS, float) * bricard.LENGTH, 0
+    tree = Tree(-9.81 * Y, 2, points[2] - points[1], [0, 1, 2])
+    for k in range(5):
+        along = points[k + 1] - points[k]
+        place = points[0] if k == 0 else points[k] - points[k - 1]
+        inertia = _rod(along / bricard.LENGTH, bricard.MASS, bricard.LENGTH, bricard.SECTION)
+        last = tree.add(Link(last, place, np.array(bricard.AXES[k], float), 0.5 * along, inertia, bricard.MASS))
+    end, axis = points[5] - points[4], np.array(bricard.AXES[5], float)
+    # two points of the last axis stay where they are: the revolute on the ground
+    tree.closures += [Closure(last, end + s * axis, 0, points[5] + s * axis) for s in (0.0, 1.0)]
+    return tree
+
+
+def _chain() -> Tree:
+    s, last = spatial_chain, 0
+    along, square, across = s.directions()
+    inertia = _rod(along, s.MASS, s.LENGTH, s.SECTION)
+    tree = Tree(-9.81 * Z, s.LINKS, s.LENGTH * along, [0, 1, 2])
+    for k in range(s.LINKS):
+        place, axis = s.LENGTH * along if k else np.zeros(3), across if k % 2 == 0 else square
+        rate = s.SPIN if k < 2 else 0.0
+        last = tree.add(Link(last, place, axis, 0.5 * s.LENGTH * along, inertia, s.MASS, rate))
+    return tree
+
+
+def _rod(along: Vector, mass: float, length: float, side: float) -> Vector:
+    axial, transverse = mass * side**2 / 6.0, mass * (length**2 + side**2) / 12.0
+    return np.asarray(transverse * np.eye(3) + (axial - transverse) * np.outer(along, along))

@@ -1,0 +1,21 @@
+/* What the processor has, asked at run time, and functions that are compiled for more than one of them. */
+#ifndef ALI3_PROCESSOR_H
+#define ALI3_PROCESSOR_H
+#include <stdint.h>
+
+int32_t ali3_processor_lanes(void); /* numbers in the longest vectors that it has instructions for: 2, 4 or 8 */
+
+#define ALI3_INLINED static inline __attribute__((always_inline)) /* compiled apart where it is called */
+
+/* ali3_NAME, whose body is the ALI3_INLINED function NAME, compiled for all processors and for those with AVX2, whose
+ * vectors are twice as long. Nothing is fused and no sum changes its order, so both have the same bits. Lanes are
+ * compiled for their processor already. */
+#if defined(__x86_64__) && !defined(ALI3_WIDTH)
+#define ALI3_BY_PROCESSOR(system, type, name, declared, given)                                                         \
+  __attribute__((target("avx2"))) static type name##_avx2 declared { return name given; }                              \
+  type ali3_##name declared { return (system)->has_avx2 ? name##_avx2 given : name given; }
+#else
+#define ALI3_BY_PROCESSOR(system, type, name, declared, given)                                                         \
+  type ali3_##name declared { return name given; }
+#endif
+#endif
