@@ -102,7 +102,7 @@ class TransmissionVocabulary(JointVocabulary):
         axis_1, axis_2 : array_like, shape (dimension,)
             Directions of the slides, fixed in their carriers, earth axes as drawn.
         ratio : float
-            Way of the first for one of the second.
+            Metres of the first for one metre of the second, m/m.
 
         Returns
         -------
