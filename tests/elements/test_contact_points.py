@@ -232,14 +232,19 @@ def test_a_stop_without_stiffness_has_no_metal_end_either():
     assert e(np.array([0.0, 0.0, 0.55]), np.zeros(3)).out["force"] < -8e4 * 0.05
 
 
-@pytest.mark.parametrize("heading", [0.0, 0.4])
-def test_a_point_deep_in_a_wall_is_pushed_out_of_its_face(heading):
-    """Not out of its top, which is farther: the force is that of the way to the face, the gradient of its energy."""
+def wall(heading):
+    """A point without friction at a wall of 1 m in a grid, and the direction into its face."""
     n = np.array([np.cos(heading), np.sin(heading)])
     x = np.arange(-3.0, 3.01, 0.1)
     heights = np.clip((np.add.outer(n[0] * x, n[1] * x) - 0.05) / 0.1, 0.0, 1.0)
-    e = element(GridRoad((-3.0, -3.0), (0.1, 0.1), heights, 0.8), ContactPoints(2e5, 2e5, 1e4, friction_factor=0.0),
-                points=[[0.0, 0.0, 0.0]])  # fmt: skip
+    contact = ContactPoints(2e5, 2e5, 1e4, friction_factor=0.0)
+    return element(GridRoad((-3.0, -3.0), (0.1, 0.1), heights, 0.8), contact, points=[[0.0, 0.0, 0.0]]), n
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.4])
+def test_a_point_deep_in_a_wall_is_pushed_out_of_its_face(heading):
+    """Not out of its top, which is farther: the force is that of the way to the face, the gradient of its energy."""
+    e, n = wall(heading)
     axes = np.eye(3).ravel()
     for into in (0.12, 0.25, 0.35):
         o = np.r_[(0.1 + into) * n, 0.4]
@@ -251,3 +256,18 @@ def test_a_point_deep_in_a_wall_is_pushed_out_of_its_face(heading):
         assert np.allclose(r.f[:3], -np.array(slope), atol=0.05 * np.linalg.norm(r.f[:3]))
     above = e(np.r_[1.5 * n, 0.9, axes], np.zeros(12), h=0.0)
     assert above.out["depth"] == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.4])
+def test_a_way_in_by_the_face_and_out_by_the_top_gains_nothing(heading):
+    """Work of the wall around a closed way, against the largest energy on it."""
+    e, n = wall(heading)
+    corners = np.array([(-0.1, 0.6), (0.25, 0.6), (0.25, 1.05), (-0.1, 1.05)])
+    work, most, steps = 0.0, 0.0, 400
+    for begin, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        way = np.r_[(end[0] - begin[0]) * n, end[1] - begin[1]] / steps
+        for k in range(steps):
+            r = e(np.r_[begin[0] * n, begin[1], np.eye(3).ravel()] + (k + 0.5) * np.r_[way, np.zeros(9)], np.zeros(12))
+            work, most = work + r.f[:3] @ way, max(most, r.potential)
+    assert most > 1e3
+    assert abs(work) < 0.03 * most

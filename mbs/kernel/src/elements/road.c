@@ -122,9 +122,11 @@ static int kerb_clearance(const double *p, const double point[3], ali3_clearance
 }
 
 #define NEAR 0.1 /* m: farther from the tangent plane under it a point is not evaluated again */
+#define INSIDE 0.01 /* m: deeper the face of a wall is looked for, of which the tangent plane on top knows nothing */
+#define STEEP 1.5 /* of the depth: how far, so that of faces from 42 degrees on none that is nearer is missed */
 
-/* Distance to the nearest point of the surface: tangent plane under the point, then twice at the foot it gives. Deeper
- * than NEAR the face of a wall may be nearer, of which the tangent plane on top knows nothing. */
+/* Distance to the nearest point of the surface: tangent plane under the point, then twice at the foot it gives; inside,
+ * to the nearest face where that is nearer. */
 static int grid_clearance(const ali3_road *road, const double point[3], ali3_clearance *out) {
   ali3_grid g;
   if (!grid_of(road, &g)) return 0;
@@ -140,11 +142,12 @@ static int grid_clearance(const ali3_road *road, const double point[3], ali3_cle
     y = point[1] - reach * under.normal[1];
   }
   double foot[2];
-  if (out->distance < -NEAR && ali3_way_out_of_grid(&g, point, -out->distance, foot)) {
+  if (out->distance < -INSIDE && ali3_way_out_of_grid(&g, point, -STEEP * out->distance, foot)) {
     const ali3_surface face = ali3_grid_at(&g, foot[0], foot[1]);
     const double q[3] = {foot[0], foot[1], face.height};
-    plane_clearance(face.normal, q, point, out);
-    out->friction = face.friction;
+    ali3_clearance aside = {.friction = face.friction};
+    plane_clearance(face.normal, q, point, &aside);
+    if (aside.distance > out->distance) *out = aside;
   }
   return 1;
 }
