@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 import mbs
-from mbs.elements.road import KerbRoad
+from mbs.common.affine import Affine
+from mbs.elements.road import KerbRoad, PlaneRoad
 from mbs.vehicle import load
+from tests.elements.tyre_data import TYRE
 
 WHEELS = ("FL", "FR", "RL", "RR")
 SPAN = 0.8  # s
@@ -73,3 +75,20 @@ def test_small_falls_and_jumps_of_pedals_say_nothing():
         run = mbs.simulate(system, 1.0, 0.01, inputs, pose=pose, progress=False, estimate_error=False)
         assert run.report.quick_load == 0.0
         assert run.report.coarse_text == ""
+
+
+def test_a_wheel_that_leaves_the_ground_in_its_first_step_is_told_by_the_load_of_its_start():
+    """It has no other load; a step of 0 s was named, and the state was not restored."""
+    m = mbs.Model("wheel")
+    hub = (0.0, 0.0, TYRE.radius - 0.01)
+    wheel = m.body("wheel", mass=40.0, com=hub, inertia=(1.0, 1.0, 1.0))
+    m.prismatic("column", wheel, m.ground, axis=(0.0, 0.0, 1.0), point=hub)
+    m.initial_velocity(wheel, linear=(0.0, 0.0, 1.8))
+    m.add(TYRE.record("tyre", wheel.point(hub), wheel.vector((0.0, 1.0, 0.0)), Affine(), m.road(PlaneRoad())))
+    m.sense_element("load", "tyre", "vertical_force")
+    simulation = mbs.Simulation(mbs.compile(m))
+    run = simulation.run(0.3, 0.01, estimate_error=False)
+    assert run["load"][0] > 0.0
+    assert not run["load"][1:].any()
+    assert run.report.quick_load == pytest.approx(0.001)  # h sqrt(h) of a load that is gone
+    simulation.restore(simulation.save())

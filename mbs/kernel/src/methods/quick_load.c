@@ -32,9 +32,9 @@ void ali3_quick_load(ali3_instance *in, double h) {
   double worst = 0.0;
   for (int32_t e = 0; e < S->size.ne; e++) {
     if (S->el_kind[e]->depth != ali3_tyre_depth) continue;
-    const int32_t load = S->el_out_ptr[e] + LOAD;
-    worst = fmax(worst, fabs(in->now.out[load] - in->next.out[load]));
-    r->largest_load = fmax(r->largest_load, in->now.out[load]);
+    const double from = in->next.out[S->el_out_ptr[e] + LOAD], to = in->now.out[S->el_out_ptr[e] + LOAD];
+    worst = fmax(worst, fabs(to - from));
+    r->largest_load = fmax(r->largest_load, fmax(from, to)); /* the start has no step before it */
   }
   r->load_sum = r->load_sum / (1.0 + h / MEMORY) + worst * worst;
   const double squares = h * h * h * r->load_sum;
