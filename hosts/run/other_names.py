@@ -31,22 +31,20 @@ class OtherNames:
     ----------
     fmu : SimulatedFmu
         Under our names.
+    names : dict of str to (str, float, float)
+        For the record of a run.
     """
 
     def __init__(self, fmu: Fmu, file: Path) -> None:
         self._own = fmu
         self._aliases = aliases_of(file, fmu.table)
         self.fmu: SimulatedFmu = seen_through(fmu, self._aliases)
+        self.names = self._aliases.of_record
 
     def set_in(self, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | None = None) -> tuple[Manoeuvre, Settings]:
         """See `hosts.driving.manoeuvre_settings.set_in`; wishes and settings are in the FMU's names and units."""
         theirs, settings = set_in(self._own, manoeuvre, wishes, fidelity, self._aliases.values)
         return replace(theirs, start=self._aliases.own_values(theirs.start)), settings
-
-    @property
-    def names(self) -> dict[str, tuple[str, float, float]]:
-        """By the FMU's names ours, factor and offset, where they differ."""
-        return {a.theirs: (a.ours, a.factor, a.offset) for a in self._aliases.aliases}
 
     def derive(self, result: Result, every: int) -> None:
         """Computed columns of a result with a row every so many steps, with rates of both sides."""

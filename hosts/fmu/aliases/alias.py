@@ -58,6 +58,12 @@ class Aliases:
         """All of our names that an FMU with these variables has, derived ones among them."""
         return {*self.names(tuple(theirs)), *(d.ours for d in self.derived)}
 
+    @property
+    def of_record(self) -> dict[str, tuple[str, float, float]]:
+        """By the FMU's names ours, factor and offset, as records of runs have them: value of the FMU = factor * ours +
+        offset."""
+        return {a.theirs: (a.ours, a.factor, a.offset) for a in self.aliases}
+
     def why_missing(self, name: str) -> str:
         """Why this FMU does not have one of our names, in a sentence; empty where the file does not know it."""
         return self.missing.get(name, "")

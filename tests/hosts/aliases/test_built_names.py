@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.task import Task, do
 from hosts.common.options import Wishes
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
@@ -77,6 +79,24 @@ def test_run_drives_a_car_under_other_names(
     assert run([theirs, *drive, "--out", str(tmp_path / "none")]) != 0
     assert "steering" in (said := capsys.readouterr().err)
     assert "--aliases" in said
+
+
+@pytest.mark.slow
+def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(
+    renamed_fmu: Callable[[str], Path], tmp_path: Path
+) -> None:
+    theirs = renamed_fmu("carsim")
+    aliases = find_aliases("carsim", Variables(described(theirs)))
+    car = TestedCar("a car", theirs, aliases, start={"initial.speed": 0.0, "steering": 0.5})
+    do(Task("drop", car, {}, tmp_path), lambda part: None)
+    (table,) = tmp_path.rglob("*.csv")
+    (shown,), _ = recordings_of([table], None, RunWishes(None, None, None, Wishes([], [])))
+    assert shown.scene is not None
+    assert shown.scene["shapes"]
+    assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"
+    told = {entry["name"]: entry["new"] for entry in json.loads(table.with_suffix(".json").read_text("utf-8"))["set"]}
+    assert set(told) <= set(Variables(described(theirs)).names)
+    assert told["IMP_STEER_SW"] == pytest.approx(aliases.values({"steering": 0.5})["IMP_STEER_SW"])
 
 
 @pytest.mark.slow
