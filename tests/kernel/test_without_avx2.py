@@ -1,0 +1,53 @@
+"""The kernel as on a processor without AVX2: the bits of states are those of one with it."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.elements.road import KerbRoad
+from mbs.kernel import build
+from mbs.kernel.binding.many import widest_lanes
+from mbs.vehicle import load
+
+STEPS = 30
+DRIVEN = {0: "ali3p", 1: "ali3p", 2: "energy_momentum"}  # fidelity and method
+
+
+def states() -> bytes:
+    """Saved states of a car that steers over an edge, one after the other."""
+    found = b""
+    for fidelity, method in DRIVEN.items():
+        system = mbs.compile(load("prototype").model(KerbRoad(1.0, 0.05, 0.05, "after", 1.0), fidelity=fidelity))
+        settings = mbs.Settings(method=method)
+        car = mbs.Simulation(system, settings=settings, inputs={"steering": 0.3}, pose=mbs.Pose(speed=15.0))
+        for _ in range(STEPS):
+            car.step(0.01)
+        found += car.save()
+    return found
+
+
+@pytest.mark.slow
+def test_states_have_the_same_bits_without_avx2(tmp_path):
+    """Two numbers a vector in place of four, in what is compiled for both; nothing else is compiled anew."""
+    if widest_lanes() == 2:
+        pytest.skip("this processor has no AVX2")
+    file, library = tmp_path / "processor.c", tmp_path / build.library_name(build.host_target())
+    file.write_text("int ali3_processor_lanes(void) { return 2; }\n", encoding="utf-8")
+    others = [source for source in build.sources() if source.name != file.name]
+    build.compile_c([*others, file], build.host_target(), library, what="a kernel without AVX2")
+    result = subprocess.run(
+        [sys.executable, "-c", "import sys; from tests.kernel.test_without_avx2 import states, widest_lanes; "
+         "assert widest_lanes() == 2; sys.stdout.buffer.write(states())"],
+        env=os.environ | {"ALI3_KERNEL_LIBRARY": str(library)}, cwd=Path(__file__).parents[2], capture_output=True,
+        check=False,
+    )  # fmt: skip
+    assert result.returncode == 0, result.stderr.decode()
+    one, two = np.frombuffer(states(), np.uint8), np.frombuffer(result.stdout, np.uint8)
+    assert np.array_equal(one, two)
