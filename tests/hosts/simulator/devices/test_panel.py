@@ -141,6 +141,17 @@ def test_axes_are_chosen_inverted_and_halved(panel, start, wheel):
     panel.until(lambda: panel.text("driven 3") == "drives brake")
 
 
+def test_what_is_chosen_by_keys_is_drawn_and_keeps_the_focus(panel, start, wheel):
+    panel.run = start()
+    panel.until(lambda: panel.at("inverted brake").is_visible())
+    panel.at("source brake").focus()
+    panel.page.keyboard.press("Home")
+    panel.until(lambda: panel.mapping("brake") == {} and not panel.at("inverted brake").is_visible())
+    assert panel.page.evaluate("document.activeElement.getAttribute('data-a3')") == "source brake"
+    panel.page.keyboard.press("ArrowDown")
+    panel.until(lambda: panel.mapping("brake") != {} and panel.at("inverted brake").is_visible())
+
+
 def test_an_input_is_assigned_by_move_it_now(panel, start, wheel):
     panel.run = start()
     panel.show()

@@ -59,10 +59,11 @@ class DevicePart {
   constructor(send) {
     this._send = send;
     this._shape = "";
-    this._typing = false;
+    this._busy = false;
     this._body = el("div");
-    this._body.addEventListener("input", () => (this._typing = true));
-    for (const end of ["change", "focusout"]) this._body.addEventListener(end, () => (this._typing = false));
+    this._body.addEventListener("input", () => (this._busy = true));
+    this._body.addEventListener("focusin", ({ target }) => (this._busy = target instanceof HTMLSelectElement));
+    for (const end of ["change", "focusout"]) this._body.addEventListener(end, () => (this._busy = false));
     this._title = el("summary");
     this.element = el("details.a3-section", { open: true }, this._title, this._body);
   }
@@ -73,8 +74,7 @@ class DevicePart {
     const shape = shapeOf(device);
     const focused = this._body.contains(document.activeElement) ? document.activeElement : null;
     // What a person is typing, dragging or choosing stays as it is; the panel follows after.
-    const busy = this._typing || focused?.tagName === "SELECT";
-    if (shape !== this._shape && !(busy && this._shape)) {
+    if (shape !== this._shape && !(this._busy && this._shape)) {
       this._shape = shape;
       const open = new Map([...this._body.querySelectorAll("details")].map((part) => [part.getAttribute("data-a3"), part.open]));
       this._draw(device);
