@@ -84,9 +84,13 @@ def _write_runs(task: Task, folder: Path, record: TestRecord) -> None:
         file = folder / run_file(task.test, task.car.label, name)
         write_csv(result, file)
         told = [{"name": variable, "new": value} for variable, value in task.car.aliases.values(result.start).items()]
-        seen = {"fmu": str(task.car.path), "token": task.car.facts.token, "set": told, "marks": result.marks}
-        if names := task.car.aliases.of_record:
-            seen["names"] = names
+        seen = {
+            "fmu": str(task.car.path),
+            "token": task.car.facts.token,
+            "set": told,
+            "marks": result.marks,
+            "names": task.car.aliases.of_record,
+        }
         write_text(file.with_suffix(".json"), json.dumps(seen, ensure_ascii=False) + "\n")
 
 

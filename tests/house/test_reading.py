@@ -19,7 +19,7 @@ MOST = {
     "simulator": 8971,
     "simulator, all of it": 16165,
     "check": 6066,
-    "catalogue": 8600,
+    "catalogue": 8604,
     "compare": 9409,
     "study": 7536,
     "study --run": 8516,
