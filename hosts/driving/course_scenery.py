@@ -61,7 +61,7 @@ def things_of(marks: Sequence[Mark]) -> list[Mark]:
 
     Raises
     ------
-    ValueError, KeyError, TypeError
+    ValueError, KeyError, TypeError, OverflowError
         They are no marks.
     """
     things = []

@@ -206,7 +206,7 @@ def _with_marks(scene: dict[str, Any], record: dict[str, Any], file: Path) -> di
 
     try:
         return with_marks(scene, record.get("marks") or [], _ON_THE_GROUND)
-    except (KeyError, TypeError, ValueError):
+    except (KeyError, TypeError, ValueError, OverflowError):
         raise HostError(
             f"{file}, the record of the result, does not say by 'marks' lanes, lines and circles with their places, m."
         ) from None

@@ -124,6 +124,7 @@ def test_marks_lie_on_the_road() -> None:
     [
         [{"kind": "circle", "centre": [1.0], "radius": 3.0}],
         [{"kind": "circle", "centre": [1.0, 2.0]}],
+        [{"kind": "circle", "centre": [1.0, 2.0], "radius": math.inf}],
         [{"kind": "tower", "at": [0.0, 0.0]}],
         [{"kind": "lanes", "gates": [[0.0, 1.0]], "pose": [0.0, 0.0, 0.0]}],
         "circle",
