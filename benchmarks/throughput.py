@@ -1,9 +1,9 @@
 """Cars a core: ``python -m benchmarks.throughput [--json FILE]``.
 
-Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms, with links and by tables (fidelity 10):
-one after the other, in lanes of each width that the processor has, and in the widest lanes on all cores. Each way makes
-a part of the same steps in turn, so that ratios hold on a busy machine; seconds are those in which its threads had a
-core.
+Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms, with links and by tables (fidelity 10),
+and four-bar mechanisms of 2 and 40 windows swing at 10 ms from slightly different speeds: one after the other, in lanes
+of each width that the processor has, and in the widest lanes on all cores. Each way makes a part of the same steps in
+turn, so that ratios hold on a busy machine; seconds are those in which its threads had a core.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from functools import partial
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -22,19 +23,55 @@ from benchmarks.car import manoeuvres
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from hosts.driving.manoeuvre import Manoeuvre
 from mbs import Settings, Simulation, System, compile
 from mbs.kernel.binding import KernelError
 from mbs.kernel.binding.many import Many, widest_lanes
-from mbs.scenes import prototype_car
+from mbs.scenes import double_four_bar, prototype_car
 from mbs.settings.input_signals import InputSignals
 from mbs.simulation.prepared_system import prepared
 
+Start: TypeAlias = Callable[[int, float, float], Simulation]
+"""Of the number of a variant, the step and the end of the run, s."""
+
+
+def _cars(name: str, fidelity: int) -> tuple[System, Start]:
+    """Cars whose springs and dampers differ by 1 % from one to the next."""
+    manoeuvre, system = manoeuvres.load(name), compile(prototype_car.build(fidelity=fidelity))
+    parameters, pose = manoeuvres.start_of(manoeuvre, system)
+    signals = InputSignals(manoeuvres.inputs_of(manoeuvre, system), system.meta["inputs"])
+    names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
+
+    def start(number: int, h: float, seconds: float) -> Simulation:
+        factors = dict.fromkeys(("front.spring.factor", "rear.damper.factor"), 1.0 + 0.01 * number)
+        first = signals.at(np.zeros(1), 1e-6 * h, after_jump=True)[0].tolist()
+        inputs = dict(zip(names, first, strict=True))
+        car = Simulation(system, inputs=inputs, parameters=parameters | factors, pose=pose)
+        signals.attach(car.instance, 0.0, seconds, 1e-6 * h)
+        return car
+
+    return system, start
+
+
+def _four_bars(windows: int) -> tuple[System, Start]:
+    """Mechanisms whose starting speeds differ by 1 % from one to the next."""
+    system = compile(double_four_bar.build(windows))
+
+    def start(number: int, h: float, seconds: float) -> Simulation:
+        mechanism = Simulation(system)
+        mechanism.instance.set_q(None, (1.0 + 0.01 * number) * mechanism.state.qd)
+        mechanism.instance.initialise()
+        return mechanism
+
+    return system, start
+
+
 SCENES = (
-    ("slalom", "slalom", 0.005, 0),
-    ("lane change", "double_lane_change_replay", 0.01, 0),
-    ("slalom, tables", "slalom", 0.005, 10),
-    ("lane change, tables", "double_lane_change_replay", 0.01, 10),
+    ("slalom", 0.005, partial(_cars, "slalom", 0)),
+    ("lane change", 0.01, partial(_cars, "double_lane_change_replay", 0)),
+    ("slalom, tables", 0.005, partial(_cars, "slalom", 10)),
+    ("lane change, tables", 0.01, partial(_cars, "double_lane_change_replay", 10)),
+    ("double four-bar", 0.01, partial(_four_bars, 2)),
+    ("40 windows", 0.01, partial(_four_bars, 40)),
 )
 CARS = 16  # two full groups of the widest lanes
 PARTS, SECONDS = 20, 4.0  # parts of a run, length of it, s
@@ -66,15 +103,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return run_command(work, (KernelError,))
 
 
-def measure(scene: str, name: str, h: float, fidelity: int, seconds: float = SECONDS) -> list[dict[str, Any]]:
+def measure(
+    scene: str, h: float, make: Callable[[], tuple[System, Start]], seconds: float = SECONDS
+) -> list[dict[str, Any]]:
     """Rows of one scene: us of a core for a step of a car, and the ratio to cars one after the other."""
-    manoeuvre, system = manoeuvres.load(name), compile(prototype_car.build(fidelity=fidelity))
+    system, start = make()
     loaded, steps = prepared(system)[0], int(seconds / h / PARTS)
     widths = [w for w in (2, 4, 8) if w <= widest_lanes()]
     cores = os.cpu_count() or 1
     threads = f"{widths[-1]} lanes, {cores} threads"
     ways = ["single", *(f"{w} lanes" for w in widths), threads]
-    cars = {way: [_car(system, manoeuvre, k, h, seconds) for k in range(CARS)] for way in ways}
+    cars = {way: [start(k, h, seconds) for k in range(CARS)] for way in ways}
     lanes = {w: Many(loaded, w) for w in widths}
     more = [Many(loaded, widths[-1]) for _ in range(cores)]
     spent, alone = dict.fromkeys(ways, 0.0), dict.fromkeys(ways, 0)
@@ -131,7 +170,8 @@ def measure(scene: str, name: str, h: float, fidelity: int, seconds: float = SEC
 def thousand(rows: Sequence[dict[str, Any]]) -> list[str]:
     """What a thousand cars take, from the measured steps."""
     lines = []
-    for scene, step in dict.fromkeys((row["scene"], row["step_ms"]) for row in rows):
+    cars = {scene for scene, _, make in SCENES if make.func is _cars}
+    for scene, step in dict.fromkeys((row["scene"], row["step_ms"]) for row in rows if row["scene"] in cars):
         ways = {row["way"]: row for row in rows if (row["scene"], row["step_ms"]) == (scene, step)}
         widest = next(reversed([way for way in ways if way.endswith("lanes")]))
         lanes = int(widest.split()[0])
@@ -142,18 +182,6 @@ def thousand(rows: Sequence[dict[str, Any]]) -> list[str]:
             f"{THOUSAND * wide:.1f} s on one core (computed from the steps above)."
         )
     return lines
-
-
-def _car(system: System, manoeuvre: Manoeuvre, number: int, h: float, seconds: float) -> Simulation:
-    """Cars whose springs and dampers differ by 1 % from one to the next."""
-    parameters, pose = manoeuvres.start_of(manoeuvre, system)
-    factors = dict.fromkeys(("front.spring.factor", "rear.damper.factor"), 1.0 + 0.01 * number)
-    signals = InputSignals(manoeuvres.inputs_of(manoeuvre, system), system.meta["inputs"])
-    first = signals.at(np.zeros(1), 1e-6 * h, after_jump=True)[0].tolist()
-    inputs = {system.meta["inputs"][i]["name"]: v for i, v in zip(signals.columns(), first, strict=True)}
-    car = Simulation(system, inputs=inputs, parameters=parameters | factors, pose=pose)
-    signals.attach(car.instance, 0.0, seconds, 1e-6 * h)
-    return car
 
 
 def _timed(action: Callable[[], object], clock: Callable[[], float]) -> float:
