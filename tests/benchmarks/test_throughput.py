@@ -7,13 +7,14 @@ import json
 import pytest
 
 from benchmarks import throughput
+from benchmarks.car import lanes
 from mbs.kernel.binding.many import widest_lanes
 
 
 @pytest.mark.slow
 def test_ways_and_the_thousand_cars(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(throughput, "SCENES", (throughput.SCENES[0], throughput.SCENES[4]))
-    monkeypatch.setattr(throughput, "PARTS", 2)
+    monkeypatch.setattr(lanes, "PARTS", 2)
     names = [scene for scene, *_ in throughput.SCENES]
     measure = throughput.measure
     monkeypatch.setattr(throughput, "measure", lambda *scene: measure(*scene, seconds=0.1))

@@ -165,3 +165,17 @@ def test_the_first_rows_are_those_of_single_runs_for_all_cars() -> None:
                 for sensor in run.units:
                     np.testing.assert_array_equal(run[sensor], one[sensor], err_msg=f"{name}: {sensor}")
                     assert run[sensor][0] == start[sensor], f"{name}: {sensor}"
+
+
+@pytest.mark.parametrize(("windows", "alone"), [(2, 0), (40, 1)])
+def test_planar_mechanisms_advance_in_lanes(windows: int, alone: int) -> None:
+    """Through singular positions, of which the long one halves a step in one."""
+    mechanism = compile(double_four_bar.build(windows))
+    runs = simulate_many(mechanism, [Variant()] * 3, 10.0, 0.01, lanes=2, threads=1, progress=False)
+    assert all(steps <= alone for steps in runs.alone[:2])
+    assert runs.alone[2] == 1000  # without a neighbour
+    one = simulate(mechanism, 10.0, 0.01, estimate_error=False, progress=False)
+    for run in runs.trajectories:
+        assert run is not None
+        for name in run.units:
+            np.testing.assert_array_equal(run[name], one[name], err_msg=name)
