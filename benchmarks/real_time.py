@@ -3,7 +3,7 @@
 A car is driven without sense over kerbs, rough ground and ramps at each fidelity and step, once without a limit of the
 iterations of a step and once with `LIMITS`. Measured is processor time of the thread, which leaves out what others do
 in between; the worst steps are repeated from their saved states by a C program, and their instructions are counted
-where valgrind is installed. An hour each (``--seconds 3600``) takes a day; the default is a few minutes.
+where valgrind is installed. An hour each (``--seconds 3600``) takes a day; the default is made for two minutes.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--fmu", type=Path, metavar="FILE", help="a native FMU of a car; default: the prototype, built")
     parser.add_argument("--road", type=Path, metavar="FILE", help="a road file; default: rough ground, kerbs and ramps")
     parser.add_argument(
-        "--seconds", type=float, default=20.0, metavar="S", help="simulated, of each drive; default: 20"
+        "--seconds", type=float, default=10.0, metavar="S", help="simulated, of each drive; default: 10"
     )
     parser.add_argument("--fidelity", type=int, action="append", choices=FIDELITIES, help="only this one; repeatable")
     parser.add_argument("--step", type=float, action="append", choices=STEPS, help="ms, only this one; repeatable")

@@ -1,43 +1,34 @@
 """Cars a core: ``python -m benchmarks.throughput [--json FILE]``.
 
-Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms, with links and by tables (fidelity 10):
-one after the other, in lanes of each width that the processor has, and in the widest lanes on all cores. Each way makes
-a part of the same steps in turn, so that ratios hold on a busy machine; seconds are those in which its threads had a
-core.
+Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms, with links and by tables (fidelity 10),
+and four-bar mechanisms of 2 and 40 windows swing at 10 ms from slightly different speeds: one after the other, in lanes
+of each width that the processor has, and in the widest lanes on all cores. Each way makes a part of the same steps in
+turn, so that ratios hold on a busy machine; seconds are those in which its threads had a core.
 """
 
 from __future__ import annotations
 
-import os
 import sys
-import time
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
-import numpy as np
-
 from ali3.running import run_command
-from benchmarks.car import manoeuvres
+from benchmarks.car.lanes import measure, varied_cars, varied_four_bars
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from hosts.driving.manoeuvre import Manoeuvre
-from mbs import Settings, Simulation, System, compile
+from mbs import Settings
 from mbs.kernel.binding import KernelError
-from mbs.kernel.binding.many import Many, widest_lanes
-from mbs.scenes import prototype_car
-from mbs.settings.input_signals import InputSignals
-from mbs.simulation.prepared_system import prepared
 
 SCENES = (
-    ("slalom", "slalom", 0.005, 0),
-    ("lane change", "double_lane_change_replay", 0.01, 0),
-    ("slalom, tables", "slalom", 0.005, 10),
-    ("lane change, tables", "double_lane_change_replay", 0.01, 10),
+    ("slalom", 0.005, partial(varied_cars, "slalom", 0)),
+    ("lane change", 0.01, partial(varied_cars, "double_lane_change_replay", 0)),
+    ("slalom, tables", 0.005, partial(varied_cars, "slalom", 10)),
+    ("lane change, tables", 0.01, partial(varied_cars, "double_lane_change_replay", 10)),
+    ("double four-bar", 0.01, partial(varied_four_bars, 2)),
+    ("40 windows", 0.01, partial(varied_four_bars, 40)),
 )
-CARS = 16  # two full groups of the widest lanes
-PARTS, SECONDS = 20, 4.0  # parts of a run, length of it, s
 THOUSAND = 1000
 COLUMNS = {
     "scene": "",
@@ -66,72 +57,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return run_command(work, (KernelError,))
 
 
-def measure(scene: str, name: str, h: float, fidelity: int, seconds: float = SECONDS) -> list[dict[str, Any]]:
-    """Rows of one scene: us of a core for a step of a car, and the ratio to cars one after the other."""
-    manoeuvre, system = manoeuvres.load(name), compile(prototype_car.build(fidelity=fidelity))
-    loaded, steps = prepared(system)[0], int(seconds / h / PARTS)
-    widths = [w for w in (2, 4, 8) if w <= widest_lanes()]
-    cores = os.cpu_count() or 1
-    threads = f"{widths[-1]} lanes, {cores} threads"
-    ways = ["single", *(f"{w} lanes" for w in widths), threads]
-    cars = {way: [_car(system, manoeuvre, k, h, seconds) for k in range(CARS)] for way in ways}
-    lanes = {w: Many(loaded, w) for w in widths}
-    more = [Many(loaded, widths[-1]) for _ in range(cores)]
-    spent, alone = dict.fromkeys(ways, 0.0), dict.fromkeys(ways, 0)
-
-    def together(many: Many, group: list[Simulation]) -> int:
-        nothing = [None] * len(group)
-        ended = many.run([c.instance for c in group], h, steps, steps, nothing, nothing)
-        for end in ended:
-            if end.error is not None:
-                raise end.error
-        return sum(end.alone for end in ended)
-
-    def on_all_cores(group: list[Simulation]) -> int:
-        size = min(widths[-1], -(-len(group) // cores))
-        parts = [group[i : i + size] for i in range(0, len(group), size)]
-        return sum(pool.map(together, more, parts))
-
-    with ThreadPoolExecutor(cores) as pool:
-        for _ in range(PARTS):
-            spent["single"] += _timed(lambda: [c.instance.run(h, steps) for c in cars["single"]], time.thread_time)
-            for w in widths:
-                way = f"{w} lanes"
-                for first in range(0, CARS, w):
-                    group, many = cars[way][first : first + w], lanes[w]
-                    begin = time.thread_time()
-                    alone[way] += together(many, group)
-                    spent[way] += time.thread_time() - begin
-            begin = time.process_time()
-            alone[threads] += on_all_cores(cars[threads])
-            spent[threads] += time.process_time() - begin
-    for way in ways[1:]:  # a faster run of other numbers would be none
-        if any(a.instance.save() != b.instance.save() for a, b in zip(cars["single"], cars[way], strict=True)):
-            raise RuntimeError(f"{scene}: the cars in {way} are not those one after the other.")
-    made = CARS * PARTS * steps
-    rows = []
-    for way in ways:
-        us = 1e6 * spent[way] / made
-        group_bytes = 0.0 if way == "single" else lanes[int(way.split()[0])].size / int(way.split()[0])
-        rows.append(
-            {
-                "scene": scene,
-                "step_ms": 1e3 * h,
-                "way": way,
-                "us_a_step": us,
-                "ratio": spent["single"] / spent[way],
-                "cars_in_real_time_a_core": h / (1e-6 * us),
-                "steps_alone": alone[way],
-                "kilobytes_a_car": 1e-3 * (loaded.instance_size + group_bytes),
-            }
-        )
-    return rows
-
-
 def thousand(rows: Sequence[dict[str, Any]]) -> list[str]:
     """What a thousand cars take, from the measured steps."""
     lines = []
-    for scene, step in dict.fromkeys((row["scene"], row["step_ms"]) for row in rows):
+    cars = {scene for scene, _, make in SCENES if make.func is varied_cars}
+    for scene, step in dict.fromkeys((row["scene"], row["step_ms"]) for row in rows if row["scene"] in cars):
         ways = {row["way"]: row for row in rows if (row["scene"], row["step_ms"]) == (scene, step)}
         widest = next(reversed([way for way in ways if way.endswith("lanes")]))
         lanes = int(widest.split()[0])
@@ -142,24 +72,6 @@ def thousand(rows: Sequence[dict[str, Any]]) -> list[str]:
             f"{THOUSAND * wide:.1f} s on one core (computed from the steps above)."
         )
     return lines
-
-
-def _car(system: System, manoeuvre: Manoeuvre, number: int, h: float, seconds: float) -> Simulation:
-    """Cars whose springs and dampers differ by 1 % from one to the next."""
-    parameters, pose = manoeuvres.start_of(manoeuvre, system)
-    factors = dict.fromkeys(("front.spring.factor", "rear.damper.factor"), 1.0 + 0.01 * number)
-    signals = InputSignals(manoeuvres.inputs_of(manoeuvre, system), system.meta["inputs"])
-    first = signals.at(np.zeros(1), 1e-6 * h, after_jump=True)[0].tolist()
-    inputs = {system.meta["inputs"][i]["name"]: v for i, v in zip(signals.columns(), first, strict=True)}
-    car = Simulation(system, inputs=inputs, parameters=parameters | factors, pose=pose)
-    signals.attach(car.instance, 0.0, seconds, 1e-6 * h)
-    return car
-
-
-def _timed(action: Callable[[], object], clock: Callable[[], float]) -> float:
-    begin = clock()
-    action()
-    return clock() - begin
 
 
 if __name__ == "__main__":

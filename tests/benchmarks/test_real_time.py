@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from benchmarks.car import limited_fall
 from benchmarks.car.step_costs import drive
 from benchmarks.car.step_replay import Replay
 from benchmarks.car.wild_ground import write_ground
-from benchmarks.shared.instructions import counter
+from benchmarks.shared.instructions import counter, instructions
 
 H = 2e-3
 
@@ -67,8 +68,15 @@ def test_the_instructions_of_the_worst_steps_are_counted(prototype_fmu, tmp_path
     targets = write_ground(tmp_path / "wild.road")
     run = drive(prototype_fmu, {"road.file": str(tmp_path / "wild.road")}, H, 0.4, 2, targets, lambda share: None)
     replay = Replay(prototype_fmu, tmp_path / "unpacked")
-    ends = (f(run.worst, key=lambda worst: worst.iterations) for f in (min, max))
+    ends = [f(run.worst, key=lambda worst: worst.iterations) for f in (min, max)]
     assert all(100_000 < replay.instructions(worst, run.kinds, H) < 20_000_000 for worst in ends)
+    worst = max(run.worst, key=lambda worst: worst.steps)
+    assert worst.steps > 2
+    whole, before = (
+        instructions(replay._arguments(replace(worst, steps=n), run.kinds, H, 1), "fmi2DoStep")
+        for n in (worst.steps, worst.steps - 1)
+    )
+    assert replay.instructions(worst, run.kinds, H) == pytest.approx(whole - before, rel=2e-3)  # of all its steps
 
 
 def test_limits_that_are_wider_leave_less(prototype_fmu):

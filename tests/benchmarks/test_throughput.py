@@ -7,20 +7,27 @@ import json
 import pytest
 
 from benchmarks import throughput
+from benchmarks.car import lanes
 from mbs.kernel.binding.many import widest_lanes
 
 
 @pytest.mark.slow
 def test_ways_and_the_thousand_cars(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(throughput, "SCENES", throughput.SCENES[:1])
-    monkeypatch.setattr(throughput, "PARTS", 2)
+    monkeypatch.setattr(throughput, "SCENES", (throughput.SCENES[0], throughput.SCENES[4]))
+    monkeypatch.setattr(lanes, "PARTS", 2)
+    names = [scene for scene, *_ in throughput.SCENES]
     measure = throughput.measure
     monkeypatch.setattr(throughput, "measure", lambda *scene: measure(*scene, seconds=0.1))
     assert throughput.main(["--json", str(tmp_path / "rows.json")]) == 0
-    rows = {row["way"]: row for row in json.loads((tmp_path / "rows.json").read_text("utf-8"))["rows"]}
+    written = json.loads((tmp_path / "rows.json").read_text("utf-8"))["rows"]
+    rows, planar = ({row["way"]: row for row in written if row["scene"] == name} for name in names)
+    assert list(planar) == list(rows)
+    assert all(row["steps_alone"] == 0 for row in planar.values())
     assert [way for way in rows if way.endswith("lanes")] == [f"{w} lanes" for w in (2, 4, 8) if w <= widest_lanes()]
     assert all(row["steps_alone"] == 0 for row in rows.values())
     assert all(row["cars_in_real_time_a_core"] == pytest.approx(5e3 / row["us_a_step"]) for row in rows.values())
     assert rows["2 lanes"]["kilobytes_a_car"] > rows["single"]["kilobytes_a_car"] > 100.0
     single = rows["single"]["us_a_step"] / 5.0
-    assert f"takes {single:.1f} ms on 1000 cores" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert f"takes {single:.1f} ms on 1000 cores" in said
+    assert said.count("a second of 1000 cars") == 1  # a mechanism is no car

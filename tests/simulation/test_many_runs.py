@@ -14,6 +14,7 @@ from mbs import (
     ParameterWarning,
     Pose,
     Settings,
+    Simulation,
     SimulationError,
     Variant,
     compile,
@@ -23,6 +24,8 @@ from mbs import (
 from mbs.common.errors import ArgumentTypeError
 from mbs.kernel.binding.many import widest_lanes
 from mbs.scenes import double_four_bar
+from mbs.settings.input_signals import Signal
+from mbs.vehicle import car_names, load
 from tests.simulation.many_cars import CARS, SLALOM, system
 
 # Two of the cars have springs with which no car works, so that their steps are halved and refused.
@@ -138,3 +141,41 @@ def test_a_value_with_which_no_car_works_is_told_with_the_number_of_its_variant(
     assert [line.partition(", with which")[0] for line in told] == [
         f"Variant {k}: Parameter 'front.tyre.stiffness' is set to 1.{k + 1}e+06 N/m" for k in (1, 2)
     ]
+
+
+@pytest.mark.slow
+def test_the_first_rows_are_those_of_single_runs_for_all_cars() -> None:
+    """Accelerations at the start are those under the inputs at the start, which begin at other values than declared."""
+    random = np.random.default_rng(24)
+    for name in car_names():
+        car = compile(load(name).model())
+        for pose in (None, Pose(z=0.02, speed=8.0)):
+            given: list[dict[str, Signal]] = [
+                {"throttle": 0.2 + 0.6 * random.uniform(), "steering": ([0.0, 0.4], [0.3, -0.3 * random.uniform()])}
+                for _ in range(3)
+            ]
+            variants = [Variant(inputs=inputs, pose=pose) for inputs in given]
+            runs = simulate_many(car, variants, 0.006, 0.002, lanes=2, progress=False)
+            assert runs.failures == {}
+            for inputs, run in zip(given, runs.trajectories, strict=True):
+                one = simulate(car, 0.006, 0.002, inputs, pose=pose, estimate_error=False)
+                first = {"throttle": inputs["throttle"], "steering": 0.3}
+                start = Simulation(car, inputs=first, pose=pose).sensors  # type: ignore[arg-type]
+                assert run is not None
+                for sensor in run.units:
+                    np.testing.assert_array_equal(run[sensor], one[sensor], err_msg=f"{name}: {sensor}")
+                    assert run[sensor][0] == start[sensor], f"{name}: {sensor}"
+
+
+@pytest.mark.parametrize(("windows", "alone"), [(2, 0), (40, 1)])
+def test_planar_mechanisms_advance_in_lanes(windows: int, alone: int) -> None:
+    """Through singular positions, of which the long one halves a step in one."""
+    mechanism = compile(double_four_bar.build(windows))
+    runs = simulate_many(mechanism, [Variant()] * 3, 10.0, 0.01, lanes=2, threads=1, progress=False)
+    assert all(steps <= alone for steps in runs.alone[:2])
+    assert runs.alone[2] == 1000  # without a neighbour
+    one = simulate(mechanism, 10.0, 0.01, estimate_error=False, progress=False)
+    for run in runs.trajectories:
+        assert run is not None
+        for name in run.units:
+            np.testing.assert_array_equal(run[name], one[name], err_msg=name)

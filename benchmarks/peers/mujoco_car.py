@@ -1,0 +1,106 @@
+"""A car of the same mass, wheelbase and track in MuJoCo, with the inertia of the chassis: four wheels that slide on
+springs, no suspension links.
+
+Each wheel is a sphere that rolls on a plane by MuJoCo's own contact and friction, one contact each; there is no tyre
+model, no air and no drive. A wheel goes up by `SINK` under its load at rest. The front wheels are steered.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from typing import Any
+
+import mujoco
+import numpy as np
+from mujoco.rollout import Rollout
+from numpy.typing import NDArray
+
+from mbs.vehicle.car import Car
+
+Array = NDArray[np.float64]
+VERSION = mujoco.__version__
+GRAVITY = 9.81  # m/s2
+SINK = 0.08  # m
+DAMPING = 0.3  # of the critical one of a corner
+STEERING = 2e4, 200.0  # N m/rad, N m s/rad: what holds a front wheel at its angle
+WHEELS = ("FL", "FR", "RL", "RR")
+
+
+def model(car: Car, mass: float, h: float, stiffer: float = 1.0) -> Any:
+    """The compiled model.
+
+    Parameters
+    ----------
+    mass : float
+        Of the whole car, kg; what is not in the wheels is the body.
+    h : float
+        Step, s.
+    stiffer : float
+        Factor of the springs.
+    """
+    body, axles = car.chassis, (car.front, car.rear)
+    unsprung = 2.0 * sum(axle.wheel.mass for axle in axles)
+    x, _, z = body.com
+    ahead = x - axles[1].wheel.centre[0]
+    loads = [GRAVITY * (mass - unsprung) * part / car.wheelbase / 2.0 for part in (ahead, car.wheelbase - ahead)]
+    parts = []
+    for axle, load, name in zip(axles, loads, ("F", "R"), strict=True):
+        rate, wheel = stiffer * load / SINK, axle.wheel
+        damping = 2.0 * DAMPING * float(np.sqrt(load / GRAVITY * rate))
+        turn = '<joint name="steer{0}" axis="0 0 1" damping="20"/>' if name == "F" else ""
+        inertia = f"{wheel.diametral_inertia} {wheel.spin_inertia} {wheel.diametral_inertia}"
+        for side, sign in (("L", 1.0), ("R", -1.0)):
+            place = f"{wheel.centre[0]} {sign * wheel.centre[1]} {wheel.centre[2]}"
+            parts.append(
+                f'<body pos="{place}"><joint type="slide" axis="0 0 1" stiffness="{rate}" '
+                f'springref="{-load / rate}" damping="{damping}"/>{turn.format(name + side)}'
+                f'<joint name="spin{name}{side}" axis="0 1 0"/><inertial pos="0 0 0" mass="{wheel.mass}" '
+                f'diaginertia="{inertia}"/><geom type="sphere" size="{wheel.centre[2]}" friction="1.1"/></body>'
+            )
+    (ixx, iyy, izz), gain = body.inertia, STEERING
+    hold = "".join(f'<position joint="steer{w}" kp="{gain[0]}" kv="{gain[1]}"/>' for w in WHEELS[:2])
+    return mujoco.MjModel.from_xml_string(
+        f'<mujoco><option timestep="{h}" integrator="implicitfast" gravity="0 0 {-GRAVITY}"/><worldbody>'
+        f'<geom type="plane" size="0 0 1"/><body><freejoint/><inertial pos="{x} 0 {z}" mass="{mass - unsprung}" '
+        f'diaginertia="{ixx} {iyy} {izz}"/>{"".join(parts)}</body></worldbody><actuator>{hold}</actuator></mujoco>'
+    )
+
+
+def start(m: Any, speed: float) -> Array:
+    """The state at a speed along x, wheels rolling, shape (states,)."""
+    data = mujoco.MjData(m)
+    data.qvel[0] = speed
+    for w in WHEELS:
+        wheel = m.joint(f"spin{w}")
+        data.qvel[wheel.dofadr[0]] = speed / m.geom_size[m.body_geomadr[wheel.bodyid[0]]][0]
+    state = np.empty(mujoco.mj_stateSize(m, mujoco.mjtState.mjSTATE_FULLPHYSICS))
+    mujoco.mj_getState(m, data, state, mujoco.mjtState.mjSTATE_FULLPHYSICS)
+    return state
+
+
+def drive(models: Sequence[Any], speed: float, angles: Array, threads: int) -> tuple[Array, float]:
+    """Several cars by `mujoco.rollout`.
+
+    Parameters
+    ----------
+    angles : ndarray, shape (steps, 2)
+        Of the front wheels, left and right, rad.
+    threads : int
+        0: one car after the other in this thread.
+
+    Returns
+    -------
+    rates : ndarray, shape (cars, steps, nv)
+        First the velocity in axes of the ground, m/s, and the angular velocity in those of the car, rad/s.
+    seconds : float
+        In which its threads had a core.
+    """
+    first = np.array([start(m, speed) for m in models])
+    given = np.broadcast_to(angles, (len(models), *angles.shape)).copy()
+    data = [mujoco.MjData(models[0]) for _ in range(max(1, threads))]
+    with Rollout(nthread=threads) as runner:
+        begin = time.process_time()
+        states, _ = runner.rollout(list(models), data, first, given)
+        spent = time.process_time() - begin
+    return states[:, :, 1 + models[0].nq : 1 + models[0].nq + models[0].nv], spent
