@@ -110,7 +110,7 @@ def test_a_table_that_grows_is_mostly_numbers(tmp_path: Path) -> None:
     steps = np.arange(1000)
     values = np.random.default_rng(3).normal(size=(1000, 200))
     values[steps % 12 > 0] = np.nan
-    table.write(Rows(0.002 * steps, steps, 0 * steps, values))
+    table.write(Rows(np.linspace(0.0, 2.0, 1000), steps, 0 * steps, values))
     (part,) = (tmp_path / "parts").iterdir()
     assert pq.ParquetFile(part).metadata.serialized_size < 0.2 * part.stat().st_size
     table.close(lambda share: None)
