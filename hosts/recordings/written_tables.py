@@ -56,7 +56,7 @@ class ParquetTable:
     def write(self, rows: Rows) -> None:
         self._count += 1
         with whole_file(self._parts / f"{self._count:06d}{self.suffix}") as made:
-            self._write([rows], made)
+            self._write([rows], made, write_statistics=False, store_schema=False)  # of a part the larger half
 
     def close(self, progress: Callable[[float], None]) -> None:
         def blocks() -> Iterator[Rows]:
@@ -75,12 +75,12 @@ class ParquetTable:
             self._write(blocks(), made)
         shutil.rmtree(self._parts, ignore_errors=True)
 
-    def _write(self, blocks: Iterator[Rows] | Sequence[Rows], file: Path) -> None:
+    def _write(self, blocks: Iterator[Rows] | Sequence[Rows], file: Path, **more: bool) -> None:
         import pyarrow as pa
         import pyarrow.parquet as pq
 
         how = {"compression": "zstd", "use_dictionary": False, "column_encoding": self._encoding}
-        with pq.ParquetWriter(file, self._schema, **how) as writer:
+        with pq.ParquetWriter(file, self._schema, **how, **more) as writer:
             for rows in blocks:
                 columns = [rows.time, rows.steps, rows.epoch, *np.ascontiguousarray(rows.values.T)]
                 arrays = [pa.array(c, from_pandas=True) for c in columns]  # not a number: not recorded

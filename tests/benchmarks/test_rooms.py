@@ -19,7 +19,7 @@ MODULES = {n: f"benchmarks.{n}.__main__" if n in benchmarks.ROOMS else f"benchma
 COMMANDS = set(MODULES.values())
 WRITERS = {
     "animations", "calculix", "car_references", "fidelity_references", "figures", "gauge_picture", "load_paths",
-    "pages", "stress_picture", "variables",
+    "pages", "simulator_pictures", "stress_picture", "variables",
 }  # fmt: skip
 """Commands that write references, pages or pictures or read pages; all others measure, and write rows with `--json`."""
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbs import compile
-from mbs.scenes import prototype_car
+from mbs.scenes import bicycle, prototype_car
 from mbs.vehicle import load
 from tests.viewer.hand_world import scenery, terrain
 
@@ -129,6 +129,22 @@ def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_abov
     standing, flying = darkness(0.0), darkness(2.5)
     assert 0.15 < standing < 0.8
     assert flying < 0.5 * standing
+
+
+def test_the_shadow_below_wheels_in_one_line_ends_below_them_and_that_of_a_car_below_its_ends(drawn, car):
+    """Half the length of the body's shadow, along x."""
+    corners = """(() => {
+      let found = null;
+      view.world.traverse((part) => { if (part.renderOrder === 0.5) found = part; });
+      return [...found.geometry.attributes.position.array].slice(0, 12);
+    })()"""
+    for scene, least, most in (
+        (compile(bicycle.build()).scene | {"roads": [{"kind": "flat"}]}, 0.5 * bicycle.WHEELBASE, 0.86),
+        (car, 1.75, 2.5),
+    ):
+        drawn.show(scene, camera="top", quality="low")
+        x = np.array(drawn.ask(corners))[::3]
+        assert least < 0.5 * np.ptp(x) < most  # the front of the bicycle's larger wheel is 0.86 m ahead of its middle
 
 
 def test_what_is_driven_is_drafted_by_the_processor_and_only_that(drawn, car):

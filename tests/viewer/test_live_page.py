@@ -352,8 +352,16 @@ def test_slow_motion_a_machine_too_slow_a_hidden_page_and_levers(car: Path, chro
     assert opened.text("behind") == ""
     opened.ask("player.run(2000)")  # more than any machine does
     opened.until("document.querySelector('[data-a3=\"behind\"]').textContent.includes('does not keep up')")
-    assert opened.ask("player.factor") < 1900.0
+    opened.until("player.factor !== null && player.factor < 1900")
     opened.ask("player.run(1)")
+    for rate in (1.0, 0.25, 1.0):  # it was 0.1
+        opened.page.keyboard.press("L")  # as with caps lock
+        opened.until(f"player.session.speed === {rate}")
+        assert float(opened.page.locator('[data-a3="rate"]').input_value()) == rate
+    for key in "fF":
+        before = opened.page.locator('[data-a3="show arrows"]').is_checked()
+        opened.page.keyboard.press(key)
+        assert opened.page.locator('[data-a3="show arrows"]').is_checked() is not before
     opened.page.locator('[data-a3="touch levers"]').click()
     box = opened.page.locator('[data-a3="lever throttle"]').bounding_box()
     opened.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.25)

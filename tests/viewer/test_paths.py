@@ -188,3 +188,18 @@ def test_a_body_that_falls_stays_above_the_floor(opened: Callable[..., Opened], 
     falling.columns["body.z"] = 0.5 - 4.9 * T**2
     page = opened(falling)
     assert page("() => window.player.view.floor") < -77.0
+
+
+def test_the_path_of_a_flattened_tyre_lies_on_the_ground(opened: Callable[..., Opened]) -> None:
+    """Without outputs of a tyre its wheel reaches 2 cm into the road; with one it is in the air, and so is its path."""
+    sunk, lifted = run("sunk"), run("lifted")
+    for made, height in ((sunk, 0.48), (lifted, 0.6)):
+        made.columns["body.z"] = np.full_like(T, height)
+    heights = """() => window.player.player.drawnRuns.map(({ traces }) => {
+      const path = traces.paths[1];
+      const z = path.geometry.attributes.position.array.filter((_, k) => k % 3 === 2);
+      return [path.start[2] + Math.min(...z), path.start[2] + Math.max(...z)];
+    })"""
+    low, high = opened(sunk, lifted, camera="top")(heights)
+    assert np.allclose(low, 0.004, atol=1e-3)  # so much all that lies on the ground is drawn above it
+    assert np.allclose(high, 0.104, atol=1e-3)

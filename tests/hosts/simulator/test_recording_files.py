@@ -21,8 +21,9 @@ from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.recorded_view import recorded_view
 from hosts.recordings.recording import Recorder
 from hosts.recordings.replay import replay
-from hosts.recordings.tables import joined
+from hosts.recordings.tables import Rows, joined
 from hosts.recordings.to_manoeuvre import to_manoeuvre
+from hosts.recordings.written_tables import ParquetTable
 from hosts.simulator.command import main
 from hosts.view.view_sources import RunWishes, recordings_of
 from tests.hosts.simulator.recorded_sledge import TABLES, Drive, whole_drive
@@ -98,6 +99,22 @@ def test_every_bit_survives_both_tables(tmp_path: Path) -> None:
     schema = pq.read_schema(tmp_path / "parquet" / "inputs_outputs.parquet")
     assert schema.names == ["time", "count", "epoch", "u", "a", "b"]
     assert schema.field("a").metadata == {b"unit": b"m"}
+
+
+def test_a_table_that_grows_is_mostly_numbers(tmp_path: Path) -> None:
+    """Directories of parts, one every two seconds, take less than their rows; with statistics and units far more."""
+    import pyarrow.parquet as pq
+
+    names = [f"signal {k}" for k in range(200)]
+    table = ParquetTable(tmp_path, names, dict.fromkeys(names, "m"))
+    steps = np.arange(1000)
+    values = np.random.default_rng(3).normal(size=(1000, 200))
+    values[steps % 12 > 0] = np.nan
+    table.write(Rows(np.linspace(0.0, 2.0, 1000), steps, 0 * steps, values))
+    (part,) = (tmp_path / "parts").iterdir()
+    assert pq.ParquetFile(part).metadata.serialized_size < 0.2 * part.stat().st_size
+    table.close(lambda share: None)
+    assert pq.read_schema(tmp_path / "inputs_outputs.parquet").field("signal 7").metadata == {b"unit": b"m"}
 
 
 def test_without_pyarrow_the_table_is_text_and_that_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,6 +29,9 @@ class Part {
   addEventListener(name, work) {
     this.listeners[name] = work;
   }
+  matches() {
+    return false;
+  }
   blur() {}
 }
 

@@ -88,6 +88,9 @@ export function icon(name) {
   return svg("svg", { viewBox: "0 0 14 14", "aria-hidden": "true" }, svg("path", { d: ICONS[name] }));
 }
 
+/** A number for a person, without digits behind the point, and never -0. @param {number} value */
+export const whole = (value) => String(Math.round(value));
+
 /** A number for a person: four digits. */
 export function short(value) {
   if (!Number.isFinite(value)) return "–";

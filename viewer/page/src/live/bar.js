@@ -9,6 +9,7 @@ export class Bar {
   /** @param {Data} act - Functions: reset, toggle, step, back, speed, scrub, camera, csv, mute, place. */
   constructor(act, { cameras, steps, step, views, places = [], sound = false }) {
     this._play = button("play", "Run", act.toggle, "run or pause (P)");
+    this._rate = select("rate", "how fast time runs; slow motion (L)", SPEEDS, (v) => act.speed(Number(v)), 1);
     this._line = el("input", { type: "range", min: 0, max: 1, step: "any", title: "go back, then drive on from there", data: "timeline" });
     this._line.addEventListener("input", () => act.scrub(Number(this._line.value)));
     this._time = el("span.a3-clock", { data: "clock" });
@@ -19,12 +20,12 @@ export class Bar {
       button("back", "2 s back", act.back, "two seconds back (Backspace)"),
       this._play,
       button("step", "Step", act.step, "one communication step (.)"),
-      select("rate", "how fast time runs", SPEEDS, (v) => act.speed(Number(v)), 1),
+      this._rate,
       this._line,
       this._time,
       select("step size", "communication step", steps, (v) => act.stepSize(Number(v)), step),
     );
-    this._camera = select("camera", "camera", cameras.map((c) => [c, c]), act.camera);
+    this._camera = select("camera", "camera (C)", cameras.map((c) => [c, c]), act.camera);
     if (cameras.length) this.element.append(this._camera);
     this._sound = button("mute", "Sound on", act.mute, "sound (M)");
     if (sound) this.element.append(this._sound);
@@ -38,6 +39,12 @@ export class Bar {
     }
     for (const { data, text, title, work } of views) this.element.append(button(data, text, work, title));
     this.element.append(button("csv", "Save CSV", act.csv, "inputs and outputs of the run as a table"));
+  }
+
+  /** Slow motion, or real time where it is slow. */
+  slow() {
+    this._rate.value = String(Number(this._rate.value) < 1 ? 1 : SLOW[1][0]);
+    this._rate.dispatchEvent(new Event("change"));
   }
 
   /** A camera was chosen. */

@@ -363,8 +363,11 @@ class Drive {
     this._listeners = new AbortController();
     const { signal } = this._listeners;
     const { act } = this;
-    const open = () => /** @type {HTMLElement | null} */ (this.root.querySelector('[data-a3="show closed"]'))?.click();
-    const acts = { x: open, p: act.toggle, ".": act.step, Backspace: act.back, Home: act.reset, m: act.mute, c: () => this._nextCamera() };
+    const flip = (what) => () => /** @type {HTMLElement | null} */ (this.root.querySelector(`[data-a3="show ${what}"]`))?.click();
+    const acts = {
+      f: flip("arrows"), b: flip("stress"), x: flip("closed"), p: act.toggle, ".": act.step, l: () => this.bar.slow(),
+      Backspace: act.back, Home: act.reset, m: act.mute, c: () => this._nextCamera(),
+    }; // prettier-ignore
     const once = () => this.stage.sound();
     for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, once, { signal, once: true });
     keys({ acts, signal, first: (event) => this.hands.key(event, this.get("speed")) });

@@ -1,5 +1,5 @@
 // The figures over the picture: speed, gear, engine, time, and how the computer keeps up.
-import { el, short } from "../common/dom.js";
+import { el, short, whole } from "../common/dom.js";
 
 const SPEEDS = ["speed"];
 export const TURNS = ["engine_speed", "motor_speed"];
@@ -54,10 +54,10 @@ export class Hud {
    * @param {Parameters<typeof paceWords>[0] | null} pace - See `paceWords`; null for a recording.
    */
   show(lookup, time, pace) {
-    if (this._speed) this._big.textContent = `${(3.6 * lookup(this._speed)).toFixed(0)} km/h`;
+    if (this._speed) this._big.textContent = `${whole(3.6 * lookup(this._speed))} km/h`;
     const parts = [];
     parts.push(gearWords(lookup, { selector: this._selector, gear: this._gear }));
-    if (this._turns) parts.push(`${(RPM * lookup(this._turns)).toFixed(0)} rpm`);
+    if (this._turns) parts.push(`${whole(RPM * lookup(this._turns))} rpm`);
     this._small.textContent = parts.filter(Boolean).join(" · ");
     this._time.textContent = `${time.toFixed(2)} s`;
     const { text, warn } = pace ? paceWords(pace) : { text: "", warn: "" };

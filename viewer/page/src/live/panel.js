@@ -113,7 +113,7 @@ export function picturePanel(has, set, quality = "auto") {
   const levels = ["auto", "high", "low", "draft"].map((level) => [level, `quality ${level}`]);
   /** @type {HTMLElement[]} */
   const lines = [select("quality", "how finely the picture is drawn", levels, (wish) => set({ quality: wish }), quality)];
-  for (const [what, words] of [["arrows", "forces as arrows"], ["stress", "colours of stress"], ["closed", "body closed (X)"]]) {
+  for (const [what, words] of [["arrows", "forces as arrows (F)"], ["stress", "colours of stress (B)"], ["closed", "body closed (X)"]]) {
     if (!can(what)) continue;
     const box = el("input", { type: "checkbox", checked: what !== "arrows", data: `show ${what}` });
     box.addEventListener("change", () => set({ [what]: box.checked }));

@@ -57,7 +57,8 @@ export function contactShadows(view) {
       });
       const middle = add(add(scale(forward, spread[0][0]), scale(left, spread[1][0])), scale(up, least));
       const radius = wheels[0].radius;
-      put(0, middle, scale(forward, LONG * spread[0][1] + radius), scale(left, WIDE * spread[1][1] + 0.3 * radius), body, origin, least);
+      const long = spread[1][1] > radius ? LONG : 1; // what has its wheels in one line does not reach beyond them
+      put(0, middle, scale(forward, long * spread[0][1] + radius), scale(left, WIDE * spread[1][1] + 0.3 * radius), body, origin, least);
       centres.forEach((centre, k) => {
         const bottom = add(centre, scale(up, -wheels[k].radius));
         const axle = level(rotate(parts.frames.pose(wheels[k].frame).rotation, wheels[k].axis ?? [0, 1, 0]));

@@ -95,7 +95,9 @@ function feetOf(scene, lookups, view) {
     const tyre = touched.find((wheel) => wheel.frame === frame)?.tyre;
     const contact = tyre !== undefined && lookup(tyre.forces[2]) > 0 ? tyre.contact.map((name) => lookup(name)) : [NaN];
     if (finite(contact)) return contact;
-    return shown ? subtract(position, scale(up, radius)) : null;
+    if (!shown) return null;
+    const below = subtract(position, scale(up, radius)); // of a tyre that is flattened: in the ground
+    return add(below, scale(up, Math.max(0, (groundHeight(view, below) ?? -Infinity) - dot(below, up))));
   });
   const body = () => {
     const { position, shown } = frames.pose(scene.focus);

@@ -1,5 +1,5 @@
 // The instruments of the driver: speed, gear, revolutions, pedals, steering.
-import { el, write } from "../common/dom.js";
+import { el, whole, write } from "../common/dom.js";
 import { RPM, TURNS, gearWords } from "../live/hud.js";
 import { Gauge } from "./gauges.js";
 
@@ -47,7 +47,7 @@ export class Cluster {
       const value = lookup(this._used);
       this._steering.show(value);
       const angle = lookup(this._wheel);
-      this._steering.words(this._wheel === this._used ? "" : `${((180 / Math.PI) * angle).toFixed(0)}°`);
+      this._steering.words(this._wheel === this._used ? "" : `${whole((180 / Math.PI) * angle)}°`);
     }
     for (const { column, gauge } of this._pedals) gauge.show(lookup(column));
   }
