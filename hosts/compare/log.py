@@ -60,7 +60,7 @@ class Signal:
     @property
     def jumps(self) -> NDArray[np.float64]:
         """Times that stand twice, s."""
-        return self.time[1:][np.diff(self.time) == 0.0]
+        return np.asarray(self.time[1:][np.diff(self.time) == 0.0])
 
     def between(self, begin: float, end: float) -> Signal:
         """The samples in a span of time."""

@@ -117,9 +117,7 @@ def test_a_parameter_that_the_fmu_has_not_is_told_before_its_range(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("kind", "words"), [("String", "it is a text; only"), ("Integer", "it is a whole number")]
-)
+@pytest.mark.parametrize(("kind", "words"), [("String", "it is a text; only"), ("Integer", "it is a whole number")])
 def test_what_is_no_real_number_is_not_sought(
     study_file: Callable[..., Path],
     tmp_path: Path,
