@@ -134,8 +134,8 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
     ends: tuple[float, float] | None = target.range
     kind = variables[target.by].kind if target.by in variables.names else "Real"
     if kind != "Real":
-        known = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
-        what = known.get(kind, f"of the kind {kind}")
+        words = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
+        what = words.get(kind, f"of the kind {kind}")
         raise HostError(f"--by {target.by}: it is {what}; only real numbers can be sought.")
     if ends is not None:
         unit, log = None, log and ends[0] > 0.0
