@@ -202,8 +202,18 @@ def done_by(
     -----
     Where the iteration is left early, as by Ctrl-C, the processes are ended.
     """
-    jobs = max(1, min(jobs, len(tasks)))
-    workers: list[Isolated[T, R]] = [Isolated(work) for _ in range(jobs)]
+    workers: list[Isolated[T, R]] = [Isolated(work) for _ in range(max(1, min(jobs, len(tasks))))]
+    try:
+        yield from shared_by(workers, tasks, told)
+    finally:
+        for worker in workers:
+            worker.close()
+
+
+def shared_by(
+    workers: Sequence[Isolated[T, R]], tasks: Sequence[T], told: Callable[[int, Any], None] = lambda place, word: None
+) -> Generator[tuple[int, R | Lost]]:
+    """As `done_by`, by processes that are there and stay; where the iteration is left early, they are ended."""
     idle: queue.SimpleQueue[Isolated[T, R]] = queue.SimpleQueue()
     arrived: queue.SimpleQueue[tuple[int, Future[R | Lost] | None, Any]] = queue.SimpleQueue()
     for worker in workers:
@@ -216,7 +226,7 @@ def done_by(
         finally:
             idle.put(worker)
 
-    with ThreadPoolExecutor(jobs) as pool:
+    with ThreadPoolExecutor(len(workers)) as pool:
         try:
             for place in range(len(tasks)):
                 future = pool.submit(one, place)
@@ -230,10 +240,11 @@ def done_by(
                     else:
                         left -= 1
                         yield place, ended.result()
-        finally:
+        except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             for worker in workers:
                 worker.close()
+            raise
 
 
 def _serve() -> None:

@@ -66,11 +66,30 @@ def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | 
         from ali3.extras import missing_module
 
         return missing_module(error)
-    if isinstance(error, MemoryError) or (isinstance(error, ImportError) and "map segment" in str(error)):
+    if _lacks_memory(error):
         return "There is not enough memory for this; close other programs, or raise the limit (ulimit -v)."
     if isinstance(error, (UserError, *errors)):
         return str(error)
     return _os_words(error) if isinstance(error, OSError) else None
+
+
+def _lacks_memory(error: Exception) -> bool:
+    """Whether an error says that memory was not enough: an allocation, a library or a thread that had no place."""
+    if isinstance(error, RuntimeError):
+        return str(error) == "can't start new thread"
+    return isinstance(error, MemoryError) or (isinstance(error, (ImportError, OSError)) and "map segment" in str(error))
+
+
+def memory_words() -> str:
+    """What to add where something failed without a reason and memory is limited (``ulimit -v``); else empty."""
+    try:
+        import resource
+    except ImportError:  # on Windows
+        return ""
+    most = resource.getrlimit(resource.RLIMIT_AS)[0]
+    if most == resource.RLIM_INFINITY:
+        return ""
+    return f"; this process may take {most / 1e6:.0f} MB (ulimit -v), which may be too little"
 
 
 def command_name(name: str) -> str:

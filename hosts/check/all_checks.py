@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.running import memory_words
 from hosts.common.numbers import Value
 
 if TYPE_CHECKING:
@@ -52,4 +53,4 @@ def _one(name: str, function: Callable[[Subject], Finding], subject: Subject) ->
     except (ModuleNotFoundError, MemoryError):
         raise
     except Exception as error:
-        return Finding(name, "bad", f"ended with {type(error).__name__}: {error}")
+        return Finding(name, "bad", f"ended with {type(error).__name__}: {error}{memory_words()}")

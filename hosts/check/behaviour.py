@@ -77,6 +77,8 @@ def refusals(subject: Subject) -> Finding:
         before = 0 if instance is None else len(instance.messages)
         try:
             action()  # type: ignore[operator]
+        except MemoryError:
+            raise
         except Exception:
             if instance is not None and len(instance.messages) == before:
                 silent.append(what)

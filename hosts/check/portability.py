@@ -194,6 +194,8 @@ def capital_scheme(subject: Subject) -> Finding:
     uri = (subject.folder / "resources").as_uri()
     try:
         Instance(subject, resources="FILE" + uri.removeprefix("file"))
+    except MemoryError:
+        raise
     except Exception:
         return Finding("resources", "bad", "a location that begins with FILE:// is refused")
     return Finding("resources", "good", "the scheme of their location may be in capitals")

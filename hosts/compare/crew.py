@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
-import multiprocessing
-from collections.abc import Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from functools import partial
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
+from ali3.isolated import Isolated, Lost, shared_by
+from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.stretches import Stretch
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 
-_own: list[tuple[LoadedFmu, list[Stretch]]] = []  # of a process of the crew
+_Task = tuple[int, dict[str, Value], bool | None]
+
+
+class _Member:
+    """What a process does: it drives the stretch of a number."""
+
+    def __init__(self, fmu: LoadedFmu, stretches: Sequence[Stretch]) -> None:
+        self._fmu, self._stretches = fmu, list(stretches)
+
+    def __call__(self, task: _Task, tell: Callable[[Any], None]) -> Result:
+        number, values, self._fmu.can_reset = task
+        return self._fmu.drive(self._stretches[number], values)
 
 
 class Crew:
@@ -31,28 +42,30 @@ class Crew:
     """
 
     def __init__(self, path: Path, aliases: Aliases, stretches: Sequence[Stretch], step: float, jobs: int) -> None:
-        self._count = len(stretches)
-        self._pool = ProcessPoolExecutor(
-            min(jobs, self._count),
-            multiprocessing.get_context("spawn"),
-            initializer=_begin,
-            initargs=(path, aliases, list(stretches), step),
-        )
+        self._stretches = list(stretches)
+        member = _Member(LoadedFmu(path, aliases, step), stretches)
+        self._workers: list[Isolated[_Task, Result]] = [Isolated(member) for _ in range(min(jobs, len(stretches)))]
 
     def drive(self, values: Mapping[str, Value] | None, can_reset: bool | None) -> list[Result]:
-        """Drive all stretches; results in their order."""
-        return list(self._pool.map(partial(_drive, values=dict(values or {}), can_reset=can_reset), range(self._count)))
+        """Drive all stretches; results in their order.
+
+        Raises
+        ------
+        HostError
+            A process has ended.
+        """
+        tasks: list[_Task] = [(k, dict(values or {}), can_reset) for k in range(len(self._stretches))]
+        results: dict[int, Result] = {}
+        for k, result in shared_by(self._workers, tasks):
+            if isinstance(result, Lost):
+                raise HostError(
+                    f"The process that drove the window from {self._stretches[k].begin:g} s {result.how}. --jobs 1 "
+                    "drives all in one process and takes less memory."
+                )
+            results[k] = result
+        return [results[k] for k in range(len(tasks))]
 
     def close(self) -> None:
         """End the processes."""
-        self._pool.shutdown(cancel_futures=True)
-
-
-def _begin(path: Path, aliases: Aliases, stretches: list[Stretch], step: float) -> None:
-    _own.append((LoadedFmu(path, aliases, step), stretches))
-
-
-def _drive(number: int, values: Mapping[str, Value], can_reset: bool | None) -> Result:
-    fmu, stretches = _own[0]
-    fmu.can_reset = can_reset
-    return fmu.drive(stretches[number], values)
+        for worker in self._workers:
+            worker.close()

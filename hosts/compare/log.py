@@ -18,6 +18,7 @@ from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
 from hosts.compare.spikes import spike_words, spikes
 from hosts.driving.missed_jumps import counted
+from hosts.driving.recorded_rows import ROUND_OFF
 from hosts.driving.run_record import record_of
 from hosts.fmu.aliased_fmu import AliasedFmu
 
@@ -39,7 +40,7 @@ class Signal:
     unit : str
         Of `values`.
     time : ndarray of shape (n,)
-        s, increasing.
+        s, increasing; where an input jumps its time stands twice.
     values : ndarray of shape (n,)
         Finite.
     """
@@ -53,7 +54,13 @@ class Signal:
     @property
     def interval(self) -> float:
         """Median time between samples, s."""
-        return float(np.median(np.diff(self.time)))
+        steps = np.diff(self.time)
+        return float(np.median(steps[steps > 0.0]))
+
+    @property
+    def jumps(self) -> NDArray[np.float64]:
+        """Times that stand twice, s."""
+        return np.asarray(self.time[1:][np.diff(self.time) == 0.0])
 
     def between(self, begin: float, end: float) -> Signal:
         """The samples in a span of time."""
@@ -107,6 +114,8 @@ def log_for(
     """
     tunable = fmu.tunable
     inputs, outputs = [*fmu.names("input"), *(n for n in tunable if n not in chosen)], fmu.names("output")
+    record = record_of(raw.path)
+    raw = raw.with_jumps(record)
     columns = _columns(raw, aliases, fmu, inputs, outputs, why_missing)
     notes: list[str] = []
     clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
@@ -117,27 +126,19 @@ def log_for(
         if clock not in clocks:
             times, origin = _times(raw, aliases, clock, origin, notes)
             clocks[clock] = times
-        signals[ours] = _without_spikes(fmu, _signal(fmu, raw, ours, column, *clocks[clock], notes), notes)
-        if ours in inputs and len(at := _jumps(raw, column.name, clock, *clocks[clock])):
+        read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], notes), ours in inputs)
+        signals[ours] = _without_spikes(fmu, read, notes)
+        if len(at := read.jumps):
             jumps[ours] = at
     if jumps:
-        notes.append(
-            f"jumps between two rows of one time: {counted(jumps, np.concatenate([*jumps.values()]))}: each "
-            "becomes a line from the first row to the next sample; ali3 run -m keeps those at communication points."
-        )
+        told = counted(jumps, np.concatenate([*jumps.values()]))
+        notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {told}.")
     for name, signal in signals.items():
         if len(signal.time) < FEWEST_SAMPLES:
             raise HostError(
                 f"The log {raw.path} has {len(signal.time)} samples of '{signal.source}' ({name}); at least "
                 f"{FEWEST_SAMPLES} are needed."
             )
-    record = record_of(raw.path)
-    if record.jumps:
-        first = min(t for t, *_ in record.jumps.values())
-        notes.append(
-            f"Inputs of the run that wrote {raw.path.name} jump {len(record.jumps)} times, the first at {first:g} s: "
-            "each becomes a line from the row before; ali3 run -m keeps jumps."
-        )
     driven = {n: s for n, s in signals.items() if n in inputs}
     if parameters := [n for n in driven if n in tunable]:
         notes.append(f"Tunable parameters that the log drives, each kept up to its next row: {', '.join(parameters)}.")
@@ -231,17 +232,20 @@ def _times(
             f"{t[k] - t[0]:.6g} s to {t[k + 1] - t[0]:.6g} s after the first sample; "
             "cut the log there, each drive is compared by itself."
         )
-    first = np.concatenate(([True], np.diff(t) > 0.0))
-    if not first.all():
-        notes.append(f"Rows of '{name}' that are left out, with the time of the row before them: {np.sum(~first)}.")
-    interval = float(np.median(np.diff(t[first]))) if first.sum() > 1 else 0.0
+    steps = np.diff(t)
+    if (twice := int(np.sum(steps == 0.0)) - raw.added) > 0:
+        notes.append(
+            f"Rows of '{name}' with the time of the row before them: {twice}; the first counts, and behind it an input "
+            "has the value of the last."
+        )
+    interval = float(np.median(steps[steps > 0.0])) if steps.any() else 0.0
     if clock.unit is None and unit == "s" and interval > _SLOWEST:
         raise HostError(
             f"The log {raw.path} has a sample every {interval:g} s in the column '{name}', if that is in seconds; for "
             f'other units the alias file says [time] unit = "ms" (or {", ".join(list(TIME_UNITS)[2:])}).'
         )
     start = zero if origin is None else origin
-    return (t[first] + (zero - start), rows[first]), start
+    return (t + (zero - start), rows), start
 
 
 def _moments(raw: RawLog, name: str, unit: str | None) -> NDArray[np.float64]:
@@ -293,19 +297,21 @@ def _signal(
     return Signal(ours, column.name, unit, t, values)
 
 
-def _jumps(
-    raw: RawLog, name: str, clock: str, time: NDArray[np.float64], rows: NDArray[np.int64]
-) -> NDArray[np.float64]:
-    """Times at which the row that is used has another value than one of its time behind it, s."""
-    values, timed = raw.numbers(name), raw.table[clock].notna().to_numpy()
-    behind = np.minimum(rows + 1, len(values) - 1)
-    left = timed[behind] & ~np.isin(behind, rows) & np.isfinite(values[rows]) & np.isfinite(values[behind])
-    return np.asarray(time[left & (values[behind] != values[rows])])
+def _of_each_time(signal: Signal, jumps: bool) -> Signal:
+    """Of rows of one time the first; of an input the last too, where it has another value."""
+    if not len(signal.time):
+        return signal
+    later = np.diff(signal.time) > 0.0
+    first, last = np.append(True, later), np.append(later, True)
+    begun = signal.values[np.maximum.accumulate(np.where(first, np.arange(len(first)), 0))]
+    moved = np.abs(signal.values - begun) > ROUND_OFF * (np.abs(signal.values) + np.abs(begun))
+    kept = first | (last & moved) if jumps else first
+    return replace(signal, time=signal.time[kept], values=signal.values[kept])
 
 
 def _without_spikes(fmu: AliasedFmu, signal: Signal, notes: list[str]) -> Signal:
     """Without single samples that no neighbour supports, which are told; whole numbers and switches may jump."""
-    wrong = spikes(signal.time, signal.values)
+    wrong = spikes(signal.time, signal.values) & ~np.isin(signal.time, signal.jumps)
     if fmu.variables[signal.name].type != "Real" or not wrong.any():
         return signal
     what = f"'{signal.source}' ({signal.name})"

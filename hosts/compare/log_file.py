@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import LARGEST_NUMBER
 from hosts.compare.csv_form import find_form
 from hosts.compare.log_aliases import Form
+from hosts.driving.run_record import RunRecord, rows_before_jumps
 
 _MDF = (".mf4", ".mdf", ".dat")
 
@@ -33,12 +34,30 @@ class RawLog:
         Where the file gives them.
     first_row : int
         Lines of the file before the first row.
+    added : int
+        Rows that the file does not have, from the record of the run that wrote it.
     """
 
     path: Path
     table: pd.DataFrame
     units: dict[str, str]
     first_row: int
+    added: int = 0
+
+    def with_jumps(self, record: RunRecord) -> RawLog:
+        """With a row before each jump of an input that the record of a run knows; `HostError` if it is of another."""
+        if not record.jumps:
+            return self
+        names = [str(name) for name in self.table.columns]
+        last = names.index(record.outputs_from) if record.outputs_from in names else 0
+        parts, end = [], len(self.table)
+        for k, before in rows_before_jumps(record, self.path, self.numbers(names[0]).tolist(), last - 1):
+            row = self.table.iloc[[k]].copy()
+            row.iloc[0, 1:last] = before
+            parts += [self.table.iloc[k:end], row]
+            end = k
+        table = pd.concat([self.table.iloc[:end], *reversed(parts)], ignore_index=True)
+        return replace(self, table=table, added=len(record.jumps))
 
     def numbers(self, name: str) -> NDArray[np.float64]:
         """Values of a column of shape (n,), NaN where there is none.

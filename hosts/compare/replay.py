@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 
@@ -15,7 +16,7 @@ from hosts.compare.follower import demanded
 from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch, joined
-from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 
@@ -31,7 +32,7 @@ def inputs_of(
     followed: Mapping[str, float] | None = None,
     kept: Collection[str] = (),
 ) -> Manoeuvre:
-    """The manoeuvre that gives an FMU the measured inputs, with a row a step.
+    """The manoeuvre that gives an FMU the measured inputs, with a row a step and two where an input jumps.
 
     Parameters
     ----------
@@ -52,10 +53,14 @@ def inputs_of(
         Inputs and tunable parameters that keep the value of a sample up to the next.
     """
     steps = max(1, round(end / step))
-    time: NDArray[np.float64] = step * np.arange(steps + 1, dtype=np.float64)
-    at = time + 0.5 * step if held else time
+    points = step * np.arange(steps + 1, dtype=np.float64)
+    inputs = {n: replace(s, time=_on_points(s.time, step)) for n, s in inputs.items()}
+    jumps = np.unique(np.concatenate([np.zeros(0), *(s.jumps for s in inputs.values())]))
+    time = np.sort(np.concatenate((np.setdiff1d(points, jumps), jumps, jumps)))
+    before = np.append(np.diff(time) == 0.0, False)
+    at = np.where(held & np.isin(time, points) & ~before, time + 0.5 * step, time)
     columns = {
-        n: _kept(s, time, n in whole) if n in whole or n in kept else np.interp(at, s.time, s.values).astype(np.float64)
+        n: _kept(s, time, before, n in whole) if n in whole or n in kept else _straight(s, at, before)
         for n, s in inputs.items()
     }
     for n, frequency in (followed or {}).items():
@@ -63,8 +68,20 @@ def inputs_of(
     return Manoeuvre(name, time, columns, steps * step, dict(start), held=frozenset(kept))
 
 
-def _kept(signal: Signal, time: NDArray[np.float64], whole: bool) -> NDArray[np.float64]:
-    rows = np.searchsorted(signal.time, time + 1e-9, side="right") - 1
+def _on_points(time: NDArray[np.float64], step: float) -> NDArray[np.float64]:
+    """Times with those that are meant to be communication points there to the last digit."""
+    point = step * np.round(time / step)
+    return np.where(np.abs(time - point) < ON_TIME, point, time)
+
+
+def _straight(signal: Signal, time: NDArray[np.float64], before: NDArray[np.bool_]) -> NDArray[np.float64]:
+    behind = np.interp(time, signal.time, signal.values)
+    # Backwards in time the value before a jump is the one behind it.
+    return np.where(before, np.interp(-time, -signal.time[::-1], signal.values[::-1]), behind)
+
+
+def _kept(signal: Signal, time: NDArray[np.float64], before: NDArray[np.bool_], whole: bool) -> NDArray[np.float64]:
+    rows = np.where(before, np.searchsorted(signal.time, time), np.searchsorted(signal.time, time, side="right")) - 1
     values = signal.values[np.maximum(rows, 0)]
     return np.asarray(np.round(values) if whole else values)
 

@@ -24,6 +24,7 @@ from hosts.compare.starting_pedal import starting_pedals
 from hosts.compare.stretches import GAP, Spans, Stretch, begins, in_spans, one_after_the_other, spans
 from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.missed_jumps import missed_jumps
 from hosts.driving.run_checks import check_columns, communication_step
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
@@ -127,6 +128,7 @@ def prepare(options: argparse.Namespace) -> Task:
         everything = outputs | log_at(log, options)
         point = reference_point(options.fmu, aliases, given)
         stretches: list[Stretch] = []
+        missed: list[str] = []
         for begin, length in parts:
             begun = None if begin or options.begin else log.begun
             start, words = measured_start(fmu, cut(everything, begin, begin + length), given, begun)
@@ -146,8 +148,10 @@ def prepare(options: argparse.Namespace) -> Task:
                 variable = fmu.table[name]
                 np.clip(manoeuvre.inputs[name], variable.low, variable.high, out=manoeuvre.inputs[name])
             check_columns(fmu, manoeuvre)
+            missed += _missed(manoeuvre, step, slopes, whole, (options.begin or 0.0) + begin)
             held_speed = None if speed is None else cut({"": speed}, begin, begin + length)[""]
             stretches.append(Stretch(manoeuvre, held_speed, 0.0, begin, len(stretches) * (length + GAP)))
+        notes += missed[:1]
         parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in held}
     if speed is not None:
         stretches = starting_pedals(options.fmu, aliases, stretches, step)
@@ -185,6 +189,13 @@ def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> lis
     if not found:
         raise HostError(f"No window of {options.windows:g} s lies in --seconds {options.seconds} and in the log.")
     return [(t, options.windows) for t in found]
+
+
+def _missed(manoeuvre: Manoeuvre, step: float, slopes: bool, whole: Set[str], begin: float) -> list[str]:
+    """A sentence where an input jumps inside a communication step."""
+    missed = missed_jumps(manoeuvre, step, manoeuvre.inputs if slopes else (), whole)
+    origin = f" after {begin:g} s of the log" if begin else ""
+    return [] if missed is None else [f"{missed[0]}{origin}: {missed[1]}."]
 
 
 def log_at(log: Log, options: argparse.Namespace) -> dict[str, Signal]:

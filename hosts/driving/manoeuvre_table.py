@@ -14,7 +14,7 @@ from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, parse_value
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.run_record import record_of
+from hosts.driving.run_record import record_of, rows_before_jumps
 from hosts.driving.state_file import read_state
 
 # What a page says of a table whose oldest rows it has forgotten.
@@ -83,13 +83,8 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
             f"{path} was written every {record.interval:g} s, and {', '.join(lost)} moved in between otherwise than "
             "its rows tell, so that the run cannot be repeated; run without --interval to have a table that repeats."
         )
-    for k, (t, *before) in sorted(record.jumps.items(), reverse=True):
-        if not 0 <= k < len(rows) or rows[k][0] != t or len(before) != len(inputs):
-            raise HostError(
-                f"{path} is not the table that {path.with_suffix('.json').name} beside it was written with: an input "
-                f"jumps in row {k} at {t:g} s. Give the table another name, or its columns of inputs alone."
-            )
-        rows.insert(k, [t, *before, *rows[k][len(before) + 1 :]])
+    for k, before in rows_before_jumps(record, path, [row[0] for row in rows], len(inputs)):
+        rows.insert(k, [rows[k][0], *before, *rows[k][len(before) + 1 :]])
     values = np.array(rows)
     columns = {name: values[:, k] for k, name in enumerate(inputs, start=1) if known is None or name in known}
     kept = frozenset(inputs if held is None and recorded else held or ())

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from hosts.driving.senses import Senses
 
-# Of a value that is reached at the end of a step and set again for the next.
-_ROUND_OFF = 1e-9
+ROUND_OFF = 1e-9
+"""Of a value that is reached at the end of a step and set again for the next; more is a jump."""
 
 
 class RecordedRows:
@@ -68,7 +68,7 @@ class RecordedRows:
         """A step begins with these values of the inputs that are set."""
         held, before = self._held, self._held.copy()
         held[self._used] = values
-        jumped = np.abs(held - before) > _ROUND_OFF * (np.abs(held) + np.abs(before))
+        jumped = np.abs(held - before) > ROUND_OFF * (np.abs(held) + np.abs(before))
         row, between = divmod(self.done, self._every)
         if between:
             self.lost |= jumped
@@ -81,7 +81,7 @@ class RecordedRows:
     def move(self, ends: Sequence[float], changes: Sequence[float]) -> None:
         """Over the step those that go straight change by `changes` and reach `ends`."""
         if self.done % self._every:
-            self.lost[self._straight] |= np.abs(np.subtract(changes, self._changes)) > _ROUND_OFF * self._sizes
+            self.lost[self._straight] |= np.abs(np.subtract(changes, self._changes)) > ROUND_OFF * self._sizes
         self._changes = list(changes)
         self._held[self._straight] = ends
 

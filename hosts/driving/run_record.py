@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -28,6 +28,27 @@ class RunRecord:
     step: float | None = None
     interval: float = 0.0
     lost: tuple[str, ...] = ()
+
+
+def rows_before_jumps(
+    record: RunRecord, path: Path, times: Sequence[float], inputs: int
+) -> list[tuple[int, list[float]]]:
+    """Rows that a table lacks, the last first: the row before which each stands, and its inputs.
+
+    Raises
+    ------
+    HostError
+        The table beside the record is not the one that was written with it.
+    """
+    found = []
+    for k, (t, *before) in sorted(record.jumps.items(), reverse=True):
+        if not 0 <= k < len(times) or times[k] != t or len(before) != inputs:
+            raise HostError(
+                f"{path} is not the table that {path.with_suffix('.json').name} beside it was written with: an input "
+                f"jumps in row {k} at {t:g} s. Give the table another name, or its columns of inputs alone."
+            )
+        found.append((k, before))
+    return found
 
 
 def record_of(path: Path) -> RunRecord:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ali3.files import reason
 from ali3.near_names import did_you_mean
 from ali3.reading import no_file
-from ali3.running import command_name
+from ali3.running import command_name, memory_words
 from ali3.words import brief, shortened
 from ali3.xml_memory import is_lack_of_memory
 from hosts.common.errors import HostError
@@ -115,11 +115,12 @@ class Fmu:
             self._slave = self._instance.slave
         except BaseException as error:
             shutil.rmtree(self._folder, ignore_errors=True)
-            if not isinstance(error, Exception):
+            if isinstance(error, MemoryError) or not isinstance(error, Exception):
                 raise
             if isinstance(error, OSError) and error.errno is not None:
                 raise HostError(f"{path} cannot be unpacked into {self._folder}: {reason(error)}.") from None
-            raise HostError(f"{path} cannot be loaded on {sys.platform}: {self._last_message() or error}") from None
+            why = self._last_message() or f"{error}{memory_words()}"
+            raise HostError(f"{path} cannot be loaded on {sys.platform}: {why}") from None
 
     def __enter__(self) -> Fmu:
         return self

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -78,16 +79,19 @@ class Instance:
             "instanceName": name,
         }
 
+        said: deque[str] = deque(maxlen=8)
+
         def log(environment: object, *rest: Any) -> None:
             *_, status, category, message = rest
             text = (message or b"").decode("utf-8", "replace")
             if not self.three:  # a format of printf, in which # marks references
                 text = text.replace("%%", "%").replace("##", "#")
+            said.append(text)
             told(int(status), (category or b"").decode("utf-8", "replace"), text)
 
         if self.three:
             self.slave: Any = FMU3Slave(**arguments)
-            self.slave.instantiate(logMessage=log)
+            self._instantiate(said, logMessage=log)
             return
         self.slave = FMU2Slave(**arguments)
         self._callbacks = fmi2CallbackFunctions()
@@ -97,7 +101,15 @@ class Instance:
         if resources is not None:
             take = self.slave.fmi2Instantiate
             self.slave.fmi2Instantiate = lambda *a: take(*a[:3], resources.encode(), *a[4:])
-        self.slave.instantiate(callbacks=self._callbacks)
+        self._instantiate(said, callbacks=self._callbacks)
+
+    def _instantiate(self, said: Sequence[str], **functions: Any) -> None:
+        try:
+            self.slave.instantiate(**functions)
+        except Exception:
+            if any("enough memory" in text or "out of memory" in text.lower() for text in said):
+                raise MemoryError from None
+            raise
 
     def initialise(self, start: Mapping[Place, Value], start_time: float = 0.0, stop_time: float | None = None) -> None:
         """Set start values and leave initialisation mode."""

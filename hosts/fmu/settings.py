@@ -10,6 +10,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes
 from hosts.fmu.setting import Setting
+from hosts.fmu.steering_ratios import steering_rows
 from hosts.fmu.variables import Variables
 
 START_OF = "start of "
@@ -120,7 +121,8 @@ class Settings:
 
     def rows(self) -> list[tuple[str, str]]:
         """Rows of a summary: what was set, and what does nothing."""
-        return self._notes + [(s.variable.name, s.words()) for s in self.changes]
+        changes = [(s.variable.name, s.words()) for s in self.changes]
+        return self._notes + changes + steering_rows(self._variables, self.start)
 
     def title(self, name: str) -> str:
         """A name for a picture with the first of what the user has changed.

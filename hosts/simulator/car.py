@@ -15,7 +15,7 @@ import numpy as np
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
-from hosts.fmu.steering_ratios import RATIOS
+from hosts.fmu.steering_ratios import steering_as_set
 from hosts.fmu.variables import Variables
 from hosts.simulator.car_process import COMMANDS, Order
 from hosts.simulator.mail import Mail, Records
@@ -28,7 +28,6 @@ __all__ = ["Car", "CarSettings", "Event", "Moment", "StepTimes"]
 
 SLOWEST = 0.05
 """Least speed of slow motion, simulated over wall seconds."""
-_BY_RATIO = ("vehicle.steering_wheel_angle_max", "vehicle.steering_ratio")
 _ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
 
 
@@ -66,7 +65,7 @@ class Car:
         self.constants = {
             n: float(v.start) for n, v in variables.items() if v.variability == "constant" and v.type == "Real"
         }
-        self.constants |= _steering_as_set(self.constants, table, start)
+        self.constants |= steering_as_set(self.constants, table, start)
         self._table, self._ranges = table, [(table[n].low, table[n].high) for n in self.inputs]
         self._places = {n: k for k, n in enumerate(self.inputs)}
         self._lock, self._wishes = threading.Lock(), 0
@@ -244,12 +243,3 @@ class Car:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
-
-
-def _steering_as_set(constants: Mapping[str, float], table: Variables, start: Mapping[str, Value]) -> dict[str, float]:
-    """Constants of the steering where another ratio is set: full lock is a place of the rack or the arm."""
-    scale = 1.0
-    for name, power in RATIOS.items():
-        if name in start:
-            scale *= (float(start[name]) / float(table[name].start or math.nan)) ** power
-    return {name: scale * constants[name] for name in _BY_RATIO if scale != 1.0 and name in constants}

@@ -132,6 +132,11 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
     unit, log = (entry.unit, entry.log) if entry is not None else (None, False)
     variables = Variables(described(fmu))
     ends: tuple[float, float] | None = target.range
+    kind = variables[target.by].kind if target.by in variables.names else "Real"
+    if kind != "Real":
+        words = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
+        what = words.get(kind, f"of the kind {kind}")
+        raise HostError(f"--by {target.by}: it is {what}; only real numbers can be sought.")
     if ends is not None:
         unit, log = None, log and ends[0] > 0.0
     elif entry is not None and entry.range is not None:
@@ -142,7 +147,7 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
             ends = (known.low, known.high)
     if ends is None and target.by in study.parameters and target.by in variables.names:
         raise HostError(f"{file}: parameters.'{target.by}' has no range; give one by --between LOW:HIGH.")
-    if ends is None and target.by in variables.names and variables[target.by].kind == "Real":
+    if ends is None and target.by in variables.names:
         raise HostError(f"--by {target.by}: neither the study file nor the FMU gives a range; add --between LOW:HIGH.")
     if ends is not None and not ends[0] < ends[1]:
         raise HostError(f"--by {target.by}: its range is {ends[0]:g} alone; add --between LOW:HIGH.")
@@ -157,8 +162,6 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
     plan = make_plan(study.model_copy(update=changes), file, fmu)
     if ends is None:
         raise HostError(f"--by {target.by}: neither the study file nor the FMU gives a range; add --between LOW:HIGH.")
-    if plan.kinds[target.by] != "Real":
-        raise HostError(f"--by {target.by}: it is a whole number; only real numbers can be sought.")
     return plan
 
 

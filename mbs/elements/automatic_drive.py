@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import positive
+from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Positive, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, several, size
@@ -109,16 +110,16 @@ class AutomaticDrive:
         of_selector: Reals = {n: own.pop(n) for n in ("reverse_ratio", "engage_speed", "engage_time")}
         ratios = [positive(r, f"A ratio of {what}") for r in several(self.ratios, f"the ratios of {what}")]
         if not ratios or any(b >= a for a, b in pairwise(ratios)):
-            raise ValueError(f"The ratios of {what} are {ratios}; they must fall, with at least one.")
+            raise ModelError(f"The ratios of {what} are {ratios}; they must fall, with at least one.")
         if not 1 <= gear <= len(ratios):
-            raise ValueError(f"The gear of {what} is {gear}; it must be one of 1 to {len(ratios)}.")
+            raise ModelError(f"The gear of {what} is {gear}; it must be one of 1 to {len(ratios)}.")
         if not 0.0 < self.idle_speed <= self.stall_speed < self.limit_speed:
-            raise ValueError(
+            raise ModelError(
                 f"The speeds {self.idle_speed:g}, {self.stall_speed:g}, {self.limit_speed:g} rad/s of {what} "
                 "must rise from idle over stall to limit."
             )
         if self.dwell < self.ramp:
-            raise ValueError(f"The dwell {self.dwell:g} s of {what} must not be shorter than its ramp {self.ramp:g} s.")
+            raise ModelError(f"The dwell {self.dwell:g} s of {what} must not be shorter than its ramp {self.ramp:g} s.")
         self._check_hysteresis(what, ratios)
         of_gears: Reals = {f"ratio_{i + 1}": (ratio, positive) for i, ratio in enumerate(ratios)}
         inputs = [index(throttle, f"The input of {what}"), len(ratios)]
@@ -128,7 +129,7 @@ class AutomaticDrive:
             inputs.append(index(selector, f"The selector of {what}"))
         for number, asked in ((request, "request of gears"), (clutch, "clutch")):
             if number is not None and selector is None:
-                raise ValueError(f"T{what[1:]} has a {asked} and no selector; give it one.")
+                raise ModelError(f"T{what[1:]} has a {asked} and no selector; give it one.")
         if request is not None or clutch is not None:
             inputs.append(-1 if request is None else index(request, f"The request of {what}"))
         if clutch is not None:
@@ -157,7 +158,7 @@ class AutomaticDrive:
         for up, down in ((self.up_closed, self.down_closed), (self.up_open, self.down_open)):
             for low, high in pairwise(ratios):
                 if up * high / low <= down:
-                    raise ValueError(
+                    raise ModelError(
                         f"T{what[1:]} shifts up at {up:g} rad/s to {up * high / low:.0f} rad/s in the next gear, "
                         f"where it shifts down again (below {down:g}); lower the down-shift speed."
                     )

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbs.common.affine import AffineVector
+from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import channels, size
 from mbs.kernel.header.enumerations import ElementType
@@ -39,7 +40,7 @@ class BodyForce:
         dimension = len(point)
         if len(axes) != (3 if dimension == 3 else 1) or any(len(a) != dimension for a in axes):
             wanted = "three vectors" if dimension == 3 else "one vector"
-            raise ValueError(f"The axes of {what} must be {wanted} of {dimension} components.")
+            raise ModelError(f"The axes of {what} must be {wanted} of {dimension} components.")
         numbers = channels(self.inputs, dimension, what)
         signals = [s for vector in (point, *axes) for s in vector.components]
         return ElementRecord(name, ElementType.BODY_FORCE, signals, integer=(*numbers, -1)[:3])

@@ -40,7 +40,7 @@ class BodyTorque:
         what = f"the torque '{name}'"
         lengths = [len(v) for v in frame]
         if lengths not in ([3, 3, 3], [2]):
-            raise ValueError(f"The frame of {what} must be three spatial or one planar vector, not {lengths} numbers.")
+            raise ModelError(f"The frame of {what} must be three spatial or one planar vector, not {lengths} numbers.")
         numbers = channels(self.inputs, len(frame), what)
         if not isinstance(self.axes, str) or self.axes not in ("earth", "body"):
             raise ModelError(f"The axes of {what} are {shown(self.axes)}; they must be 'earth' or 'body'.")

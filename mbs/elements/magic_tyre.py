@@ -9,6 +9,7 @@ from typing import Annotated
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import number, one_of, positive
+from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index
@@ -146,7 +147,7 @@ class MagicTyre:
         reals |= ranges | reals_of(self, what, ("largest_load",))
         for key in self.coefficients:
             if key not in MAGIC_COEFFICIENTS:
-                raise ValueError(f"The Magic Formula of {what} has no coefficient {key}.")
+                raise ModelError(f"The Magic Formula of {what} has no coefficient {key}.")
         for key, usual in MAGIC_COEFFICIENTS.items():
             check = positive if key in ("LMUX", "LMUY", "LKX", "LKY", "LFZO", "LONGVL") else number
             reals[key] = (check(self.coefficients.get(key, usual), f"{key} of {what}"), check)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import instance_of, number, positive
+from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index, size
@@ -53,7 +55,7 @@ def wheel_signals(centre: AffineVector, axis: AffineVector, spin: Affine, what: 
 def check_rim(bottoming_radius: float, radius: float, what: str) -> None:
     """Refuse a rim that does not lie within the free tyre; radii in m."""
     if not bottoming_radius < radius:
-        raise ValueError(f"The bottoming radius {bottoming_radius:g} m of {what} must be less than {radius:g} m.")
+        raise ModelError(f"The bottoming radius {bottoming_radius:g} m of {what} must be less than {radius:g} m.")
 
 
 @dataclass(frozen=True)
@@ -176,25 +178,48 @@ class Tyre:
             return {}
         return leaning | (bore or dict.fromkeys(("bore_width", "bore_stiffness", "bore_damping"), (0.0, number)))
 
-    def _check_curves(self, what: str) -> None:
-        """Every force and slip stays positive and in order over the whole range of loads."""
+    def faults_over_loads(self) -> Iterator[tuple[str, str, str]]:
+        """Where a force or slip is not positive or not in order at no load or at the largest.
+
+        Yields
+        ------
+        tuple of str
+            The field, such as ``lateral.slide_slip``, what it is called, and what is wrong, each without a full stop.
+        """
         for q in (0.0, self.max_load_factor):
             load = f"at {q * self.nominal_load:g} N"
             for direction, curve in (("longitudinal", self.longitudinal), ("lateral", self.lateral)):
                 for key in ("slope", "max_force", "slide_force"):
                     y1, y2 = getattr(curve, key)
                     per_load = 2.0 * y1 - 0.5 * y2 - (y1 - 0.5 * y2) * q
-                    positive(per_load, f"The {direction} {key.replace('_', ' ')} per load of {what} {load}")
-                first = positive(_linear(curve.max_slip, q), f"The {direction} max slip of {what} {load}")
-                last = _linear(curve.slide_slip, q)
-                if last <= first:
-                    raise ValueError(
-                        f"The {direction} slide slip of {what} is {last:g} {load}; it must exceed {first:g}."
-                    )
-            zero = positive(_linear(self.trail_zero, q), f"The slip of zero trail of {what} {load}")
-            end = _linear(self.trail_end, q)
-            if end <= zero:
-                raise ValueError(f"The end slip of the trail of {what} is {end:g} {load}; it must exceed {zero:g}.")
+                    if not per_load > 0.0:
+                        what = f"{direction} {key.replace('_', ' ')} per load"
+                        wrong = f"{load} is {per_load:g} N per nominal load; it must be greater than zero"
+                        yield f"{direction}.{key}", what, wrong
+                slips = ("max_slip", curve.max_slip, "max slip"), ("slide_slip", curve.slide_slip, "slide slip")
+                yield from _faulty_slips(slips, q, load, direction)
+            trail = (
+                ("trail_zero", self.trail_zero, "slip of zero trail"),
+                ("trail_end", self.trail_end, "end slip of the trail"),
+            )
+            yield from _faulty_slips(trail, q, load)
+
+    def _check_curves(self, what: str) -> None:
+        for _, name, wrong in self.faults_over_loads():
+            raise ModelError(f"The {name} of {what} {wrong}.")
+
+
+def _faulty_slips(
+    slips: tuple[tuple[str, Pair, str], tuple[str, Pair, str]], q: float, load: str, direction: str = ""
+) -> Iterator[tuple[str, str, str]]:
+    """The first of two slips must be positive, the second larger."""
+    (one, pair, called), (other, further, named) = slips
+    field, name = (f"{direction}.", f"{direction} ") if direction else ("", "")
+    first, last = _linear(pair, q), _linear(further, q)
+    if not first > 0.0:
+        yield f"{field}{one}", f"{name}{called}", f"{load} is {first:g}; it must be greater than zero"
+    elif not last > first:
+        yield f"{field}{other}", f"{name}{named}", f"{load} is {last:g}; it must exceed {first:g}"
 
 
 def _linear(pair: Pair, q: float) -> float:

@@ -113,13 +113,17 @@ class TMeasy(Section):
     """Torque against turning about the normal of the road."""
 
     def faults(self) -> Iterator[str]:
-        """The trail vanishes before it ends."""
-        for k in range(2):
-            if self.trail_end[k] <= self.trail_zero[k]:
-                yield (
-                    f"{self.key('trail_end')}.{k} is {self.trail_end[k]:g}; it must be larger than "
-                    f"{self.key('trail_zero')}.{k}, {self.trail_zero[k]:g}."
-                )
+        """The trail vanishes before it ends; at no load and at the largest all is positive and in its order too."""
+        found = [
+            f"{self.key('trail_end')}.{k} is {self.trail_end[k]:g}; it must be larger than "
+            f"{self.key('trail_zero')}.{k}, {self.trail_zero[k]:g}."
+            for k in range(2)
+            if self.trail_end[k] <= self.trail_zero[k]
+        ]
+        yield from found
+        if not found and not any(True for curve in (self.longitudinal, self.lateral) for _ in curve.faults()):
+            for field, _, wrong in self.tyre().faults_over_loads():
+                yield f"{self.key(field)} {wrong}; its two numbers are continued to this load."
 
     parameters: ClassVar[dict[str, str]] = {
         "grip": "friction_factor",

@@ -16,7 +16,7 @@ import pytest
 
 from ali3.children import how_ended
 from ali3.errors import FileError, UserError
-from ali3.isolated import Isolated, Lost, done_by
+from ali3.isolated import Isolated, Lost, done_by, shared_by
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 Tell = Callable[[Any], None]
@@ -150,3 +150,14 @@ def test_how_a_process_ended() -> None:
     assert how_ended(-signal.SIGTERM) == "was ended by SIGTERM"
     assert how_ended(-200) == "was ended by signal 200"
     assert how_ended(None) == "ended with exit code None"
+
+
+def test_processes_that_stay_are_the_same_in_the_next_round_and_end_where_it_is_left() -> None:
+    worker: Isolated[str, tuple[int, int]] = Isolated(Counter())
+    rounds = [[result for _, result in shared_by([worker], ["", ""])] for _ in range(2)]
+    counts, ids = zip(*(result for found in rounds for result in found if not isinstance(result, Lost)), strict=True)
+    assert sorted(counts) == [1, 2, 3, 4]
+    assert len(set(ids)) == 1
+    with pytest.raises(UserError, match="The value is 3"):
+        list(shared_by([worker], ["wrong", "hang"]))
+    assert not psutil.pid_exists(ids[0])

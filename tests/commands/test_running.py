@@ -29,6 +29,8 @@ def raiser(error: BaseException) -> int:
         (ModuleNotFoundError("No module named 'fmpy.x'", name="fmpy.x"), 2, 'python -m pip install "ali3[hosts]"\n'),
         (KeyboardInterrupt(), 130, "stopped by Ctrl-C\n"),
         (MemoryError(), 2, "raise the limit (ulimit -v).\n"),
+        (RuntimeError("can't start new thread"), 2, "raise the limit (ulimit -v).\n"),
+        (OSError("sources.so: failed to map segment from shared object"), 2, "raise the limit (ulimit -v).\n"),
         (ImportError("etree.so: failed to map segment from shared object"), 2, "raise the limit (ulimit -v).\n"),
     ],
 )

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mbs.common.errors import ModelError
 from mbs.elements import KerbRoad, PlaneRoad, TyreCurve
 from tests.elements import tmeasy
 from tests.elements.harness import Array, Element, Result, tangent_by_differences, vectors
@@ -391,7 +392,7 @@ def test_forces_do_not_jump_over_a_kerb() -> None:
 )
 def test_bad_tyre_data_are_refused_with_a_sentence(change: dict[str, object], sentence: str) -> None:
     centre, axis, spin = vectors(3, 3, 1)
-    with pytest.raises(ValueError, match=re.escape(sentence)):
+    with pytest.raises(ModelError, match=re.escape(sentence)):
         replace(TYRE, **change).record("left", centre, axis, spin[0], 0)  # type: ignore[arg-type]
 
 

@@ -117,3 +117,28 @@ def test_it_checks_with_what_is_set(tmp_path: Path, capfd: pytest.CaptureFixture
     assert seen[0] != seen[1]
     assert main([*command, "--set", "spring.damping=90"]) == 2
     assert "--set: 'spring.damping' is 90 N.s/m; its range is 0 to 20 N.s/m." in capfd.readouterr().err
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no limit of memory")
+def test_an_fmu_without_memory_is_not_bad(fmus: dict[str, Path], tmp_path: Path) -> None:
+    """What an FMU says is told as lack of memory; a failure without a reason is told with the limit."""
+    program = (
+        "import resource, sys\n"
+        "from pathlib import Path\n"
+        "from hosts.check.all_checks import _one\n"
+        "from hosts.check.instance import Instance, open_subject\n"
+        "subject, crowd = open_subject(Path(sys.argv[1]), Path(sys.argv[2]), 10, {}), []\n"
+        "used = int(Path('/proc/self/statm').read_text().split()[0]) * resource.getpagesize()\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (used + 30_000_000, resource.RLIM_INFINITY))\n"
+        "print(_one('x', lambda subject: 1 / 0, subject).words)\n"
+        "try:\n"
+        "    _one('crowd', lambda subject: [crowd.append(Instance(subject)) for _ in range(100_000)], subject)\n"
+        "except MemoryError:\n"
+        "    print('MemoryError')\n"
+    )
+    if not Path("/proc/self/statm").is_file():
+        pytest.skip("no size of a process")
+    command = [sys.executable, "-c", program, str(fmus["native"]), str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+    assert "ZeroDivisionError: division by zero; this process may take " in done.stdout, done.stderr
+    assert done.stdout.endswith("MemoryError\n")

@@ -197,6 +197,14 @@ GEOMETRY = {  # what cannot move or has no direction, and what the sentence says
     "a ring of a wheel": ({"front.wheel.spin_inertia": 1.5}, "radius of gyration"),
     "a tyre of glue": ({"front.tyre.nominal_load": 300.0}, "a friction of"),
     "sliding before the peak": ({"rear.tyre.lateral.slide_slip": [0.1, 0.1]}, "must be larger than"),
+    "sliding before the peak without load": (
+        {"rear.tyre.lateral.slide_slip": [0.3, 0.9]},
+        "rear.tyre.lateral.slide_slip at 0 N is -0.3; it must exceed",
+    ),
+    "a force that falls with the load": (
+        {"front.tyre.max_load_factor": 9.0},
+        "N per nominal load; it must be greater than zero; its two numbers are",
+    ),
     "gears in the wrong order": ({"drive.ratios": [4.0, 5.9, 10.5]}, "they must fall"),
     "no gears": ({"drive.ratios": []}, "it must be a list of numbers, between 0.3 and 60, not empty"),
     "no such template": ({"front.suspension.kind": "five_link"}, "it must be one of 'double_wishbone'"),

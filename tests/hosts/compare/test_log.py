@@ -52,13 +52,17 @@ def test_names_of_the_fmu_need_no_aliases(fmu: AliasedFmu, tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("second", [0.5 * 12, 30.0])
-def test_a_jump_of_an_input_is_told(fmu: AliasedFmu, tmp_path: Path, second: float) -> None:
-    """A log is samples; of two rows of one time the first is used."""
+def test_an_input_jumps_between_two_rows_of_one_time(fmu: AliasedFmu, tmp_path: Path, second: float) -> None:
+    """An output has the first of them; the same value twice is no jump, and one that is no spike."""
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012\n", f"0.12,6.0,0.012\n0.12,{second},0.5\n")
     log = read(fmu, tmp_path, text)
-    assert_read(log)
-    told = [note for note in log.notes if "two rows of one time: 1 of pull, the first at 0.12 s" in note]
-    assert len(told) == (second == 30.0)
+    jumps = second == 30.0
+    assert len([note for note in log.notes if "1 of pull, the first at 0.12 s." in note]) == jumps
+    assert log.outputs["bob.x"].values == pytest.approx(0.001 * np.arange(ROWS))
+    usual = 0.5 * np.arange(ROWS)
+    assert log.inputs["pull"].values == pytest.approx(np.insert(usual, 13, 30.0) if jumps else usual)
+    assert log.inputs["pull"].jumps.tolist() == pytest.approx([0.12] if jumps else [])
+    assert log.inputs["pull"].interval == pytest.approx(0.01)
 
 
 def test_a_sample_that_no_neighbour_supports_is_left_out_and_told(fmu: AliasedFmu, tmp_path: Path) -> None:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from ali3.read_parameter_set import read_parameter_set
 from hosts.common.units import conversion
+from hosts.fmu.variables import Variable, Variables
 from hosts.run.command import main as run
 from hosts.study.command import main
 from tests.hosts.study.test_study import GRAVITY
@@ -115,6 +117,27 @@ def test_a_parameter_that_the_fmu_has_not_is_told_before_its_range(
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("kind", "words"), [("String", "it is a text; only"), ("Integer", "it is a whole number")])
+def test_what_is_no_real_number_is_not_sought(
+    study_file: Callable[..., Path],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    kind: str,
+    words: str,
+) -> None:
+    """Told before a range that nobody gave."""
+    before = Variables.__getitem__
+
+    def of_kind(self: Variables, name: str) -> Variable:
+        return replace(before(self, name), kind=kind) if name == "spring.stiffness" else before(self, name)
+
+    monkeypatch.setattr(Variables, "__getitem__", of_kind)
+    wanted = ["--target", "lowest=-1.2", "--by", "spring.stiffness", "--out", str(tmp_path / "out")]
+    assert main([str(study_file()), *wanted]) == 2
+    assert f"--by spring.stiffness: {words}" in capsys.readouterr().err
+
+
 def test_a_turn_is_two_pi_radians() -> None:
     """Frequencies are measured in rad/s and shown in Hz."""
     assert conversion("Hz", "rad/s") == pytest.approx(2.0 * math.pi)
