@@ -39,7 +39,9 @@ class Shot:
     held : tuple of (str, float)
         Keys that are held together with the one for the throttle, one after the other, and for how long, s.
     camera : str
+        Name of the view as the page's list has it.
     fidelity : int
+        Of the car's FMU, 0 rigid to 4.
     acts : tuple of str
         Keys before the picture is taken.
     """

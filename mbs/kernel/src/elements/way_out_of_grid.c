@@ -7,7 +7,9 @@
 
 #include "../algebra/elementary.h"
 
-enum { RAYS = 16, MOST = 64, HALVINGS = 40, SECTIONS = 24 }; /* MOST: places that are looked at on a ray */
+/* MOST: places that are looked at on a ray. The distance is that of the tangent plane at the foot, so that what is left
+ * of a halving or of an angle is in it to second order only. */
+enum { RAYS = 16, MOST = 64, HALVINGS = 24, SECTIONS = 10 };
 
 static int is_out(const ali3_grid *g, const double point[3], const double way[2], double r) {
   return ali3_grid_at(g, point[0] + r * way[0], point[1] + r * way[1]).height <= point[2];
@@ -44,16 +46,20 @@ int ali3_way_out_of_grid(const ali3_grid *g, const double point[3], double reach
     if (r < nearest) nearest = r, best = between * k;
   }
   if (!(nearest < reach)) return 0;
-  double low = best - between, high = best + between; /* golden sections */
+  const double golden = 0.61803398874989485;
+  double low = best - between, high = best + between, a = high - golden * (high - low), b = low + golden * (high - low);
+  double at_a = crossing_at(g, point, a, step, reach), at_b = crossing_at(g, point, b, step, reach);
   for (int i = 0; i < SECTIONS; i++) {
-    const double part = 0.38196601125010515 * (high - low), a = low + part, b = high - part;
-    if (crossing_at(g, point, a, step, reach) < crossing_at(g, point, b, step, reach))
-      high = b;
-    else
-      low = a;
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a, a = high - golden * (high - low);
+      at_a = crossing_at(g, point, a, step, reach);
+    } else {
+      low = a, a = b, at_a = at_b, b = low + golden * (high - low);
+      at_b = crossing_at(g, point, b, step, reach);
+    }
   }
-  const double middle = 0.5 * (low + high), r = crossing_at(g, point, middle, step, reach);
-  if (r < nearest) nearest = r, best = middle;
+  const double r = fmin(at_a, at_b);
+  if (r < nearest) nearest = r, best = at_a < at_b ? a : b;
   foot[0] = point[0] + nearest * ali3_cos(best);
   foot[1] = point[1] + nearest * ali3_sin(best);
   return 1;
