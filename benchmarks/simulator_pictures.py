@@ -56,7 +56,7 @@ class Shot:
 SHOTS = {
     "chase": Shot("start", (("", 14.0),), "chase"),
     "map": Shot("slalom", (("", 5.0), *((key, 0.7) for key in ("a", "d", "d", "a", "a", "d"))), "map"),
-    "stress": Shot("kerbs", (("", 5.0),), "orbit", 2, ("f", "b", "p")),
+    "stress": Shot("kerbs", (("", 5.0),), "orbit", 2, ("f", "p")),
 }
 
 
