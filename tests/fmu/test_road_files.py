@@ -341,7 +341,7 @@ def test_fmi_3_gives_the_same(
 
 def test_a_wheel_that_is_driven_into_a_wall_is_told_once(car: Path, host: Any, tmp_path: Path) -> None:
     x = np.arange(-10.0, 30.0, 0.05)
-    heights = np.repeat(np.clip((x - 8.0) / 0.3, 0.0, 1.0)[:, None], 21, axis=1)
+    heights = np.repeat(0.35 * np.clip((x - 8.0) / 0.1, 0.0, 1.0)[:, None], 21, axis=1)  # below the body
     with pytest.warns(RoadWarning):
         write_road(GridRoad((-10.0, -5.0), (0.05, 0.5), heights, 1.0), tmp_path / "wall.road")
     driven = host(car)
@@ -396,12 +396,12 @@ def test_values_with_which_no_car_works_are_told_with_those_that_do(car: Path, h
 def test_a_wheel_in_a_face_of_a_road_file_is_refused_with_place_radius_and_spacing(
     car: Path, host: Any, tmp_path: Path
 ) -> None:
-    heights = np.repeat(np.where(np.arange(-10.0, 40.0, 0.2) > 10.1, 1.0, 0.0)[:, None], 5, axis=1)
-    with pytest.warns(mbs.RoadWarning, match="a face of 1 m"):
+    heights = np.repeat(np.where(np.arange(-10.0, 40.0, 0.2) > 10.1, 0.4, 0.0)[:, None], 5, axis=1)
+    with pytest.warns(mbs.RoadWarning, match="a face of 0.4 m"):
         write_road(GridRoad((-10.0, -10.0), (0.2, 5.0), heights, 0.9), tmp_path / "wall.road")
     driven = host(car)
     text(driven, str(tmp_path / "wall.road"))
-    driven.start({"initial.speed": 30.0})
+    driven.start({"initial.speed": 60.0})
     status, k = OK, 0
     while status <= 1 and k < 200:
         before = driven.outputs()

@@ -11,6 +11,7 @@ from mbs.roads import RoadWarning, write_road
 from mbs.vehicle import load
 
 EDGE = 8.0  # m
+LOW = 0.35, 0.1  # m, height of a wall below the body, which wheels meet first, and the way over which it rises
 
 
 def grid(height, run):
@@ -38,7 +39,7 @@ def driven(car, tmp_path, height, run, speed, h=0.002):
 
 
 def test_a_wall_is_told_with_time_place_and_size(car, tmp_path):
-    run, told = driven(car, tmp_path, 1.0, 0.3, 15.0)
+    run, told = driven(car, tmp_path, *LOW, 15.0)
     (line,) = told
     assert max(run[f"wheel_{w}.Fz"].max() for w in ("FL", "FR")) > 8e4
     assert run.report.rim_x == pytest.approx(EDGE, abs=0.4)
@@ -47,10 +48,17 @@ def test_a_wall_is_told_with_time_place_and_size(car, tmp_path):
     assert f"pressed in by {run.report.rim_pressed:.2g} m more than it holds" in line
 
 
+def test_a_wall_that_the_body_meets_first_stops_it(car, tmp_path):
+    run, told = driven(car, tmp_path, 1.0, 0.3, 15.0)
+    assert told == []
+    assert EDGE - 2.0 < run["chassis.x"].max() < EDGE
+    assert run["chassis.ground_force"].max() > 8e4
+
+
 def test_a_simulation_that_is_stepped_tells_it_once(car, tmp_path):
     file = tmp_path / "wall.road"
     with pytest.warns(RoadWarning, match="a face of"):
-        write_road(grid(1.0, 0.3), file)
+        write_road(grid(*LOW), file)
     simulation = mbs.Simulation(car, parameters={"road.file": file}, pose=mbs.Pose(speed=15.0))
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -70,7 +78,7 @@ def test_a_variant_of_many_that_meets_a_wall_is_told_with_its_number(car, tmp_pa
     """The hatchback with two ratios of its drive, which have masses of their own, in lanes; bits as alone."""
     file = tmp_path / "wall.road"
     with pytest.warns(RoadWarning, match="a face of"):
-        write_road(grid(1.0, 0.3), file)
+        write_road(grid(*LOW), file)
     given = [{"road.file": file, "drive.ratio": 9.0}, {"road.file": file, "drive.ratio": 11.0}]
     variants = [
         mbs.Variant(parameters, pose=mbs.Pose(speed=v)) for parameters, v in zip(given, (15.0, 2.0), strict=True)
