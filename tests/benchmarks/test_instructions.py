@@ -42,9 +42,10 @@ def test_the_functions_of_a_scene_are_named_with_their_shares(tmp_path, capsys, 
     rows = json.loads(table.read_text("utf-8"))["rows"]
     share = {row["function"]: row["share"] for row in rows}
     assert sum(share.values()) == pytest.approx(1.0)
-    assert {"ali3_constraints", "ali3_factorise"} <= set(share)
+    named = {name.removeprefix("ali3_").removesuffix("_avx2") for name in share}  # one of the two that are compiled
+    assert {"constraints", "factorise"} <= named
     assert all(value > instructions.LEAST for name, value in share.items() if name != "all others")
-    assert "ali3_factorise" in capsys.readouterr().out
+    assert "factorise" in capsys.readouterr().out
 
 
 def test_the_table_of_the_project_has_every_scene():

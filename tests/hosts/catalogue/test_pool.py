@@ -35,8 +35,8 @@ def test_a_crash_and_a_fault_are_rows_and_the_others_are_done(tmp_path: Path) ->
         assert isinstance(outcomes[place], TestRecord)
         assert place in {k for k, _ in heard}
     assert sorted(p.name for p in (tmp_path / "runs" / "steady_circle").iterdir()) == [
-        *("b_left.csv", "b_right.csv"),
-        *("d_left.csv", "d_right.csv"),
+        *("b_left.csv", "b_left.json", "b_right.csv", "b_right.json"),
+        *("d_left.csv", "d_left.json", "d_right.csv", "d_right.json"),
     ]
 
 
