@@ -44,6 +44,7 @@ def read_parameter_set(file: str | os.PathLike[str]) -> ParameterSet:
     if not schema.validate(root):
         problem = schema.error_log[0]
         raise ParameterSetError(f"{file}, line {problem.line}: {_words(problem.message)}.")
+    _check_units(root, SSVElem.namespaces, file)
     content = SSVElem.from_xml(root)
     elements = root.iterfind("ssv:Parameters/ssv:Parameter", SSVElem.namespaces)
     entries = [
@@ -96,6 +97,17 @@ def _schema(root: Any, file: object) -> Any:
     if form[:1] not in _SCHEMAS:
         raise ParameterSetError(f"{file} is of SSP '{form}'; 1.0 and 2.0 can be read.")
     return etree.XMLSchema(file=str(ModelicaStandard.schemas[_SCHEMAS[form[:1]]]))
+
+
+def _check_units(root: Any, namespaces: dict[str, str], file: object) -> None:
+    """Numbers of units that the schema takes though they are none: libxml2 reads "1e" as a double."""
+    for unit in root.iterfind("ssv:Units/ssc:Unit", namespaces):
+        for name, value in ((n, v) for base in unit for n, v in base.attrib.items()):
+            try:
+                float(value)
+            except ValueError:
+                where = f"{file}, line {unit.sourceline}: the unit '{unit.get('name')}'"
+                raise ParameterSetError(f"{where} has {name} = '{value}'; a number is needed.") from None
 
 
 def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
