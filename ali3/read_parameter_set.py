@@ -100,14 +100,18 @@ def _schema(root: Any, file: object) -> Any:
 
 
 def _check_units(root: Any, namespaces: dict[str, str], file: object) -> None:
-    """Numbers of units that the schema takes though they are none: libxml2 reads "1e" as a double."""
+    """The library names neither file nor unit of a number that it cannot read."""
     for unit in root.iterfind("ssv:Units/ssc:Unit", namespaces):
         for name, value in ((n, v) for base in unit for n, v in base.attrib.items()):
-            try:
-                float(value)
-            except ValueError:
-                where = f"{file}, line {unit.sourceline}: the unit '{unit.get('name')}'"
-                raise ParameterSetError(f"{where} has {name} = '{value}'; a number is needed.") from None
+            _check_number(value, f"{file}, line {unit.sourceline}: the unit '{unit.get('name')}' has {name} =")
+
+
+def _check_number(text: str, what: str) -> None:
+    """Against Python, as the schema's reader (libxml2) takes "1e" for a number."""
+    try:
+        float(text)
+    except ValueError:
+        raise ParameterSetError(f"{what} '{text}'; a number is needed.") from None
 
 
 def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
@@ -124,6 +128,8 @@ def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
         raise ParameterSetError(f"{where}: '{name}' has {len(value.split())} values; one is needed.")
     if kind not in ("String", "Enumeration"):
         value = value.strip()
+    if kind == "Real":
+        _check_number(value, f"{where}: '{name}' is")
     return Entry(name, kind, value, typed.get("unit"), element.get("description", ""))
 
 

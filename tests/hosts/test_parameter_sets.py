@@ -267,12 +267,15 @@ def test_files_that_are_none_are_named(variables: Variables, tmp_path: Path) -> 
         Settings(variables).add_set(tmp_path / "large.ssv")
 
 
-def test_a_number_of_a_unit_without_its_exponent_is_named(tmp_path: Path) -> None:
+def test_a_number_without_its_exponent_is_named(tmp_path: Path) -> None:
     file = tmp_path / "set.ssv"
     whole = ssv("spring.damping=2[kN/m]")
     assert 'factor="1000' in whole
     file.write_text(re.sub('factor="1000[^"]*"', 'factor="100e"', whole), encoding="utf-8")
     with pytest.raises(UserError, match=r"set.ssv, line \d+: the unit 'kN/m' has factor = '100e'; a number is needed"):
+        read_parameter_set(file)
+    file.write_text(ssv("depth=3e"), encoding="utf-8")
+    with pytest.raises(UserError, match=r"set.ssv, line \d+: 'depth' is '3e'; a number is needed"):
         read_parameter_set(file)
 
 
