@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from ali3.options import Parser, add_option, assignment, given_of
 from ali3.running import run_command
 from hosts.common.errors import HostError
-from hosts.common.options import add_fmu, add_setting_options, wishes
+from hosts.common.options import Wishes, add_fmu, add_setting_options, wishes
 from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.fmu.car import is_car
 
@@ -106,7 +106,8 @@ def _run(options: argparse.Namespace) -> int:
 
             driver = driver_of(fmu, manoeuvre)
         set_all = partial(set_in, opened) if other is None else other.set_in
-        manoeuvre, settings = set_all(manoeuvre, wishes(options), options.fidelity)
+        given = wishes(options) if options.road is None else _with_road(options)
+        manoeuvre, settings = set_all(manoeuvre, given, options.fidelity)
         still = options.manoeuvre is None
         stem = path.stem if still else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
@@ -122,6 +123,12 @@ def _run(options: argparse.Namespace) -> int:
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, None if driver is None else gate_edges(driver))
     return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
+
+
+def _with_road(options: argparse.Namespace) -> Wishes:
+    from hosts.common.road import wishes_with_road
+
+    return wishes_with_road(options, options.out)
 
 
 def _other_names(fmu: Fmu, file: Path) -> OtherNames:
