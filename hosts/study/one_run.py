@@ -52,7 +52,7 @@ class Bench:
         """Free the instance."""
         if self._fmu is not None:
             fmu, self._fmu = self._fmu, None
-            fmu.__exit__(None, None, None)
+            fmu.close()
 
     def __call__(self, task: Task, tell: Callable[[Any], None]) -> Outcome:
         """See `run`; as work for a process."""
