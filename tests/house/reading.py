@@ -89,6 +89,7 @@ WAYS = {
         **DRIVER,
         **STATE,
         **TYPED,
+        "aliases = FILE": "hosts.study.other_names",
         "[limits]": "hosts.measures.limits",
         "whether [limits] hold": "hosts.study.limits_told",
         "[signals]": "hosts.study.signals",
