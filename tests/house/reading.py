@@ -52,6 +52,7 @@ WAYS = {
         **DRIVER,
         **STATE,
         **NEW_ROAD,
+        "the driver's course": "hosts.run.course_result",
         "--kerb": "hosts.run.kerb",
         "--aliases": "hosts.run.other_names",
     },
