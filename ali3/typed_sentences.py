@@ -26,8 +26,6 @@ from ali3.words import one_line, value_words
 ELSEWHERE = 3  # places of a key that a sentence names
 UNKNOWN, MISSING = "extra_forbidden", "missing"
 Loc = Sequence["int | str"]
-
-
 NOTHING: Mapping[str, str] = {}
 
 

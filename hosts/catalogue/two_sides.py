@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import TypeVar
+from collections.abc import Sequence
 
 from hosts.common.display_units import shown_in
 from hosts.common.numbers import is_round_off
 from hosts.measures.measure import Limit, Measure
 
 _SAME = 0.05
-T = TypeVar("T")
 
 
 def mean_of_sides(
@@ -57,8 +55,3 @@ def asymmetry(name: str, pairs: Sequence[tuple[float, float]], text: str) -> Mea
     ]
     note = "" if known else "There are no runs to both sides."
     return Measure(name, max(known, default=math.nan), "1", text, None, note)
-
-
-def of_both(sides: Sequence[T], value: Callable[[T], float]) -> tuple[float, float]:
-    """A number of the left and the right run."""
-    return value(sides[0]), value(sides[1])

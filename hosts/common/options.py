@@ -50,11 +50,5 @@ def add_setting_options(parser: argparse._ActionsContainer) -> None:
 
 
 def wishes(options: argparse.Namespace) -> Wishes:
-    """What was given by the options of `add_setting_options` and by ``--road``."""
-    given = getattr(options, "road", None)
-    road = []
-    if given is not None:
-        from hosts.common.road import road_value
-
-        road = [(ROAD, road_value(given, options.out))]
-    return Wishes(options.parameters, road + options.set)
+    """What was given by the options of `add_setting_options`."""
+    return Wishes(options.parameters, options.set)

@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 from pathlib import Path
 
 from ali3.files import make_folder
 from hosts.common.commands import run_module
+from hosts.common.options import ROAD, Wishes, wishes
 
 MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml", ".crg", ".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
 """Suffixes of what ``ali3 road`` makes a road file of."""
+
+
+def wishes_with_road(options: argparse.Namespace, out: Path) -> Wishes:
+    """What was given by `hosts.common.options.wishes`, behind the road of ``--road``, if there is one.
+
+    Parameters
+    ----------
+    out : Path
+        As of `road_value`.
+    """
+    given = wishes(options)
+    if options.road is None:
+        return given
+    return Wishes(given.sets, [(ROAD, road_value(options.road, out)), *given.values])
 
 
 def road_value(given: str, out: Path) -> str:

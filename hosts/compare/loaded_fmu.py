@@ -72,7 +72,7 @@ class LoadedFmu:
     def close(self) -> None:
         """Unload it."""
         if self._fmu is not None:
-            self._fmu.__exit__(None, None, None)
+            self._fmu.close()
             self._fmu = None
 
     def drive(self, stretch: Stretch, values: Mapping[str, Value] | None = None) -> Result:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from types import TracebackType
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.common.closing import Closing
 from hosts.common.numbers import Value
 from hosts.compare.crew import Crew
 from hosts.compare.follower import demanded
@@ -86,7 +86,7 @@ def _kept(signal: Signal, time: NDArray[np.float64], before: NDArray[np.bool_], 
     return np.asarray(np.round(values) if whole else values)
 
 
-class Replay:
+class Replay(Closing):
     """An FMU that is driven again and again through the same inputs.
 
     Parameters
@@ -124,12 +124,8 @@ class Replay:
         self.said: dict[str, int] = {}
         self.runs = 0
 
-    def __enter__(self) -> Replay:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def close(self) -> None:
+        """End all processes."""
         self._own.close()
         if self._crew is not None:
             self._crew.close()

@@ -12,7 +12,7 @@ import numpy as np
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.options import wishes
+from hosts.common.road import wishes_with_road
 from hosts.compare.log import FEWEST_SAMPLES, Log, Signal, log_for
 from hosts.compare.log_aliases import LogAliases, check_of_fmu, read_log_aliases
 from hosts.compare.log_file import read_log
@@ -99,7 +99,7 @@ def prepare(options: argparse.Namespace) -> Task:
     with Fmu(options.fmu) as opened:
         aliases = aliases_of(options.aliases, opened.table)
         fmu = AliasedFmu(opened, aliases)
-        set_values = settings_of(opened.table, wishes(options)).start
+        set_values = settings_of(opened.table, wishes_with_road(options, options.out)).start
         given = {aliases.names([n])[0]: v for n, v in set_values.items()}
         sought = {aliases.names([t.partition("=")[0].strip()])[0] for t in options.fit}
         log = log_for(fmu, raw, log_aliases, aliases.why_missing, {*given, *sought})

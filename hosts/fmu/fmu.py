@@ -10,7 +10,6 @@ import zipfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from ctypes import c_double, c_int32, c_uint32
 from pathlib import Path
-from types import TracebackType
 
 import numpy as np
 from fmpy import extract, read_model_description
@@ -24,6 +23,7 @@ from ali3.reading import no_file
 from ali3.running import command_name, memory_words
 from ali3.words import brief, shortened
 from ali3.xml_memory import is_lack_of_memory
+from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.instance import Instance, State
@@ -77,7 +77,7 @@ def unpack(path: Path, folder: Path) -> None:
     extract(str(path), str(folder), lambda name: not name.startswith(("sources/", "documentation/")))
 
 
-class Fmu:
+class Fmu(Closing):
     """One instance of a co-simulation FMU (FMI 2.0 or 3.0), ready to be initialised.
 
     Parameters
@@ -122,12 +122,8 @@ class Fmu:
             why = self._last_message() or f"{error}{memory_words()}"
             raise HostError(f"{path} cannot be loaded on {sys.platform}: {why}") from None
 
-    def __enter__(self) -> Fmu:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def close(self) -> None:
+        """Free the instance and what was unpacked."""
         self._slave.freeInstance()
         shutil.rmtree(self._folder, ignore_errors=True)
 

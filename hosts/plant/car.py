@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ali3.near_names import did_you_mean
 from ali3.words import brief, value_words
+from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.built_fmu import fmu_of_car
@@ -42,7 +42,7 @@ class Saved:
     content: bytes
 
 
-class Car:
+class Car(Closing):
     """A car that is stepped from Python, through the slave in C of its FMU.
 
     All is as in the FMU, to the last bit: names, division of steps, ranges, warnings.
@@ -105,19 +105,11 @@ class Car:
         self._readers: dict[tuple[str, ...], Any] = {}
         self._start_time, self._steps = 0.0, 0
 
-    def __enter__(self) -> Car:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
-
     def close(self) -> None:
         """Free the instance; the car is of no use then. Once more does nothing."""
         if not self._closed:
             self._closed, self._started = True, False
-            self.fmu.__exit__(None, None, None)
+            self.fmu.close()
 
     @property
     def time(self) -> float:

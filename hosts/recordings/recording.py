@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 
 from ali3.extras import missing_package
 from ali3.files import check_writable, make_folder, whole_file, write_text
+from hosts.common.closing import Closing
 from hosts.common.numbers import Value
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, STATES, VERSION, check_new
 from hosts.recordings.tables import Rows, recorded
@@ -99,7 +100,7 @@ def _version(package: str) -> str:
         return "unknown"
 
 
-class Recorder:
+class Recorder(Closing):
     """Writes a recording; one thread uses it.
 
     What was recorded reaches the disk every two seconds, so that this much is lost where the program is killed.
@@ -167,12 +168,6 @@ class Recorder:
         self._written, self._wrote = 0, clock.monotonic()
         self._closed = False
         self._describe()
-
-    def __enter__(self) -> Recorder:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def row(self, count: int, time: float, epoch: int, values: ArrayLike) -> None:
         """Record a step, or the start of an epoch.

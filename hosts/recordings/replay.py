@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import TracebackType
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.fmu.instance import State
@@ -69,7 +69,7 @@ class Replayed:
     notes: list[str] = field(default_factory=list)
 
 
-class Repeater:
+class Repeater(Closing):
     """An FMU that follows a recording row by row.
 
     Parameters
@@ -96,19 +96,15 @@ class Repeater:
             self._check(path)
             self._set, self._get = self.fmu.setter(drive.inputs), self.fmu.getter(drive.names[len(drive.inputs) :])
         except BaseException:
-            self.fmu.__exit__(None, None, None)
+            self.fmu.close()
             raise
         self._time, self._epoch = 0.0, -1
 
-    def __enter__(self) -> Repeater:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def close(self) -> None:
+        """Free kept states and the instance."""
         for state in self._states.values():
             self.fmu.free(state)
-        self.fmu.__exit__(kind, error, trace)
+        self.fmu.close()
 
     def follow(self, rows: Rows) -> Iterator[list[float]]:
         """Repeat rows, which follow those before; give the outputs after each."""

@@ -23,7 +23,11 @@ from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.fmu.car import is_car
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from hosts.driving.driver import Driver
+    from hosts.driving.result import Result
     from hosts.driving.simulated_fmu import SimulatedFmu
     from hosts.fmu.fmu import Fmu
     from hosts.run.other_names import OtherNames
@@ -85,7 +89,6 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
     from hosts.recordings.load_manoeuvre import manoeuvre_of
-    from hosts.run.course_result import gate_edges, passed
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
     from hosts.run.run_summary import energy_balance, summary
@@ -106,7 +109,12 @@ def _run(options: argparse.Namespace) -> int:
 
             driver = driver_of(fmu, manoeuvre)
         set_all = partial(set_in, opened) if other is None else other.set_in
-        manoeuvre, settings = set_all(manoeuvre, wishes(options), options.fidelity)
+        given = wishes(options)
+        if options.road is not None:
+            from hosts.common.road import wishes_with_road
+
+            given = wishes_with_road(options, options.out)
+        manoeuvre, settings = set_all(manoeuvre, given, options.fidelity)
         still = options.manoeuvre is None
         stem = path.stem if still else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
@@ -115,13 +123,21 @@ def _run(options: argparse.Namespace) -> int:
         result = run_with_bar(fmu, manoeuvre, step, driver, every)
         if other is not None:
             other.derive(result, every)
-    rows = summary(result, step, passed(result, driver) if driver is not None else ())
+    of_course, gates = ((), None) if driver is None else _of_course(result, driver)
+    rows = summary(result, step, of_course)
     write_csv(result, table)
     names = None if other is None else other.names
     write_record(fmu, manoeuvre, step, settings, result, record, driver, names)
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
-    plot_page(result, picture, title, rows, None if driver is None else gate_edges(driver))
+    plot_page(result, picture, title, rows, gates)
     return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
+
+
+def _of_course(result: Result, driver: Driver) -> tuple[Sequence[tuple[str, str]], NDArray[np.float64]]:
+    """Rows of the summary, and the gates that are drawn."""
+    from hosts.run.course_result import gate_edges, passed
+
+    return passed(result, driver), gate_edges(driver)
 
 
 def _other_names(fmu: Fmu, file: Path) -> OtherNames:

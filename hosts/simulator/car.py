@@ -8,10 +8,10 @@ import tempfile
 import threading
 from collections.abc import Mapping
 from pathlib import Path
-from types import TracebackType
 
 import numpy as np
 
+from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
@@ -31,7 +31,7 @@ SLOWEST = 0.05
 _ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
 
 
-class Car:
+class Car(Closing):
     """An FMU that runs in a process of its own; it begins paused, at time 0.
 
     Attributes
@@ -235,11 +235,3 @@ class Car:
         finally:  # also where Ctrl-C cuts the end of a recording short
             shutil.rmtree(self._folder, ignore_errors=True)
             self._shared.close()
-
-    def __enter__(self) -> Car:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()

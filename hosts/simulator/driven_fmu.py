@@ -96,7 +96,7 @@ class DrivenFmu:
             self._closed = True
             if self._past is not None:
                 self._past.clear()
-            self._fmu.__exit__(None, None, None)
+            self._fmu.close()
 
     @property
     def time(self) -> float:

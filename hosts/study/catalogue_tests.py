@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import perform, settings_of_test
@@ -13,17 +12,13 @@ from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.fmu.aliases.alias import Aliases
+from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.fmu.aliases.other_names import OtherNames
 from hosts.study.job import Job
-
-if TYPE_CHECKING:
-    from hosts.fmu.aliased_fmu import AliasedFmu
-    from hosts.fmu.fmu import Fmu
+from hosts.study.other_names import as_aliases
 
 
-def checked_test(
-    name: str, given: Mapping[str, float], fmu: Fmu | AliasedFmu, where: str
-) -> tuple[str, dict[str, float]]:
+def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where: str) -> tuple[str, dict[str, float]]:
     """Name and settings of a test, if it can be done with an FMU.
 
     Parameters
@@ -51,7 +46,7 @@ def checked_test(
     return test.name, settings
 
 
-def performed(job: Job, path: Path, name: str, aliases: Aliases, values: Mapping[str, Value]) -> TestRecord:
+def performed(job: Job, path: Path, name: str, aliases: OtherNames | None, values: Mapping[str, Value]) -> TestRecord:
     """What the test of a job has yielded.
 
     Parameters
@@ -64,5 +59,5 @@ def performed(job: Job, path: Path, name: str, aliases: Aliases, values: Mapping
         Of the parameters.
     """
     step = None if math.isnan(job.step) else job.step
-    car = TestedCar(name, path, aliases, {**job.start, **values}, step)
+    car = TestedCar(name, path, as_aliases(aliases), {**job.start, **values}, step)
     return perform(standard_test(job.test), car, job.settings)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,16 +16,13 @@ from hosts.driving.manoeuvre_file import SUFFIXES
 from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.driving.pilots.pilot import ACTS
 from hosts.driving.run_checks import check_columns, communication_step, steps_of
+from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.study.job import Job
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
 
-if TYPE_CHECKING:
-    from hosts.fmu.aliased_fmu import AliasedFmu
-    from hosts.fmu.fmu import Fmu
 
-
-def jobs_of(study: StudyFile, file: Path, fmu: Fmu | AliasedFmu, parameters: Sequence[str]) -> list[Job]:
+def jobs_of(study: StudyFile, file: Path, fmu: SimulatedFmu, parameters: Sequence[str]) -> list[Job]:
     """What is done at each point.
 
     Parameters
@@ -57,7 +53,7 @@ def jobs_of(study: StudyFile, file: Path, fmu: Fmu | AliasedFmu, parameters: Seq
     return jobs
 
 
-def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: Fmu | AliasedFmu, where: str) -> Job:
+def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: SimulatedFmu, where: str) -> Job:
     if entry.manoeuvre is None:
         assert entry.stop_time is not None
         manoeuvre = Manoeuvre(entry.name or "run", np.zeros(0), {}, entry.stop_time)
@@ -81,7 +77,7 @@ def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: Fmu | Alias
     return Job(manoeuvre.name, manoeuvre, step=step, every=every, samples=samples)
 
 
-def _test(entry: ManoeuvreEntry, study: StudyFile, fmu: Fmu | AliasedFmu, where: str) -> Job:
+def _test(entry: ManoeuvreEntry, study: StudyFile, fmu: SimulatedFmu, where: str) -> Job:
     from hosts.study.catalogue_tests import checked_test
 
     assert entry.test is not None
@@ -102,7 +98,7 @@ def _place(name: str, file: Path) -> str:
     return str(file.parent / name)
 
 
-def _checked(values: Mapping[str, Value], fmu: Fmu | AliasedFmu, where: str) -> dict[str, Value]:
+def _checked(values: Mapping[str, Value], fmu: SimulatedFmu, where: str) -> dict[str, Value]:
     for name in values:
         if name not in fmu.variables:
             raise HostError(f"{where}: the FMU has no '{name}'{did_you_mean(name, fmu.variables)}")

@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
-from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.result import Result
-from hosts.fmu.aliased_fmu import seen_through
+from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import Fmu
 from hosts.measures.measure import Measure
 from hosts.study.job import Job
@@ -52,7 +51,7 @@ class Bench:
         """Free the instance."""
         if self._fmu is not None:
             fmu, self._fmu = self._fmu, None
-            fmu.__exit__(None, None, None)
+            fmu.close()
 
     def __call__(self, task: Task, tell: Callable[[Any], None]) -> Outcome:
         """See `run`; as work for a process."""
@@ -84,7 +83,11 @@ class Bench:
     def _drive(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
         assert job.manoeuvre is not None
         fmu, work = self._fresh(), self._work
-        seen = seen_through(fmu, work.aliases)
+        seen: SimulatedFmu = fmu
+        if work.aliases is not None:
+            from hosts.study.other_names import derive, under_names
+
+            seen = under_names(fmu, work.aliases)
         manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
         driver: Driver | None = None
         if manoeuvre.driver:
@@ -92,7 +95,8 @@ class Bench:
 
             driver = driver_of(seen, manoeuvre)
         result = run(seen, manoeuvre, job.step, driver)
-        derive_columns(result, work.aliases)
+        if work.aliases is not None:
+            derive(result, work.aliases)
         outcome = _of_result(result, job)
         if job.every:
             outcome.signals = sampled(result, work.signals, job)

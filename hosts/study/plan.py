@@ -13,7 +13,7 @@ from typing import Any
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.program import program_digest, versions
-from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import Fmu
 from hosts.study.job import Job
 from hosts.study.measures import StudyMeasure, parse_measure
@@ -171,7 +171,7 @@ def job_digest(job: Job) -> str:
     return hashlib.sha256(b"\n".join(parts)).hexdigest()
 
 
-def _signals(study: StudyFile, file: Path, fmu: Fmu | AliasedFmu) -> list[str]:
+def _signals(study: StudyFile, file: Path, fmu: SimulatedFmu) -> list[str]:
     if study.signals is None:
         return []
     known = [*fmu.names("input"), *fmu.names("output")]
@@ -189,7 +189,7 @@ def not_known(name: str, known: Iterable[str], what: str) -> str:
 
 
 def _measures(
-    study: StudyFile, file: Path, fmu: Fmu | AliasedFmu, units: Mapping[str, str], stop_times: Sequence[float]
+    study: StudyFile, file: Path, fmu: SimulatedFmu, units: Mapping[str, str], stop_times: Sequence[float]
 ) -> tuple[list[StudyMeasure], dict[str, str]]:
     """Measures of manoeuvres, and the units of their columns."""
     if study.measures and not stop_times:

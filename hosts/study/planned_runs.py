@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from hosts.common.errors import HostError
-from hosts.fmu.aliased_fmu import AliasedFmu, seen_through
-from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.aliases.of_file import aliases_of
+from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.fmu.aliases.other_names import OtherNames
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
 from hosts.study.job import Job
@@ -25,16 +24,16 @@ class PlannedRuns:
 
     Parameters
     ----------
-    fmu : Fmu or AliasedFmu
-        Under our names.
+    fmu : SimulatedFmu
+        Under our names, where there is an alias file.
     parameters : dict of str to object
         A record of each parameter by its name.
     jobs : list of Job
         What is done at each point.
     """
 
-    fmu: Fmu | AliasedFmu
-    aliases: Aliases
+    fmu: SimulatedFmu
+    aliases: OtherNames | None
     points: Points
     parameters: dict[str, Any]
     jobs: list[Job]
@@ -55,8 +54,13 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
     HostError
         An unknown parameter, a value out of range with its row, an empty grid, a manoeuvre that overwrites a parameter.
     """
-    aliases = _aliases(study, file, opened)
-    fmu = seen_through(opened, aliases)
+    fmu: SimulatedFmu = opened
+    aliases: OtherNames | None = None
+    if study.aliases is not None:
+        from hosts.study.other_names import aliases_beside, under_names
+
+        aliases = aliases_beside(study.aliases, file, opened)
+        fmu = under_names(opened, aliases)
     points, parameters = _points(study, file, opened, fmu)
     return PlannedRuns(fmu, aliases, points, parameters, jobs_of(study, file, fmu, list(parameters)))
 
@@ -74,20 +78,16 @@ def runs_of_folder(folder: Path, record: dict[str, Any]) -> tuple[StudyFile, Pla
         return study, planned_runs(study, Path(record["file"]), opened)
 
 
-def _aliases(study: StudyFile, file: Path, fmu: Fmu) -> Aliases:
-    beside = None if study.aliases is None else file.parent / study.aliases
-    return aliases_of(beside if beside is not None and beside.is_file() else study.aliases, fmu.table)
-
-
-def _points(study: StudyFile, file: Path, opened: Fmu, fmu: Fmu | AliasedFmu) -> tuple[Points, dict[str, Any]]:
+def _points(study: StudyFile, file: Path, opened: Fmu, fmu: SimulatedFmu) -> tuple[Points, dict[str, Any]]:
     """Points, and a record of each parameter."""
 
     def variable_of(name: str, where: str) -> Variable:
-        if isinstance(fmu, AliasedFmu) and name in fmu.table:
-            found = fmu.table[name]
-            if found.causality in ("parameter", "input") and found.variability != "constant":
+        if study.aliases is not None:
+            from hosts.study.other_names import renamed_variable
+
+            found = renamed_variable(fmu, name, where)
+            if found is not None:
                 return found
-            raise HostError(f"{where}: '{name}' is no parameter or input of the FMU; it cannot be set.")
         return opened.table.settable(name, where)
 
     for name, value in study.start.items():

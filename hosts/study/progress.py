@@ -6,10 +6,10 @@ import sys
 import time as clock
 from collections import Counter
 from collections.abc import Sequence
-from types import TracebackType
 
 from tqdm import tqdm
 
+from hosts.common.closing import Closing
 from hosts.study.work import FAILED, INCOMPLETE, Outcome
 
 _BETWEEN = 60.0  # s between lines
@@ -17,7 +17,7 @@ _MOST_SAID = 1000  # messages that are counted
 _TOLD = 5
 
 
-class StudyProgress:
+class StudyProgress(Closing):
     """Counts runs.
 
     Parameters
@@ -35,12 +35,8 @@ class StudyProgress:
         self._began = self._told = clock.monotonic()
         self._bar = tqdm(total=runs, initial=done, desc="study", unit="run", smoothing=0.05, delay=2.0, disable=None)
 
-    def __enter__(self) -> StudyProgress:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def close(self) -> None:
+        """Take the bar away."""
         self._bar.close()
 
     def __call__(self, outcomes: Sequence[Outcome]) -> None:

@@ -9,7 +9,7 @@ from contextlib import closing
 from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ali3.decimal_number import parse_number
 from ali3.files import make_folder, write_text
@@ -348,7 +348,9 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
 
     Without entries there is no file. Returned is what is no parameter.
     """
-    values = plan.work.aliases.values({**study.start, by: value})
+    values: dict[str, Any] = {**study.start, by: value}
+    if plan.work.aliases is not None:
+        values = plan.work.aliases.values(values)
     description = described(plan.fmu)
     whole = parameter_set_of(Variables(description), description.modelName, values)
     entries = [entry for entry in whole.entries if entry.name in values]

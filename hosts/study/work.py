@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
-from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.other_names import OtherNames
 from hosts.study.job import Job
 
 if TYPE_CHECKING:
@@ -39,6 +39,8 @@ class Work:
         Of manoeuvres.
     columns : tuple of str
         All measures of the table.
+    aliases : OtherNames, optional
+        Of an alias file.
     reuse : bool
         Whether an instance of the FMU is used again after a reset.
     time_limit : float, optional
@@ -54,7 +56,7 @@ class Work:
     measures: tuple[StudyMeasure, ...]
     columns: tuple[str, ...]
     signals: tuple[str, ...]
-    aliases: Aliases
+    aliases: OtherNames | None = None
     reuse: bool = False
     time_limit: float | None = None
 

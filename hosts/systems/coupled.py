@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import TracebackType
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import Fmu, StepRefusedError
@@ -38,7 +38,7 @@ class _Part:
     told: set[str] = field(default_factory=set)
 
 
-class CoupledFmus:
+class CoupledFmus(Closing):
     """A system of FMUs that exchange values at communication points.
 
     Parameters
@@ -93,14 +93,6 @@ class CoupledFmus:
                     f"The part '{self._cannot_save[0]}' cannot save its state; its steps cannot be repeated."
                 )
             self._stack = stack.pop_all()
-
-    def __enter__(self) -> CoupledFmus:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         """Free the instances."""

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from hosts.common.commands import run_module
 from hosts.common.errors import HostError
-from hosts.common.options import ROAD, Wishes, wishes
+from hosts.common.options import ROAD, Wishes
+from hosts.common.road import wishes_with_road
 from hosts.fmu.fmu_file import fmu_file
 from hosts.recordings.format import is_recording
 from hosts.view.open_page import open_page
@@ -33,8 +34,7 @@ _MOST_PICTURES = 4
 def live(options: argparse.Namespace) -> int:
     """Write one HTML file that runs FMUs of this program in any browser, and open it; gives the exit code."""
     with tempfile.TemporaryDirectory() as folder:
-        given = wishes(argparse.Namespace(**{**vars(options), "out": Path(folder)}))
-        return _written(options, given)
+        return _written(options, wishes_with_road(options, Path(folder)))
 
 
 def _written(options: argparse.Namespace, given: Wishes) -> int:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ali3.files import check_writable
 from ali3.near_names import near_names
 from hosts.common.errors import HostError
-from hosts.common.options import wishes
+from hosts.common.road import wishes_with_road
 from hosts.fmu.car import is_car
 from hosts.fmu.fmu_file import fmu_file
 from hosts.view.open_page import open_page
@@ -32,7 +32,7 @@ def show(options: argparse.Namespace) -> int:
         if file is not None:
             check_writable(file)
     folder = page.parent if page is not None else Path("out")
-    given = wishes(argparse.Namespace(**{**vars(options), "out": folder}))
+    given = wishes_with_road(options, folder)
     run = RunWishes(options.manoeuvre, options.stop_time, options.step, given)
     recordings, told = recordings_of(options.what, options.geometry, run)
     for line in told:

@@ -1,7 +1,8 @@
-"""compile(): from a Model to a System that can be drawn."""
+"""compile(): from a Model to a System that can be drawn and stepped."""
 
 from __future__ import annotations
 
+from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.drawing import drawing
 from mbs.compiler.model_to_system import to_system
 from mbs.compiler.overconstrained import TOLERANCE
@@ -35,4 +36,4 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
     ModelError
         If the assembly cannot be closed or the model is not possible; the message names the joints.
     """
-    return to_system(model, tolerance=tolerance, drawing=drawing)
+    return to_system(model, tolerance=tolerance, drawing=drawing, watch=mode_arrays)

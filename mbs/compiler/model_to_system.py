@@ -13,7 +13,6 @@ from mbs.common.affine import Affine
 from mbs.common.checks import flag, instance_of, is_number, mapping, shown
 from mbs.common.errors import ModelError
 from mbs.compiler.armatures import armature_arrays
-from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.consistent import close_position
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.equilibrium import equilibrium, start_arrays
@@ -64,14 +63,27 @@ from mbs.model.model import Model
 from mbs.system.drawing import Drawing
 from mbs.system.system import System
 
-Drawer = Callable[[Model, sparse.csr_matrix, NDArray[np.float64], NDArray[np.float64]], Drawing]
+Array = NDArray[np.float64]
+Drawer = Callable[[Model, sparse.csr_matrix, Array, Array], Drawing]
+Tables = dict[str, Any]
+LoopWatch = Callable[
+    [Model, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
+]
 
 
-def to_system(model: Model, *, tolerance: float = TOLERANCE, drawing: Drawer | None = None) -> System:
-    """`mbs.compiler.compile.compile`, for those who do not draw the model too.
+def to_system(
+    model: Model,
+    *,
+    tolerance: float = TOLERANCE,
+    drawing: Drawer | None = None,
+    watch: LoopWatch | None = None,
+) -> System:
+    """`mbs.compiler.compile.compile`, for those who neither draw the model nor step it.
 
     Parameters
     ----------
+    watch : callable, optional
+        `mode_arrays`: makes what steps are watched by.
     drawing : callable, optional
         Makes what the System carries for those who draw it, of the model, the matrix T (full, nq) and the constant
         (full,) of its full coordinates ``T q + constant``, and the start q (nq,).
@@ -86,7 +98,7 @@ def to_system(model: Model, *, tolerance: float = TOLERANCE, drawing: Drawer | N
     joints = corrected_joints(model, float(tolerance))
     with redrawn(joints):
         closed = {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}
-        system = _compile(model, closed)
+        system = _compile(model, closed, watch)
     if drawing is None:
         return system
     frames, start = system.frames, system.arrays["q0"]
@@ -99,7 +111,7 @@ def to_system(model: Model, *, tolerance: float = TOLERANCE, drawing: Drawer | N
     return system.with_drawing(model.drawn_late(draw))
 
 
-def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
+def _compile(model: Model, closed: dict[str, tuple[float, float]], watch: LoopWatch | None) -> System:
     """The System of a model whose loops are closed; `closed` is for its report."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
@@ -158,8 +170,8 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
     tree, no_tree = tree_arrays(model, signals, remaining, new)
-    triads, modes = mode_arrays(model, holding, full, q[new], guides, signals)
-    tables: dict[str, Any] = {
+    triads, modes = watch(model, holding, full, q[new], guides, signals) if watch else ({}, None)
+    tables: Tables = {
         "q0": q,
         "qd0": qd,
         "mass_ptr": mass.indptr,
@@ -207,19 +219,19 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]]) -> System:
     report["length"], report["length_stated"] = length, model.length is not None
     meta = metadata(model, [c.name for c in info], rows, report, lengths)
     if not flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
-        return System(tables, meta, frames, modes=modes, ported=_ported(model))
+        return System(tables, meta, frames, modes=modes, ported=_ported(model, watch))
     parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
     resting = System(tables, meta, frames)
     q = equilibrium(resting, parameters)
     tables.update(start_arrays(resting, parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
-    return System(tables, meta, frames, modes=modes, ported=_ported(model))
+    return System(tables, meta, frames, modes=modes, ported=_ported(model, watch))
 
 
-def _ported(model: Model) -> Callable[[System], System | None] | None:
+def _ported(model: Model, watch: LoopWatch | None) -> Callable[[System], System | None] | None:
     """What makes the System with ports of the System of a model."""
     make = model.with_ports
-    return None if make is None else lambda system: with_ports_of(to_system(make()), system)
+    return None if make is None else lambda system: with_ports_of(to_system(make(), watch=watch), system)
 
 
 def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:

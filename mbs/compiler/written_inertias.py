@@ -33,6 +33,12 @@ def inertia_arrays(model: Model, signals: Signals) -> dict[str, Any]:
 
 
 def refuse_in_trees(model: Model) -> None:
-    """Trees have the inertia of their bodies once and for all."""
+    """Refuse tree coordinates to a model in which parameters write an inertia: trees take it as constant.
+
+    Raises
+    ------
+    NoTreeError
+        With the name of the body.
+    """
     for body in model.written_inertias:
         raise NoTreeError(f"parameters write the inertia of '{body.name}'")

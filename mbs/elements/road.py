@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -166,3 +167,22 @@ class PortRoad:
 
 
 Road = PlaneRoad | KerbRoad | GridRoad | PortRoad
+
+
+class RoadOfFile(ABC):
+    """A road that the kernel reads from a file while it runs, as a model sees it: `mbs.roads.RoadFile` is one."""
+
+    path: str | os.PathLike[str]
+    """The file."""
+    road: PlaneRoad | KerbRoad | GridRoad
+    """In its place while an equilibrium is sought, and where the file is taken away."""
+
+    @abstractmethod
+    def check(self) -> None:
+        """Refuse what is not there or no road.
+
+        Raises
+        ------
+        RoadFileError
+            With the file and what is wrong with it.
+        """

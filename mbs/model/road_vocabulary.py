@@ -12,18 +12,17 @@ from mbs.common.checks import array, instance_of, named, not_negative, shown, te
 from mbs.common.errors import ModelError
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.record import ElementRecord
-from mbs.elements.road import ANSWER, GridRoad, KerbRoad, PlaneRoad, PortRoad, Road
+from mbs.elements.road import ANSWER, GridRoad, KerbRoad, PlaneRoad, PortRoad, Road, RoadOfFile
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.inputs import new_input
 from mbs.model.records import RoadFileParameter, Role
-from mbs.roads.road_file import RoadFile
 
 
 class RoadVocabulary(BodyVocabulary):
     """Roads, answers on them, and contact with them."""
 
-    def road(self, road: Road | RoadFile, *, file: str | None = None) -> int:
+    def road(self, road: Road | RoadOfFile, *, file: str | None = None) -> int:
         """Add a road.
 
         Parameters
@@ -46,12 +45,12 @@ class RoadVocabulary(BodyVocabulary):
         ModelError
             The file is no road, or a road at ports asks for inputs that the model does not have.
         """
-        kinds = (PlaneRoad, KerbRoad, GridRoad, PortRoad, RoadFile)
+        kinds = (PlaneRoad, KerbRoad, GridRoad, PortRoad, RoadOfFile)
         instance_of(
             kinds, road, f"A road of model '{self.name}'", "a PlaneRoad, KerbRoad, GridRoad, PortRoad or RoadFile"
         )
         k, start = len(self.roads), ""
-        if isinstance(road, RoadFile):
+        if isinstance(road, RoadOfFile):
             road.check()
             start = str(Path(road.path).absolute())
             file = file or ("road.file" if k == 0 else f"road_{k}.file")

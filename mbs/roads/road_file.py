@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.checks import instance_of
-from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, RoadOfFile
 from mbs.kernel.header.enumerations import RoadType
 from mbs.kernel.header.limits import ROAD_SHARED, ROAD_TILE
 from mbs.roads.grid_files import read_grid
@@ -27,7 +27,7 @@ MOST_IN_MEMORY = 10**8
 
 
 @dataclass(frozen=True)
-class RoadFile:
+class RoadFile(RoadOfFile):
     """A road of a file that ``ali3 road`` or `write_road` made, of which the kernel keeps in memory what is near.
 
     A table with coordinates (``.csv``, ``.txt``) is taken too; it is kept as a whole.

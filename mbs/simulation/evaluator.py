@@ -8,7 +8,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from mbs.simulation.stepped_system import SteppedSystem
+from mbs.simulation.system_instance import SystemInstance
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ class Evaluator:
     its value over a short step (a rate kept for the next step) is no state; it is set to what such a step makes of it.
     """
 
-    def __init__(self, simulation: SteppedSystem) -> None:
+    def __init__(self, simulation: SystemInstance) -> None:
         self.instance = simulation.instance
         self.system = simulation.system
         self.arrays = simulation.system.arrays

@@ -5,11 +5,11 @@ from __future__ import annotations
 from mbs.common.errors import ModelError
 from mbs.kernel.binding import KernelError, LoadedSystem, open_row
 from mbs.settings.settings import Settings
-from mbs.simulation.stepped_system import SteppedSystem
+from mbs.simulation.system_instance import SystemInstance
 from mbs.system.system import System
 
 
-class StandingSystem(SteppedSystem):
+class StandingSystem(SystemInstance):
     """A System at its start, on roads that are no files; the assembly modes of its loops, which take long to find, are
     not watched.
 
@@ -21,7 +21,7 @@ class StandingSystem(SteppedSystem):
 
     def __init__(self, system: System) -> None:
         loaded = LoadedSystem(system.to_bytes(drawing=False, modes=False))
-        super().__init__(system, Settings(), loaded)
+        super().__init__(system, Settings(), loaded, system.meta)
         try:
             self.instance.initialise()
         except KernelError as error:

@@ -13,12 +13,11 @@ from pydantic import ValidationError
 
 from ali3.words import one_line
 from mbs.common.errors import ModelError
-from mbs.elements.road import Road
+from mbs.elements.road import Road, RoadOfFile
 from mbs.model import Model
 from mbs.model.carried import Spin
 from mbs.model.ends import End
 from mbs.model.records import Guide
-from mbs.roads.road_file import RoadFile
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.changes import changed_content
@@ -49,9 +48,8 @@ from mbs.vehicle.outputs import (
     work_outputs,
 )
 from mbs.vehicle.port_parts import driver_inputs, force_ports, port_outputs, road_ports, torque_ports, wind_port
-from mbs.vehicle.road import level_within, tell_steep_face
+from mbs.vehicle.road import level_within
 from mbs.vehicle.schema_version import of_this_version
-from mbs.vehicle.shapes.car_shapes import car_shapes, tabled_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering.steered import Steered
@@ -110,7 +108,7 @@ class Car(CarContent):
 
     def model(
         self,
-        road: Road | RoadFile | None = None,
+        road: Road | RoadOfFile | None = None,
         fidelity: Fidelity | int | str = Fidelity.RIGID,
         guide: Callable[[Model], Guide] | None = None,
     ) -> Model:
@@ -149,7 +147,10 @@ class Car(CarContent):
             raise ModelError(f"The car '{self.name}' has fidelity 0 only: its frame does not fit it. {self.misfit}")
         flexible = None if fidelity.rigid else self.flexible_frame
         b = self._builder(road)
-        tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
+        if road is not None:
+            from mbs.vehicle.steep_road import tell_steep_face
+
+            tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
         with b.m.together():
             self._build(b, road, flexible, fidelity, guide)
         if Fidelity.DYNAMIC in self.fidelities():
@@ -161,7 +162,7 @@ class Car(CarContent):
     def _build(
         self,
         b: CarBuilder,
-        road: Road | RoadFile | None,
+        road: Road | RoadOfFile | None,
         flexible: FlexibleFrame | None,
         fidelity: Fidelity,
         guide: Callable[[Model], Guide] | None,
@@ -191,7 +192,13 @@ class Car(CarContent):
         b.parameters(self.order, works, late=True)
         if guide is not None:
             m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
-        m.put_off(partial(tabled_shapes if fidelity is Fidelity.TABLE else car_shapes, b, self, spins))
+        m.put_off(partial(self._draw, b, spins, fidelity))
+
+    def _draw(self, b: CarBuilder, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
+        """Add all shapes, when somebody asks for the drawing."""
+        from mbs.vehicle.shapes.car_shapes import car_shapes, tabled_shapes
+
+        (tabled_shapes if fidelity is Fidelity.TABLE else car_shapes)(b, self, spins)
 
     def _frame_poses(self, b: CarBuilder) -> list[dict[str, Any]]:
         """Amplitudes of the frame as outputs, and its parts of the scene."""
@@ -209,7 +216,7 @@ class Car(CarContent):
 
         return flexible_part(self.flexible_frame, self.model(fidelity=Fidelity.DYNAMIC), self.vehicle.reference_point)
 
-    def _builder(self, road: Road | RoadFile | None) -> CarBuilder:
+    def _builder(self, road: Road | RoadOfFile | None) -> CarBuilder:
         """An empty model with road and inputs."""
         m = Model(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
         m.floating = True

@@ -7,7 +7,7 @@ from mbs.vehicle.car_content import CarContent
 
 
 def vehicle_constants(m: Model, car: CarContent) -> None:
-    """Dimensions of the car and its steering."""
+    """Add dimensions of the car, its steering and the friction of its tyres as constants ``vehicle.*``."""
     drawn = ", with the ratio of the car file"  # a constant of FMI stays where a parameter changes the ratio
     turned, angle = car.steering.wheel_angle_max, car.steering.front_wheel_angle_max
     for name, value, unit, text in (

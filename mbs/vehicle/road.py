@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import math
-import warnings
-from pathlib import Path
 
 import numpy as np
 
-from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road, RoadOfFile
 from mbs.model import Model
-from mbs.roads.read_road import read_road
-from mbs.roads.road_file import TEXTS, RoadFile
-from mbs.roads.steep_faces import RoadWarning, steep_face
 from mbs.vehicle.quantities import Factor, RoadFriction
 from mbs.vehicle.section import Section
 
 FAR_AWAY = 1e6  # m: the default kerb lies where no manoeuvre goes
 KERB_HEIGHT = 0.08  # m, of the paper's test
-MOST_LOOKED_AT = 4e6
 BUILT_IN = "of the built-in road, without effect on one from a file"
 
 
@@ -34,7 +28,7 @@ class RoadSection(Section):
         """Level ground with a kerb."""
         return KerbRoad(FAR_AWAY, KERB_HEIGHT, -KERB_HEIGHT, "before", self.friction, self.friction_factor)
 
-    def parameters(self, m: Model, road: Road | RoadFile | None, ground: int, hold_at: str) -> None:
+    def parameters(self, m: Model, road: Road | RoadOfFile | None, ground: int, hold_at: str) -> None:
         """What a user may set of the road.
 
         Parameters
@@ -46,7 +40,7 @@ class RoadSection(Section):
         hold_at : str
             The frictions at which the curves of the tyres hold, for the description.
         """
-        own = self.default() if road is None else road.road if isinstance(road, RoadFile) else road
+        own = self.default() if road is None else road.road if isinstance(road, RoadOfFile) else road
         target = ("road", ground)
         assert not isinstance(own, PortRoad), "a car with its road at ports has no parameters of one"
         if isinstance(own, KerbRoad | PlaneRoad):
@@ -90,25 +84,6 @@ class RoadSection(Section):
         )
 
 
-def tell_steep_face(road: Road | RoadFile | None, radius: float) -> None:
-    """Warn of a grid with a wall for a wheel.
-
-    Parameters
-    ----------
-    road : Road, RoadFile or None
-        Under a car. A file of more than 4e6 points is not looked at: it was when it was made.
-    radius : float
-        Of the largest wheel, m.
-    """
-    name: object = "The grid road"
-    if isinstance(road, RoadFile):
-        table = Path(road.path).suffix.lower() in TEXTS
-        name, small = road.path, table or road.header.nx * road.header.ny <= MOST_LOOKED_AT
-        road = read_road(name) if small else None
-    if isinstance(road, GridRoad) and (told := steep_face(road, name, radius)):
-        warnings.warn(told, RoadWarning, stacklevel=3)
-
-
 def _range(section: Section, field: str) -> tuple[float, float, str]:
     """Limits and unit of a parameter as the file's type has them."""
     q = section.quantity(field)
@@ -116,7 +91,7 @@ def _range(section: Section, field: str) -> tuple[float, float, str]:
     return q.least, q.high, q.unit
 
 
-def level_within(road: Road | RoadFile | None, footprint: tuple[tuple[float, float], tuple[float, float]]) -> bool:
+def level_within(road: Road | RoadOfFile | None, footprint: tuple[tuple[float, float], tuple[float, float]]) -> bool:
     """Whether a road is level under the car as drawn.
 
     Parameters
@@ -126,7 +101,7 @@ def level_within(road: Road | RoadFile | None, footprint: tuple[tuple[float, flo
     footprint : pair of (float, float)
         Least and largest x and y of the car, m.
     """
-    if isinstance(road, RoadFile):
+    if isinstance(road, RoadOfFile):
         road = road.road
     if isinstance(road, PlaneRoad):
         return road.grade_x == 0.0 and road.grade_y == 0.0

@@ -5,17 +5,19 @@ from __future__ import annotations
 from dataclasses import replace
 from math import atan, sqrt
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import PrivateAttr
 
 from mbs.elements.magic_tyre import FACTORS, MagicTyre
-from mbs.tyre_files import TyreFile, TyreFileError, read_tyre
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import beside
 from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
 from mbs.vehicle.section import Section
 from mbs.vehicle.tyre_bore import Bore
+
+if TYPE_CHECKING:
+    from mbs.tyre_files import TyreFile
 
 _IN_FILE = {"radius": "UNLOADED_RADIUS", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
 
@@ -69,6 +71,8 @@ class MagicFormula(Section):
         CarFileError
             There is no such file, or it is not a tyre property file.
         """
+        from mbs.tyre_files import TyreFileError, read_tyre
+
         try:
             self._read = read_tyre(beside(folder, self.file, self.key("file")))
             self._tyre = self.tyre("left")

@@ -373,10 +373,6 @@ class Instance:
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
         return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
 
-    def solver_value(self, kind: int) -> float:
-        """What the solver says about itself: one of `SolverValue`."""
-        return float(self._library.ali3_solver_value(self._handle, kind))
-
     def doubt(self) -> Doubt:
         """Whether the run says that it is wrong."""
         fields = ReportFields()

@@ -33,7 +33,10 @@ typedef struct {
 ALI3_METHODS(ALI3_METHOD_DECLARED)
 #undef ALI3_METHOD_DECLARED
 
-/* That of the settings; order of its steps where they change. */
+/* That of the settings, whether it takes the System, whether its steps end with ali3_energy_watch; order of its steps
+ * where they change. */
 const ali3_method *ali3_method_of(const ali3_instance *in);
+ali3_status ali3_check_method(const ali3_instance *in);
+bool ali3_has_balance(const ali3_instance *in);
 int32_t ali3_method_order(const ali3_instance *in);
 #endif

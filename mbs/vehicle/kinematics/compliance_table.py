@@ -28,7 +28,13 @@ _ANGLES = (
 
 
 def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
-    """Title, value in front, value behind, unit and meaning; a title alone is a heading."""
+    """Rows of a table.
+
+    Returns
+    -------
+    list of (str, str, str, str, str)
+        Title, value at the front axle, value at the rear axle, unit and meaning; a title alone is a heading.
+    """
     title = f"Compliance of the left wheel per load (fidelity {found.fidelity.value})"
     lines: list[tuple[str, str, str, str, str]] = [(title, "", "", "", "")]
     for load in LOADS if found.freedoms else ():

@@ -8,19 +8,17 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from mbs.common.affine import AffineVector
 from mbs.common.errors import ModelError
-from mbs.compiler.model_to_system import to_system
 from mbs.elements.road import PlaneRoad
 from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.ends import End
-from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT, Evaluator
-from mbs.simulation.standing_system import StandingSystem
+from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car import Car
 from mbs.vehicle.chassis.build import build_chassis
 from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.linkages.standing_model import StandingModel
 from mbs.vehicle.side import Point, Side, sides
 from mbs.vehicle.springs import AxleSprings
 
@@ -77,7 +75,7 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
     return m, b, carriers
 
 
-class HeldCar:
+class HeldCar(StandingModel):
     """The car in equilibrium with the contact centres at the heights of the drawing.
 
     Parameters
@@ -95,10 +93,7 @@ class HeldCar:
 
     def __init__(self, car: Car, fidelity: Fidelity) -> None:
         m, b, carriers = held_model(car, fidelity)
-        system = to_system(m)
-        assert system.frames is not None
-        self._T, self._constant = system.frames.T.toarray(), system.frames.constant
-        self._evaluator = Evaluator(StandingSystem(system))
+        super().__init__(m)
         as_set = {
             side.wheel: tuple(data.alignment.axes(side))
             for axle, data in (("front", car.front), ("rear", car.rear))
@@ -107,14 +102,14 @@ class HeldCar:
         self._carriers = {
             name: (
                 _down(centre, as_set[name][2]),
-                [self._linear(v) for v in (carrier.point(centre), *map(carrier.vector, as_set[name]))],
+                [self.linear(v) for v in (carrier.point(centre), *map(carrier.vector, as_set[name]))],
             )
             for name, (carrier, centre) in carriers.items()
         }
         origin, axes, _ = b.chassis.contact_frame
-        middle, (x, y, _) = self._linear(origin)[0], (self._linear(axis)[0] for axis in axes)
+        middle, (x, y, _) = self.linear(origin)[0], (self.linear(axis)[0] for axis in axes)
         self._pins = np.vstack([middle, x[1:], y[2:]])  # three shifts and three turns of the mean frame
-        self.q = np.array(self._evaluator.state.q)
+        self.q = np.array(self.evaluator.state.q)
         self._settle()
 
     @property
@@ -130,7 +125,7 @@ class HeldCar:
         q : ndarray, shape (nq,)
             Coordinates.
         """
-        return np.vstack([self._evaluator.jacobian(q), self._pins])
+        return np.vstack([self.evaluator.jacobian(q), self._pins])
 
     def wheel_rows(self) -> Array:
         """Rows (4, nq) of the heights of the contact centres."""
@@ -168,16 +163,6 @@ class HeldCar:
             stiffness += load * wheel.radius * np.outer(lean, lean)
         return V, np.asarray(np.linalg.inv(0.5 * (stiffness + stiffness.T)))
 
-    def force(self, q: Array) -> Array:
-        """Forces Q (nq,) of springs and frame at rest.
-
-        Parameters
-        ----------
-        q : ndarray, shape (nq,)
-            Coordinates.
-        """
-        return self._evaluator.forces(q)
-
     def _settle(self) -> None:
         """Go to where the frame holds the springs, by Newton's method on the motions that the rows allow."""
         still = np.zeros(len(self.q))
@@ -188,7 +173,7 @@ class HeldCar:
             change = V @ (soft @ (V.T @ self.force(self.q)))
             self.q = self.q + change
             for _ in range(5):
-                phi, jacobian, _ = self._evaluator.constraints(self.q, still)
+                phi, jacobian, _ = self.evaluator.constraints(self.q, still)
                 off = np.concatenate([phi, held @ self.q - places])
                 self.q = self.q - np.linalg.lstsq(np.vstack([jacobian, held]), off, rcond=RANK_TOLERANCE)[0]
             if not np.abs(change).max(initial=0.0) > SETTLED:
@@ -200,13 +185,6 @@ class HeldCar:
         turn = 0.5 * np.sum([np.cross(A @ self.q + a, A, axisb=0).T for A, a in axes], axis=0)
         contact = place[0] + np.cross(turn, down, axisa=0).T
         return HeldWheel(float(np.linalg.norm(down)), place[0], axes[1][0], turn, contact)
-
-    def _linear(self, v: AffineVector) -> tuple[Array, Array]:
-        full = np.zeros((3, len(self._T)))
-        for row, component in zip(full, v.components, strict=True):
-            for k, c in component.terms.items():
-                row[k] = c
-        return full @ self._T, full @ self._constant + [component.constant for component in v.components]
 
 
 def _down(centre: Point, up: Point) -> Array:

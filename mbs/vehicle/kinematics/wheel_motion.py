@@ -70,16 +70,6 @@ class WheelMotion:
         return np.asarray(self.centre - self.radius * up / np.linalg.norm(up))
 
     @property
-    def contact_rate(self) -> Array:
-        """Rates of the contact centre, shape (3, 3); it does not turn with the carrier about the wheel's axis."""
-        a, w = self.axis, float(np.sqrt(1.0 - self.axis[2] ** 2))
-        up = Z - a[2] * a
-        up_rate = -np.outer(a, self.axis_rate[2]) - a[2] * self.axis_rate
-        return np.asarray(
-            self.centre_rate - self.radius * (up_rate / w + np.outer(up, a[2] * self.axis_rate[2]) / w**3)
-        )
-
-    @property
     def fixed_contact_rate(self) -> Array:
         """Rates of the point of the carrier that is at the contact centre, as of a wheel held by its brake, (3, 3)."""
         return np.asarray(self.centre_rate + np.cross(self.turn, self.contact - self.centre, axisa=0, axisb=0).T)

@@ -20,15 +20,14 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 from mbs.common.affine import AffineVector
-from mbs.compiler.model_to_system import to_system
 from mbs.elements.road import PlaneRoad
 from mbs.model import Model
 from mbs.model.ends import End
-from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
-from mbs.simulation.standing_system import StandingSystem
+from mbs.simulation.evaluator import RANK_TOLERANCE
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.mount import Mount
+from mbs.vehicle.linkages.standing_model import StandingModel
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.springs import AxleSprings
 from mbs.vehicle.steering.rack_section import rack_ends
@@ -69,7 +68,7 @@ class Position:
     tangent: Array
 
 
-class Linkage:
+class Linkage(StandingModel):
     """The suspension of one axle.
 
     Parameters
@@ -120,14 +119,11 @@ class Linkage:
         ]
         self.springs, self.dampers = (tuple(pair) for pair in lines)
         self.levers = tuple(k for k, c in enumerate(m.coordinates) if c.name.startswith(LINK))
-        system = to_system(m)
-        assert system.frames is not None
-        self._T, self._constant = system.frames.T.toarray(), system.frames.constant
-        self._evaluator = Evaluator(StandingSystem(system))
+        super().__init__(m)
         self._centres = [self.linear(c.carrier.point(c.side.point(self.data.wheel.centre))) for c in corners]
         self._triads = [[self.linear(c.carrier.vector(e)) for e in self.data.alignment.axes(c.side)] for c in corners]
         self._heights = np.array([centre[0][2] for centre in self._centres])
-        start = np.array(system.arrays["q0"])
+        start = np.array(self.evaluator.arrays["q0"])
         self._drawn_heights = self._heights @ start + [centre[1][2] for centre in self._centres]
         self.drawn = self.solve(start, np.zeros(2), 0.0)
 
@@ -139,25 +135,7 @@ class Linkage:
         q, qd : ndarray, shape (nq,)
             Coordinates and rates.
         """
-        return self._evaluator.constraints(q, qd, rack)
-
-    def linear(self, v: AffineVector) -> tuple[Array, Array]:
-        """Matrix (3, nq) and constant (3,) of a point or vector over the coordinates.
-
-        Parameters
-        ----------
-        v : AffineVector
-            Over the full coordinates.
-        """
-        full = np.zeros((len(v), len(self._constant)))
-        for row, component in zip(full, v.components, strict=True):
-            for k, c in component.terms.items():
-                row[k] = c
-        return full @ self._T, full @ self._constant + [component.constant for component in v.components]
-
-    def full(self, k: int) -> tuple[Array, float]:
-        """Row (nq,) and constant of a full coordinate."""
-        return self._T[k], float(self._constant[k])
+        return self.evaluator.constraints(q, qd, rack)
 
     def centre(self, side: int) -> tuple[Array, Array]:
         """Matrix and constant of a wheel's centre; `side` is 0 for left and 1 for right."""
@@ -192,7 +170,7 @@ class Linkage:
         q, still, wanted = start.copy(), np.zeros(len(start)), self._drawn_heights + travel
         offset = np.array([centre[1][2] for centre in self._centres])
         for _ in range(MOST_ITERATIONS):
-            phi, jacobian, ahead = self._evaluator.constraints(q, still, rack)
+            phi, jacobian, ahead = self.evaluator.constraints(q, still, rack)
             rows = np.vstack([jacobian, self._heights])
             off = np.concatenate([phi, self._heights @ q + offset - wanted])
             step = np.linalg.lstsq(rows, off, rcond=RANK_TOLERANCE)[0]
@@ -220,7 +198,7 @@ class Linkage:
         still = np.zeros(len(at.q))
 
         def rate(qd: Array) -> Array:
-            return self._evaluator.convective(at.q, qd, at.rack)
+            return self.evaluator.convective(at.q, qd, at.rack)
 
         # the guide's own rate is 1: gamma(v, s') = a(v, v) + b(v) s' + c s'^2
         alone, right = rate(still), []
@@ -229,7 +207,7 @@ class Linkage:
             s = direction[2]
             gamma = 0.5 * (ahead + back) - alone + 0.5 * s * (ahead - back) + s**2 * alone
             right.append(np.concatenate([-gamma, np.zeros(2)]))
-        rows = np.vstack([self._evaluator.jacobian(at.q, at.rack), self._heights])
+        rows = np.vstack([self.evaluator.jacobian(at.q, at.rack), self._heights])
         return np.asarray(np.linalg.lstsq(rows, np.transpose(right), rcond=RANK_TOLERANCE)[0])
 
     def steering_motion(self, at: Position) -> Array:
@@ -238,7 +216,7 @@ class Linkage:
         So a steering axis is defined: the suspension stands, the rod turns the wheel.
         """
         still = np.zeros(len(at.q))
-        _, jacobian, ahead = self._evaluator.constraints(at.q, still, at.rack)
+        _, jacobian, ahead = self.evaluator.constraints(at.q, still, at.rack)
         rows = [jacobian]
         for spring in self.springs:
             D, d = self.linear(spring)
@@ -246,16 +224,6 @@ class Linkage:
             rows.append((way @ D / np.linalg.norm(way))[None])
         right = np.concatenate([-ahead, np.zeros(2)])
         return np.asarray(np.linalg.lstsq(np.vstack(rows), right, rcond=RANK_TOLERANCE)[0])
-
-    def force(self, q: Array) -> Array:
-        """Forces Q (nq,) of springs, stops and bars at rest.
-
-        Parameters
-        ----------
-        q : ndarray, shape (nq,)
-            Coordinates.
-        """
-        return self._evaluator.forces(q)
 
 
 def _held(m: Model, car: CarContent) -> Mount:

@@ -13,8 +13,9 @@ from mbs.vehicle.geometry import apart, arm, farther, off_line, steering_rod
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import HysteresisLoss, Length, MetalStiffness, Point, SmallLength, StopStiffness
 from mbs.vehicle.section import Section
-from mbs.vehicle.side import sides
+from mbs.vehicle.side import Side
 from mbs.vehicle.springs import AxleSprings, spring_and_damper
+from mbs.vehicle.suspensions.independent import IndependentSuspension
 
 
 class DoubleWishbonePoints(Section):
@@ -82,7 +83,7 @@ class SteeringStop(Section):
     """chi, as of the stops of the springs."""
 
 
-class DoubleWishbone(Section):
+class DoubleWishbone(IndependentSuspension):
     """Suspension by double wishbones."""
 
     kind: Literal["double_wishbone"]
@@ -108,50 +109,28 @@ class DoubleWishbone(Section):
                 f"{drawn:.4g} m between its points as drawn, and no less than {0.3 * drawn:.2g} m."
             )
 
-    @property
-    def steering_arm(self) -> Point:
-        """Outer end of the tie rod of the left side, m."""
-        return self.points.tie_rod_outer
-
-    @property
-    def steering_arm_inner(self) -> Point:
-        """Inner end of it, m."""
-        return self.points.tie_rod_inner
-
-    def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
-        """Add the left side, then the right one.
-
-        Parameters
-        ----------
-        axle : str
-            "front" or "rear".
-        springs : AxleSprings
-            Springs, dampers and stops of the axle.
-        tie_rod : TieRodEnd
-            Gives what the inner ends of the tie rods hang on.
-        """
-        m, chassis = b.m, b.chassis.body
-        for side in sides(axle):
-            w = side.wheel
-            p = {name: side.point(point) for name, point in self.points}
-            lower = side.body(m, "lower wishbone", self.bodies.lower_wishbone)
-            upper = side.body(m, "upper wishbone", self.bodies.upper_wishbone)
-            upright = side.body(m, "upright", self.bodies.upright)
-            for part, wishbone in (("lower", lower), ("upper", upper)):
-                for end in ("front", "rear"):
-                    m.spherical(f"{part} wishbone {w} {end} pivot", chassis, wishbone, point=p[f"{part}_pivot_{end}"])
-                m.spherical(f"{part} ball joint {w}", wishbone, upright, point=p[f"{part}_ball_joint"])
-            m.distance(f"tie rod {w}", (upright, p["tie_rod_outer"]), tie_rod(side, p["tie_rod_inner"]))
-            spring_and_damper(b, f"spring {w}", (lower, p["spring_lower"]), (chassis, p["spring_upper"]), springs)
-            if self.steering_stop is not None:
-                m.spring_damper(
-                    f"steering stop {w}",
-                    (upright, p["tie_rod_outer"]),
-                    (lower, p["lower_pivot_front"]),
-                    stiffness=0.0,
-                    stops=_end_stop(self.steering_stop),
-                )
-            yield Corner(side, upright, {"lower_wishbone": lower, "upper_wishbone": upper, "upright": upright})
+    def corner(self, b: CarBuilder, side: Side, springs: AxleSprings, tie_rod: TieRodEnd) -> Corner:
+        """Add one side."""
+        m, chassis, w = b.m, b.chassis.body, side.wheel
+        p = {name: side.point(point) for name, point in self.points}
+        lower = side.body(m, "lower wishbone", self.bodies.lower_wishbone)
+        upper = side.body(m, "upper wishbone", self.bodies.upper_wishbone)
+        upright = side.body(m, "upright", self.bodies.upright)
+        for part, wishbone in (("lower", lower), ("upper", upper)):
+            for end in ("front", "rear"):
+                m.spherical(f"{part} wishbone {w} {end} pivot", chassis, wishbone, point=p[f"{part}_pivot_{end}"])
+            m.spherical(f"{part} ball joint {w}", wishbone, upright, point=p[f"{part}_ball_joint"])
+        m.distance(f"tie rod {w}", (upright, p["tie_rod_outer"]), tie_rod(side, p["tie_rod_inner"]))
+        spring_and_damper(b, f"spring {w}", (lower, p["spring_lower"]), (chassis, p["spring_upper"]), springs)
+        if self.steering_stop is not None:
+            m.spring_damper(
+                f"steering stop {w}",
+                (upright, p["tie_rod_outer"]),
+                (lower, p["lower_pivot_front"]),
+                stiffness=0.0,
+                stops=_end_stop(self.steering_stop),
+            )
+        return Corner(side, upright, {"lower_wishbone": lower, "upper_wishbone": upper, "upright": upright})
 
 
 def _end_stop(stop: SteeringStop) -> EndStops:

@@ -5,15 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.geometry import arm, farther, steering_rod
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Point
 from mbs.vehicle.section import Section
-from mbs.vehicle.side import sides
-from mbs.vehicle.springs import AxleSprings
-from mbs.vehicle.suspensions.strut import strut_corner
+from mbs.vehicle.suspensions.strut import StrutBodies, StrutSuspension
 
 
 class LowerArmStrutPoints(Section):
@@ -40,16 +36,14 @@ class LowerArmStrutPoints(Section):
         yield from steering_rod(self, "toe link", axis, "the axis of the strut")
 
 
-class LowerArmStrutBodies(Section):
+class LowerArmStrutBodies(StrutBodies):
     """Parts of the left side."""
 
-    lower_arm: Part
-    """Lower arm."""
     upright: Part
     """Upright with the lower half of the strut, without wheel."""
 
 
-class LowerArmStrut(Section):
+class LowerArmStrut(StrutSuspension):
     """Suspension by a lower arm, a strut and a toe link."""
 
     kind: Literal["lower_arm_strut"]
@@ -59,32 +53,7 @@ class LowerArmStrut(Section):
     bodies: LowerArmStrutBodies
     """Masses and inertias."""
 
+    foot: ClassVar[str] = "lower_ball_joint"
+    rod: ClassVar[str] = "toe link"
     near_wheel: ClassVar[tuple[str, ...]] = ("lower_ball_joint", "toe_link_outer")
     """Points on what carries the wheel."""
-
-    @property
-    def steering_arm(self) -> Point:
-        """Outer end of the tie rod of the left side, m."""
-        return self.points.toe_link_outer
-
-    @property
-    def steering_arm_inner(self) -> Point:
-        """Inner end of it, m."""
-        return self.points.toe_link_inner
-
-    def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
-        """Add the left side, then the right one.
-
-        Parameters
-        ----------
-        axle : str
-            "front" or "rear".
-        springs : AxleSprings
-            Springs, dampers and stops of the axle.
-        tie_rod : TieRodEnd
-            Gives what the inner ends of the toe links hang on.
-        """
-        for side in sides(axle):
-            yield strut_corner(
-                b, side, dict(self.points), self.bodies, springs, tie_rod, foot="lower_ball_joint", rod="toe link"
-            )

@@ -5,15 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 
-from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.geometry import arm, farther, steering_rod
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Point
 from mbs.vehicle.section import Section
-from mbs.vehicle.side import sides
-from mbs.vehicle.springs import AxleSprings
-from mbs.vehicle.suspensions.strut import strut_corner
+from mbs.vehicle.suspensions.strut import StrutBodies, StrutSuspension
 
 
 class MacPhersonPoints(Section):
@@ -43,16 +39,14 @@ class MacPhersonPoints(Section):
         yield from steering_rod(self, "tie rod", axis, "the steering axis")
 
 
-class MacPhersonBodies(Section):
+class MacPhersonBodies(StrutBodies):
     """Parts of the left side."""
 
-    lower_arm: Part
-    """Lower arm."""
     upright: Part
     """Upright with the tube of the strut, without wheel."""
 
 
-class MacPherson(Section):
+class MacPherson(StrutSuspension):
     """Suspension by MacPherson struts."""
 
     kind: Literal["macpherson"]
@@ -62,32 +56,6 @@ class MacPherson(Section):
     bodies: MacPhersonBodies
     """Masses and inertias."""
 
+    foot: ClassVar[str] = "strut_lower"
     near_wheel: ClassVar[tuple[str, ...]] = ("lower_ball_joint", "tie_rod_outer")
     """Points on what carries the wheel."""
-
-    @property
-    def steering_arm(self) -> Point:
-        """Outer end of the tie rod of the left side, m."""
-        return self.points.tie_rod_outer
-
-    @property
-    def steering_arm_inner(self) -> Point:
-        """Inner end of it, m."""
-        return self.points.tie_rod_inner
-
-    def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
-        """Add the left side, then the right one.
-
-        Parameters
-        ----------
-        axle : str
-            "front" or "rear".
-        springs : AxleSprings
-            Springs, dampers and stops of the axle.
-        tie_rod : TieRodEnd
-            Gives what the inner ends of the tie rods hang on.
-        """
-        for side in sides(axle):
-            yield strut_corner(
-                b, side, dict(self.points), self.bodies, springs, tie_rod, foot="strut_lower", rod="tie rod"
-            )

@@ -79,7 +79,7 @@ class Drive:
     def close(self) -> None:
         for state, _ in self.saved.values():
             self.fmu.free(state)
-        self.fmu.__exit__(None, None, None)
+        self.fmu.close()
         self.recorder.close()
 
 

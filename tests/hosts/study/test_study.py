@@ -11,6 +11,7 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
+from hosts.common.errors import HostError
 from hosts.study.campaign import run_study
 from hosts.study.one_run import Bench
 from hosts.study.plan import make_plan
@@ -100,3 +101,34 @@ def test_the_same_bits_with_one_worker_and_with_eight(study_file: Callable[..., 
     for workers in (1, 8):
         assert run_study(file, tmp_path / f"out{workers}", None, workers) is not None
     assert columns(tmp_path / "out1") == columns(tmp_path / "out8")
+
+
+def test_a_study_under_the_names_of_an_alias_file_makes_the_same_runs(
+    study_file: Callable[..., Path], spring: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "names.toml").write_text(
+        '"chassis.z" = { name = "bob.y", factor = -1.0 }\n"rate" = { name = "spring.stiffness", factor = 10.0 }\n'
+    )
+    ours = (
+        ("[start]", 'aliases = "names.toml"\n[start]'),
+        ('"spring.stiffness" = { range = [50.0, 80.0] }', '"rate" = { range = [5.0, 8.0] }'),
+        ("min(bob.y)", "min(chassis.z)"),
+        ("max(bob.y)", "max(chassis.z)"),
+    )
+    found = []
+    for file, stiffness in (
+        (study_file(), {"spring.stiffness": 60.0}),
+        (study_file(*ours, name="named.toml"), {"rate": 6.0}),
+    ):
+        plan = make_plan(read_study_file(file)[0], file, spring)
+        assert set(plan.work.parameters) == {*stiffness, "spring.free_length"}
+        bench = Bench(plan.work, spring)
+        found.append(bench.run(plan.work.jobs[0], {**stiffness, "spring.free_length": 0.7}, 1).measures)
+        bench.close()
+    theirs, named = found
+    assert theirs["highest"] - theirs["lowest"] > 0.02
+    assert named == {"lowest": -theirs["highest"], "highest": -theirs["lowest"]}
+    wrong = study_file(*ours, ('"rate"', '"chassis.z"'))
+    study = read_study_file(wrong)[0]
+    with pytest.raises(HostError, match=r"'chassis.z' is no parameter or input of the FMU; it cannot be set"):
+        make_plan(study, wrong, spring)

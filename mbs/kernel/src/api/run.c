@@ -6,7 +6,6 @@
 #include "../instance.h"
 #include "../method.h"
 #include "../methods/branch_watch.h"
-#include "../methods/check_method.h"
 #include "../methods/energy_balance.h"
 #include "../methods/newton.h"
 #include "../methods/steps.h"
@@ -39,7 +38,7 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
   in->mode_known = false;
   in->to_lift = false;
   in->initialised = 1;
-  ali3_balance_open(in);
+  ali3_balance_open(in, ali3_has_balance(in));
   return ALI3_OK;
 }
 

@@ -6,7 +6,6 @@
 #include "../instance.h"
 #include "../lanes/lanes.h"
 #include "../method.h"
-#include "../methods/check_method.h"
 #include "../methods/energy_balance.h"
 #include "../methods/energy_watch.h"
 #include "../methods/history.h"

@@ -1,5 +1,6 @@
 /* Settings of an instance. */
 #include "../instance.h"
+#include "../method.h"
 #include "../methods/energy_balance.h"
 #include "../state/parameters.h"
 #include "../state/work.h"
@@ -8,7 +9,7 @@ ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) 
   if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
   const bool other = settings->method != in->settings.method;
   in->settings = *settings;
-  if (in->initialised) ali3_balance_open(in); /* another method may have had none */
+  if (in->initialised) ali3_balance_open(in, ali3_has_balance(in)); /* another method may have had none */
   if (in->initialised && other) ali3_work_reopen(in);
   return ALI3_OK;
 }

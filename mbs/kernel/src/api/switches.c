@@ -6,6 +6,7 @@
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
+#include "../method.h"
 #include "../methods/energy_balance.h"
 #include "../rows/constraints.h"
 #include "../start/initialise.h"
@@ -52,7 +53,7 @@ ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
   }
   in->report.energy_jump = kinetic_energy(in) - before;
   memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
-  ali3_balance_open(in);
+  ali3_balance_open(in, ali3_has_balance(in));
   return ALI3_OK;
 }
 

@@ -1,8 +1,7 @@
-/* Which method takes which System. */
+/* What methods ask of a System that they take. */
 #include "check_method.h"
 #include "../elements/element.h"
 #include "../instance.h"
-#include "../method.h"
 #include "../system/without_states.h"
 
 static bool conservative(const ali3_instance *in, int32_t e) {
@@ -20,12 +19,6 @@ bool ali3_conservative(const ali3_instance *in) {
   for (int32_t e = 0; e < S->size.ne; e++)
     if (!conservative(in, e)) return false;
   return true;
-}
-
-/* ALI3_OK, or why the method of the settings cannot take the System. */
-ali3_status ali3_check_method(const ali3_instance *in) {
-  const ali3_method *method = ali3_method_of(in);
-  return method->takes != NULL ? method->takes(in) : ALI3_OK;
 }
 
 /* ALI3_WRONG_METHOD where stages inside a step need more than q, qd and the time. */

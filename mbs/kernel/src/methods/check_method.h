@@ -1,9 +1,8 @@
-/* Which method takes which System. */
+/* What methods ask of a System that they take. */
 #ifndef ALI3_CHECK_METHOD_H
 #define ALI3_CHECK_METHOD_H
 #include "../instance.h"
 
-ali3_status ali3_check_method(const ali3_instance *in);
 /* What ali3_needs_no_states refuses, in words for users. */
 #define ALI3_STATES_IN_WORDS "element states or filtered guides"
 ali3_status ali3_needs_no_states(const ali3_instance *in);

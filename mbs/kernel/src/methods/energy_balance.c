@@ -5,7 +5,6 @@
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
-#include "../method.h"
 #include "coarse_event.h"
 #include "energy_balance.h"
 #include "quick_load.h"
@@ -28,11 +27,10 @@ static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
   r->energy = energy;
 }
 
-/* The energy of in->now, from which the next step counts. */
-void ali3_balance_open(ali3_instance *in) {
+/* The energy of in->now, from which the next step counts where the method has a balance. */
+void ali3_balance_open(ali3_instance *in, bool balanced) {
   in->report.open_power = in->report.energy_floor = 0.0;
-  const ali3_method *method = ali3_method_of(in);
-  if (method->has_balance == NULL || !method->has_balance(in)) return;
+  if (!balanced) return;
   ali3_bodies_prepare(in, in->now.q);
   const double kinetic = 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
   double rest = 0.0;

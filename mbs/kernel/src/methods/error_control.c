@@ -15,7 +15,6 @@
 #include "../state/road_files.h"
 #include "../state/vectors.h"
 #include "branch_watch.h"
-#include "check_method.h"
 #include "energy_balance.h"
 #include "error_control.h"
 

@@ -19,4 +19,15 @@ const char *ali3_method_excludes(const ali3_instance *in) {
   return in == NULL || ali3_method_of(in)->excludes == NULL ? "" : ali3_method_of(in)->excludes;
 }
 
+/* ALI3_OK, or why the method of the settings cannot take the System. */
+ali3_status ali3_check_method(const ali3_instance *in) {
+  const ali3_method *method = ali3_method_of(in);
+  return method->takes != NULL ? method->takes(in) : ALI3_OK;
+}
+
+bool ali3_has_balance(const ali3_instance *in) {
+  const ali3_method *method = ali3_method_of(in);
+  return method->has_balance != NULL && method->has_balance(in);
+}
+
 int32_t ali3_method_order(const ali3_instance *in) { return orders[in->settings.method]; }

@@ -261,7 +261,6 @@ void ali3_sensors_evaluate(const ali3_instance *in, double *out) {
     out[i] = value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], in->sen_real + S->sen_real_ptr[i]);
 }
 
-/* Sensors and coordinates as a row of a record; either may be NULL. */
 void ali3_record_row(const ali3_instance *in, int64_t row, double *out, double *positions) {
   const ali3_sizes *size = &in->system->size;
   if (out != NULL) ali3_sensors_evaluate(in, out + row * size->ns);

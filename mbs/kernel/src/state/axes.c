@@ -121,7 +121,6 @@ static void write_speed(ali3_instance *in, int64_t k) {
   in->turned_speed[S->axis_spin[k]] = ali3_cos(now[0]) * ali3_cos(now[1]) / leaned;
 }
 
-/* After axes have changed. */
 void ali3_axes_apply(ali3_instance *in) {
   const ali3_system *S = in->base, *T = S->turned;
   in->system = S;

@@ -4,8 +4,11 @@
 #include "../instance.h"
 #include "../system/pool.h"
 
+/* Room for the axes of an instance. */
 void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *pool);
+/* After parameters have changed axes: what follows from them. */
 void ali3_axes_apply(ali3_instance *in);
+/* Whether parameters leave the axis of wheel k as it is drawn. */
 bool ali3_axis_as_drawn(const ali3_instance *in, int64_t k);
 /* Change of the second moments of wheel k about its centre, along the axes of the drawing. */
 void ali3_axis_moments(const ali3_instance *in, int64_t k, double change[3][3]);

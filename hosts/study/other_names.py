@@ -1,0 +1,62 @@
+"""A study of an FMU with an alias file: what it runs has our names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hosts.common.errors import HostError
+from hosts.driving.derived_columns import derive_columns
+from hosts.driving.result import Result
+from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.fmu.aliased_fmu import AliasedFmu, seen_through
+from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.of_file import aliases_of
+from hosts.fmu.aliases.other_names import OtherNames
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.variables import Variable
+
+
+def aliases_beside(name: str, file: Path, fmu: Fmu) -> Aliases:
+    """The aliases that a study file names: a file beside it, else one of the package.
+
+    Raises
+    ------
+    HostError
+        The file is not right, or is none for this FMU.
+    """
+    beside = file.parent / name
+    return aliases_of(beside if beside.is_file() else name, fmu.table)
+
+
+def under_names(fmu: Fmu, names: OtherNames) -> SimulatedFmu:
+    """The FMU under our names."""
+    return seen_through(fmu, as_aliases(names))
+
+
+def derive(result: Result, names: OtherNames) -> None:
+    """See `derive_columns`."""
+    derive_columns(result, as_aliases(names))
+
+
+def as_aliases(names: OtherNames | None) -> Aliases:
+    """The aliases, of which there may be none."""
+    if names is None:
+        return Aliases()
+    assert isinstance(names, Aliases)
+    return names
+
+
+def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
+    """A variable that can be set, by our name and in our unit; None where it has no name of ours.
+
+    Raises
+    ------
+    HostError
+        It is no parameter or input.
+    """
+    if not isinstance(fmu, AliasedFmu) or name not in fmu.table:
+        return None
+    found = fmu.table[name]
+    if found.causality in ("parameter", "input") and found.variability != "constant":
+        return found
+    raise HostError(f"{where}: '{name}' is no parameter or input of the FMU; it cannot be set.")

@@ -1,0 +1,63 @@
+"""A compiled model at its start: its points over the coordinates, and what the kernel says of places near it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.common.affine import AffineVector
+from mbs.compiler.model_to_system import to_system
+from mbs.model import Model
+from mbs.simulation.evaluator import Evaluator
+from mbs.simulation.standing_system import StandingSystem
+
+Array = NDArray[np.float64]
+
+
+class StandingModel:
+    """Base of what puts a compiled model to other places.
+
+    Parameters
+    ----------
+    model : Model
+        With all its parts.
+
+    Attributes
+    ----------
+    evaluator : Evaluator
+        Rows and forces at any coordinates.
+    """
+
+    def __init__(self, model: Model) -> None:
+        system = to_system(model)
+        assert system.frames is not None
+        self._T, self._constant = system.frames.T.toarray(), system.frames.constant
+        self.evaluator = Evaluator(StandingSystem(system))
+
+    def linear(self, v: AffineVector) -> tuple[Array, Array]:
+        """Matrix (n, nq) and constant (n,) of a point or vector over the coordinates.
+
+        Parameters
+        ----------
+        v : AffineVector
+            Over the full coordinates.
+        """
+        full = np.zeros((len(v), len(self._constant)))
+        for row, component in zip(full, v.components, strict=True):
+            for k, c in component.terms.items():
+                row[k] = c
+        return full @ self._T, full @ self._constant + [component.constant for component in v.components]
+
+    def full(self, k: int) -> tuple[Array, float]:
+        """Row (nq,) and constant of a full coordinate."""
+        return self._T[k], float(self._constant[k])
+
+    def force(self, q: Array) -> Array:
+        """Forces Q (nq,) of all elements at rest.
+
+        Parameters
+        ----------
+        q : ndarray, shape (nq,)
+            Coordinates.
+        """
+        return self.evaluator.forces(q)

@@ -1,0 +1,33 @@
+"""Warns of roads with walls for the wheels of a car."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+from mbs.elements.road import GridRoad, Road, RoadOfFile
+from mbs.roads.read_road import read_road
+from mbs.roads.road_file import TEXTS, RoadFile
+from mbs.roads.steep_faces import RoadWarning, steep_face
+
+MOST_LOOKED_AT = 4e6
+
+
+def tell_steep_face(road: Road | RoadOfFile, radius: float) -> None:
+    """Warn of a grid with a wall for a wheel.
+
+    Parameters
+    ----------
+    road : Road or RoadFile
+        Under a car. A file of more than 4e6 points is not looked at: it was when it was made.
+    radius : float
+        Of the largest wheel, m.
+    """
+    grid: Road | RoadOfFile | None = road
+    name: object = "The grid road"
+    if isinstance(road, RoadFile):
+        table = Path(road.path).suffix.lower() in TEXTS
+        name, small = road.path, table or road.header.nx * road.header.ny <= MOST_LOOKED_AT
+        grid = read_road(name) if small else None
+    if isinstance(grid, GridRoad) and (told := steep_face(grid, name, radius)):
+        warnings.warn(told, RoadWarning, stacklevel=3)
