@@ -87,7 +87,7 @@ export class Parts {
     return among.get(name);
   }
 
-  /** Groups that move with frames, each with the name of its frame. @returns {[string, THREE.Group][]} */
+  /** Groups that move with frames, each with the name of its frame. @returns {[string, any][]} */
   get moving() {
     return [...this.carriers, ...this.inner];
   }

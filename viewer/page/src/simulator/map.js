@@ -95,8 +95,8 @@ export function besides(places, width) {
   return places.map(({ at: [x, y], wide }) => {
     const rows = [0, -1, 1, -2, 2, -3, 3].map((k) => y + k * WORDS);
     const all = rows.flatMap((middle) => [[x + 8, middle], [x - 8 - wide, middle], [x - wide / 2, middle]]); // prettier-ignore
-    const boxOf = ([left, middle]) => [left, left + wide, middle - WORDS / 2, middle + WORDS / 2];
-    const apart = ([a, b, c, d], [e, f, g, h]) => b < e || a > f || d < g || c > h;
+    const boxOf = (/** @type {number[]} */ [left, middle]) => [left, left + wide, middle - WORDS / 2, middle + WORDS / 2];
+    const apart = (/** @type {number[]} */ [a, b, c, d], /** @type {number[]} */ [e, f, g, h]) => b < e || a > f || d < g || c > h;
     const free = all.find((spot) => spot[0] >= 0 && spot[0] + wide <= width && taken.every((box) => apart(boxOf(spot), box))) ?? all[0];
     taken.push(boxOf(free));
     return free;
