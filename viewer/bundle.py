@@ -160,7 +160,7 @@ def _hash(page: Path) -> str:
     """Digest of the names and contents of all sources."""
     digest = hashlib.sha256()
     sources = [page / name for name in ("package.json", "package-lock.json", "build.mjs")]
-    sources += [page.parent / name for name in ("looks.json", "shapes.json")]
+    sources += [page.parent / name for name in ("keys.json", "looks.json", "shapes.json")]
     sources += sorted(path for path in (page / "src").rglob("*") if path.is_file())
     for path in sources:
         content = path.read_bytes()

@@ -12,8 +12,10 @@ import pytest
 import mbs
 from mbs.vehicle import car as car_module
 from mbs.vehicle import car_names, load
-from mbs.vehicle.shapes.body_shell import BodyShell
+from mbs.vehicle.shapes.body_shell import DASHBOARD, BodyShell
 from mbs.vehicle.shapes.car_shapes import SUSPENSIONS
+from mbs.vehicle.shapes.occupants import driver_place
+from mbs.vehicle.shapes.steering import HANDS, RADIUS, TILT
 from mbs.vehicle.shapes.tube_frame import FRAME
 from mbs.vehicle.suspensions import Suspension
 from viewer.poses import FramePoses
@@ -123,6 +125,36 @@ def test_the_body_encloses_its_wheels_and_faces_outwards() -> None:
         near = places[np.abs(places[:, 0] - x) < 0.7 * axle.tyre.radius]
         ways = np.hypot(near[:, 0] - x, near[:, 2] - z)
         assert ways.min() > axle.tyre.radius + 0.03  # the tyre is free in its arch
+
+
+@pytest.mark.parametrize("name", ["hatchback", "saloon", "ferrari_250_lm"])
+def test_a_driver_sees_the_steering_wheel_and_the_road_ahead(name: str) -> None:
+    """No body and no dashboard stands between the driver's eyes, the upper rim, and a road 12 m ahead."""
+    car = load(name)
+    shell = BodyShell(car)
+    x, y, z = driver_place(car)
+    wheel = np.array([x + HANDS[0], y, z + HANDS[1]])
+    eye = wheel + np.array([-0.48, 0.0, 0.24])
+    angles = np.linspace(0.0, np.pi, 13)
+    up = np.array([math.sin(TILT), 0.0, math.cos(TILT)])
+    seen = wheel + RADIUS * (np.outer(np.cos(angles), [0.0, 1.0, 0.0]) + np.outer(np.sin(angles), up))
+    seen = np.vstack([seen, [wheel[0] + 12.0, y, 0.0]])
+    places, triangles = shell.lower_body()
+    assert not any(meets(eye, point, places[triangles]) for point in seen)
+    middle, size = (np.array(part) for part in shell.dashboard(wheel[0] + DASHBOARD[0]))
+    ways = np.linspace(0.0, 1.0, 2001)[:, None, None] * (seen - eye) + eye
+    assert not (np.abs(ways - middle) < 0.5 * size).all(axis=2).any()
+
+
+def meets(start: np.ndarray, end: np.ndarray, triangles: np.ndarray) -> bool:
+    """Whether a line between two points goes through one of the triangles, of shape (n, 3, 3)."""
+    a, b, c = np.moveaxis(triangles, 1, 0)
+    way, normal = end - start, np.cross(b - a, c - a)
+    along = normal @ way
+    share = np.einsum("ij,ij->i", normal, a - start) / np.where(np.abs(along) > 1e-12, along, np.nan)
+    hit = start + share[:, None] * way
+    inside = [np.einsum("ij,ij->i", normal, np.cross(q - p, hit - p)) >= 0.0 for p, q in ((a, b), (b, c), (c, a))]
+    return bool(((share > 0.0) & (share < 1.0) & np.all(inside, axis=0)).any())
 
 
 @pytest.mark.parametrize(

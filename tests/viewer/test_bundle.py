@@ -37,7 +37,7 @@ def page(tmp_path, modules):
     """A copy of the sources."""
     copy = tmp_path / "page"
     shutil.copytree(PAGE, copy, ignore=shutil.ignore_patterns("node_modules", ".*", "test"))
-    for name in ("looks.json", "shapes.json"):
+    for name in ("keys.json", "looks.json", "shapes.json"):
         shutil.copy(PAGE.parent / name, tmp_path)
     (copy / "node_modules").symlink_to(modules, target_is_directory=True)
     return copy

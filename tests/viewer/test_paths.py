@@ -111,10 +111,10 @@ def test_the_path_goes_over_a_kerb_on_its_surface(opened: Callable[..., Opened])
 
 def test_the_path_goes_and_comes_with_its_key(seen: Opened) -> None:
     seen.seek(2.0)
-    seen.page.keyboard.press("p")
+    seen.page.keyboard.press("y")
     seen("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
     assert not yellow(seen, way(1.87))
-    seen.page.keyboard.press("P")
+    seen.page.keyboard.press("Y")
     seen("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
     assert yellow(seen, way(1.87))
 

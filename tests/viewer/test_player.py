@@ -199,7 +199,7 @@ def test_the_settings_show_what_is_set_by_keys_and_programs(opened: Callable[...
     page.page.locator(".ali3-bar button", has_text="settings").click()
     box = page.page.locator(".ali3-panel input[type=checkbox]").first
     assert not box.is_checked()
-    page.page.keyboard.press("a")
+    page.page.keyboard.press("f")
     assert box.is_checked()
     assert page("player.player.look.arrows") is True
     page("player.set({arrowScale: 5})")
@@ -208,13 +208,13 @@ def test_the_settings_show_what_is_set_by_keys_and_programs(opened: Callable[...
     assert page("player.player.look.arrowScale") == 10
     page.page.keyboard.press("Escape")
     assert not page.page.locator(".ali3-panel").is_visible()
-    page.page.keyboard.press("A")  # the same letter with caps lock
+    page.page.keyboard.press("F")  # the same letter with caps lock
     assert page("player.player.look.arrows") is False
 
 
 def test_signals_are_chosen_by_keyboard_and_space_does_not_play(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES))
-    page.page.keyboard.press("S")
+    page.page.keyboard.press("G")
     page.page.locator(".ali3-find input").focus()
     page.page.keyboard.press("Tab")  # the button that shows the list
     page.page.keyboard.press("Tab")

@@ -14,6 +14,7 @@ from hosts.simulator.command import main as simulator
 from hosts.view.command import main as view
 from mbs.scenes import prototype_car
 from tests.in_browser import wait_until
+from tests.viewer.bars import check_bar
 
 MOST_BYTES = 8e6
 
@@ -48,6 +49,21 @@ def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
     assert page.evaluate("player.stage.parts[0].effects.sound.mixer !== null"), "a key has switched the sound on"
     page.keyboard.press("m")
     assert page.evaluate("player.stage.parts[0].effects.sound.mixer.volume") == 0
+    check_bar(page, ".a3-bar", 800)
+    for key, camera in (
+        ("1", "driver"),
+        ("2", "chase"),
+        ("3", "wheel FL"),
+        ("3", "wheel FR"),
+        ("4", "orbit"),
+        ("5", "top"),
+    ):
+        page.keyboard.press(key)
+        assert page.evaluate("player.view.cameras.name") == camera
+    page.keyboard.press("H")  # as with caps lock
+    assert "camera of the driver" in page.inner_text("[data-a3='help list']")
+    page.keyboard.press("Escape")
+    assert not page.locator("[data-a3='help list']").is_visible()
     place = page.evaluate("Object.keys(player.options.places)")[3]
     page.get_by_title("begin at a place of the world").select_option(place)
     wanted = page.evaluate("name => player.options.places[name]", place)

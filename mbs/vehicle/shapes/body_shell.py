@@ -15,8 +15,11 @@ from numpy.typing import NDArray
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.loft import interpolated, loft
 from mbs.vehicle.shapes.looks import ACCENT, DARK, Looks, Paint
+from mbs.vehicle.shapes.occupants import driver_place
+from mbs.vehicle.shapes.steering import HANDS
 
 GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
+GREY: Paint = {"material": "plastic", "color": "#565c65"}
 LAMP: Paint = {"material": "plastic", "color": "#eef4ff"}
 TAIL_LAMP: Paint = {"material": "plastic", "color": "#a3101c"}
 Detail: TypeAlias = "tuple[float, float, float, tuple[float, float, float], Paint]"
@@ -57,6 +60,9 @@ ROOF = (
 PANEL = 0.115, 0.565  # ends of the roof's panel
 PILLAR = 0.36  # between the side windows
 ARCH = 0.055  # m between tyre and arch
+GAP = 0.02  # m between an arch and what the cabin opens
+DASHBOARD = 0.13, 0.42  # m: ahead of the middle of the steering wheel, and its thickness
+RIM = 4  # cross-sections of the lower body: its points from here on are over the cabin
 SILL = 0.62  # height of the sill over the radius of the tyres
 FRONT_OVERHANG = 0.53  # share of both overhangs
 SLIM = 0.36  # height over length where nothing tells it
@@ -123,19 +129,26 @@ class BodyShell:
     def stations(self) -> NDArray[np.float64]:
         """x of the cross-sections, m: dense along the arches."""
         ways = [self.place(np.linspace(0.0, 1.0, 29)), self.place(np.array([0.005, 0.015, 0.985, 0.995]))]
+        ways.append(np.array(self.cabin))
         for axle in (self.car.front, self.car.rear):
             radius = axle.tyre.radius + ARCH
             ways.append(axle.wheel.centre[0] + radius * np.cos(np.linspace(0.0, np.pi, 17)))
             ways.append(axle.wheel.centre[0] + radius * np.array([-1.002, 1.002]))
         return np.unique(np.concatenate(ways))
 
+    @property
+    def cabin(self) -> tuple[float, float]:
+        """x of the ends of what is open to those within: from the arch of the rear wheels to the windscreen, m."""
+        rear = self.car.rear
+        return rear.wheel.centre[0] + rear.tyre.radius + ARCH + GAP, float(self.place(ROOF[-1][0])) - GAP
+
     def lower_body(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Sides, bonnet and tail."""
+        """Sides, bonnet and tail; open over the cabin, so that its driver sees the steering wheel."""
         x = self.stations()
         top, half = self.deck(x)
         low = np.minimum(self.lower_edge(x), top - 0.02)
         rise = top - low
-        return loft(
+        places, triangles = loft(
             [
                 np.array(
                     [
@@ -151,6 +164,21 @@ class BodyShell:
                 for k in range(len(x))
             ],
             ends=True,
+        )
+        ring = 13  # points of a cross-section, both sides; those of the caps come last
+        rear, front = self.cabin
+        point, at = triangles % ring, places[triangles, 0]
+        over = (point >= RIM) & (point < ring - RIM) & (at >= rear) & (at <= front)
+        return places, triangles[~over.all(axis=1)]
+
+    def dashboard(self, ahead: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """Middle and size of a box from a place ahead of the steering wheel to the windscreen, m."""
+        front = float(self.place(ROOF[-1][0]))
+        top, half = (float(value.min()) for value in self.deck(np.array([ahead, front])))
+        return (0.5 * (ahead + front), 0.0, top + 0.012 - 0.5 * DASHBOARD[1]), (
+            front - ahead,
+            1.84 * half,
+            DASHBOARD[1],
         )
 
     def edge(self, share: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -200,6 +228,8 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     x0, x1 = (float(shell.place(share)) for share in (0.03, 0.96))
     floor = SILL * car.front.tyre.radius + 0.03
     m.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
+    dash, size = shell.dashboard(driver_place(car)[0] + HANDS[0] + DASHBOARD[0])
+    m.shape(chassis, "box", at=dash, size=size, **GREY)
     lower, upper = shell.edge(
         np.concatenate([np.linspace(PANEL[1], ROOF[-1][0], 7), [PILLAR], np.linspace(0.04, PANEL[0], 7)])
     )

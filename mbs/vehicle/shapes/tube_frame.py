@@ -9,7 +9,7 @@ from mbs.vehicle.chassis.tubular_frame import TubularFrame
 from mbs.vehicle.shapes.looks import BARE, CAST, PAINT, Looks
 
 FRAME = "frame tube"
-"""Name of the shapes of the tubes; where the frame is drawn as it bends they are left out."""
+"""Name of the shapes of the tubes, which closed bodies hide; left out where the frame is drawn as it bends."""
 LOW = 0.05  # m above the lowest joint: what the floor lies on
 
 

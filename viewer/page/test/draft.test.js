@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { levelAt } from "../src/looks/draft/coarse_terrain.js";
 import { thinned, within } from "../src/looks/draft/thinned.js";
-import { nextLevel } from "../src/looks/pace.js";
+import { nextLevel, nextShare, Pace } from "../src/looks/pace.js";
 import { coilTriangles } from "../src/shapes/coil.js";
 
 /** A closed ball of squares cut in two, with outward normals. */
@@ -85,4 +85,48 @@ test("a coarse wire uses points of the fine one, from its first to its last ring
   const [fine, coarse] = [coilTriangles(6), coilTriangles(6, 2)];
   assert.ok(coarse.length < fine.length / 4);
   assert.equal(Math.floor(Math.max(...coarse) / 7), Math.floor(Math.max(...fine) / 7));
+});
+
+/** A pace whose pictures take times of its own; gives what it chose after so many pictures. */
+function paced(t, driven, quality, timeOf) {
+  let clock = 0;
+  let reads = 0;
+  t.mock.method(performance, "now", () => clock);
+  const gl = { readPixels: () => (reads += 1) };
+  const pace = new Pace(/** @type {any} */ ({ getContext: () => gl }), quality, { software: true, driven });
+  const draw = (pictures) => {
+    for (let k = 0; k < pictures; k++) {
+      pace.before();
+      clock += timeOf(pace);
+      pace.after();
+      clock += 5;
+    }
+    return [pace.level, Number(pace.share.toFixed(2)), reads];
+  };
+  return draw;
+}
+
+test("a draft that is driven loses pixels where it is too slow and gets them back; a level that was tried is not tried again", (t) => {
+  let world = 60; // ms a picture at all pixels; a finer level takes thrice as long
+  const draw = paced(t, true, "auto", ({ level, share }) => (level === "draft" ? 1 : 3) * world * share * share);
+  assert.deepEqual(draw(8), ["draft", 0.8, 5]);
+  assert.deepEqual(draw(200).slice(0, 2), ["draft", 0.8]); // 38 ms
+  world = 200;
+  assert.deepEqual(draw(400).slice(0, 2), ["draft", 0.5]);
+  world = 11;
+  assert.equal(draw(800)[1], 1);
+  assert.equal(draw(800)[0], "low"); // 33 ms
+  world = 60;
+  assert.deepEqual(draw(400).slice(0, 2), ["draft", 0.8]);
+  world = 11;
+  const [level, share, before] = draw(2000);
+  assert.deepEqual([level, share], ["draft", 1]);
+  assert.equal(draw(1000)[2] - before, 50); // one of twenty waits for the card
+});
+
+test("a quality that was chosen stays, and what stands still is measured once", (t) => {
+  assert.deepEqual(paced(t, true, "low", () => 500)(500), ["low", 1, 0]);
+  t.mock.restoreAll();
+  assert.deepEqual(paced(t, false, "auto", () => 500)(500), ["low", 1, 0]);
+  assert.deepEqual([nextShare(1, 41), nextShare(0.5, 90), nextShare(0.8, 20), nextShare(0.8, 10)], [0.8, 0.5, 0.8, 1]);
 });

@@ -9,6 +9,8 @@ import { Numbers } from "../src/simulator/numbers.js";
 import { Factor } from "../src/simulator/steps.js";
 import { Surfaces } from "../src/simulator/surfaces.js";
 import { useColour, wheelsOf } from "../src/simulator/tyres.js";
+import { besides } from "../src/simulator/map.js";
+import { cameraActs } from "../src/common/views.js";
 import { Views } from "../src/simulator/views.js";
 import { Wants } from "../src/simulator/wants.js";
 
@@ -148,11 +150,8 @@ test("cameras: by name, wheels in turn, and a sentence for one that is not there
   const chosen = [];
   const views = new Views(["orbit", "chase", "wheel FL", "wheel FR", "side"], (name) => chosen.push(name));
   assert.deepEqual(views.names, ["chase", "orbit", "side", "wheel FL", "wheel FR", "map"]);
-  views.choose("wheel");
-  views.choose("wheel");
-  views.choose("wheel");
-  views.choose("map");
-  views.next();
+  const acts = cameraActs({ names: () => views.names, now: () => views.name, choose: (name) => views.choose(name) });
+  for (const act of ["camera wheel", "camera wheel", "camera wheel", "camera top", "next camera"]) acts[act]();
   assert.deepEqual(chosen, ["wheel FL", "wheel FR", "wheel FL", "map", "chase"]);
   assert.match(views.choose("driver"), /There is no camera 'driver'/);
   assert.equal(views.name, "chase");
@@ -226,4 +225,15 @@ test("a camera on a rope: it follows a turn in its time, stays level, and jumps 
   trailing.snap();
   assert.deepEqual(trailing.along([0, 1, 0], up), [0, 1, 0]);
   assert.deepEqual(new Trailing(0).along([0, -1, 0], up), [0, -1, 0]);
+});
+
+test("words of the map stand beside their places and over no others", () => {
+  const places = [[400, 100], [430, 104], [434, 90], [790, 300], [2, 310], [400, 100]].map((at) => ({ at, wide: 90 })); // prettier-ignore
+  const spots = besides(places, 800);
+  spots.forEach(([left, middle], k) => {
+    assert.ok(left >= 0 && left + 90 <= 800);
+    assert.ok(Math.abs(middle - places[k].at[1]) < 60);
+    for (const [other, level] of spots.slice(k + 1)) assert.ok(Math.abs(left - other) > 90 || Math.abs(middle - level) >= 14);
+  });
+  assert.deepEqual(spots[0], [408 - 8 - 8 - 90, 100]); // to the left: a place is to the right
 });

@@ -1,4 +1,5 @@
 // Keys of a page: what the focused element needs itself stays its own, driving comes next, then acts by name.
+import { actOf } from "./key_table.js";
 
 /** Whether the focus came by the keyboard: a box that was clicked leaves the keys to the page. */
 let tabbed = false;
@@ -20,8 +21,7 @@ export function needed({ tagName, type, isContentEditable }, key, byKeyboard) {
 /**
  * Listen to the keys of a page until a signal ends it.
  * @param {object} options
- * @param {Object<string, (event: KeyboardEvent) => void>} options.acts - By `KeyboardEvent.code`, or by `key` in small
- *   letters, which are the same with caps lock.
+ * @param {Object<string, (event: KeyboardEvent) => void>} options.acts - By their names in the table of keys.
  * @param {(event: KeyboardEvent) => boolean} [options.first] - Takes what drives, down and up, whatever has the focus
  *   when a key goes up; says whether it did.
  * @param {AbortSignal} options.signal
@@ -34,7 +34,7 @@ export function keys({ acts, first = () => false, signal }) {
     const own = needed(/** @type {HTMLElement} */ (event.target), key, tabbed);
     if (down && (own || ctrlKey || altKey || metaKey)) return; // a key that was down is let go in any case
     const driven = first(event);
-    const act = acts[code] ?? acts[key] ?? acts[key.toLowerCase()];
+    const act = acts[actOf(event, acts)];
     if (own || !(driven || act)) return;
     event.preventDefault();
     if (down && !driven && (!repeat || code.startsWith("Arrow"))) act(event);

@@ -1,33 +1,34 @@
 // The bar below the picture: start, stop, single steps, slow motion, going back.
 import { button, el, select } from "../common/dom.js";
+import { hint } from "../common/key_table.js";
 
-const SLOW = [0.5, 0.25, 0.1, 0.02].map((rate) => [rate, `slow motion × 1/${1 / rate}`]);
-const SPEEDS = [[1, "real time"], ...SLOW, [2, "fast × 2"], [5, "fast × 5"]];
+const SLOW = [0.5, 0.25, 0.1, 0.02].map((rate) => [rate, `× 1/${1 / rate}`]);
+const SPEEDS = [[1, "× 1"], ...SLOW, [2, "× 2"], [5, "× 5"]];
 
 /** The bar; it calls `act` of the page and shows what it is told. */
 export class Bar {
   /** @param {Data} act - Functions: reset, toggle, step, back, speed, scrub, camera, csv, mute, place. */
   constructor(act, { cameras, steps, step, views, places = [], sound = false }) {
-    this._play = button("play", "Run", act.toggle, "run or pause (P)");
-    this._rate = select("rate", "how fast time runs; slow motion (L)", SPEEDS, (v) => act.speed(Number(v)), 1);
+    this._play = button("play", "Run", act.toggle, hint("toggle"));
+    this._rate = select("rate", `how fast time runs: ${hint("slow")}`, SPEEDS, (v) => act.speed(Number(v)), 1);
     this._line = el("input", { type: "range", min: 0, max: 1, step: "any", title: "go back, then drive on from there", data: "timeline" });
     this._line.addEventListener("input", () => act.scrub(Number(this._line.value)));
     this._time = el("span.a3-clock", { data: "clock" });
     this.element = el(
       "div.a3-bar",
       {},
-      button("reset", "Reset", act.reset, "begin again (Home)"),
-      button("back", "2 s back", act.back, "two seconds back (Backspace)"),
+      button("reset", "Reset", act.reset, hint("reset")),
+      button("back", "−2 s", () => act.back(), hint("rewind")),
       this._play,
-      button("step", "Step", act.step, "one communication step (.)"),
+      button("step", "Step", act.step, hint("step")),
       this._rate,
       this._line,
       this._time,
       select("step size", "communication step", steps, (v) => act.stepSize(Number(v)), step),
     );
-    this._camera = select("camera", "camera (C)", cameras.map((c) => [c, c]), act.camera);
+    this._camera = select("camera", `camera: ${hint("next camera")}`, cameras.map((c) => [c, c]), act.camera);
     if (cameras.length) this.element.append(this._camera);
-    this._sound = button("mute", "Sound on", act.mute, "sound (M)");
+    this._sound = button("mute", "Sound on", act.mute, hint("mute"));
     if (sound) this.element.append(this._sound);
     if (places.length) {
       const spots = places.map((name) => [name, name.replaceAll("_", " ")]);
@@ -38,7 +39,7 @@ export class Bar {
       this.element.append(place);
     }
     for (const { data, text, title, work } of views) this.element.append(button(data, text, work, title));
-    this.element.append(button("csv", "Save CSV", act.csv, "inputs and outputs of the run as a table"));
+    this.element.append(button("csv", "Save CSV", act.csv, "inputs and outputs of the run as a table"), button("help", "?", act.help, hint("help")));
   }
 
   /** Slow motion, or real time where it is slow. */

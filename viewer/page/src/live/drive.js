@@ -1,12 +1,15 @@
 // An FMU that runs in the page: it is driven by keys, gamepads, fingers and sliders, drawn, plotted and recorded.
 import { button, el, short } from "../common/dom.js";
+import { fullScreen } from "../common/full_screen.js";
+import { Help } from "../common/help.js";
+import { DRIVING_WORDS, hint } from "../common/key_table.js";
 import { keys } from "../common/keys.js";
+import { cameraActs } from "../common/views.js";
 import { decoded } from "../player/decode.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
 import { BACK } from "./engine.js";
 import { Hands, HANDS_MS } from "./hands.js";
-import { HELP } from "./keyboard.js";
 import { gamepadPanel, inputPanel, parameterPanel, picturePanel } from "./panel.js";
 import { Plots } from "./plots.js";
 import { Session } from "./session.js";
@@ -231,7 +234,7 @@ class Drive {
     const follows = this.script ? `Inputs follow a table of ${short(this.script.t.at(-1))} s until a hand moves them. ` : "";
     const largest = (name) => Math.max(0, ...(this.script?.columns[name] ?? []).map(Math.abs));
     const sliders = this.inputs.map((v) => ({ ...v, largest: largest(v.name) }));
-    this.inputPanel = inputPanel(sliders, want, follows + (this.isCar ? HELP : ""));
+    this.inputPanel = inputPanel(sliders, want, follows + (this.isCar ? DRIVING_WORDS : ""));
     const settable = (v) => v.causality === "parameter" || (v.causality === "input" && v.variability === "fixed");
     const parameters = [...session.variables.values()].filter(settable);
     const roads = Object.keys(first.resources).filter((path) => path.startsWith("roads/")).map((path) => path.slice(6));
@@ -251,38 +254,48 @@ class Drive {
 
   _cameras() {
     const { session } = this;
-    const steps = stepChoices(session.step).map((h) => [h, `step ${Number((1e3 * h).toPrecision(6))} ms`]);
+    const steps = stepChoices(session.step).map((h) => [h, `${Number((1e3 * h).toPrecision(6))} ms`]);
     const views = [];
+    const flipLevers = () => this.root.classList.toggle("a3-touching");
+    const has = this.stage.parts.map((part) => part.view.has ?? {});
+    const shown = ["arrows", "stress", "closed"].filter((what) => has.some((one) => one[what]));
     if (this.isCar) {
-      const work = () => this.root.classList.toggle("a3-touching");
-      views.push({ data: "touch levers", text: "Levers", title: "levers for fingers over the picture", work });
+      views.push({ data: "touch levers", text: "Levers", title: hint("levers"), work: flipLevers });
     }
     const act = {
       reset: () => this.reset(),
       toggle: () => (session.running ? this.pause() : this.run()),
       step: () => this.advance(),
       back: () => this.back(),
+      rewind: ({ shiftKey }) => this.back(shiftKey ? 10 : 2),
       speed: (speed) => (session.running ? this.run(speed) : (session.speed = speed)),
       scrub: (time) => this.seek(time),
       camera: (name) => this.camera(name),
       stepSize: (step) => this._stepSize(step),
       csv: () => this._download(),
-      mute: () => this._mute(),
       place: (name) => this._place(name),
+      slow: () => this.bar.slow(),
+      panels: () => (this.side.hidden = !this.side.hidden),
+      help: () => this.help.toggle(),
+      close: () => this.help.toggle(false),
+      "full screen": () => fullScreen(this.root),
+      ...cameraActs({ names: () => this.view.cameraNames, now: () => this.view.cameras?.name, choose: (name) => this._tell(this.camera(name), 3000) }),
+      ...Object.fromEntries(shown.map((what) => [what, () => this._flip(what)])),
+      ...(this.isCar ? { levers: flipLevers, mute: () => this._mute() } : {}),
     };
     this.act = act;
     const { places = {} } = this.options;
     this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views, places: Object.keys(places), sound: this.isCar });
-    this.root.append(this.bar.element);
+    this.help = new Help(Object.keys(act), this.isCar);
+    this.root.append(this.bar.element, this.help.element);
     const camera = this.options.camera ?? (this.isCar ? "chase" : "");
     if (this.view.cameraNames.includes(camera)) this.camera(camera);
-    const has = this.stage.parts.map((part) => part.view.has ?? {});
     this.plots.element.before(picturePanel(has, (wishes) => this.stage.set(wishes), this.options.view?.quality));
   }
 
-  _nextCamera() {
-    const { cameraNames, cameras } = this.view;
-    if (cameras) this.camera(cameraNames[(cameraNames.indexOf(cameras.name) + 1) % cameraNames.length]);
+  /** @param {string} what is a switch of the picture */
+  _flip(what) {
+    /** @type {HTMLElement | null} */ (this.root.querySelector(`[data-a3="show ${what}"]`))?.click();
   }
 
   _mute() {
@@ -363,14 +376,9 @@ class Drive {
     this._listeners = new AbortController();
     const { signal } = this._listeners;
     const { act } = this;
-    const flip = (what) => () => /** @type {HTMLElement | null} */ (this.root.querySelector(`[data-a3="show ${what}"]`))?.click();
-    const acts = {
-      f: flip("arrows"), b: flip("stress"), x: flip("closed"), p: act.toggle, ".": act.step, l: () => this.bar.slow(),
-      Backspace: act.back, Home: act.reset, m: act.mute, c: () => this._nextCamera(),
-    }; // prettier-ignore
     const once = () => this.stage.sound();
     for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, once, { signal, once: true });
-    keys({ acts, signal, first: (event) => this.hands.key(event, this.get("speed")) });
+    keys({ acts: act, signal, first: (event) => this.hands.key(event, this.get("speed")) });
     window.addEventListener("blur", () => this.hands.letKeysGo(), { signal });
     document.addEventListener("visibilitychange", () => this._hidden(), { signal });
   }

@@ -1,4 +1,5 @@
 // Driving a car by keys: pedals and steering wheel move at limited rates and return when the key is let go.
+import { DRIVING } from "../common/key_table.js";
 
 /** Largest change per second of the simulated time: to what is wanted, and back. */
 export const RATES = { steering: [1.6, 3.0], throttle: [2.5, 5.0], brake: [4.0, 8.0], hand_brake: [8.0, 8.0] };
@@ -8,13 +9,8 @@ const LATERAL = 9.0;
 const WHEELBASE = 2.5;
 const WHEEL_ANGLE = 0.55;
 
-const KEYS = {
-  ArrowLeft: "left", KeyA: "left", ArrowRight: "right", KeyD: "right",
-  ArrowUp: "throttle", KeyW: "throttle", ArrowDown: "brake", KeyS: "brake", Space: "hand_brake",
-}; // prettier-ignore
-const SELECTOR = { KeyR: -1, KeyN: 0 };
-
-export const HELP = "arrow keys or WASD: steer, throttle, brake; space: hand brake; R, N, Shift+D: reverse, neutral, drive";
+/** Positions of the selector, by the names of their keys. */
+const SELECTOR = { reverse: -1, neutral: 0, drive: 1 };
 
 /** What is asked for by the keys that are down. */
 export class Keyboard {
@@ -33,10 +29,9 @@ export class Keyboard {
    * @returns {{used: boolean, selector?: number}} Whether it is a key for driving.
    */
   key(code, down, shift = false) {
-    if (down && shift && code === "KeyD") return { used: true, selector: 1 };
-    if (code in SELECTOR) return down ? { used: true, selector: SELECTOR[code] } : { used: true };
-    const act = KEYS[code];
+    const act = (down && shift && DRIVING[`Shift+${code}`]) || DRIVING[code];
     if (!act) return { used: false };
+    if (act in SELECTOR) return down ? { used: true, selector: SELECTOR[act] } : { used: true };
     this._down[down ? "add" : "delete"](code);
     return { used: true };
   }
@@ -58,7 +53,7 @@ export class Keyboard {
    * @returns {[string, number, number][]} Input, value, rate.
    */
   wants(speed) {
-    const acts = new Set([...this._down].map((code) => KEYS[code]));
+    const acts = new Set([...this._down].map((code) => DRIVING[code]));
     const limit = this.steeringLimit(speed);
     const steering = limit * ((acts.has("left") ? 1 : 0) - (acts.has("right") ? 1 : 0));
     const wanted = { steering };

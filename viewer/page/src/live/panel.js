@@ -1,6 +1,7 @@
 // The panel beside the picture: inputs, the gamepad, parameters by group.
 import { control } from "./controls.js";
 import { el, named, select, short } from "../common/dom.js";
+import { hint } from "../common/key_table.js";
 import { sourcesOf } from "./gamepad.js";
 
 /** A part of the panel that opens and closes. */
@@ -14,10 +15,10 @@ export function section(title, open, ...children) {
  * @param {(name: string, value: number) => void} want
  * @returns {{element: HTMLElement, show: (name: string, value: number) => void}}
  */
-export function inputPanel(variables, want, hint) {
+export function inputPanel(variables, want, said) {
   const controls = new Map(variables.map((v) => [v.name, control(v, { change: (value) => want(v.name, Number(value)) })]));
   const children = [...controls.values()].map((c) => c.element);
-  if (hint) children.unshift(el("p.a3-hint", {}, hint));
+  if (said) children.unshift(el("p.a3-hint", {}, said));
   if (!variables.length) children.push(el("p.a3-hint", {}, "This FMU has no inputs."));
   return { element: section("Inputs", true, ...children), show: (name, value) => controls.get(name)?.show(value) };
 }
@@ -57,9 +58,9 @@ export function parameterPanel(variables, { set, roads }) {
     }
     if (lines.length) parts.push(section(title, title === "start values" && lines.length < 8, ...lines));
   }
-  const hint = "A change takes effect at once; where it says “starts again”, the run begins again with it.";
+  const said = "A change takes effect at once; where it says “starts again”, the run begins again with it.";
   return {
-    element: section("Parameters", false, el("p.a3-hint", {}, hint), ...parts),
+    element: section("Parameters", false, el("p.a3-hint", {}, said), ...parts),
     show: (name, value) => controls.get(name)?.show(value),
   };
 }
@@ -113,11 +114,11 @@ export function picturePanel(has, set, quality = "auto") {
   const levels = ["auto", "high", "low", "draft"].map((level) => [level, `quality ${level}`]);
   /** @type {HTMLElement[]} */
   const lines = [select("quality", "how finely the picture is drawn", levels, (wish) => set({ quality: wish }), quality)];
-  for (const [what, words] of [["arrows", "forces as arrows (F)"], ["stress", "colours of stress (B)"], ["closed", "body closed (X)"]]) {
+  for (const what of ["arrows", "stress", "closed"]) {
     if (!can(what)) continue;
     const box = el("input", { type: "checkbox", checked: what !== "arrows", data: `show ${what}` });
     box.addEventListener("change", () => set({ [what]: box.checked }));
-    lines.push(el("label.a3-control", {}, box, words));
+    lines.push(el("label.a3-control", {}, box, hint(what)));
     set({ [what]: box.checked });
   }
   if (can("deformation")) {

@@ -6,6 +6,10 @@ export const LEVELS = ["draft", "low", "high"];
 const [SLOW, QUICK] = [40, 12];
 /** Pictures that are measured; the first ones make programs and textures. */
 const [SKIPPED, MEASURED] = [3, 5];
+/** While something is driven, one of so many pictures is measured: elsewhere in a world there is more to draw. */
+const EVERY = 20;
+/** The least share of the pixels of a draft by side, and by what it changes. */
+const [LEAST_SHARE, COARSER] = [0.5, 0.8];
 
 /** Chooses between the levels. */
 export class Pace {
@@ -28,6 +32,9 @@ export class Pace {
     const all = [...LEVELS].reverse().concat("auto");
     if (!all.includes(quality)) throw new Error(`There is no quality '${quality}'; there are ${all.join(", ")}.`);
     const auto = quality === "auto";
+    this.goes = auto && this.driven;
+    /** Pixels of a draft by side, of those that it has at first. */
+    this.share = 1;
     this.level = auto ? this.#first() : quality;
     this.tried = new Set([this.level]);
     this.#measure(auto && (this.driven || this.level === "high"));
@@ -40,29 +47,52 @@ export class Pace {
   }
 
   #measure(wanted) {
-    this.left = wanted ? SKIPPED + MEASURED : 0;
+    this.skipped = wanted ? SKIPPED : Infinity;
+    this.every = 1;
     this.times = [];
   }
 
   before() {
-    if (this.left > 0) this.began = performance.now();
+    this.looks = this.skipped <= 0;
+    if (this.looks) this.began = performance.now();
   }
 
-  /** Waits for the card while it is being measured, then decides; each level is tried once. */
+  /** Waits for the card where a picture is measured; after several it decides. A finer level is tried once. */
   after() {
-    if (this.left === 0) return;
+    this.skipped -= 1;
+    if (!this.looks) return;
     this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
-    this.left -= 1;
-    if (this.left < MEASURED) this.times.push(performance.now() - this.began);
-    if (this.left > 0) return;
-    this.times.sort((a, b) => a - b);
-    const level = nextLevel(this.level, this.times[MEASURED >> 1], this.driven);
-    if (level === this.level) return;
-    this.level = level;
-    this.#measure(!this.tried.has(level));
-    this.tried.add(level);
+    this.times.push(performance.now() - this.began);
+    this.skipped = this.every - 1;
+    if (this.times.length === MEASURED) this.#decide(this.times.sort((a, b) => a - b)[MEASURED >> 1]);
+  }
+
+  /** @param {number} time of a picture, ms */
+  #decide(time) {
+    this.times = [];
+    this.every = EVERY;
+    if (!this.goes) this.skipped = Infinity;
+    const level = nextLevel(this.level, time, this.driven);
+    const finer = LEVELS.indexOf(level) > LEVELS.indexOf(this.level);
+    const share = this.goes && this.level === "draft" ? nextShare(this.share, time) : this.share;
+    if (share !== this.share) this.share = share;
+    else if (level === this.level || (finer && this.tried.has(level))) return;
+    else {
+      this.level = level;
+      this.#measure(this.goes || !this.tried.has(level));
+      this.tried.add(level);
+    }
     this.changed();
   }
+}
+
+/**
+ * Pixels of a draft by side after a measurement, of those that it has at first.
+ * @param {number} share @param {number} time of a picture, ms
+ */
+export function nextShare(share, time) {
+  if (time > SLOW) return Math.max(LEAST_SHARE, share * COARSER);
+  return time < SLOW / 3 ? Math.min(1, share / COARSER) : share;
 }
 
 /**

@@ -1,5 +1,6 @@
 // The bar below the picture: slider, buttons, speed, camera, and a panel of settings.
 import { el, icon } from "../common/dom.js";
+import { hint } from "../common/key_table.js";
 import { SPEEDS } from "./clock.js";
 
 /** The bar; it asks the player and tells it. */
@@ -11,7 +12,7 @@ export class Bar {
     const { t } = player.runs[0];
     this.digits = digitsOf((t[t.length - 1] - t[0]) / Math.max(1, t.length - 1));
     const button = (name, title, onclick) => el("button", { title, "aria-label": title, onclick }, icon(name));
-    this.playing = button("play", "play or pause (space)", () => player.toggle());
+    this.playing = button("play", hint("toggle"), () => player.toggle());
     this.slide = el("input.ali3-slide", {
       type: "range",
       "aria-label": "time",
@@ -22,7 +23,7 @@ export class Bar {
     });
     this.time = el("span.ali3-time");
     this.rate = el("span.ali3-rate", { role: "status" });
-    this.speed = el("select", { title: "speed (up and down)", "aria-label": "speed", onchange: () => player.speed(Number(this.speed.value)) });
+    this.speed = el("select", { title: `speed: ${hint("faster")}, ${hint("slower")}`, "aria-label": "speed", onchange: () => player.speed(Number(this.speed.value)) });
     this.speeds(clock.speed);
     const moves = clock.end > clock.begin;
     this.slide.disabled = !moves;
@@ -30,9 +31,9 @@ export class Bar {
       el(
         "div.ali3-group",
         {},
-        button("back", "one step back (left)", () => player.step(-1)),
+        button("back", hint("before"), () => player.step(-1)),
         this.playing,
-        button("forward", "one step on (right)", () => player.step(1)),
+        button("forward", hint("after"), () => player.step(1)),
       ),
       this.slide,
       this.time,
@@ -49,15 +50,16 @@ export class Bar {
     const { player } = this;
     const made = [];
     if (player.cameras.length > 1) {
-      this.camera = el("select", { title: "camera (c)", "aria-label": "camera", onchange: () => player.camera(this.camera.value) });
+      this.camera = el("select", { title: `camera: ${hint("next camera")}`, "aria-label": "camera", onchange: () => player.camera(this.camera.value) });
       this.camera.append(...player.cameras.map((name) => el("option", { value: name }, name)));
       made.push(this.camera);
     }
-    this.signals = el("button", { title: "diagrams beside the picture (s)", onclick: () => player.side(!player.sideOpen) }, "signals");
-    this.settings = el("button", { "aria-haspopup": "true", onclick: () => player.settings.toggle() }, "settings");
+    this.signals = el("button", { title: hint("panels"), onclick: () => player.side(!player.sideOpen) }, "signals");
+    this.settings = el("button", { title: hint("settings"), "aria-haspopup": "true", onclick: () => player.settings.toggle() }, "settings");
     made.push(this.signals, this.settings);
+    made.push(el("button", { title: hint("help"), "aria-label": "keys", onclick: () => player.help.toggle() }, "?"));
     if (document.fullscreenEnabled) {
-      const full = el("button", { title: "full screen (f)", "aria-label": "full screen", onclick: () => player.fullScreen() }, icon("full"));
+      const full = el("button", { title: hint("full screen"), "aria-label": "full screen", onclick: () => player.fullScreen() }, icon("full"));
       made.push(full);
     }
     return made;
@@ -80,8 +82,9 @@ export class Bar {
       this.playing.replaceChildren(icon(clock.playing ? "pause" : "play"));
     }
     const { rate, behind } = clock;
-    const text = rate === null ? "" : behind ? `only ${rate.toFixed(2)}×: drawing is slow here` : `${rate.toFixed(2)}×`;
+    const text = rate === null ? "" : `${behind ? "only " : ""}${rate.toFixed(2)}×`;
     if (this.rate.textContent !== text) this.rate.textContent = text;
+    this.rate.title = behind ? "drawing is slow here" : "";
     this.rate.classList.toggle("ali3-behind", behind);
   }
 }

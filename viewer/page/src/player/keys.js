@@ -1,35 +1,40 @@
-// The keys of the player.
-import { keys } from "../common/keys.js";
+// What keys do in the player, by the names of the table of keys.
+import { fullScreen } from "../common/full_screen.js";
+import { cameraActs } from "../common/views.js";
 import { SPEEDS } from "./clock.js";
 
-/** Listen to the keys of a page. @param {Data} player @param {AbortSignal} signal ends it */
-export function playerKeys(player, signal) {
-  const { clock } = player;
+/** What L makes of the speed, and how far Backspace goes back, s. */
+const [SLOW, BACK] = [0.25, 2];
+
+/** @param {Data} player @returns {Object<string, (event: KeyboardEvent) => void>} */
+export function playerActs(player) {
+  const { clock, has, look } = player;
   const nextSpeed = (way) => {
     const k = SPEEDS.findIndex((speed) => speed >= clock.speed - 1e-9);
     const at = k < 0 ? SPEEDS.length - 1 : k;
     player.speed(SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + way))]);
   };
-  const nextCamera = () => {
-    const { cameras } = player;
-    if (cameras.length > 1) player.camera(cameras[(cameras.indexOf(player.cameraName) + 1) % cameras.length]);
+  const far = ({ shiftKey }, near) => (shiftKey ? 10 : near);
+  const switches = ["arrows", "stress", "closed", "path"].filter((what) => has[what]);
+  return {
+    toggle: () => player.toggle(),
+    play: () => player.toggle(),
+    step: () => player.step(1),
+    before: (event) => player.step(-far(event, 1)),
+    after: (event) => player.step(far(event, 1)),
+    faster: () => nextSpeed(1),
+    slower: () => nextSpeed(-1),
+    slow: () => player.speed(clock.speed < 1 ? 1 : SLOW),
+    rewind: (event) => player.seek(clock.time - far(event, BACK)),
+    reset: () => player.seek(clock.begin),
+    end: () => player.seek(clock.end),
+    loop: () => player.loop(!clock.loop),
+    panels: () => player.side(!player.sideOpen),
+    settings: () => player.settings.toggle(),
+    help: () => player.help.toggle(),
+    close: () => (player.settings.toggle(false), player.help.toggle(false)),
+    "full screen": () => fullScreen(player.root),
+    ...cameraActs({ names: () => player.cameras, now: () => player.cameraName, choose: (name) => player.camera(name) }),
+    ...Object.fromEntries(switches.map((what) => [what, () => player.set({ [what]: !look[what] })])),
   };
-  const acts = {
-    " ": () => player.toggle(),
-    ArrowLeft: ({ shiftKey }) => player.step(shiftKey ? -10 : -1),
-    ArrowRight: ({ shiftKey }) => player.step(shiftKey ? 10 : 1),
-    Home: () => player.seek(clock.begin),
-    End: () => player.seek(clock.end),
-    ArrowUp: () => nextSpeed(1),
-    ArrowDown: () => nextSpeed(-1),
-    a: () => player.has.arrows && player.set({ arrows: !player.look.arrows }),
-    c: nextCamera,
-    f: () => player.fullScreen(),
-    l: () => player.loop(!clock.loop),
-    p: () => player.has.path && player.set({ path: !player.look.path }),
-    x: () => player.has.closed && player.set({ closed: !player.look.closed }),
-    s: () => player.side(!player.sideOpen),
-    Escape: () => player.settings.toggle(false),
-  };
-  keys({ acts, signal });
 }

@@ -1,10 +1,13 @@
 // Plays recordings: the picture, the bar below it and the diagrams beside it, all at one time.
 import { el } from "../common/dom.js";
+import { fullScreen } from "../common/full_screen.js";
+import { Help } from "../common/help.js";
+import { keys } from "../common/keys.js";
 import { SceneView } from "../scene/scene_view.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
 import { Clock } from "./clock.js";
-import { playerKeys } from "./keys.js";
+import { playerActs } from "./keys.js";
 import { fromHash, toHash } from "./link.js";
 import { Plots } from "./plots.js";
 import { Sampler } from "./sampler.js";
@@ -190,8 +193,7 @@ export class Player {
   }
 
   fullScreen() {
-    if (document.fullscreenElement) document.exitFullscreen();
-    else this.root.requestFullscreen?.().catch(() => {});
+    fullScreen(this.root);
   }
 
   /** Something that the address of the page tells has changed. */
@@ -285,7 +287,10 @@ export class Player {
     const plotsOnly = this.solid < 0;
     if (plotsOnly) this.root.dataset.plotsOnly = "yes";
     if (plotsOnly || this.options.plots?.length) this.side(true);
-    playerKeys(this, this.listeners.signal);
+    const acts = playerActs(this);
+    this.help = new Help(Object.keys(acts));
+    this.root.append(this.help.element);
+    keys({ acts, signal: this.listeners.signal });
   }
 
   /** Names of the runs and what there is to say of them, over the picture. */

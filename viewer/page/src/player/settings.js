@@ -1,5 +1,6 @@
 // The panel of settings: forces, stress, ghosts, colours of the page, and what there is to say of the runs.
 import { el } from "../common/dom.js";
+import { hint } from "../common/key_table.js";
 
 /** The panel. */
 export class Settings {
@@ -50,20 +51,20 @@ export class Settings {
       return (value) => player.set({ [key]: value });
     };
     if (player.has.arrows) {
-      this.shown.arrows = check("forces as arrows (a)", look.arrows, (arrows) => player.set({ arrows }));
+      this.shown.arrows = check(hint("arrows"), look.arrows, (arrows) => player.set({ arrows }));
       factor("length of the arrows", "arrowScale", 0.1, 10);
     }
-    if (player.has.path) this.shown.path = check("path over the ground (p)", look.path, (path) => player.set({ path }));
-    if (player.has.closed) this.shown.closed = check("body closed (x)", look.closed, (closed) => player.set({ closed }));
-    if (player.has.stress) this.shown.stress = check("colours of the stress", look.stress, (stress) => player.set({ stress }));
+    if (player.has.path) this.shown.path = check(hint("path"), look.path, (path) => player.set({ path }));
+    if (player.has.closed) this.shown.closed = check(hint("closed"), look.closed, (closed) => player.set({ closed }));
+    if (player.has.stress) this.shown.stress = check(hint("stress"), look.stress, (stress) => player.set({ stress }));
     if (player.has.deformation) {
       const deform = factor("deformation", "deformation", 1, 1000);
       const fit = () => deform(player.view.fittingDeformation);
       rows.push(el("span"), el("button", { onclick: fit }, "make it visible"), el("span"));
     }
     for (const ghost of player.ghosts) check(`ghost: ${ghost.name}`, true, (on) => player.showGhost(ghost, on));
-    this.shown.loop = check("begin again at the end (l)", player.clock.loop, (loop) => player.loop(loop));
-    const theme = el("select", { onchange: () => player.theme(theme.value) });
+    this.shown.loop = check(hint("loop"), player.clock.loop, (loop) => player.loop(loop));
+    const theme = el("select", { "aria-label": "colours of the page", onchange: () => player.theme(theme.value) });
     theme.append(...["auto", "light", "dark"].map((name) => el("option", { value: name }, name)));
     theme.value = player.themeName;
     rows.push(el("span", {}, "colours of the page"), theme, el("span"));
@@ -81,7 +82,6 @@ export class Settings {
       rows.push(el("span", {}, "link to this time"), el("button", { onclick: copy }, "copy"), copied);
     }
     for (const note of player.notes) rows.push(el("p", {}, note));
-    rows.push(el("p", {}, "Keys: space, left and right (with shift: ten steps), Home, End, up and down for the speed."));
     this.panel.replaceChildren(...rows);
   }
 }

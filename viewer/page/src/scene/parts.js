@@ -13,6 +13,8 @@ import { roadUnder, tyresOf } from "./tyres.js";
 
 /** Radius of the thinnest tube of a flexible body that is seen, beside the size of the drawing. */
 const THINNEST = 0.003;
+/** Shapes of this name are hidden by covers, as mbs/vehicle/shapes/tube_frame.py names them. */
+const WITHIN = "frame tube";
 
 /** The moving things of a scene: the run itself, or a ghost of another run. */
 export class Parts {
@@ -27,6 +29,8 @@ export class Parts {
     this.frames = new Frames(scene);
     this.materials = new Materials(options);
     this.carriers = new Map();
+    /** Groups of what covers hide, by their frames. */
+    this.inner = new Map();
     this.shapes = [];
     /** Largest displacement of a flexible body so far, in metres. */
     this.moved = 0;
@@ -39,7 +43,7 @@ export class Parts {
     this.tyres = options.ghost ? [] : this.#tyres();
     this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []));
     this.group.add(this.arrows.group);
-    for (const carrier of this.carriers.values()) join(carrier);
+    for (const [, carrier] of this.moving) join(carrier);
     this.close(true);
     for (const { name, why } of scene.missing ?? []) this.tell(`'${name}' is not drawn: ${why.replace(/\.$/, "")}.`);
   }
@@ -54,7 +58,8 @@ export class Parts {
     this.owned.push(...(made.owned ?? []));
     made.shape = shape;
     made.object.name = shape.name ?? shape.body ?? "";
-    (made.frame !== undefined ? this.#carrier(made.frame) : this.group).add(made.object);
+    const among = shape.name === WITHIN ? this.inner : this.carriers;
+    (made.frame !== undefined ? this.#carrier(made.frame, among) : this.group).add(made.object);
     this.shapes.push(made);
   }
 
@@ -73,13 +78,18 @@ export class Parts {
   }
 
   /** The group that moves with a frame. */
-  #carrier(name) {
-    if (!this.carriers.has(name)) {
+  #carrier(name, among = this.carriers) {
+    if (!among.has(name)) {
       const carrier = new THREE.Group();
-      this.carriers.set(name, carrier);
+      among.set(name, carrier);
       this.group.add(carrier);
     }
-    return this.carriers.get(name);
+    return among.get(name);
+  }
+
+  /** Groups that move with frames, each with the name of its frame. @returns {[string, any][]} */
+  get moving() {
+    return [...this.carriers, ...this.inner];
   }
 
   /** @param {((name: string) => number | undefined) | null} lookup numbers now; null: as drawn */
@@ -103,20 +113,21 @@ export class Parts {
     this.arrows.update(lookup, this.frames, this.tell);
   }
 
-  /** Covers hide what is within, the flexible bodies too. @param {boolean} closed */
+  /** Covers hide the frame that is within, be it rigid or flexible. @param {boolean} closed */
   close(closed) {
     this.closed = closed && this.materials.covered;
     this.materials.cover(closed);
     for (const { object } of this.flexible) object.visible = !this.closed;
+    for (const [name, carrier] of this.inner) carrier.visible = this.frames.pose(name).shown && !this.closed;
   }
 
   /** Puts everything in its place relative to the origin of the picture. @param {number[]} origin earth position */
   place(origin) {
     for (const body of this.flexible) body.paint(this.bending.coloured, this.bending.most || 1);
     this.arrows.place(origin);
-    for (const [name, carrier] of this.carriers) {
+    for (const [name, carrier] of this.moving) {
       const { position, rotation, shown } = this.frames.pose(name);
-      carrier.visible = shown;
+      carrier.visible = shown && !(this.closed && this.inner.get(name) === carrier);
       carrier.position.set(...subtract(position, origin));
       turn(carrier, rotation);
     }

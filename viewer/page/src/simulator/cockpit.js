@@ -1,15 +1,17 @@
 // Everything that one car's page shows and takes: picture, instruments, controls, hands.
 import { el } from "../common/dom.js";
+import { fullScreen } from "../common/full_screen.js";
+import { Help } from "../common/help.js";
+import { keys } from "../common/keys.js";
+import { cameraActs } from "../common/views.js";
 import { Effects } from "../effects/driven.js";
 import { Hands, HANDS_MS } from "../live/hands.js";
 import { levers } from "../live/touch.js";
 import { SceneView } from "../scene/scene_view.js";
 import { Cluster } from "./cluster.js";
-import { Controls } from "./controls.js";
+import { Controls, REWINDS } from "./controls.js";
 import { readByHost } from "./device_words.js";
 import { Beat } from "./frames.js";
-import { Help } from "./help.js";
-import { simulatorKeys } from "./keys.js";
 import { WorldMap, WorldPlan } from "./map.js";
 import { Notices } from "./notices.js";
 import { Numbers } from "./numbers.js";
@@ -51,6 +53,7 @@ export class Cockpit {
     this.notices = new Notices();
     this._layOut(root, hello.description?.variables ?? []);
     this.act = this._acts();
+    this.help = new Help(Object.keys(this.act), this.hands.keyboard !== null);
     this._open(root, scene, world);
     this._listen();
     this._asking = setInterval(() => this._poll(), HANDS_MS);
@@ -144,7 +147,6 @@ export class Cockpit {
       this._touched[value ? "add" : "delete"](name);
       want("touch", [[name, value]]);
     });
-    this.help = new Help();
     this._picture = el("div.a3-picture");
     this._inset = new WorldMap(this.plan);
     this.map = new WorldMap(this.plan, { whole: true, go: (place) => this.act.place(place.name) });
@@ -181,19 +183,22 @@ export class Cockpit {
       step: () => link.command("step", 1),
       speed,
       slow: () => speed(newest()?.speed < 1 ? 1 : SLOW),
-      rewind: (seconds) => link.command("rewind", seconds),
+      back: (seconds) => link.command("rewind", seconds),
+      rewind: ({ shiftKey }) => link.command("rewind", REWINDS[shiftKey ? 1 : 0]),
       upright: () => link.command("upright"),
       reset: () => link.command("reset"),
       place: (name) => link.send({ type: "place", name }),
       camera: (name) => this.notices.tell(this.views.choose(name)),
-      nextCamera: () => this.views.next(),
+      ...cameraActs({ names: () => this.views.names, now: () => this.views.name, choose: (name) => this.act.camera(name) }),
       quality: (wish) => this._set({ quality: wish }),
       mute: () => this._mute(),
       panels: () => this.panels.toggle(),
       help: () => this.help.toggle(),
+      close: () => this.help.toggle(false),
+      "full screen": () => fullScreen(this._root),
       levers: () => this._root.classList.toggle("a3-touching"),
       arrows: () => this._flip("arrows", "This car has no forces to be drawn."),
-      body: () => this._flip("closed", "This car has no body that could be opened."),
+      closed: () => this._flip("closed", "This car has no body that could be opened."),
       stress: () => this._flip("stress", "The FMU draws no stress: ali3 build CAR --poses all makes one that does."),
     };
   }
@@ -201,7 +206,7 @@ export class Cockpit {
   _listen() {
     this._listeners = new AbortController();
     const { signal } = this._listeners;
-    simulatorKeys(this.hands, this.act, () => this._speed ?? 0, signal);
+    keys({ acts: this.act, signal, first: (event) => this.hands.key(event, this._speed ?? 0) });
     const once = () => !this._touchedOnce && (this._touchedOnce = true) && this.effects.start();
     for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, once, { signal });
     for (const event of ["pointerdown", "pointermove", "wheel"]) {

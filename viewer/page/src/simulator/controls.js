@@ -1,38 +1,39 @@
 // What one can do with the run: pause, step, slow motion, rewind, set upright, begin again, go to a place.
 import { button, el, select, write } from "../common/dom.js";
+import { hint } from "../common/key_table.js";
 
 /** Simulated seconds per second of the clock. */
-const SPEEDS = [[1, "real time"], [0.5, "slow × 1/2"], [0.25, "slow × 1/4"], [0.1, "slow × 1/10"]]; // prettier-ignore
+const SPEEDS = [[1, "× 1"], [0.5, "× 1/2"], [0.25, "× 1/4"], [0.1, "× 1/10"]]; // prettier-ignore
 export const REWINDS = [2, 10];
 
 /** The controls over the picture. */
 export class Controls {
   /**
-   * @param {Data} act - Functions: toggle, step, speed, rewind, upright, reset, place, camera, quality, mute, panels, help.
+   * @param {Data} act - Functions: toggle, step, speed, back, upright, reset, place, camera, quality, mute, panels, help.
    * @param {{cameras: string[], places: {name: string, text?: string}[]}} has
    */
   constructor(act, { cameras, places }) {
-    this._run = button("run", "Pause", act.toggle, "pause or run (P)");
-    this._speed = select("speed choice", "slow motion (L)", SPEEDS, (value) => act.speed(Number(value)), 1);
-    this._back = button("rewind", `${REWINDS[0]} s back`, () => act.rewind(REWINDS[0]), `rewind ${REWINDS[0]} s (Backspace), ${REWINDS[1]} s (Shift+Backspace)`);
+    this._run = button("run", "Pause", act.toggle, hint("toggle"));
+    this._speed = select("speed choice", hint("slow"), SPEEDS, (value) => act.speed(Number(value)), 1);
+    this._back = button("rewind", `${REWINDS[0]} s back`, () => act.back(REWINDS[0]), hint("rewind"));
     this._saved = el("input", { type: "range", min: 0, max: 30, step: 0.1, value: 0, data: "saved", title: "what is saved: choose how far to rewind" });
     this._far = el("output", { data: "rewind by" });
     this._saved.addEventListener("input", () => this._showFar());
     this._saved.addEventListener("change", () => this._rewind(act));
-    this._camera = select("camera", "camera (C, 1 to 5)", cameras.map((name) => [name, name]), act.camera); // prettier-ignore
+    this._camera = select("camera", `camera: ${hint("next camera")}`, cameras.map((name) => [name, name]), act.camera); // prettier-ignore
     this._quality = select("quality", "how finely the picture is drawn", ["auto", "high", "low", "draft"].map((q) => [q, `quality ${q}`]), act.quality); // prettier-ignore
-    this._sound = button("mute", "Sound on", act.mute, "sound (M)");
+    this._sound = button("mute", "Sound on", act.mute, hint("mute"));
     const spots = places.map(({ name }) => [name, name.replaceAll("_", " ")]);
     this._place = select("place", "begin at a place of the world", [["", "places …"], ...spots], (name) => this._go(act, name));
     this._place.hidden = places.length === 0;
     this.element = el(
       "div.a3-controls",
       { data: "controls" },
-      el("div", {}, this._run, button("step", "Step", act.step, "one communication step (.)"), this._speed),
-      el("div", {}, this._back, this._saved, this._far, button("upright", "Upright", act.upright, "set the car on its wheels (U)")),
-      el("div", {}, button("reset", "Reset", act.reset, "begin again (Home)"), this._place),
-      el("div", {}, this._camera, this._quality, this._sound, button("panels", "Panels", act.panels, "devices, report, picture (G)")),
-      button("help", "?", act.help, "keys (H)"),
+      el("div", {}, this._run, button("step", "Step", act.step, hint("step")), this._speed),
+      el("div", {}, this._back, this._saved, this._far, button("upright", "Upright", act.upright, hint("upright"))),
+      el("div", {}, button("reset", "Reset", act.reset, hint("reset")), this._place),
+      el("div", {}, this._camera, this._quality, this._sound, button("panels", "Panels", act.panels, hint("panels"))),
+      button("help", "?", act.help, hint("help")),
     );
   }
 
@@ -63,7 +64,7 @@ export class Controls {
   _showSpeed(speed) {
     const known = SPEEDS.some(([value]) => value === speed);
     if (!known && ![...this._speed.options].some(({ value }) => Number(value) === speed)) {
-      this._speed.append(el("option", { value: speed }, `slow × ${speed}`));
+      this._speed.append(el("option", { value: speed }, `× ${speed}`));
     }
     if (Number(this._speed.value) !== speed) this._speed.value = speed;
   }
@@ -75,7 +76,7 @@ export class Controls {
 
   _rewind(act) {
     const far = Number(this._saved.value);
-    if (far > 0) act.rewind(far);
+    if (far > 0) act.back(far);
     this._saved.blur();
   }
 

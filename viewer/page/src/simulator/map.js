@@ -8,6 +8,8 @@ const [APART, KEPT] = [1.5, 4000];
 const AROUND = 110;
 /** Pixels around a place that count as it. */
 const NEAR = 18;
+/** Height of a line of words, pixels. */
+const WORDS = 14;
 const BACKGROUND = "#3d4a36";
 const PAINTS = { white: "#f2f2ee", yellow: "#f0c84a", red: "#d8503f", blue: "#4a7fd8" };
 
@@ -81,6 +83,24 @@ export class WorldPlan {
       }
     }
   }
+}
+
+/**
+ * Where words stand beside their places, so that none lies over others or their dots: the first free spot of several.
+ * @param {{at: number[], wide: number}[]} places pixels @param {number} width of the map
+ * @returns {number[][]} left end and middle of each line of words
+ */
+export function besides(places, width) {
+  const taken = places.map(({ at: [x, y] }) => [x - 5, x + 5, y - 5, y + 5]);
+  return places.map(({ at: [x, y], wide }) => {
+    const rows = [0, -1, 1, -2, 2, -3, 3].map((k) => y + k * WORDS);
+    const all = rows.flatMap((middle) => [[x + 8, middle], [x - 8 - wide, middle], [x - wide / 2, middle]]); // prettier-ignore
+    const boxOf = (/** @type {number[]} */ [left, middle]) => [left, left + wide, middle - WORDS / 2, middle + WORDS / 2];
+    const apart = (/** @type {number[]} */ [a, b, c, d], /** @type {number[]} */ [e, f, g, h]) => b < e || a > f || d < g || c > h;
+    const free = all.find((spot) => spot[0] >= 0 && spot[0] + wide <= width && taken.every((box) => apart(boxOf(spot), box))) ?? all[0];
+    taken.push(boxOf(free));
+    return free;
+  });
 }
 
 function stroke(context, points, colour, width, dash = []) {
@@ -170,17 +190,20 @@ export class WorldMap {
     if (!this._whole) return;
     context.font = "12px system-ui, sans-serif";
     context.textBaseline = "middle";
-    for (const place of this.plan.places) {
-      const [x, y] = this.pixel([place.x, place.y]);
-      if (x < 0 || y < 0 || x > width || y > height) continue;
+    const seen = this.plan.places
+      .map((place) => ({ words: place.name.replaceAll("_", " "), at: this.pixel([place.x, place.y]) }))
+      .filter(({ at: [x, y] }) => x >= 0 && y >= 0 && x <= width && y <= height);
+    const spots = besides(seen.map(({ words, at }) => ({ at, wide: context.measureText(words).width })), width); // prettier-ignore
+    for (const [k, { words, at }] of seen.entries()) {
+      const [[x, y], [left, middle]] = [at, spots[k]];
       context.fillStyle = "#ffffff";
       context.beginPath();
       context.arc(x, y, 4, 0, 2 * Math.PI);
       context.fill();
       context.strokeStyle = "#10161c";
       context.lineWidth = 3;
-      context.strokeText(place.name.replaceAll("_", " "), x + 8, y);
-      context.fillText(place.name.replaceAll("_", " "), x + 8, y);
+      context.strokeText(words, left, middle);
+      context.fillText(words, left, middle);
     }
   }
 

@@ -1,7 +1,5 @@
-// Where one looks from while driving: the cameras of the picture by their keys, and the map.
+// Where one looks from while driving: the cameras of the picture, and the map.
 
-/** Keys of cameras; the wheels take turns. */
-export const KEYS = { Digit1: "driver", Digit2: "chase", Digit3: "wheel", Digit4: "orbit", Digit5: "map" };
 const FIRST = ["chase", "driver", "orbit"];
 
 /** The cameras of a picture. */
@@ -12,34 +10,24 @@ export class Views {
    */
   constructor(cameras, choose) {
     this._choose = choose;
-    this.wheels = cameras.filter((name) => name.startsWith("wheel"));
-    const others = cameras.filter((name) => !this.wheels.includes(name));
+    const wheels = cameras.filter((name) => name.startsWith("wheel"));
+    const others = cameras.filter((name) => !wheels.includes(name));
     const rank = (name) => (FIRST.includes(name) ? FIRST.indexOf(name) : FIRST.length);
-    this.names = [...others.sort((a, b) => rank(a) - rank(b)), ...this.wheels, "map"];
+    this.names = [...others.sort((a, b) => rank(a) - rank(b)), ...wheels, "map"];
     this.name = this.names[0];
   }
 
   /**
    * Look from a camera.
-   * @param {string} name - One of `names`, or "wheel": the next wheel.
+   * @param {string} name - One of `names`.
    * @returns {string} A sentence where there is none of that name.
    */
   choose(name) {
-    const wanted = name === "wheel" ? this._nextWheel() : name;
-    if (!this.names.includes(wanted)) {
+    if (!this.names.includes(name)) {
       return `There is no camera '${name}' in this picture; there are ${this.names.join(", ")}.`;
     }
-    this.name = wanted;
-    this._choose(wanted);
+    this.name = name;
+    this._choose(name);
     return "";
-  }
-
-  /** The next one. */
-  next() {
-    return this.choose(this.names[(this.names.indexOf(this.name) + 1) % this.names.length]);
-  }
-
-  _nextWheel() {
-    return this.wheels[(this.wheels.indexOf(this.name) + 1) % this.wheels.length];
   }
 }

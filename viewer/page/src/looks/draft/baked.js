@@ -63,7 +63,7 @@ export function baked(parts, light, extent) {
     });
     return meshes;
   };
-  const carriers = [...parts.carriers.values()];
+  const carriers = parts.moving.map(([, carrier]) => carrier);
   for (const carrier of carriers) movers.push({ object: carrier, meshes: gather(carrier, true) });
   for (const { object, update } of parts.shapes) if (update) for (const mesh of gather(object, false)) movers.push({ object: mesh, meshes: [mesh] });
   const solid = movers.filter(({ meshes }) => meshes.length > 0);

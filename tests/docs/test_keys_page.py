@@ -1,0 +1,14 @@
+"""The page of the keys has the rows of the table from which all pages take them, in its order."""
+
+import json
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+WHERE = {"": "all pages", "driven": "simulator, live page", "recorded": "recordings", "simulator": "simulator"}
+
+
+def test_the_page_of_the_keys_is_their_table() -> None:
+    rows = json.loads((ROOT / "viewer" / "keys.json").read_text(encoding="utf-8"))
+    wanted = [f"| {row['shown']} | {row['words']} | {WHERE[row.get('where', '')]} |" for row in rows]
+    lines = (ROOT / "docs" / "keys.md").read_text(encoding="utf-8").splitlines()
+    assert [line for line in lines if line.startswith("|")][2:] == wanted

@@ -1,0 +1,22 @@
+// The keys of a page, over it.
+import { el } from "./dom.js";
+import { ROWS } from "./key_table.js";
+import { styled } from "../styles.js";
+import style from "./help.css";
+
+/** A list of the keys. */
+export class Help {
+  /** @param {string[]} acts what the page can do @param {boolean} [drives] whether keys drive a car */
+  constructor(acts, drives = false) {
+    styled(style);
+    const rows = ROWS.filter(({ act, codes }) => (codes ? drives : acts.includes(act)));
+    const lines = rows.map(({ shown, words }) => el("div", {}, el("kbd", {}, shown), el("span", {}, words)));
+    this.element = el("div.a3-help", { data: "help list", hidden: true, role: "note", "aria-label": "keys" }, el("div", {}, ...lines));
+    this.element.addEventListener("click", () => this.toggle(false));
+  }
+
+  /** @param {boolean} [open] */
+  toggle(open = this.element.hidden === true) {
+    this.element.hidden = !open;
+  }
+}
