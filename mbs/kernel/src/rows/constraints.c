@@ -208,6 +208,17 @@ ALI3_BY_PROCESSOR(in->system, void, constraint_gamma,
                   (ali3_instance * in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma),
                   (in, q, qd, guides, gamma))
 
+/* The terms of the stretch of row k, which are columns of its front. */
+static inline void stretch_geometric(const ali3_system *S, int32_t k, real factor, real *F) {
+  const int32_t i = S->row_stretch[k], n = S->row_ptr[k + 1] - i, first = S->hess_ptr[i];
+  for (int32_t t = first; t < S->hess_ptr[i + 1] * n - first * (n - 1); t += n) {
+    const double *restrict hess = S->hess_val + t;
+    real *restrict column = F + S->stretch_pos[t];
+    ALI3_BY_FOURS
+    for (int32_t j = 0; j < n; j++) column[j] += factor * hess[j];
+  }
+}
+
 /* F += weight * sum_k lam_k d2(Phi_k)/dq2, lower triangles. */
 void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight, real *F) {
   const ali3_system *S = in->system;
@@ -216,7 +227,8 @@ void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real 
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     const real factor = weight * lam[k];
-    for (int32_t t = ptr[k]; t < ptr[k + 1]; t++) {
+    if (S->quad_end[k] < ptr[k + 1]) stretch_geometric(S, k, factor, F);
+    for (int32_t t = ptr[k]; t < S->quad_end[k]; t++) {
       const ali3_term *x = &quad[t];
       const real value = factor * x->h;
       F[x->pos] += x->a == x->b ? 2.0 * value : value;
@@ -263,6 +275,28 @@ static inline void add_triple(real *block, int64_t n, const real *J, int32_t j, 
   }
 }
 
+/* Weight J' J of four rows with the same stretch, from row k on: in columns of the stretch one after the other while an
+ * entry is in hand. */
+ALI3_INLINED void add_four(const ali3_system *S, int32_t k, const real *J, double weight, real *block, int64_t n) {
+  const int32_t *ptr = S->row_ptr, *first = S->row_stretch, *loc = S->row_loc, length = ptr[k + 1] - first[k];
+  for (int32_t row = k; row < k + 4; row++)
+    for (int32_t j = ptr[row]; j < first[row]; j++) {
+      real *restrict column = block + (int64_t)loc[j] * n;
+      const real factor = weight * J[j];
+      for (int32_t i = j; i < first[row]; i++) column[loc[i]] += factor * J[i];
+      ali3_add_multiple(column + loc[first[row]], J + first[row], factor, length);
+    }
+  const real *restrict a = J + first[k], *restrict b = J + first[k + 1], *restrict c = J + first[k + 2],
+                       *restrict d = J + first[k + 3];
+  for (int32_t j = 0; j < length; j++) {
+    real *restrict column = block + (int64_t)(loc[first[k]] + j) * n + loc[first[k]];
+    const real x = weight * a[j], y = weight * b[j], z = weight * c[j], w = weight * d[j];
+    ALI3_BY_FOURS
+    for (int32_t i = ali3_by_fours(j, length); i < length; i++)
+      column[i] = (((column[i] + x * a[i]) + y * b[i]) + z * c[i]) + w * d[i];
+  }
+}
+
 /* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are
  * contiguous. */
 ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, real *F) {
@@ -272,6 +306,11 @@ ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, r
   for (int32_t k = 0; k < S->size.nc; k++) {
     const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = ptr[k + 1];
     real *block = F + S->front_off[f];
+    if (S->row_alike[k] >= 4) {
+      add_four(S, k, J, weight, block, n);
+      k += 3;
+      continue;
+    }
     if (S->row_triples[k]) {
       for (int32_t j = ptr[k]; j < end; j += 3) add_triple(block, n, J, j, end, loc, weight);
       continue;
