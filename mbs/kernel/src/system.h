@@ -138,6 +138,8 @@ struct ali3_system {
   unsigned char *row_triples; /* 1: its coordinates are points and directions, three neighbours each */
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
                            with the same ones, those of modes; they stand by columns. Else the end of the row */
+  int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which on the coordinates lie side by
+                        side; else the end of its terms */
   int32_t *row_alike; /* nc: rows from this one on with the same stretch in the same front; 0: no stretch */
   ali3_term *quad; /* as quad_*; of a row the terms with entries of its stretch stand last */
   int32_t *quad_end; /* nc: where these begin */

@@ -89,6 +89,22 @@ static inline double ali3_product_from_far(const double *restrict x, const doubl
   return all;
 }
 
+#define ali3_numbers_from_far ali3_product_from_far /* x the same for all lanes */
+
+/* (x + z) y in the same way */
+static inline double ali3_sum_product_from_far(const double *restrict x, const double *restrict z,
+                                               const double *restrict y, int64_t n) {
+  ali3_four sum = {0};
+  int64_t i = n;
+  ALI3_SHORT
+  for (; i >= 4; i -= 4)
+    sum += (*(const ali3_four *)(x + i - 4) + *(const ali3_four *)(z + i - 4)) * *(const ali3_four *)(y + i - 4);
+  double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  ALI3_SHORT
+  while (i-- > 0) all += (x[i] + z[i]) * y[i];
+  return all;
+}
+
 /* The same of x and four columns, `apart` from each other, from entry `from` to n, a number of whole fours. */
 static inline void ali3_products_from_far(const double *restrict column, int64_t apart, const double *restrict x,
                                           int64_t from, int64_t n, double sum[4]) {
@@ -109,6 +125,19 @@ static inline void ali3_products_from_far(const double *restrict column, int64_t
 }
 #else
 #define ali3_product_from_far ali3_product_in_two
+
+static inline real ali3_numbers_from_far(const double *restrict x, const real *restrict y, int64_t n) {
+  real sum = {0};
+  for (int64_t i = 0; i < n; i++) sum += x[i] * y[i];
+  return sum;
+}
+
+static inline real ali3_sum_product_from_far(const real *restrict x, const double *restrict z, const real *restrict y,
+                                             int64_t n) {
+  real sum = {0};
+  for (int64_t i = 0; i < n; i++) sum += (x[i] + z[i]) * y[i];
+  return sum;
+}
 #endif
 
 /* Three numbers, the components of a point or a direction. */

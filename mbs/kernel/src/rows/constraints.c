@@ -62,6 +62,22 @@ static inline void add_stretch(const ali3_system *S, int32_t i, int32_t n, const
   }
 }
 
+/* A sum with the terms of entry i, of which many may lie side by side. */
+static inline real add_run(const ali3_system *S, int32_t i, const real *q, real sum) {
+  const int32_t run = S->hess_run[i], end = S->hess_ptr[i + 1];
+  for (int32_t t = S->hess_ptr[i]; t < run; t++) sum += S->hess_val[t] * q[S->hess_col[t]];
+  return run < end ? sum + ali3_numbers_from_far(S->hess_val + run, q + S->hess_col[run], end - run) : sum;
+}
+
+/* The terms of a stretch of n entries from i on, twice with the rates qd. */
+static inline real stretch_gamma(const ali3_system *S, int32_t i, int32_t n, const real *qd) {
+  const int32_t first = S->hess_ptr[i], terms = S->hess_ptr[i + 1] - first;
+  real sum = {0};
+  for (int32_t t = first; t < first + terms * n; t += n)
+    sum += ali3_numbers_from_far(S->hess_val + t, qd + S->row_col[i], n) * qd[S->hess_col[t]];
+  return sum;
+}
+
 /* w = h s^power and its two rates. */
 static real guide_factor(const ali3_guide_term *g, const real *s) {
   const real v = s[g->guide];
@@ -80,8 +96,8 @@ static real guide_second_rate(const ali3_guide_term *g, const ali3_vectors *x) {
 
 ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
   const ali3_system *S = in->system;
-  const int32_t *ptr = S->row_ptr, *col = S->row_col, *hess_ptr = S->hess_ptr, *hess_col = S->hess_col;
-  const double *row_lin = S->row_lin, *hess = S->hess_val;
+  const int32_t *ptr = S->row_ptr, *col = S->row_col;
+  const double *row_lin = S->row_lin;
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
@@ -98,14 +114,14 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
     for (; i < S->row_stretch[k]; i++) {
       const double lin = row_lin[i];
       real sum = ali3_same(lin);
-      for (int32_t t = hess_ptr[i]; t < hess_ptr[i + 1]; t++) sum += hess[t] * q[hess_col[t]];
+      sum = add_run(S, i, q, sum);
       J[i] = sum;
       value += (sum + lin) * q[col[i]];
     }
     const int32_t first = i;
     for (; i < ptr[k + 1]; i++) J[i] = ali3_same(row_lin[i]);
     if (i > first) add_stretch(S, first, i - first, q, J + first);
-    for (i = first; i < ptr[k + 1]; i++) value += (J[i] + row_lin[i]) * q[col[i]];
+    if (i > first) value += ali3_sum_product_from_far(J + first, row_lin + first, q + col[first], i - first);
     Phi[k] = S->row_const[k] + 0.5 * value;
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
@@ -156,8 +172,7 @@ void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *
 ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides,
                                    real *gamma) {
   const ali3_system *S = in->system;
-  const int32_t *ptr = S->row_ptr, *col = S->row_col, *hess_ptr = S->hess_ptr, *hess_col = S->hess_col;
-  const double *hess = S->hess_val;
+  const int32_t *ptr = S->row_ptr, *col = S->row_col;
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
@@ -168,14 +183,9 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
       value = ali3_triple_sum(value, entry, qd + col[i]);
     }
     for (; i < S->row_stretch[k]; i++) {
-      real sum = {0};
-      for (int32_t t = hess_ptr[i]; t < hess_ptr[i + 1]; t++) sum += hess[t] * qd[hess_col[t]];
-      value += sum * qd[col[i]];
+      value += add_run(S, i, qd, ali3_same(0.0)) * qd[col[i]];
     }
-    const int32_t first = i;
-    for (; i < ptr[k + 1]; i++) in->local[i - first] = ali3_same(0.0);
-    if (i > first) add_stretch(S, first, i - first, qd, in->local);
-    for (i = first; i < ptr[k + 1]; i++) value += in->local[i - first] * qd[col[i]];
+    if (i < ptr[k + 1]) value += stretch_gamma(S, i, ptr[k + 1] - i, qd);
     gamma[k] = value;
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {

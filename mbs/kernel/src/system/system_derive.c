@@ -28,6 +28,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->row_wide = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_triples = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_stretch = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
+  s->hess_run = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
   s->row_alike = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->quad_end = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->stretch_pos = ali3_pool_items(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
@@ -245,8 +246,20 @@ static void derive_stretch_terms(ali3_system *s, int32_t k) {
   }
 }
 
+/* Where the terms of the entries before the stretch of row k begin to lie side by side. */
+static void derive_runs(ali3_system *s, int32_t k) {
+  const bool any = s->row_stretch[k] < s->row_ptr[k + 1];
+  for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) {
+    const int32_t end = s->hess_ptr[i + 1];
+    int32_t t = end - 1;
+    while (t > s->hess_ptr[i] && s->hess_col[t - 1] == s->hess_col[t] - 1) t--;
+    s->hess_run[i] = any && end - t >= SHORTEST ? t : end;
+  }
+}
+
 static void derive_stretches(ali3_system *s) {
   for (int32_t k = s->size.nc - 1; k >= 0; k--) {
+    derive_runs(s, k);
     s->row_alike[k] = rows_alike(s, k);
     derive_stretch_terms(s, k);
   }
