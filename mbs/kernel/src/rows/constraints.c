@@ -287,7 +287,7 @@ static inline void add_triple(real *block, int64_t n, const real *J, int32_t j, 
 
 /* Weight J' J of four rows with the same stretch, from row k on: in columns of the stretch one after the other while an
  * entry is in hand. */
-ALI3_INLINED void add_four(const ali3_system *S, int32_t k, const real *J, double weight, real *block, int64_t n) {
+ALI3_INLINED void square_of_four(const ali3_system *S, int32_t k, const real *J, double weight, real *block, int64_t n) {
   const int32_t *ptr = S->row_ptr, *first = S->row_stretch, *loc = S->row_loc, length = ptr[k + 1] - first[k];
   for (int32_t row = k; row < k + 4; row++)
     for (int32_t j = ptr[row]; j < first[row]; j++) {
@@ -317,7 +317,7 @@ ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, r
     const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = ptr[k + 1];
     real *block = F + S->front_off[f];
     if (S->row_alike[k] >= 4) {
-      add_four(S, k, J, weight, block, n);
+      square_of_four(S, k, J, weight, block, n);
       k += 3;
       continue;
     }
