@@ -25,6 +25,8 @@ typedef struct {
   void (*after_sampled)(ali3_instance *in);
   int32_t owner;      /* ALI3_METHOD_* that its steps leave in the history of the state: its own, or one it shares */
   bool relative;      /* steps relative coordinates: no copy to in->next, which is filled when it is read */
+  bool fills; /* steps write all of q, qd, qdd and lam of in->next and, of rigid Systems, past_a and past_lam; these are
+                 then no copy */
   double stable_rate; /* of an explicit rule: largest step times rate that it follows, of negative rates; else 0 */
   ali3_round_off round_off;
 } ali3_method;

@@ -138,7 +138,12 @@ struct ali3_system {
   unsigned char *row_triples; /* 1: its coordinates are points and directions, three neighbours each */
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
                            with the same ones, those of modes; they stand by columns. Else the end of the row */
-  ali3_term *quad; /* as quad_* */
+  int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which on the coordinates lie side by
+                        side; else the end of its terms */
+  int32_t *row_alike; /* nc: rows from this one on with the same stretch in the same front; 0: no stretch */
+  ali3_term *quad; /* as quad_*; of a row the terms with entries of its stretch stand last */
+  int32_t *quad_end; /* nc: where these begin */
+  int32_t *stretch_pos; /* as hess_col: of the first entry of a stretch, front storage of the term; they are a column */
   ali3_angle_term *angle; /* as angle_a */
   int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;
   ali3_guide_term *gterm;

@@ -7,21 +7,64 @@
 
 /* target -= f[0] c + f[1] c1 + ... of `count` columns of length n, from entry `from` on, so that a column of the target
  * is loaded and stored once. Four are one sum, fewer are subtracted in turn. */
-ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int32_t n, const real *f, int32_t count,
-                           int32_t from) {
+ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_t n, const real *f, int32_t count,
+                           int64_t from) {
+  ALI3_ANEW(n);
   const real *restrict c1 = c + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;
   if (count == PANEL) {
     ALI3_BY_FOURS
-    for (int32_t i = from; i < n; i++) target[i] -= (f[0] * c[i] + f[1] * c1[i]) + (f[2] * c2[i] + f[3] * c3[i]);
+    for (int64_t i = from; i < n; i++) target[i] -= (f[0] * c[i] + f[1] * c1[i]) + (f[2] * c2[i] + f[3] * c3[i]);
   } else if (count == 3) {
     ALI3_BY_FOURS
-    for (int32_t i = from; i < n; i++) target[i] = ((target[i] - f[0] * c[i]) - f[1] * c1[i]) - f[2] * c2[i];
+    for (int64_t i = from; i < n; i++) target[i] = ((target[i] - f[0] * c[i]) - f[1] * c1[i]) - f[2] * c2[i];
   } else if (count == 2) {
     ALI3_BY_FOURS
-    for (int32_t i = from; i < n; i++) target[i] = (target[i] - f[0] * c[i]) - f[1] * c1[i];
+    for (int64_t i = from; i < n; i++) target[i] = (target[i] - f[0] * c[i]) - f[1] * c1[i];
   } else if (count == 1) {
     ALI3_BY_FOURS
-    for (int32_t i = from; i < n; i++) target[i] -= f[0] * c[i];
+    for (int64_t i = from; i < n; i++) target[i] -= f[0] * c[i];
+  }
+}
+
+/* The same of the columns of two panels, one after the other. */
+ALI3_INLINED void subtract_both(real *restrict target, const real *restrict c, int64_t n, const real *f, int64_t from) {
+  ALI3_ANEW(n);
+  const real *restrict c1 = c + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;
+  const real *restrict d = c3 + n, *restrict d1 = d + n, *restrict d2 = d1 + n, *restrict d3 = d2 + n;
+  ALI3_BY_FOURS
+  for (int64_t i = from; i < n; i++)
+    target[i] = (target[i] - ((f[0] * c[i] + f[1] * c1[i]) + (f[2] * c2[i] + f[3] * c3[i]))) -
+                ((f[4] * d[i] + f[5] * d1[i]) + (f[6] * d2[i] + f[7] * d3[i]));
+}
+
+/* L_jp of the pivots of panels from their unscaled columns. */
+ALI3_INLINED void factors(const real *panel, const real *inverse, int32_t count, int64_t n, int32_t j, real *factor) {
+  ALI3_ANEW(n);
+  for (int32_t k = 0; k < count; k++) factor[k] = panel[k * n + j] * inverse[k];
+}
+
+/* The columns of the pivots `start` to start + count - 1 among themselves. */
+ALI3_INLINED ali3_status inside_panel(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t count,
+                                      int32_t n, real *inverse) {
+  real *panel = block + (int64_t)start * n, factor[PANEL];
+  for (int32_t p = 0; p < count; p++) {
+    real *column = panel + (int64_t)p * n;
+    factors(panel, inverse, p, n, start + p, factor);
+    subtract(column, panel, n, factor, p, ali3_by_fours(start + p, n));
+    const ali3_status status = ali3_check_pivot(in, first + start + p, column[start + p]);
+    if (status != ALI3_OK) return status;
+    inverse[p] = 1.0 / column[start + p];
+  }
+  return ALI3_OK;
+}
+
+/* Columns of pivots become those of L, with 1/D on the diagonal. */
+ALI3_INLINED void scale(real *block, int32_t start, int32_t count, int32_t n, const real *inverse) {
+  for (int32_t p = 0; p < count; p++) {
+    real *column = block + (int64_t)(start + p) * n;
+    ALI3_BY_FOURS
+    for (int32_t i = ali3_by_fours(start + p + 1, n); i < n; i++) column[i] *= inverse[p];
+    column[start + p] = inverse[p];
   }
 }
 
@@ -30,31 +73,43 @@ ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int32_
 ALI3_INLINED ali3_status eliminate_panel(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t count,
                                          int32_t n) {
   real *panel = block + (int64_t)start * n, inverse[PANEL], factor[PANEL];
-  for (int32_t p = 0; p < count; p++) {
-    real *column = panel + (int64_t)p * n;
-    for (int32_t k = 0; k < p; k++) factor[k] = panel[(int64_t)k * n + start + p] * inverse[k];
-    subtract(column, panel, n, factor, p, start + p);
-    const ali3_status status = ali3_check_pivot(in, first + start + p, column[start + p]);
-    if (status != ALI3_OK) return status;
-    inverse[p] = 1.0 / column[start + p];
-  }
+  const ali3_status status = inside_panel(in, block, first, start, count, n, inverse);
+  if (status != ALI3_OK) return status;
   for (int32_t j = start + count; j < n; j++) {
-    for (int32_t k = 0; k < count; k++) factor[k] = panel[(int64_t)k * n + j] * inverse[k];
-    subtract(block + (int64_t)j * n, panel, n, factor, count, j);
+    factors(panel, inverse, count, n, j, factor);
+    subtract(block + (int64_t)j * n, panel, n, factor, count, ali3_by_fours(j, n));
   }
-  for (int32_t p = 0; p < count; p++) {
-    real *column = panel + (int64_t)p * n;
-    ALI3_BY_FOURS
-    for (int32_t i = start + p + 1; i < n; i++) column[i] *= inverse[p];
-    column[start + p] = inverse[p];
+  scale(block, start, count, n, inverse);
+  return ALI3_OK;
+}
+
+/* Two whole panels, which a column of the rest loses while it is in hand. */
+ALI3_INLINED ali3_status eliminate_two(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t n) {
+  enum { BOTH = 2 * PANEL };
+  real *panel = block + (int64_t)start * n, inverse[BOTH], factor[BOTH];
+  ali3_status status = inside_panel(in, block, first, start, PANEL, n, inverse);
+  for (int32_t j = start + PANEL; j < start + BOTH && status == ALI3_OK; j++) {
+    factors(panel, inverse, PANEL, n, j, factor);
+    subtract(block + (int64_t)j * n, panel, n, factor, PANEL, ali3_by_fours(j, n));
   }
+  if (status == ALI3_OK) status = inside_panel(in, block, first, start + PANEL, PANEL, n, inverse + PANEL);
+  if (status != ALI3_OK) return status;
+  for (int32_t j = start + BOTH; j < n; j++) {
+    factors(panel, inverse, BOTH, n, j, factor);
+    subtract_both(block + (int64_t)j * n, panel, n, factor, ali3_by_fours(j, n));
+  }
+  scale(block, start, BOTH, n, inverse);
   return ALI3_OK;
 }
 
 ALI3_INLINED ali3_status eliminate(ali3_instance *in, real *block, int32_t first, int32_t n_pivot, int32_t n) {
   ali3_status status = ALI3_OK;
   int32_t p = 0;
-  for (; p + PANEL <= n_pivot && status == ALI3_OK; p += PANEL) status = eliminate_panel(in, block, first, p, PANEL, n);
+  for (; p + 2 * PANEL <= n_pivot && status == ALI3_OK; p += 2 * PANEL) status = eliminate_two(in, block, first, p, n);
+  if (p + PANEL <= n_pivot && status == ALI3_OK) {
+    status = eliminate_panel(in, block, first, p, PANEL, n);
+    p += PANEL;
+  }
   if (status != ALI3_OK || p == n_pivot) return status;
   switch (n_pivot - p) {
   case 1:
@@ -66,18 +121,22 @@ ALI3_INLINED ali3_status eliminate(ali3_instance *in, real *block, int32_t first
   }
 }
 
-/* The Schur complement of a front is added into its parent. */
+/* The Schur complement of a front is added into its parent, two columns at a time. */
 ALI3_INLINED void assemble(const real *block, const int32_t *map, int32_t n_pivot, int32_t n, real *parent,
                            int32_t parent_n) {
-  for (int32_t j = n_pivot; j < n; j++) {
-    const real *restrict column = block + (int64_t)j * n;
-    real *restrict target = parent + (int64_t)map[j] * parent_n;
-    if (map[n - 1] - map[j] == n - 1 - j) { /* side by side there too */
-      ali3_add(target + map[j], column + j, n - j);
-      continue;
+  int32_t j = n_pivot;
+  for (; j + 1 < n && map[n - 1] - map[j] != n - 1 - j; j += 2) {
+    const real *restrict column = block + (int64_t)j * n, *restrict other = column + n;
+    real *restrict target = parent + (int64_t)map[j] * parent_n, *restrict second = parent + (int64_t)map[j + 1] * parent_n;
+    target[map[j]] += column[j];
+    for (int32_t i = j + 1; i < n; i++) {
+      const int32_t at = map[i];
+      target[at] += column[i];
+      second[at] += other[i];
     }
-    for (int32_t i = j; i < n; i++) target[map[i]] += column[i];
   }
+  for (; j < n; j++) /* side by side there too */
+    ali3_add(parent + (int64_t)map[j] * parent_n + map[j], block + (int64_t)j * n + j, n - j);
 }
 
 ALI3_INLINED ali3_status factorise(ali3_instance *in, real *F) {
@@ -97,8 +156,8 @@ ALI3_INLINED ali3_status factorise(ali3_instance *in, real *F) {
   return ALI3_OK;
 }
 
-/* x becomes L^-1' x front by front; `far`: sums from the far end, for large fronts. */
-ALI3_INLINED void substitute_back(ali3_instance *in, const real *F, real *b, bool far) {
+/* x becomes L^-1' x front by front. */
+ALI3_INLINED void substitute_back(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
   real *restrict x = in->local;
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {
@@ -108,13 +167,46 @@ ALI3_INLINED void substitute_back(ali3_instance *in, const real *F, real *b, boo
     const real *block = F + S->front_off[f];
     for (int64_t p = n_pivot - 1; p >= 0; p--) {
       const real *after = block + p * n + p + 1;
-      const real taken =
-          far ? ali3_product_from_far(after, x + p + 1, n - p - 1) : ali3_product_in_two(after, x + p + 1, n - p - 1);
-      x[p] = b[first + p] * after[-1] - taken;
+      x[p] = b[first + p] * after[-1] - ali3_product_in_two(after, x + p + 1, n - p - 1);
       b[first + p] = x[p];
     }
   }
 }
+
+#ifndef ALI3_WIDTH
+/* The pivots of a front with sums from the far end, four columns at a time where the fours begin at one entry for all:
+ * what is nearest, the columns among themselves, comes last. */
+ALI3_INLINED void back_by_fours(const double *block, double *restrict x, int64_t n_pivot, int64_t n) {
+  for (int64_t p = n_pivot - 1; p >= 0;) {
+    const double *column = block + p * n;
+    if (((n - p - 1) & 3) != 0 || p < 3) {
+      x[p] = x[p] * column[p] - ali3_product_from_far(column + p + 1, x + p + 1, n - p - 1);
+      p--;
+      continue;
+    }
+    double sum[4];
+    ali3_products_from_far(column, -n, x, p + 1, n, sum);
+    for (int k = 0; k < 4; k++, p--, column -= n) {
+      for (int64_t i = p + k; i > p; i--) sum[k] += column[i] * x[i];
+      x[p] = x[p] * column[p] - sum[k];
+    }
+  }
+}
+
+/* The same for large fronts. */
+ALI3_INLINED void substitute_from_far(ali3_instance *in, const double *F, double *b) {
+  const ali3_system *S = in->system;
+  double *restrict x = in->local;
+  for (int32_t f = S->size.nf - 1; f >= 0; f--) {
+    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
+    ali3_copy(x, b + first, n_pivot);
+    for (int32_t i = n_pivot; i < n; i++) x[i] = b[idx[i]];
+    back_by_fours(F + S->front_off[f], x, n_pivot, n);
+    ali3_copy(b + first, x, n_pivot);
+  }
+}
+#endif
 
 /* b becomes the solution. The pivots of a front lie side by side in b. */
 ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
@@ -130,10 +222,13 @@ ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
     ali3_copy(b + first, x, n_pivot);
     for (int32_t i = n_pivot; i < n; i++) b[idx[i]] = x[i];
   }
-  if (S->n_flexible > 0)
-    substitute_back(in, F, b, true);
-  else
-    substitute_back(in, F, b, false);
+#ifndef ALI3_WIDTH
+  if (S->n_flexible > 0) {
+    substitute_from_far(in, F, b);
+    return;
+  }
+#endif
+  substitute_back(in, F, b);
 }
 
 ALI3_BY_PROCESSOR(in->system, ali3_status, factorise, (ali3_instance * in, real *F), (in, F))

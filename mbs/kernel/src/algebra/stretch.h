@@ -20,6 +20,22 @@
 #define ALI3_BY_FOURS
 #endif
 
+/* A number of which the compiler takes nothing for granted: addresses that follow from it are found where they are used,
+ * as loops around that carry many along have no registers left. */
+#define ALI3_ANEW(number) __asm__("" : "+r"(number))
+
+/* The first entry of a column of a front, of length n, that is worked on for the sake of those from `from` on: so that a
+ * whole number of fours is left, up to three above the diagonal, which nobody reads. */
+static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
+#ifdef ALI3_WIDTH
+  (void)n;
+  return from;
+#else
+  const int32_t more = (from - n) & 3;
+  return from >= more ? from - more : from;
+#endif
+}
+
 /* y += a x */
 static inline void ali3_add_multiple(real *restrict y, const real *restrict x, real a, int64_t n) {
   ALI3_BY_FOURS
@@ -72,8 +88,56 @@ static inline double ali3_product_from_far(const double *restrict x, const doubl
   while (i-- > 0) all += x[i] * y[i];
   return all;
 }
+
+#define ali3_numbers_from_far ali3_product_from_far /* x the same for all lanes */
+
+/* (x + z) y in the same way */
+static inline double ali3_sum_product_from_far(const double *restrict x, const double *restrict z,
+                                               const double *restrict y, int64_t n) {
+  ali3_four sum = {0};
+  int64_t i = n;
+  ALI3_SHORT
+  for (; i >= 4; i -= 4)
+    sum += (*(const ali3_four *)(x + i - 4) + *(const ali3_four *)(z + i - 4)) * *(const ali3_four *)(y + i - 4);
+  double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  ALI3_SHORT
+  while (i-- > 0) all += (x[i] + z[i]) * y[i];
+  return all;
+}
+
+/* The same of x and four columns, `apart` from each other, from entry `from` to n, a number of whole fours. */
+static inline void ali3_products_from_far(const double *restrict column, int64_t apart, const double *restrict x,
+                                          int64_t from, int64_t n, double sum[4]) {
+  ali3_four a = {0}, b = {0}, c = {0}, d = {0};
+  const double *second = column + apart, *third = second + apart, *fourth = third + apart;
+  ALI3_SHORT
+  for (int64_t i = n - 4; i >= from; i -= 4) {
+    const ali3_four at = *(const ali3_four *)(x + i);
+    a += *(const ali3_four *)(column + i) * at;
+    b += *(const ali3_four *)(second + i) * at;
+    c += *(const ali3_four *)(third + i) * at;
+    d += *(const ali3_four *)(fourth + i) * at;
+  }
+  sum[0] = (a[0] + a[1]) + (a[2] + a[3]);
+  sum[1] = (b[0] + b[1]) + (b[2] + b[3]);
+  sum[2] = (c[0] + c[1]) + (c[2] + c[3]);
+  sum[3] = (d[0] + d[1]) + (d[2] + d[3]);
+}
 #else
 #define ali3_product_from_far ali3_product_in_two
+
+static inline real ali3_numbers_from_far(const double *restrict x, const real *restrict y, int64_t n) {
+  real sum = {0};
+  for (int64_t i = 0; i < n; i++) sum += x[i] * y[i];
+  return sum;
+}
+
+static inline real ali3_sum_product_from_far(const real *restrict x, const double *restrict z, const real *restrict y,
+                                             int64_t n) {
+  real sum = {0};
+  for (int64_t i = 0; i < n; i++) sum += (x[i] + z[i]) * y[i];
+  return sum;
+}
 #endif
 
 /* Three numbers, the components of a point or a direction. */

@@ -6,6 +6,16 @@
 
 enum { MANY = 8 };
 
+/* out += the multiples of four columns, in turn. */
+ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real *x, const int32_t *col, int32_t n,
+                           real *restrict out) {
+  const real *restrict a = val + mirror[0], *restrict b = val + mirror[1], *restrict c = val + mirror[2],
+                       *restrict d = val + mirror[3];
+  const real w = x[col[0]], y = x[col[1]], z = x[col[2]], v = x[col[3]];
+  ALI3_BY_FOURS
+  for (int32_t j = 0; j < n; j++) out[j] = (((out[j] + w * a[j]) + y * b[j]) + z * c[j]) + v * d[j];
+}
+
 /* Rows with the same columns, those of the modes of a flexible body, are summed side by side, column by column: as M is
  * symmetric, the entries of a column lie side by side in its row. */
 ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, real *out) {
@@ -17,8 +27,9 @@ ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, re
     real sum = {0};
     if (alike >= MANY) {
       for (int32_t j = i; j < i + alike; j++) out[j] = sum;
-      for (int32_t k = ptr[i]; k < ptr[i + 1]; k++)
-        ali3_add_multiple(out + i, val + S->mass_mirror[k], x[col[k]], alike);
+      int32_t k = ptr[i];
+      for (; k + 3 < ptr[i + 1]; k += 4) add_columns(val, S->mass_mirror + k, x, col + k, alike, out + i);
+      for (; k < ptr[i + 1]; k++) ali3_add_multiple(out + i, val + S->mass_mirror[k], x[col[k]], alike);
       i += alike - 1;
       continue;
     }

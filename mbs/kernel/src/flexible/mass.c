@@ -23,10 +23,11 @@ double ali3_mass_product(const ali3_instance *in, const double *a, const double 
 ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
   for (int32_t f = 0; f < S->size.nf; f++) {
-    const int64_t n = S->front_ptr[f + 1] - S->front_ptr[f], block = S->front_off[f];
-    for (int64_t j = 0; j < n; j++) {
-      const int64_t diagonal = block + j * n + j;
-      ali3_copy(F + diagonal, in->front_mass + diagonal, n - j);
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
+    for (int32_t j = 0; j < n; j++) {
+      const int32_t from = ali3_by_fours(j, n);
+      const int64_t first = S->front_off[f] + (int64_t)j * n + from;
+      ali3_copy(F + first, in->front_mass + first, n - from);
     }
   }
 }

@@ -12,7 +12,10 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
   const ali3_status inputs = ali3_inputs_begin(in, t, h);
   if (inputs != ALI3_OK) return inputs;
   if (method->before != NULL) method->before(in, h);
-  if (!method->relative) ali3_vectors_copy(in, &in->next, &in->now);
+  if (method->fills)
+    ali3_vectors_copy_unwritten(in, &in->next, &in->now);
+  else if (!method->relative)
+    ali3_vectors_copy(in, &in->next, &in->now);
   return method->step(in, t, h);
 }
 

@@ -229,6 +229,7 @@ const ali3_method ali3_method_ali3p = {.step = augmented_lagrangian,
                                        .motion = ali3_balance_step,
                                        .has_balance = projects,
                                        .owner = ALI3_METHOD_ALI3P,
+                                       .fills = true,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};
 
 const ali3_method ali3_method_generalised_alpha = {.step = augmented_lagrangian,

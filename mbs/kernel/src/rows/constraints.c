@@ -62,6 +62,22 @@ static inline void add_stretch(const ali3_system *S, int32_t i, int32_t n, const
   }
 }
 
+/* A sum with the terms of entry i, of which many may lie side by side. */
+static inline real add_run(const ali3_system *S, int32_t i, const real *q, real sum) {
+  const int32_t run = S->hess_run[i], end = S->hess_ptr[i + 1];
+  for (int32_t t = S->hess_ptr[i]; t < run; t++) sum += S->hess_val[t] * q[S->hess_col[t]];
+  return run < end ? sum + ali3_numbers_from_far(S->hess_val + run, q + S->hess_col[run], end - run) : sum;
+}
+
+/* The terms of a stretch of n entries from i on, twice with the rates qd. */
+static inline real stretch_gamma(const ali3_system *S, int32_t i, int32_t n, const real *qd) {
+  const int32_t first = S->hess_ptr[i], terms = S->hess_ptr[i + 1] - first;
+  real sum = {0};
+  for (int32_t t = first; t < first + terms * n; t += n)
+    sum += ali3_numbers_from_far(S->hess_val + t, qd + S->row_col[i], n) * qd[S->hess_col[t]];
+  return sum;
+}
+
 /* w = h s^power and its two rates. */
 static real guide_factor(const ali3_guide_term *g, const real *s) {
   const real v = s[g->guide];
@@ -80,8 +96,8 @@ static real guide_second_rate(const ali3_guide_term *g, const ali3_vectors *x) {
 
 ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
   const ali3_system *S = in->system;
-  const int32_t *ptr = S->row_ptr, *col = S->row_col, *hess_ptr = S->hess_ptr, *hess_col = S->hess_col;
-  const double *row_lin = S->row_lin, *hess = S->hess_val;
+  const int32_t *ptr = S->row_ptr, *col = S->row_col;
+  const double *row_lin = S->row_lin;
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
@@ -98,14 +114,14 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
     for (; i < S->row_stretch[k]; i++) {
       const double lin = row_lin[i];
       real sum = ali3_same(lin);
-      for (int32_t t = hess_ptr[i]; t < hess_ptr[i + 1]; t++) sum += hess[t] * q[hess_col[t]];
+      sum = add_run(S, i, q, sum);
       J[i] = sum;
       value += (sum + lin) * q[col[i]];
     }
     const int32_t first = i;
     for (; i < ptr[k + 1]; i++) J[i] = ali3_same(row_lin[i]);
     if (i > first) add_stretch(S, first, i - first, q, J + first);
-    for (i = first; i < ptr[k + 1]; i++) value += (J[i] + row_lin[i]) * q[col[i]];
+    if (i > first) value += ali3_sum_product_from_far(J + first, row_lin + first, q + col[first], i - first);
     Phi[k] = S->row_const[k] + 0.5 * value;
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
@@ -156,8 +172,7 @@ void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *
 ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides,
                                    real *gamma) {
   const ali3_system *S = in->system;
-  const int32_t *ptr = S->row_ptr, *col = S->row_col, *hess_ptr = S->hess_ptr, *hess_col = S->hess_col;
-  const double *hess = S->hess_val;
+  const int32_t *ptr = S->row_ptr, *col = S->row_col;
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
@@ -168,14 +183,9 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
       value = ali3_triple_sum(value, entry, qd + col[i]);
     }
     for (; i < S->row_stretch[k]; i++) {
-      real sum = {0};
-      for (int32_t t = hess_ptr[i]; t < hess_ptr[i + 1]; t++) sum += hess[t] * qd[hess_col[t]];
-      value += sum * qd[col[i]];
+      value += add_run(S, i, qd, ali3_same(0.0)) * qd[col[i]];
     }
-    const int32_t first = i;
-    for (; i < ptr[k + 1]; i++) in->local[i - first] = ali3_same(0.0);
-    if (i > first) add_stretch(S, first, i - first, qd, in->local);
-    for (i = first; i < ptr[k + 1]; i++) value += in->local[i - first] * qd[col[i]];
+    if (i < ptr[k + 1]) value += stretch_gamma(S, i, ptr[k + 1] - i, qd);
     gamma[k] = value;
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
@@ -208,6 +218,17 @@ ALI3_BY_PROCESSOR(in->system, void, constraint_gamma,
                   (ali3_instance * in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma),
                   (in, q, qd, guides, gamma))
 
+/* The terms of the stretch of row k, which are columns of its front. */
+static inline void stretch_geometric(const ali3_system *S, int32_t k, real factor, real *F) {
+  const int32_t i = S->row_stretch[k], n = S->row_ptr[k + 1] - i, first = S->hess_ptr[i];
+  for (int32_t t = first; t < S->hess_ptr[i + 1] * n - first * (n - 1); t += n) {
+    const double *restrict hess = S->hess_val + t;
+    real *restrict column = F + S->stretch_pos[t];
+    ALI3_BY_FOURS
+    for (int32_t j = 0; j < n; j++) column[j] += factor * hess[j];
+  }
+}
+
 /* F += weight * sum_k lam_k d2(Phi_k)/dq2, lower triangles. */
 void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight, real *F) {
   const ali3_system *S = in->system;
@@ -216,7 +237,8 @@ void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real 
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     const real factor = weight * lam[k];
-    for (int32_t t = ptr[k]; t < ptr[k + 1]; t++) {
+    if (S->quad_end[k] < ptr[k + 1]) stretch_geometric(S, k, factor, F);
+    for (int32_t t = ptr[k]; t < S->quad_end[k]; t++) {
       const ali3_term *x = &quad[t];
       const real value = factor * x->h;
       F[x->pos] += x->a == x->b ? 2.0 * value : value;
@@ -263,6 +285,28 @@ static inline void add_triple(real *block, int64_t n, const real *J, int32_t j, 
   }
 }
 
+/* Weight J' J of four rows with the same stretch, from row k on: in columns of the stretch one after the other while an
+ * entry is in hand. */
+ALI3_INLINED void square_of_four(const ali3_system *S, int32_t k, const real *J, double weight, real *block, int64_t n) {
+  const int32_t *ptr = S->row_ptr, *first = S->row_stretch, *loc = S->row_loc, length = ptr[k + 1] - first[k];
+  for (int32_t row = k; row < k + 4; row++)
+    for (int32_t j = ptr[row]; j < first[row]; j++) {
+      real *restrict column = block + (int64_t)loc[j] * n;
+      const real factor = weight * J[j];
+      for (int32_t i = j; i < first[row]; i++) column[loc[i]] += factor * J[i];
+      ali3_add_multiple(column + loc[first[row]], J + first[row], factor, length);
+    }
+  const real *restrict a = J + first[k], *restrict b = J + first[k + 1], *restrict c = J + first[k + 2],
+                       *restrict d = J + first[k + 3];
+  for (int32_t j = 0; j < length; j++) {
+    real *restrict column = block + (int64_t)(loc[first[k]] + j) * n + loc[first[k]];
+    const real x = weight * a[j], y = weight * b[j], z = weight * c[j], w = weight * d[j];
+    ALI3_BY_FOURS
+    for (int32_t i = ali3_by_fours(j, length); i < length; i++)
+      column[i] = (((column[i] + x * a[i]) + y * b[i]) + z * c[i]) + w * d[i];
+  }
+}
+
 /* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are
  * contiguous. */
 ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, real *F) {
@@ -272,6 +316,11 @@ ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, r
   for (int32_t k = 0; k < S->size.nc; k++) {
     const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = ptr[k + 1];
     real *block = F + S->front_off[f];
+    if (S->row_alike[k] >= 4) {
+      square_of_four(S, k, J, weight, block, n);
+      k += 3;
+      continue;
+    }
     if (S->row_triples[k]) {
       for (int32_t j = ptr[k]; j < end; j += 3) add_triple(block, n, J, j, end, loc, weight);
       continue;

@@ -28,6 +28,10 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->row_wide = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_triples = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_stretch = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
+  s->hess_run = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
+  s->row_alike = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
+  s->quad_end = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
+  s->stretch_pos = ali3_pool_items(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
   s->quad = ali3_pool_items(p, (size_t)s->n_quad_a, sizeof *s->quad);
   s->angle = ali3_pool_items(p, (size_t)s->n_angle_a, sizeof *s->angle);
   s->angle_theta_col = ali3_pool_items(p, na, sizeof(int32_t));
@@ -200,6 +204,67 @@ static void derive_hessian(ali3_system *s) {
   }
 }
 
+/* Rows from k on with the same stretch; row k + 1 is known. */
+static int32_t rows_alike(const ali3_system *s, int32_t k) {
+  const int32_t first = s->row_stretch[k], n = s->row_ptr[k + 1] - first;
+  if (n == 0) return 0;
+  const int32_t other = k + 1 < s->size.nc ? s->row_stretch[k + 1] : -1;
+  const bool alike = other >= 0 && s->row_front[k + 1] == s->row_front[k] && s->row_ptr[k + 2] - other == n &&
+                     s->row_loc[first] == s->row_loc[other];
+  return alike ? s->row_alike[k + 1] + 1 : 1;
+}
+
+/* Whether term x of row k has one factor in its stretch and stands below the other in the front; the entry of the
+ * stretch goes to *entry. */
+static bool in_stretch(const ali3_system *s, int32_t k, const ali3_term *x, int32_t *entry) {
+  const int32_t first = s->row_stretch[k], other = x->ja < x->jb ? x->ja : x->jb;
+  *entry = x->ja < x->jb ? x->jb : x->ja;
+  return *entry >= first && other < first && s->row_loc[other] < s->row_loc[first];
+}
+
+/* Terms of row k with its stretch go to the end; without all of them none does. */
+static void derive_stretch_terms(ali3_system *s, int32_t k) {
+  const int32_t begin = s->quad_ptr[k], end = s->quad_ptr[k + 1], first = s->row_stretch[k];
+  const int32_t n = s->row_ptr[k + 1] - first;
+  const int32_t terms = n > 0 ? s->hess_ptr[first + 1] - s->hess_ptr[first] : 0;
+  int32_t found = 0, entry = 0;
+  s->quad_end[k] = end;
+  for (int32_t t = begin; t < end; t++) found += in_stretch(s, k, &s->quad[t], &entry);
+  if (found == 0 || found != n * terms) return;
+  s->quad_end[k] = end - found;
+  int32_t kept = begin;
+  for (int32_t t = begin; t < end; t++) {
+    const ali3_term x = s->quad[t];
+    if (!in_stretch(s, k, &x, &entry)) {
+      s->quad[t] = s->quad[kept];
+      s->quad[kept++] = x;
+    } else if (entry == first) {
+      const int32_t partner = x.ja == first ? x.b : x.a;
+      for (int32_t m = 0; m < terms; m++)
+        if (s->hess_col[s->hess_ptr[first] + m * n] == partner) s->stretch_pos[s->hess_ptr[first] + m * n] = x.pos;
+    }
+  }
+}
+
+/* Where the terms of the entries before the stretch of row k begin to lie side by side. */
+static void derive_runs(ali3_system *s, int32_t k) {
+  const bool any = s->row_stretch[k] < s->row_ptr[k + 1];
+  for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) {
+    const int32_t end = s->hess_ptr[i + 1];
+    int32_t t = end - 1;
+    while (t > s->hess_ptr[i] && s->hess_col[t - 1] == s->hess_col[t] - 1) t--;
+    s->hess_run[i] = any && end - t >= SHORTEST ? t : end;
+  }
+}
+
+static void derive_stretches(ali3_system *s) {
+  for (int32_t k = s->size.nc - 1; k >= 0; k--) {
+    derive_runs(s, k);
+    s->row_alike[k] = rows_alike(s, k);
+    derive_stretch_terms(s, k);
+  }
+}
+
 static void derive_mass_rows(ali3_system *s) {
   const int32_t *ptr = s->mass_ptr, *col = s->mass_col;
   for (int32_t i = s->size.nq - 1; i >= 0; i--) {
@@ -325,6 +390,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_rows(s);
   derive_round(s);
   derive_hessian(s);
+  derive_stretches(s);
   derive_mass(s);
   derive_elements(s);
   derive_flexible(s);
