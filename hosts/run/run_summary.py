@@ -22,7 +22,13 @@ _WORKS = {
     "energy.drag": "air",
     "energy.ground": "ground on the chassis",
 }
-_ADDED = "energy.added"  # of a car with elements that a user has added
+# Those that not every car has.
+_OTHER_WORKS = {
+    "energy.steering": "steering",
+    "energy.ports": "ports",
+    "energy.road": "roads at ports",
+    "energy.added": "added elements",
+}
 _ERROR = "solver.energy_error"
 
 
@@ -107,8 +113,8 @@ def energy_balance(result: Result) -> list[tuple[str, str]]:
 
     Empty where the FMU lacks one of the outputs.
 
-    What is left of the change has no output of its own: the work of steering and other guides, the damping of a
-    flexible structure, and what the error of the steps does not name.
+    What is left of the change has no output of its own: the damping of a flexible structure, in an FMU without
+    `energy.steering` the work of the steering, and what the error of the steps does not name.
     """
     if any(name not in result for name in (*_STORED, *_WORKS, _ERROR)):
         return []
@@ -116,10 +122,11 @@ def energy_balance(result: Result) -> list[tuple[str, str]]:
     def change(name: str) -> float:
         return float(result[name][-1] - result[name][0])
 
-    said = _WORKS | ({_ADDED: "added elements"} if _ADDED in result else {})
+    said = _WORKS | {name: what for name, what in _OTHER_WORKS.items() if name in result}
+    rest = "- structure, rest" if "energy.steering" in result else "- steering, structure, rest"
     stored, works, error = sum(map(change, _STORED)), {n: change(n) for n in said}, change(_ERROR)
     parts = {"change of the energy": stored} | {f"- work of {said[n]}": w for n, w in works.items()}
-    parts |= {"- steering, structure, rest": stored - sum(works.values()) - error, "- error of the steps": error}
+    parts |= {rest: stored - sum(works.values()) - error, "- error of the steps": error}
     return [(what, f"{round(1e-3 * part, 4) + 0.0:+.4f} kJ") for what, part in parts.items()]
 
 

@@ -19,6 +19,7 @@ from mbs.model.sensor import Sensor
 from mbs.model.sensors import SensorBase
 
 WORKS = ("work", "nonconservative", "by inputs")
+GUIDED = "with guides"
 ENERGIES = ("kinetic", "gravity", "elastic", "total")
 
 
@@ -127,21 +128,23 @@ class ForceSensorVocabulary(SensorBase):
 
         Parameters
         ----------
-        kind : {"kinetic", "gravity", "elastic", "total", "work", "nonconservative", "by inputs"}
+        kind : {"kinetic", "gravity", "elastic", "total", "work", "nonconservative", "by inputs", "with guides"}
             The elastic energy is that of springs and flexible bodies. Work is that of all forces of the elements;
             nonconservative together with the change of their own potential energy, so that springs have none, but for
             what jumps of inputs, as of a `PortRoad`, add to that, which is "by inputs" (with the method "ali3p" and
             generalised-alpha; with others it stays nonconservative). Work that is lost, in a damper or a brake, is
-            negative.
+            negative. "with guides" adds the work of all guides, which drive joints, to the nonconservative work of
+            elements: with "ali3p" and its projections from the mean forces of a step, jumps of inputs with them; with
+            others from the forces at both ends of a step, which differ from the mean where an input jumps.
         elements : ElementRecord, str or sequence of them
-            Of a work: force elements of this model or their names, whose works are added.
+            Of a work: force elements of this model or their names, whose works are added; "with guides" needs none.
 
         Raises
         ------
         ModelError
             An element comes twice.
         """
-        one_of(kind, (*ENERGIES, *WORKS), f"The energy of sensor '{name}'")
+        one_of(kind, (*ENERGIES, *WORKS, GUIDED), f"The energy of sensor '{name}'")
         if kind in ENERGIES:
             if elements is not None:
                 raise ModelError(
@@ -149,6 +152,9 @@ class ForceSensorVocabulary(SensorBase):
                     "for 'work' and 'nonconservative'."
                 )
             return self._sense(name, unit, description, SensorType.ENERGY, integers=[ENERGIES.index(kind)])
+        guided = kind == GUIDED
+        if guided and elements is None:
+            elements = ()
         if not isinstance(elements, (ElementRecord, str, list, tuple)):
             raise ModelError(f"The sensor '{name}' needs force elements or their names, got {shown(elements)}.")
         given = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
@@ -160,9 +166,11 @@ class ForceSensorVocabulary(SensorBase):
                     f"The sensor '{name}' asks for element {shown(element)}, but the model has no such element; it "
                     f"has: {', '.join(known) or 'none'}."
                 )
-        if not names or len(set(names)) < len(names):
+        if not (names or guided) or len(set(names)) < len(names):
             raise ModelError(f"The sensor '{name}' needs at least one element and each once, got {names}.")
         numbers = [known[element] for element in names]
+        if guided:
+            return self._sense(name, unit, description, SensorType.GUIDED_WORK, integers=[len(numbers), *numbers])
         return self._sense(
             name, unit, description, SensorType.WORK, integers=[WORKS.index(kind), len(numbers), *numbers]
         )

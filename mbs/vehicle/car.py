@@ -45,6 +45,7 @@ from mbs.vehicle.outputs import (
     used_inputs,
     wheel_outputs,
     wheel_poses,
+    steering_work,
     work_outputs,
 )
 from mbs.vehicle.port_parts import driver_inputs, force_ports, port_outputs, road_ports, torque_ports, wind_port
@@ -323,6 +324,7 @@ class Car(CarContent):
         lever_outputs(b)
         if self.ports.any:
             port_outputs(b, self, spins)
+        steering_work(m, self.ports)
         text = "work of elements that are not the car's since the start, without what is stored"
         m.book_of_added = "energy.added", text
 

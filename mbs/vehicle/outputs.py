@@ -12,6 +12,7 @@ from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
+from mbs.vehicle.ports import Ports
 from mbs.vehicle.suspensions.anti_roll_bar import LINK
 
 
@@ -172,6 +173,7 @@ def lever_outputs(b: CarBuilder) -> None:
             )
 
 
+STEERING_WORK = "energy.steering"
 WORKS = {  # what works on the car: first words of the names of its elements, description
     "drive": (("drive",), "the drive on the car"),
     "brakes": (("brake ",), "the brakes"),
@@ -197,6 +199,29 @@ def work_outputs(m: Model) -> None:
             m.sense_energy(f"energy.{name}", "nonconservative", elements, description=description)
         else:  # a chassis without points that touch the ground
             m.sense_constant(f"energy.{name}", 0.0, unit="J", description=description)
+
+
+def steering_work(m: Model, ports: Ports) -> None:
+    """Work of a steering without a column since the start, behind all other outputs.
+
+    Parameters
+    ----------
+    m : Model
+        With all elements.
+    ports : Ports
+        One for the travel of the rack has its work in `energy.ports`.
+    """
+    friction = [e for e in m.elements if e.name == "steering friction"]
+    of_port = ports.steering == "rack_position"
+    if any(sensor.name == STEERING_WORK for sensor in m.sensors) or (of_port and not friction):
+        return
+    text = "" if of_port else "the driver, who moves the steering by its angle, and of "
+    m.sense_energy(
+        STEERING_WORK,
+        "nonconservative" if of_port else "with guides",
+        friction,
+        description=f"work of {text}friction of the steering since the start",
+    )
 
 
 def health_outputs(m: Model) -> None:

@@ -208,5 +208,7 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
         told = "what answers on the road have added to the energy stored in tyres and ground since the start"
         m.sense_energy("energy.road", "by inputs", standing, description=told)
     text = "work of the ports since the start; that of the brakes is in energy.brakes"
-    if elements:
-        m.sense_energy("energy.ports", "nonconservative", elements, description=text)
+    guided = car.ports.steering == "rack_position"
+    if elements or guided:
+        kind = "with guides" if guided else "nonconservative"
+        m.sense_energy("energy.ports", kind, elements, description=text)

@@ -90,6 +90,15 @@ def test_the_start_is_lifted_to_the_answer(host, sledge) -> None:
     assert host(sledge).start(LEVEL | {"road_height": 2.0}).get("z") == pytest.approx(2.3, abs=1e-9)
 
 
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_what_is_not_finite_is_told_of_ports_without_a_range(host, sledge, bad) -> None:
+    h = host(sledge).start(LEVEL | {"road_height": 2.0})
+    for _ in range(2):
+        h.set("road_height", bad)
+    assert h.get("road_height") == 2.0
+    assert h.messages == [f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is said once."]
+
+
 def test_a_state_with_everything_said_is_set_again(host, sledge, kind) -> None:
     """Flags of what was said are more than zero and one."""
     h = host(sledge).start({"initial.speed": 20.0} | LEVEL)

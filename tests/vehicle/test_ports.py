@@ -149,6 +149,47 @@ def test_works_of_ports_close_the_balance(kind: str) -> None:
     assert abs(change - sum(works.values())) < 1e-6 * max(map(abs, works.values())) + own
 
 
+def open_and_own(s: mbs.Simulation, name: str, amplitude: float, parts: int) -> tuple[dict[str, float], float, float]:
+    """Works of half a second of steering to and fro, asked for every 2 ms in steps of a part of that; what the sum of
+    works leaves open of the change of the energy, and the error of the energy that the steps tell.
+    """
+    start = s.sensors
+    for k in range(250):
+        s.set_input(name, amplitude * np.sin(4.0 * np.pi * k * STEP))
+        s.step(STEP / parts, parts)
+    end = s.sensors
+    stored = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
+    works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in stored}
+    change = end["energy.total"] - start["energy.total"]
+    return works, change - sum(works.values()), s.instance.report()["energy_error"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("ports", "name", "amplitude", "book"),
+    [
+        ({"steering": "rack_position"}, "steering_rack_demand", 0.005, "energy.ports"),
+        ({}, "steering", 0.1, "energy.steering"),
+    ],
+)
+def test_the_work_that_moves_the_rack_is_booked(
+    ports: dict[str, str], name: str, amplitude: float, book: str
+) -> None:
+    """The acceleration of the rack jumps with each demand. Work and error of the energy are of second order in the step
+    all the same, and what they leave open of the change of the energy is below 1e-5 of the largest work.
+    """
+    works, left, own = {}, {}, {}
+    for parts in (1, 4, 16):
+        of_all, left[parts], own[parts] = open_and_own(simulation(rigid, **ports), name, amplitude, parts)
+        works[parts] = of_all[book]
+        assert abs(left[parts] - own[parts]) < 1e-5 / parts * max(map(abs, of_all.values()))
+    assert works[16] > 1.0
+    assert abs(works[4] - works[16]) < 2e-3
+    assert abs(works[1] - works[16]) < 0.1
+    assert abs(own[4]) < 0.01
+    assert abs(own[16]) < 1e-3
+
+
 def test_the_reaction_of_hub_motors_is_on_the_carriers() -> None:
     """A driving hub motor turns its trailing arm down, and the spring by its pivot holds the torque: balance of moments
     about the pivot, against half shafts, whose reaction is on the body.

@@ -90,7 +90,7 @@ static slave_status check(slave *s, uint32_t reference, double value, double *cl
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g; it must be a whole number, it keeps %g.", v->name, value,
                      s->value[reference]);
   *clamped = finite ? value : s->value[reference];
-  if (value >= v->min && value <= v->max) return SLAVE_OK;
+  if (finite && value >= v->min && value <= v->max) return SLAVE_OK;
   if (v->source != SLAVE_INPUT)
     return slave_say(s, SLAVE_ERROR, "'%s' was set to %.10g%s, outside its range %g to %g; it keeps %g.", v->name,
                      value, v->unit, v->min, v->max, s->value[reference]);

@@ -172,6 +172,7 @@ class SensorType(IntEnum):
     MASS = 20
     GUIDE_EXCESS = 21
     REACTION_BY_TABLE = 22
+    GUIDED_WORK = 23
 
 
 SENSOR_READS = {
@@ -198,6 +199,7 @@ SENSOR_READS = {
     SensorType.MASS: SensorReads.MOTION,
     SensorType.GUIDE_EXCESS: SensorReads.INPUTS,
     SensorType.REACTION_BY_TABLE: SensorReads.ROWS,
+    SensorType.GUIDED_WORK: SensorReads.FORCES,
 }
 
 

@@ -60,6 +60,7 @@ struct ali3_instance {
   ali3_vectors now, next, start, whole, direction;
   ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its centre, its end by one whole step */
   ali3_rule rule;
+  bool guides_measured; /* the present step has measured the work of guides */
   bool capped; /* the present step ends at settings.step_iterations, */
   double capped_residual; /* and leaves this, m */
   double call_residual; /* the largest of the steps of a call */
@@ -91,6 +92,7 @@ struct ali3_instance {
   bool has_J0;
   double *Phi, *Phit, *gamma, *mu, *lam; /* nc */
   double *drive, *guide_mean; /* nc: work of drives by a unit of the multipliers at the end; ng: mean rates of guides */
+  double *guide_follows; /* ng: 1 where a filtered guide moves in the step, else 0 */
   double *J, *J_tangent; /* row pattern: Phi_q at the iterate, and where the tangent was made */
   double *F; /* front storage */
   double *Q; /* nq */

@@ -175,6 +175,7 @@ struct ali3_system {
   int32_t *el_entry_dependent; /* per entry: the dependent within its item, -1: a coordinate */
   ali3_tree *tree; /* NULL: the System has none */
   int32_t n_input_work; /* n_work where inputs may change what elements store, else 0 */
+  int32_t n_guide_work; /* 1 where the work of guides is sensed, else 0 */
   int32_t n_work, n_work_force; /* elements whose work is sensed, signals of all of them */
   int32_t *work_of, *work_element, *work_ptr; /* ne: number among them or -1; which; n_work + 1: offsets of signals */
   int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that shows the translation, or -1 */

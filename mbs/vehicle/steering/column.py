@@ -212,10 +212,10 @@ class Column(RackSection):
             names = ("steering torque", "torsion bar", "steering friction", "rack friction", "rack stop")
             m.sense_energy(
                 "energy.steering",
-                "nonconservative",
+                "with guides",
                 [e for e in m.elements if e.name in names],
-                description="work of steering_torque, assistance, friction and stops of the steering since the start, "
-                "without what is stored",
+                description="work of the driver, by angle or steering_torque, of assistance, friction and stops of the steering since the "
+                "start, without what is stored",
             )
 
         return add

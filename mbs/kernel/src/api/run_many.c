@@ -95,6 +95,7 @@ static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *s
   const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l]);
   if (resolved != ALI3_OK) return resolved;
   ali3_work_along(in, 0.5);
+  ali3_guides_work(in, &in->next, g->guides[l]);
   const ali3_status status = ali3_accept(in);
   if (status != ALI3_OK) return status;
   in->t_now = step->t;

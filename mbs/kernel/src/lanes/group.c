@@ -47,6 +47,7 @@ static void place_step(ali3_lane_group *g, ali3_pool *pool) {
     *of_coordinates[k] = items(g, pool, (size_t)z->nq);
   for (size_t k = 0; k < sizeof of_rows / sizeof *of_rows; k++) *of_rows[k] = items(g, pool, (size_t)z->nc);
   g->guide_mean = items(g, pool, (size_t)z->ng);
+  g->guide_follows = items(g, pool, (size_t)z->ng);
   g->discarded = ali3_pool_array(pool, ali3_vector_count(g->system) + (size_t)g->system->n_tabled_base * BASE_NUMBERS);
 }
 
@@ -115,8 +116,8 @@ static void place_counts(ali3_lane_group *g, ali3_pool *pool) {
                          &g->report.factorizations,
                          &g->report.solves,
                          &g->report.negative_pivots};
-  real **numbers[] = {&g->residual, &g->violation, &g->velocity_violation, &g->open_power, &g->work, &g->end,
-                      &g->open,     &g->size};
+  real **numbers[] = {&g->residual, &g->violation, &g->velocity_violation, &g->open_power, &g->work, &g->end, &g->open,
+                      &g->size,     &g->guides};
   for (size_t k = 0; k < sizeof masks / sizeof *masks; k++) *masks[k] = items(g, pool, 1);
   for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) *numbers[k] = items(g, pool, 1);
 }
@@ -234,6 +235,7 @@ void ali3_group_from(ali3_lane_group *g) {
   PUT(g, g->now.s, ng, in, in->now.s);
   PUT(g, g->now.sd, ng, in, in->now.sd);
   PUT(g, g->now.sdd, ng, in, in->now.sdd);
+  PUT(g, g->guide_follows, ng, in, in->guide_follows);
   PUT(g, g->next.s, ng, in, in->next.s);
   PUT(g, g->next.sd, ng, in, in->next.sd);
   PUT(g, g->next.sdd, ng, in, in->next.sdd);

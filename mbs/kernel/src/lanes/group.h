@@ -42,7 +42,7 @@ typedef struct ali3_lane_group {
   real *mass_val, *mass_floor, *mass_floor_inverse, *gravity_force;
   real *D, *d0, *r, *x, *w, *hat, *Q, *shifted, *correction_q, *step_q; /* nq, as those of an instance */
   real *Phi, *Phit, *gamma, *mu, *lam, *drive, *correction_lam, *step_lam; /* nc */
-  real *guide_mean;
+  real *guide_mean, *guide_follows; /* ng */
   real *J, *J_tangent, *F, *local;
   real *F_new; /* of lanes that get a new tangent while others keep theirs */
   real *u, *ud, *S, *SB;
@@ -64,7 +64,7 @@ typedef struct ali3_lane_group {
   struct {
     ali3_mask *factorizations, *solves, *negative_pivots;
   } report;
-  real *residual, *violation, *velocity_violation, *open_power, *work, *end, *open, *size;
+  real *residual, *violation, *velocity_violation, *open_power, *work, *end, *open, *size, *guides;
 } ali3_lane_group;
 
 /* A step of the lanes in group->lanes to group->next; group->good has those that converged. */

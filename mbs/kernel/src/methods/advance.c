@@ -4,6 +4,7 @@
 #include "../state/inputs.h"
 #include "../state/road_files.h"
 #include "../state/vectors.h"
+#include "../state/work.h"
 #include "energy_balance.h"
 #include "steps.h"
 
@@ -16,7 +17,12 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
     ali3_vectors_copy_unwritten(in, &in->next, &in->now);
   else if (!method->relative)
     ali3_vectors_copy(in, &in->next, &in->now);
-  return method->step(in, t, h);
+  in->guides_measured = in->system->n_guide_work == 0;
+  const double power = in->guides_measured ? 0.0 : ali3_guides_power(in, &in->now);
+  const ali3_status status = method->step(in, t, h);
+  if (status == ALI3_OK && !in->guides_measured)
+    ali3_guides_work(in, &in->now, 0.5 * h * (power + ali3_guides_power(in, &in->now)));
+  return status;
 }
 
 enum { MOST_ITERATIONS = 1000 }; /* of a step with all its parts */

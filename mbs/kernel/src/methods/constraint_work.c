@@ -25,24 +25,51 @@ static void drives(ali3_instance *in, double h) {
   for (int32_t k = 0; k < S->size.nc; k++) in->drive[k] = h * (0.5 * in->mu[k] + (in->Phit[k] - in->drive[k]) / 12.0);
 }
 
+/* Whether filtered guides move. */
+static truth follows(const ali3_instance *in) {
+  truth any = {0};
+  for (int32_t g = 0; g < in->system->size.ng; g++) any |= in->guide_follows[g] != 0.0;
+  return any;
+}
+
 /* Before the projections: in->J and in->Phit are of the end of the step, in->next.lam those of Newton's loop. The part
- * of the multipliers after (25) is still to be added. */
-real ali3_constraint_work(ali3_instance *in, double h) {
+ * of the multipliers after (25) is still to be added, to *guides, the work of drives, too. */
+real ali3_constraint_work(ali3_instance *in, double h, real *guides) {
   const ali3_system *S = in->system;
-  real work = {0};
+  real work = {0}, first = {0}, newton = {0};
   ali3_rows_times(S, in->J, in->D, in->gamma);
   for (int32_t k = 0; k < S->size.nc; k++) work -= 0.5 * in->gamma[k] * (in->next.lam[k] - in->now.lam[k]);
+  *guides = first;
   if (S->n_gterm_row == 0) return work;
   drives(in, h);
-  for (int32_t k = 0; k < S->size.nc; k++) work += in->drive[k] * in->now.lam[k];
-  return work;
+  const truth filtered = follows(in);
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    const real at_start = h * in->mu[k] - in->drive[k];
+    work += in->drive[k] * in->now.lam[k];
+    first += at_start * in->now.lam[k];
+    newton += at_start * in->next.lam[k];
+    in->drive[k] = ali3_where(filtered, in->drive[k] - at_start, in->drive[k]);
+  }
+  newton = ali3_where(filtered, newton, ali3_same(0.0));
+  *guides = first + newton;
+  return ali3_where(filtered, work - newton, work);
+}
+
+/* The square of what (24) changed, in the metric of M: twice what it takes where rows are at rest. in->w, the mean of
+ * the velocities before and after it, is lost. */
+static real square_of_change(ali3_instance *in) {
+  real square = {0};
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->w[i] = 2.0 * (in->next.qd[i] - in->w[i]);
+  ali3_mass_times(in, in->w, in->x);
+  for (int32_t i = 0; i < in->system->size.nq; i++) square += in->w[i] * in->x[i];
+  return square;
 }
 
 /* After the projections: the kinetic energy that (24) gave to the velocity rate D + hat, less what the multipliers after
  * (25) give to the work of drives. *kinetic is the kinetic energy of the mean of the velocities before and after (24),
  * *end that after it but for the square of what (24) changed, *open the power of the forces that (25) leaves without
  * balance now. */
-real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open) {
+real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guides) {
   const ali3_vectors *v = &in->next;
   const int32_t nq = in->system->size.nq;
   const bool driven = in->system->n_gterm_row > 0;
@@ -60,7 +87,15 @@ real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *ope
   *kinetic = 0.5 * twice;
   *end = 0.5 * (twice + given);
   *open = power;
-  return given - drive;
+  if (!driven) return given - drive;
+  const truth filtered = follows(in);
+  if (!ali3_any(filtered)) {
+    *guides += drive;
+    return given - drive;
+  }
+  const real lost = 0.5 * square_of_change(in);
+  *guides += ali3_where(filtered, given + lost + drive, drive);
+  return ali3_where(filtered, -lost - drive, given - drive);
 }
 
 /* What an error of the energy is judged beside: the kinetic energy, what the forces in in->Q can give in a step and

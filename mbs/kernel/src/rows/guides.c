@@ -129,6 +129,7 @@ void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_ve
     to->s[g] = target - lag + (e + rate * h) * decay;
     to->sd[g] = slope + (from->sd[g] - slope - w * rate * h) * decay;
     to->sdd[g] = w * w * (target - to->s[g]) - 2.0 * w * to->sd[g];
+    in->guide_follows[g] = from->sd[g] != 0.0 || from->sdd[g] != 0.0 || to->sd[g] != 0.0 || to->sdd[g] != 0.0;
   }
   ali3_guides_time(in, to, t); /* behind those that tables go over */
 }

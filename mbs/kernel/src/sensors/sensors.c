@@ -244,6 +244,11 @@ static double value_work(const ali3_instance *in, const int32_t *v, const double
   return ali3_work_sum(in, v[0], v[1], v + 2);
 }
 
+static double value_guided_work(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
+  return ali3_work_sum(in, 1, v[0], v + 1) + in->now.work[in->system->n_work];
+}
+
 typedef double sensor_function(const ali3_instance *in, const int32_t *v, const double *real);
 static sensor_function *const value_of[ALI3_SENSOR_TYPE_COUNT] = {
 #define ALI3_SENSOR_TYPE(number, NAME, name, ...) [number] = value_##name,

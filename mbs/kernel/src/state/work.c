@@ -2,11 +2,15 @@
  * a step itself uses, so that the work of all forces is the change of the energy but for what the method errs by.
  *
  * Trapezoidal rule: D'(f0 + f1)/2 with the forces that Newton's loop balanced. Energy-momentum: D'f of the middle,
- * where f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages. */
+ * where f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages.
+ *
+ * The work of guides is behind that of the elements: with the energy balance of ALi3-P and generalised-alpha
+ * (../methods/constraint_work.c), by other methods as the mean of the powers at both ends of a step. */
 #include <string.h>
 
 #include "../elements/forces.h"
 #include "../instance.h"
+#include "../rows/constraints.h"
 #include "work.h"
 
 static void copy(double *to, const double *from, int32_t n) {
@@ -18,9 +22,22 @@ void ali3_work_store(const ali3_instance *in, ali3_vectors *v) {
   copy(v->watched, in->watched, in->system->n_work + in->system->n_work_force);
 }
 
+/* Power of the guides at a state. */
+double ali3_guides_power(ali3_instance *in, const ali3_vectors *v) {
+  double power = 0.0;
+  ali3_constraint_rate(in, v->q, v, in->mu);
+  for (int32_t k = 0; k < in->system->size.nc; k++) power += v->lam[k] * in->mu[k];
+  return power;
+}
+
+void ali3_guides_work(const ali3_instance *in, ali3_vectors *v, double work) {
+  if (in->system->n_guide_work > 0) v->work[in->system->n_work] += work;
+}
+
 /* A start, where no work has been done yet; the last ali3_forces was that of v. */
 void ali3_work_start(const ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
+  if (S->n_guide_work > 0) v->work[S->n_work] = 0.0;
   for (int32_t k = 0; k < S->n_work; k++) {
     v->work[k] = 0.0;
     v->stored[k] = v->potential[S->work_element[k]];
@@ -87,6 +104,7 @@ void ali3_work_first(ali3_instance *in, double weight) {
 /* in->next, a little, dt, behind a state whose work it has: the work until there. */
 void ali3_work_beside(ali3_instance *in, double dt) {
   ali3_vectors *v = &in->next;
+  if (in->system->n_guide_work > 0) ali3_guides_work(in, v, dt * ali3_guides_power(in, v));
   if (in->system->n_work == 0) return;
   forces_at(in, v, v->potential);
   ali3_work_stage(in, dt, in->watched, v->work);

@@ -4,6 +4,8 @@
 #include "../algebra/real.h"
 #include "../instance.h"
 
+double ali3_guides_power(ali3_instance *in, const ali3_vectors *v);
+void ali3_guides_work(const ali3_instance *in, ali3_vectors *v, double work); /* where it is sensed */
 void ali3_work_store(const ali3_instance *in, ali3_vectors *v);
 void ali3_work_start(const ali3_instance *in, ali3_vectors *v);
 void ali3_work_reopen(ali3_instance *in);

@@ -79,6 +79,7 @@ static void place_step(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->mu = ali3_pool_array(p, nc);
   in->drive = ali3_pool_array(p, nc);
   in->guide_mean = ali3_pool_array(p, (size_t)s->size.ng);
+  in->guide_follows = ali3_pool_array(p, (size_t)s->size.ng);
   in->lam = ali3_pool_array(p, nc);
   in->correction_q = ali3_pool_array(p, nq);
   in->step_q = ali3_pool_array(p, nq);

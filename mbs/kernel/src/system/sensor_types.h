@@ -68,7 +68,9 @@
     "guide", "scale", "scale * (what the inputs ask of a filtered guide, less what its limits leave of it)") \
   X(22, REACTION_BY_TABLE, reaction_by_table, "n(rSSSGT)", 0, 1, NEVER, ROWS, \
     "n, then n times: row, 3 signals, guide, guide by a table (-1: none)", "n weights", \
-    "sum weight * lam_user * u * u * u * s * ds/du: the force of a guide that others follow by a table")
+    "sum weight * lam_user * u * u * u * s * ds/du: the force of a guide that others follow by a table") \
+  X(23, GUIDED_WORK, guided_work, "n(e)", 0, 0, NEVER, FORCES, \
+    "n, then n elements", "-", "work of all guides and nonconservative work of elements since the start, J")
 /* clang-format on */
 
 enum {

@@ -353,8 +353,13 @@ static void derive_work(ali3_system *s) {
   for (int32_t e = 0; e < s->size.ne; e++) s->work_of[e] = -1;
   for (int32_t i = 0; i < s->size.ns; i++) {
     const int32_t *v = s->sen_int + s->sen_int_ptr[i];
-    if (s->sen_type[i] != ALI3_SENSOR_WORK) continue;
-    for (int32_t k = 0; k < v[1]; k++) s->work_of[v[2 + k]] = 0;
+    const bool guided = s->sen_type[i] == ALI3_SENSOR_GUIDED_WORK;
+    if (guided) s->n_guide_work = 1;
+    if (s->sen_type[i] == ALI3_SENSOR_WORK)
+      v++; /* behind the kind */
+    else if (!guided)
+      continue;
+    for (int32_t k = 1; k <= v[0]; k++) s->work_of[v[k]] = 0;
   }
   s->work_ptr[0] = 0;
   for (int32_t e = 0; e < s->size.ne; e++) {
