@@ -105,7 +105,7 @@ def test_a_rig_finds_the_compliances_of_the_file(axle: str, content: dict[str, A
 
 
 def test_wheels_of_a_turning_car_lean_by_their_lateral_forces(content: dict[str, Any], folder: Path) -> None:
-    """In a steady turn: moments of contact, weight and inertia about the axis, over its stiffness, but for that of the load."""
+    """In a steady turn: moments of contact and inertia about the axis over its stiffness, that of the load left out."""
     car = compliant(content, folder, front=STEER | ALL, rear=STEER | ALL)
     simulation = Simulation(compile(car.model()), pose=Pose(speed=15.0))
     for name, value in (("steering", 0.15), ("throttle", 0.2)):
