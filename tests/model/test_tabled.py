@@ -369,23 +369,28 @@ def hinged(tabled: bool) -> System:
     light = m.body("light", mass=0.01, com=(0, 1, 0), inertia=(1e-4, 1e-4, 1e-4))
     m.revolute("hinge", heavy, light, point=(0.1, 1.0, 0.4), axis=(1, 0, 0))
     m.spring_damper("hinge spring", (heavy, (0, 0, 1.0)), (light, (0, 1, 1.0)), stiffness=2e3, free_length=0.8)
-    part = {"mass": 8.0, "com": (0, 1, 0), "inertia": (0.3, 0.4, 0.2)}
+    end: Body
+    part: dict[str, Any] = {"mass": 8.0, "com": (0, 1, 0), "inertia": (0.3, 0.4, 0.2)}
     if tabled:
         along, slide = np.linspace(-0.4, 0.4, 9), m.travel("slide")
         places, turned = [[0.0, 1.0, z] for z in along], np.tile(np.eye(3), (9, 1, 1))
-        body = m.tabled_body("end", base=light, parameters=slide, axes=[along], places=places, rotations=turned, **part)
+        end = m.tabled_body("end", base=light, parameters=slide, axes=[along], places=places, rotations=turned, **part)
         m.add(ScalarSpringDamper(900.0, 3.0, 0.1, unit="N").record("spring", slide.affine))
-        no = {"mass": 1e-9, "com": (0, 1, 0), "inertia": (1e-9, 1e-9, 1e-9)}  # neither end of the hinge is eliminated
+        no: dict[str, Any] = {
+            "mass": 1e-9,
+            "com": (0, 1, 0),
+            "inertia": (1e-9, 1e-9, 1e-9),
+        }  # neither end of the hinge is eliminated
         m.tabled_body("beside", base=heavy, parameters=slide, axes=[along], places=places, rotations=turned, **no)
     else:
-        body = m.body("end", **part)
-        m.prismatic("slide", light, body, point=(0, 1, 0), axis=(0, 0, 1))
+        end = m.body("end", **part)
+        m.prismatic("slide", light, end, point=(0, 1, 0), axis=(0, 0, 1))
         m.spring_damper(
-            "spring", (light, (0, 1, -5.0)), (body, (0, 1, 0)), stiffness=900.0, damping=3.0, free_length=5.1
+            "spring", (light, (0, 1, -5.0)), (end, (0, 1, 0)), stiffness=900.0, damping=3.0, free_length=5.1
         )
     wheel = m.spin(
         "wheel",
-        carrier=body,
+        carrier=end,
         centre=(0, 1.1, 0),
         axis=(0, 1, 0),
         mass=2.0,
@@ -395,7 +400,7 @@ def hinged(tabled: bool) -> System:
     )
     m.initial_rate(wheel, 40.0)
     for c in "xyz":
-        m.sense_position(f"end.{c}", body, (0.0, 1.3, 0.2), c)
+        m.sense_position(f"end.{c}", end, (0.0, 1.3, 0.2), c)
     return compile(m)
 
 
