@@ -72,6 +72,18 @@ def load_error(found: Trajectory | Mapping[str, Column], values: Mapping[str, Co
     return max(float(np.abs(found[s] - values[s]).max()) for s in LOADS) / peak
 
 
+def load_error_in_time(found: Trajectory, fine: Trajectory, late: float) -> float:
+    """The same against a run of small steps, each load against those up to `late` seconds before and after it."""
+    peak, times = max(float(fine[s].max()) for s in LOADS), np.linspace(-late, late, 11)
+    return (
+        max(
+            float(np.min([np.abs(found[s] - np.interp(found.t + by, fine.t, fine[s])) for by in times], axis=0).max())
+            for s in LOADS
+        )
+        / peak
+    )
+
+
 def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
     """Run a manoeuvre with the small step, write its file and return one line about it."""
     interval = manoeuvres.sampling(name, car)

@@ -45,6 +45,7 @@ from mbs.compiler.structure import rank_at, structure_report
 from mbs.compiler.tabled import (
     Dependents,
     base_coordinates,
+    carried_mass,
     columns_of,
     locator_of,
     refuse_joint,
@@ -120,8 +121,9 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]], watch: LoopWa
         if not held.isdisjoint(equation.linear_form().terms):
             raise refuse_joint(equation.name)
     reduced = reduce_coordinates(natural, linear, model.grounded, flexible_coordinates(model) | base_coordinates(model))
-    known = tell_apart(model, *reduced[:3])
-    remaining, full, of_z, (redundant, left) = known.remaining, known.full, known.of_z, reduced[3:]
+    remaining, full, of_z, redundant, left = reduced
+    known = tell_apart(model, remaining, full, of_z, left)
+    remaining, full, of_z, left = known.remaining, known.full, known.of_z, known.left
     nz = len(remaining)
     candidates = [row_terms(e, j, k, known.seen) for j, k, e in others]
     for row in candidates:
@@ -160,7 +162,8 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]], watch: LoopWa
     check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
     rank = rank_at(Phiq, mass.diagonal())
     _, Phiq, _ = arrays.evaluate(q, guides)
-    scale, measure = row_scale(rows, Phiq, mass.diagonal())
+    carried = (T.multiply(T).T @ carried_mass(model))[order]
+    scale, measure = row_scale(rows, Phiq, np.maximum(mass.diagonal(), carried))
     arrays.scale(scale)
 
     gravity = full_gravity(model)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.compiler.front_arrays import Locate
+from mbs.compiler.polynomial import RowTerms
 from mbs.model.model import Model
 from mbs.model.tabled import TabledBody, TabledNumber
 
@@ -30,12 +31,15 @@ class Dependents:
         As of `reduce_coordinates`; tabled ones are constants, as drawn.
     seen : list of Affine
         As `full`, the tabled ones numbered behind z: for signals.
+    left : list of RowTerms
+        Linear equations between coordinates that stay, over z.
     """
 
     remaining: list[int]
     full: list[Affine]
     of_z: list[Affine]
     seen: list[Affine]
+    left: list[RowTerms]
 
 
 def tabled_coordinates(model: Model) -> list[int]:
@@ -51,11 +55,24 @@ def base_coordinates(model: Model) -> set[int]:
     }
 
 
-def tell_apart(model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine]) -> Dependents:
+def carried_mass(model: Model) -> NDArray[np.float64]:
+    """What tabled bodies as drawn add to the diagonal mass of their bases: these may be lighter; shape (n_full,)."""
+    mass = np.zeros(len(model.coordinates))
+    for t in model.tabled:
+        if isinstance(t, TabledBody) and not t.base.is_ground:
+            arm, moment = t.com - t.base.com, t.first_moment
+            second = np.diag(t.second_moment) + 2.0 * arm * moment + t.mass * arm**2
+            mass[t.base.start : t.base.start + 12] += np.repeat([t.mass, *second], 3)
+    return mass
+
+
+def tell_apart(
+    model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine], left: list[RowTerms]
+) -> Dependents:
     """Number the dependents behind z."""
     tabled = {i: d for d, i in enumerate(tabled_coordinates(model))}
     if not tabled:
-        return Dependents(remaining, full, of_z, full)
+        return Dependents(remaining, full, of_z, full, left)
     kept = [i for i in remaining if i not in tabled]
     number = {i: k for k, i in enumerate(kept)}
     new = [number[i] if i in number else len(kept) + tabled[i] for i in remaining]
@@ -66,7 +83,9 @@ def tell_apart(model: Model, remaining: list[int], full: list[Affine], of_z: lis
     seen = [renumbered(e) for e in full]
     drawn = [Affine({}, c.reference) if i in tabled else seen[i] for i, c in enumerate(model.coordinates)]
     plain = [Affine() if i in tabled else renumbered(e) for i, e in enumerate(of_z)]
-    return Dependents(kept, drawn, plain, seen)
+    number_of = {-1: -1} | dict(enumerate(new))
+    rows = [replace(r, main={(number_of[i], number_of[j]): v for (i, j), v in r.main.items()}) for r in left]
+    return Dependents(kept, drawn, plain, seen, rows)
 
 
 def refuse_joint(name: str) -> ModelError:

@@ -93,7 +93,7 @@ class Defaults:
             if frame not in drawn:
                 color = COLORS[body.number % len(COLORS)]
                 found += [s | {"body": body.name, "color": s.get("color", color)} for s in self._body(body, frame)]
-        for spin in self.model.spins:
+        for spin in (s for s in self.model.spins if s.name in self.names.turns):  # what a table moves is not drawn
             if self.names.turns[spin.name] not in drawn:
                 found.append(self._wheel(spin) | {"body": spin.name})
         for line in self.touched.lines:

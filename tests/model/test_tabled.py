@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from mbs import Model, Simulation, SimulationError, System, Trajectory, compile, simulate
 from mbs.common.errors import ModelError
+from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.kernel import binding
 from mbs.kernel.binding import KernelError
 from mbs.kernel.header.enumerations import Status
@@ -358,3 +359,55 @@ def test_a_step_from_far_beyond_a_table_is_refused() -> None:
     said = "a coordinate has left the table of what it moves. 's' is 0.25"
     assert said in str(error.value)
     assert "its table goes from -0.2 to 0.2" in str(error.value)
+
+
+def hinged(tabled: bool) -> System:
+    """A light body hinged on a heavy one; a third slides along it, by joints or by a table."""
+    m = Model("hinged")
+    heavy = m.body("heavy", mass=50.0, com=(0, 0, 0), inertia=(5.0, 6.0, 7.0))
+    m.initial_velocity(heavy, (0, 0, 0), (0, 0, 0))
+    light = m.body("light", mass=0.01, com=(0, 1, 0), inertia=(1e-4, 1e-4, 1e-4))
+    m.revolute("hinge", heavy, light, point=(0.1, 1.0, 0.4), axis=(1, 0, 0))
+    m.spring_damper("hinge spring", (heavy, (0, 0, 1.0)), (light, (0, 1, 1.0)), stiffness=2e3, free_length=0.8)
+    end: Body
+    part: dict[str, Any] = {"mass": 8.0, "com": (0, 1, 0), "inertia": (0.3, 0.4, 0.2)}
+    if tabled:
+        along, slide = np.linspace(-0.4, 0.4, 9), m.travel("slide")
+        places, turned = [[0.0, 1.0, z] for z in along], np.tile(np.eye(3), (9, 1, 1))
+        end = m.tabled_body("end", base=light, parameters=slide, axes=[along], places=places, rotations=turned, **part)
+        m.add(ScalarSpringDamper(900.0, 3.0, 0.1, unit="N").record("spring", slide.affine))
+        no: dict[str, Any] = {
+            "mass": 1e-9,
+            "com": (0, 1, 0),
+            "inertia": (1e-9, 1e-9, 1e-9),
+        }  # neither end of the hinge is eliminated
+        m.tabled_body("beside", base=heavy, parameters=slide, axes=[along], places=places, rotations=turned, **no)
+    else:
+        end = m.body("end", **part)
+        m.prismatic("slide", light, end, point=(0, 1, 0), axis=(0, 0, 1))
+        m.spring_damper(
+            "spring", (light, (0, 1, -5.0)), (end, (0, 1, 0)), stiffness=900.0, damping=3.0, free_length=5.1
+        )
+    wheel = m.spin(
+        "wheel",
+        carrier=end,
+        centre=(0, 1.1, 0),
+        axis=(0, 1, 0),
+        mass=2.0,
+        spin_inertia=0.1,
+        diametral_inertia=0.06,
+        rolling_radius=0.3,
+    )
+    m.initial_rate(wheel, 40.0)
+    for c in "xyz":
+        m.sense_position(f"end.{c}", end, (0.0, 1.3, 0.2), c)
+    return compile(m)
+
+
+def test_a_base_may_be_hinged_on_another_and_carry_a_wheel() -> None:
+    """Rows of joints between bodies that carry tables are those of the same mechanism with joints; it can be drawn."""
+    table, joints = (simulate(hinged(tabled), 0.4, 0.0005, progress=False) for tabled in (True, False))
+    for c in "xyz":
+        np.testing.assert_allclose(table[f"end.{c}"], joints[f"end.{c}"], rtol=0, atol=1e-5)
+        assert np.ptp(joints[f"end.{c}"]) > 0.01
+    assert hinged(tabled=True).drawing

@@ -1,8 +1,12 @@
-"""Compliance of an axle by its curves: its wheels turn about an elastic axis that stands upright.
+"""Compliance of an axle by its curves: its wheels turn about elastic axes, one upright and one along the car.
 
 With the compliances c_x, c_y and c_m of the steer angle u per force and moment in the contact, u = c_x F_x + c_y F_y +
 c_m M_z. A turn u of the wheel against the stiffness 1/c_m, with which the contact goes by (c_x, c_y) u/c_m, is just
 that by virtual work: it is a turn about the elastic centre.
+
+With the compliances g of the inclination and a of the place of the contact per lateral force, the wheel leans about an
+axis at the height a/g over the contact, against the stiffness a/g2: the lever of the force is that height, too. Along
+that axis it slides against 1/b, the compliance of its place along x. The body that leans and slides carries the table.
 """
 
 from __future__ import annotations
@@ -13,19 +17,27 @@ from dataclasses import replace
 import numpy as np
 
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.quantities import LossTime, SteerPerForce, SteerPerMoment
+from mbs.vehicle.part import Part
+from mbs.vehicle.quantities import DisplacementPerForce, LossTime, SteerPerForce, SteerPerMoment
 from mbs.vehicle.section import Section
-from mbs.vehicle.side import Side
+from mbs.vehicle.side import Point, Side
 from mbs.vehicle.suspensions.curve_poses import WheelCurves
 from mbs.vehicle.suspensions.curve_table import OTHER, RACK
 
 TURNS = np.linspace(-0.06, 0.06, 7)  # rad: points of the table
+FORWARD = (1.0, 0.0, 0.0)
+LEAST_HEIGHT, LARGEST_HEIGHT = 0.02, 20.0  # m
+BASE_SHARE = 1e-3  # of the carrier's mass, of the body that a leaning table stands on
 
 
 class Compliance(Section):
     """Steer angle of the left wheel, positive to the left, per force and moment of the road; the right one mirrors it.
+
+    Camber and ways are those of a lean about an axis along the car, and of a slide along it. That axis is the way per
+    camber over the contact, or under it where the camber is positive.
 
     Of an axle that steers the moment alone is given: it turns the wheel as the rack does, against a spring at the end
     of the rack, so that forces turn it by their levers about the steering axis.
@@ -37,6 +49,12 @@ class Compliance(Section):
     """Per lateral force, positive to the left."""
     per_longitudinal_force: SteerPerForce = 0.0
     """Per longitudinal force, positive forward."""
+    camber_per_lateral_force: SteerPerForce = 0.0
+    """Camber angle, positive with the top outwards, per lateral force, positive to the left."""
+    lateral_per_lateral_force: DisplacementPerForce = 0.0
+    """Way of the contact to the left per lateral force, beside that of the turn; with a camber only."""
+    longitudinal_per_longitudinal_force: DisplacementPerForce = 0.0
+    """Way of the wheel forward per longitudinal force, beside that of the turn."""
     loss_time: LossTime = 0.001
     """Damping over stiffness."""
 
@@ -56,6 +74,49 @@ class Compliance(Section):
                     f"{self.key(name)} is {getattr(self, name):g} rad/N; of an axle that steers it follows from "
                     f"{self.key('per_moment')} and the table, so leave it out."
                 )
+
+    def faults(self) -> Iterator[str]:
+        """The axis about which a wheel leans is at a height near the car."""
+        camber, way = self.camber_per_lateral_force, self.lateral_per_lateral_force
+        if not LEAST_HEIGHT * abs(camber) <= way <= LARGEST_HEIGHT * abs(camber):
+            yield (
+                f"{self.key('lateral_per_lateral_force')} is {way:g} m/N and {self.key('camber_per_lateral_force')} "
+                f"{camber:g} rad/N; their ratio is the height of the axis about which the wheel leans, which must be "
+                f"{LEAST_HEIGHT:g} to {LARGEST_HEIGHT:g} m over or under the contact."
+            )
+
+    def base(self, b: CarBuilder, side: Side, centre: Point, part: Part) -> tuple[Body, float]:
+        """What the table of a wheel stands on, and the share of its carrier's mass that the table keeps.
+
+        Parameters
+        ----------
+        centre : (float, float, float)
+            Of the left wheel, m.
+        part : Part
+            The left carrier.
+        """
+        chassis, slide = b.chassis.frame, self.longitudinal_per_longitudinal_force
+        lean, way = -self.camber_per_lateral_force, self.lateral_per_lateral_force
+        if not (lean or slide):
+            return chassis, 1.0
+        w = side.wheel
+        inertia = [BASE_SHARE * value for value in part.inertia]
+        base = b.m.body(f"compliance {w}", mass=BASE_SHARE * part.mass, com=side.point(part.com), inertia=inertia)
+        point = side.point((centre[0], centre[1], way / lean if lean else centre[2]))
+        for name, place in (("rear", point), ("front", np.add(point, FORWARD))):  # no row twice, as joints would have
+            b.m.point_on_line(f"compliance axis {w} {name}", (base, place), (chassis, point), axis=FORWARD)
+        # 1 m long, between points that move along it: at a lever of 1 m over the axis, and on it
+        for name, ends, stiffness in (
+            ("lean", ((0.0, -1.0, 1.0), (0.0, 0.0, 1.0)), way / lean**2 if lean else 0.0),
+            ("slide", ((-1.0, 0.0, 0.0), (0.0, 0.0, 0.0)), 1.0 / slide if slide else 0.0),
+        ):
+            first, last = (np.add(point, end).tolist() for end in ends)
+            if stiffness:
+                spring, damping = f"spring of compliance {name} {w}", self.loss_time * stiffness
+                b.m.spring_damper(spring, (chassis, first), (base, last), stiffness=stiffness, damping=damping)
+            else:
+                b.m.distance(f"rod against {name} {w}", (chassis, first), (base, last))
+        return base, 1.0 - BASE_SHARE
 
     def rack_end(self, b: CarBuilder, side: Side, rack: Coordinate, steer_per_rack: float) -> Coordinate:
         """Travel of the end of the rack at a wheel, on a spring.

@@ -74,7 +74,7 @@ class Curves(Section):
     bar: CurveBar | None = None
     """Anti-roll bar."""
     compliance: Compliance | None = None
-    """Compliance of links and bushes in steer."""
+    """Compliance of links and bushes."""
 
     near_wheel: ClassVar[tuple[str, ...]] = ()
     """Points on what carries the wheel: it has none."""
@@ -174,16 +174,19 @@ class Curves(Section):
             part = self.bodies.carrier
             com = np.array(side.point(part.com))
             centre = np.array(side.point(self.hub.centre))
+            base, share = b.chassis.frame, 1.0
+            if self.compliance is not None:
+                base, share = self.compliance.base(b, side, self.hub.centre, part)
             carrier = b.m.tabled_body(
                 f"carrier {w}",
-                base=b.chassis.frame,
+                base=base,
                 parameters=over,
                 axes=_axes(curves, over),
                 places=_flat(curves.centres + curves.rotations @ (com - centre), over),
                 rotations=_flat(curves.rotations, over),
-                mass=part.mass,
+                mass=share * part.mass,
                 com=com,
-                inertia=part.inertia,
+                inertia=[share * value for value in part.inertia],
             )
             plain = own.affine * -1.0 + self.spring_length, self.spring_length
             spring = _number(b, curves, over, "spring_length", f"length of spring {w}") or plain
