@@ -44,6 +44,7 @@ def read_parameter_set(file: str | os.PathLike[str]) -> ParameterSet:
     if not schema.validate(root):
         problem = schema.error_log[0]
         raise ParameterSetError(f"{file}, line {problem.line}: {_words(problem.message)}.")
+    _check_units(root, file)
     content = SSVElem.from_xml(root)
     elements = root.iterfind("ssv:Parameters/ssv:Parameter", SSVElem.namespaces)
     entries = [
@@ -80,6 +81,18 @@ def _parsed(file: str | os.PathLike[str]) -> Any:
     if root.getroottree().docinfo.doctype:
         raise ParameterSetError(f"{file} has a document type declaration; a parameter set has none.")
     return root
+
+
+def _check_units(root: Any, file: object) -> None:
+    """Refuses what libxml2 takes for a number and nobody else does, such as `1e`."""
+    for unit in root.iterfind("{*}Units/{*}Unit"):
+        for text in (base.get(what) for base in unit for what in ("factor", "offset")):
+            try:
+                float(text or "0")
+            except ValueError:
+                raise ParameterSetError(
+                    f"{file}, line {unit.sourceline}: the unit '{unit.get('name')}' has '{text}' where a number must be."
+                ) from None
 
 
 def _schema(root: Any, file: object) -> Any:

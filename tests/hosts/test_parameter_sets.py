@@ -191,6 +191,7 @@ def test_units_are_converted_by_their_definitions(
         (ssv("spring.damping=1").replace('version="1.0"', 'version="3.0"'), "is of SSP '3.0'; 1.0 and 2.0"),
         (ssv("spring.damping=1", units=UNITS.replace('"0.001"', '"-1"')), "unit 'mm' has the factor -1"),
         (ssv("spring.damping=1", units=UNITS.replace('"0.001"', '"NaN"')), "unit 'mm' has the factor nan"),
+        (ssv("spring.damping=1", units=UNITS.replace('"0.001"', '"1e"')), "unit 'mm' has '1e' where a number must be"),
         (ssv("spring.damping=1", units=UNITS.replace('"mm"', '"inch"')), "the unit 'inch' occurs twice"),
         (ssv(entry("spring.damping", 'Float64 value="1 2"'), version="2.0"), "'spring.damping' has 2 values"),
         ("<a/>", "is no SSV file: its root is 'a'"),
