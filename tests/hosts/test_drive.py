@@ -82,7 +82,7 @@ def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path:
     assert colours(picture) > 200
 
 
-@pytest.mark.parametrize("held", ["", "# held: steering, brake\n"])
+@pytest.mark.parametrize("held", [pytest.param("", marks=pytest.mark.drawn), "# held: steering, brake\n"])
 def test_a_result_is_a_manoeuvre_that_repeats_the_run(
     fmus: dict[str, Path], turn: Path, tmp_path: Path, held: str
 ) -> None:
@@ -114,6 +114,7 @@ def test_a_result_that_began_with_a_state_repeats_the_run(fmus: dict[str, Path],
 
 
 @pytest.mark.slow
+@pytest.mark.drawn
 def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
     (tmp_path / "swing.csv").write_text('"time","torque"\n0,0\n1,0\n1,4\n4,4\n')
     done = drive(fmus["motor_pendulum"], "-m", tmp_path / "swing.csv", "--out", tmp_path)
@@ -125,6 +126,7 @@ def test_any_fmu_gets_a_page(fmus: dict[str, Path], tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.drawn
 def test_a_car_that_stands_still_gets_a_page_without_a_warning(fmus: dict[str, Path], tmp_path: Path) -> None:
     (tmp_path / "rest.csv").write_text('"time","throttle"\n0,0\n1,0\n')
     done = drive(fmus["sledge"], "-m", tmp_path / "rest.csv", "--out", tmp_path)

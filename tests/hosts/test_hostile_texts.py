@@ -31,6 +31,8 @@ from viewer.page_file import write_page
 from viewer.recording import Recording
 from viewer.scene import scene_errors
 
+pytestmark = pytest.mark.drawn
+
 MARK = "<img src=x onerror=globalThis.ran=1><script>globalThis.ran=2</script>"
 MARKUP = f"</title></style></script>-->{MARK}<svg onload=globalThis.ran=3>'\"&lt;"
 NAME = "&lt;b onload='globalThis.ran=4'&gt; \"name\""  # a scene has no names with < and >

@@ -28,6 +28,7 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.slow
+@pytest.mark.drawn
 def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--kerb", str(fmu), "--fidelity", "1", "--out", str(tmp_path)]) == 0
     said = capsys.readouterr().out

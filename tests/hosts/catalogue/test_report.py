@@ -25,6 +25,8 @@ from hosts.catalogue.two_sides import mean_of_sides
 from hosts.measures.measure import Limit, Measure
 from tests.hosts.catalogue.synthetic_records import EVIL, record, synthetic
 
+pytestmark = pytest.mark.drawn
+
 COMMAND = ["ali3", "catalogue", "my car.fmu", "--tests=test_0", "--test-setting", "test_1.speed=80", "--jobs", "2"]
 
 

@@ -8,6 +8,8 @@ from hosts.catalogue.report import write_report
 from tests.hosts.catalogue.synthetic_records import synthetic
 from tests.in_browser import headless_chromium
 
+pytestmark = pytest.mark.drawn
+
 
 @pytest.fixture(scope="module")
 def seen(tmp_path_factory):

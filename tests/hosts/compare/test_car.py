@@ -272,15 +272,16 @@ def test_windows_that_cannot_be_are_refused(
 
 def test_an_angle_of_the_steering_wheel_drives_at_any_ratio(prototype_fmu: Path, tmp_path: Path) -> None:
     """Full lock is at another angle where a parameter changes the travel of the rack per turn."""
-    t = np.array([0.0, 0.2, 0.4, 2.0])
+    t = np.array([0.0, 0.1, 0.3, 1.0])
     start = {"initial.speed": 15.0, "steering.rack_per_turn": 0.06}
     with Fmu(prototype_fmu) as fmu:
-        found = run(fmu, Manoeuvre("step", t, {"steering": np.array([0.0, 0.0, 0.2, 0.2])}, 2.0, start), 0.01)
+        found = run(fmu, Manoeuvre("step", t, {"steering": np.array([0.0, 0.0, 0.2, 0.2])}, 1.0, start), 0.01)
     log, record = tmp_path / "step.csv", tmp_path / "record.json"
     names = ("steering_wheel_angle", "speed", "chassis.wz")
     table = np.column_stack([found.time, *(found[n] for n in names)])
     np.savetxt(log, table, delimiter=",", header=",".join(("time", *names)), comments="", fmt="%.9g")
     chosen = ["--signals", "chassis.wz", "--out", str(tmp_path / "out"), "--json", str(record)]
+    chosen += ["--set", "initial.settling=0"]
     assert main([str(prototype_fmu), str(log), *chosen, "--set", "steering.rack_per_turn=0.06"]) == 0
     measures = {m["name"]: m["value"] for m in json.loads(record.read_text())["measures"]}
     assert measures["chassis.wz.rms"] < 0.01 * np.abs(found["chassis.wz"]).max()

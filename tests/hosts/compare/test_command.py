@@ -69,6 +69,7 @@ class TestCommand:
         assert not (tmp_path / "drive.ssv").exists()
 
     @pytest.mark.slow
+    @pytest.mark.drawn
     def test_compare_and_fit(self, tuned: Path, log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         arguments = [str(tuned), str(log), "--out", str(tmp_path), "--json", str(tmp_path / "all.json")]
         assert (

@@ -17,6 +17,8 @@ from hosts.compare.windows import bins
 from hosts.compare.words import table, with_unit
 from hosts.driving.result import Result
 
+pytestmark = pytest.mark.drawn
+
 TIME = np.linspace(0.0, 2.0, 201)
 
 

@@ -23,6 +23,8 @@ from hosts.study.analysis.tables import extremes, reasons, said, statistics
 from hosts.study.limits import ALL, shares
 from tests.hosts.study.frames import frame_of
 
+pytestmark = pytest.mark.drawn
+
 UNITS = {"stiffness": "N/m", "mass": "kg", "surface": "", "peak": "m/s2"}
 
 

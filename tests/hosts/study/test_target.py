@@ -29,6 +29,7 @@ def seek(study_file: Callable[..., Path], tmp_path: Path) -> Callable[..., int]:
 
 
 @pytest.mark.slow
+@pytest.mark.drawn
 def test_the_stiffness_for_a_lowest_place(
     seek: Callable[..., int], spring: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
