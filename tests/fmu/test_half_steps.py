@@ -1,4 +1,4 @@
-"""A contact or a stop that is too quick for the step is told by a second motion with half of it, which changes no bit."""
+"""A contact or a stop that is too quick for the step: a second motion with half of it tells, and changes no bit."""
 
 from __future__ import annotations
 
@@ -50,10 +50,9 @@ def test_what_it_tells_is_the_error_and_the_step_that_it_names_is_enough(prototy
 def test_the_motion_is_that_of_the_engine_to_the_last_bit(prototype_fmu: Path, host: HostMaker) -> None:
     found, said = drive(host(prototype_fmu), EVERY)
     assert said
-    run = mbs.simulate(
-        mbs.compile(prototype_car.build()), SPAN, EVERY, pose=mbs.Pose(z=FALL["initial.z"], speed=FALL["initial.speed"]),
-        progress=False, estimate_error=False,
-    )  # fmt: skip
+    pose = mbs.Pose(z=FALL["initial.z"], speed=FALL["initial.speed"])
+    system = mbs.compile(prototype_car.build())
+    run = mbs.simulate(system, SPAN, EVERY, pose=pose, progress=False, estimate_error=False)
     assert (found == np.array([run[name] for name in FORCES]).T[1:]).all()
 
 
