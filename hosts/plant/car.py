@@ -118,7 +118,7 @@ class Car(Closing):
 
     @property
     def messages(self) -> list[str]:
-        """What the FMU has said so far, at warning or above."""
+        """What the FMU has said since the last `reset`, at warning or above."""
         return self.fmu.messages
 
     def reset(self, seed: int | None = None, **parameters: Range) -> None:
@@ -144,6 +144,7 @@ class Car(Closing):
         # The draw does not depend on the order in which they are named.
         start = {name: self._drawn(name, chosen[name], random) for name in sorted(chosen)}
         if self._used:
+            self.fmu.messages.clear()  # in place: who wraps the FMU shares them
             self.fmu.reset()
         self._used, self._started = True, False
         self.fmu.initialise(start)

@@ -18,6 +18,7 @@ _CLOSEST = 1e-4  # part of the range that is not divided any more
 _INWARD = (0.0, 0.0625, 0.125, 0.25)  # parts of the range, where the run at an end fails
 _EXTREMUM, _SEEN = 0.02, 8  # part of the range, and runs, to which an extremum is found
 _APART, _PART = 0.01, 0.02  # of the range, or of the value, between runs that tell a slope
+_NEAR = 0.05  # of the range, or of the value: farther ones tell another slope
 
 
 @dataclass(frozen=True)
@@ -138,7 +139,23 @@ class _Search:
     def found(self) -> Found:
         with contextlib.suppress(_End):
             self._from_the_ends()
+        with contextlib.suppress(_End):
+            self._near_the_best()
         return self._result()
+
+    def _near_the_best(self) -> None:
+        """One more run beside what meets the value, where none is near enough to tell its slope."""
+        met = [(u, run) for u, run in self._sorted() if abs(run.y - self._wanted) <= self._tolerance]
+        if not met:
+            return
+        place, best = met[0]
+        others = [(u, run) for u, run in self._sorted() if run is not best]
+        if any(abs(u - place) <= _NEAR or 0.0 < abs(run.x - best.x) <= _NEAR * abs(best.x) for u, run in others):
+            return
+        aside = 2.0 * _APART
+        if best.x > 0.0:
+            aside = min(aside, abs(self._place((1.0 + 2.0 * _PART) * best.x) - place))
+        self._at(place + aside if place < 0.5 else place - aside)
 
     def _x(self, u: float) -> float:
         low, high = self._ends

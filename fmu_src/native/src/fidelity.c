@@ -71,6 +71,7 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
 }
 
 void slave_fidelity_take(slave *s, const slave_fidelity *loaded) {
+  slave_half_steps_free(s);
   slave_fidelity_free(s, &s->fidelity);
   s->fidelity = *loaded;
 }

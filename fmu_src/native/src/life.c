@@ -57,8 +57,9 @@ static void start_values(slave *s) {
   s->calls = calls;
   s->last_step = SLAVE_OK;
   s->made.n = 0;
+  slave_half_steps_free(s);
   slave_forget_refusal(s);
-  s->outputs_fresh = s->uncomputed_said = s->overturned_said = s->rim_said = s->coarse_said = s->stop_said = false;
+  s->outputs_fresh = s->uncomputed_said = s->overturned_said = s->rim_said = s->event_said = false;
   memset(s->pending, 0, t->n_known);
   memset(s->said, 0, t->n_known);
   memset(s->slope, 0, 2 * t->n_known * SLAVE_MOST_ORDERS * sizeof(double)); /* and made_slope */
@@ -106,6 +107,7 @@ void slave_free(slave *s) {
   if (s == NULL) return;
   void (*const release)(void *) = s->memory.release;
   if (s->value != NULL) release(s->value);
+  slave_half_steps_free(s);
   slave_fidelity_free(s, &s->fidelity);
   slave_fidelity_free(s, &s->follower);
   if (s->resources != NULL) release(s->resources);
@@ -138,6 +140,7 @@ slave_status slave_exit(slave *s) {
 }
 
 slave_status slave_terminate(slave *s) {
+  slave_half_steps_end(s);
   s->calls.phase = SLAVE_TERMINATED;
   return SLAVE_OK;
 }

@@ -118,6 +118,14 @@ typedef struct { /* the last good communication step, whose start the fidelity k
   bool sloped; /* along derivatives of the inputs, which are kept */
 } slave_made;
 
+typedef struct { /* of a motion that is made a second time with half the step, see half_steps.c */
+  void *end, *other; /* snapshots: this motion after the communication step, the other one; NULL: not needed yet */
+  double *force, *input, *parameter; /* work */
+  double left, spent; /* s: of the time that is made twice, 0: nothing is; made twice so far */
+  double apart, time, h; /* largest difference of forces that is not judged yet, N; when, s; inner step there, s */
+  int64_t abrupt; /* abrupt steps that were seen */
+} slave_half_steps;
+
 typedef struct { /* a System of the FMU at work */
   size_t number;
   ali3_system *system;
@@ -137,6 +145,7 @@ struct slave {
   slave_call_state calls;
   slave_refusal refusal;
   slave_made made;
+  slave_half_steps half_steps;
   slave_status last_step; /* what the last step was answered with */
   double *value; /* per variable; the outputs are filled when they are asked for */
   double *slope; /* per variable and order: derivatives of the inputs from the communication point on */
@@ -146,8 +155,8 @@ struct slave {
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
   bool outputs_fresh, followed; /* followed: with what the follower computes */
   bool uncomputed_said; /* that an output was read which is not computed, once a run */
-  /* once a run: that the vehicle lies upside down, that a rim was pressed in, that a contact was too quick */
-  bool overturned_said, rim_said, coarse_said, stop_said;
+  /* once a run: that the vehicle lies upside down, that a rim was pressed in, that a contact or a stop was too quick */
+  bool overturned_said, rim_said, event_said;
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
   size_t step_reference, iterations_reference;
@@ -219,6 +228,13 @@ slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, cons
 /* step.c */
 slave_status slave_step(slave *s, double time, double step);
 void slave_add_slopes(const double *slope, double elapsed, double *input);
+void slave_inputs_at(const slave *s, double elapsed, double *input);
+
+/* half_steps.c */
+slave_status slave_halve_steps(slave *s);
+void slave_half_steps_begin(slave *s);
+void slave_half_steps_end(slave *s);
+void slave_half_steps_free(slave *s);
 
 /* replay.c */
 slave_status slave_step_derivative(slave *s, const double *direction, bool left_out, double *out);
@@ -240,6 +256,8 @@ bool slave_wants_end(const slave *s);
 
 /* watch.c: what a run says about itself, once */
 slave_status slave_watch(slave *s);
+bool slave_event_told(const ali3_report *r);
+slave_status slave_say_event(slave *s, const ali3_report *r);
 void slave_watch_outputs(slave *s);
 void slave_watch_ports(slave *s);
 

@@ -183,6 +183,7 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   s->made.n = head.made_n;
   s->made.h = head.made_h;
   s->made.sloped = head.sloped;
+  slave_half_steps_begin(s);
   s->calls.start_time = head.start_time;
   s->calls.stop_time = head.stop_time;
   get(s->value, &p, n * sizeof(double));

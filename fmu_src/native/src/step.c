@@ -74,7 +74,7 @@ void slave_add_slopes(const double *slope, double elapsed, double *input) {
 }
 
 /* The inputs at `elapsed` after the communication point; the kernel holds them in their ranges. */
-static void follow_slopes(const slave *s, double elapsed, double *input) {
+void slave_inputs_at(const slave *s, double elapsed, double *input) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < t->n_known; i++)
     if (t->variable[i].source == SLAVE_INPUT) input[t->variable[i].index] = s->value[i] / t->variable[i].scale;
@@ -93,7 +93,7 @@ static ali3_status advance(slave *s, int64_t n, double h, double *left) {
     return status;
   }
   for (int64_t k = 0; k < n && status == ALI3_OK; k++) {
-    follow_slopes(s, (double)(k + 1) * h, s->direction);
+    slave_inputs_at(s, (double)(k + 1) * h, s->direction);
     status = ali3_run(kernel, h, 1, s->direction, 1, NULL, NULL, NULL);
     *left = fmax(*left, ali3_capped_residual(kernel));
   }
@@ -172,6 +172,7 @@ static slave_status try_step(slave *s, double time, double step) {
     return slave_refuse_step(s, status, now, step, worst);
   }
   keep_start(s, n, h);
+  const slave_status halved = slave_halve_steps(s);
   forget_slopes(s);
   slave_watch_ports(s);
   memset(s->pending, 0, slave_the_table.n_known);
@@ -179,7 +180,8 @@ static slave_status try_step(slave *s, double time, double step) {
   s->calls.phase = SLAVE_STEPPING;
   s->calls.capped_residual = left;
   slave_forget_refusal(s);
-  return slave_watch(s);
+  const slave_status watched = slave_watch(s);
+  return halved > watched ? halved : watched;
 }
 
 slave_status slave_step(slave *s, double time, double step) {

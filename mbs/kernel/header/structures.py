@@ -71,6 +71,7 @@ class ReportFields(Structure):
         ("hit_time", c_double),
         ("hit_h", c_double),
         ("hit_left", c_double),
+        ("abrupt_steps", c_int64),
         ("largest_load", c_double),
         ("quick_load", c_double),
         ("load_time", c_double),

@@ -127,6 +127,7 @@ typedef struct {
    * began, s; a step that would do, s. The same of a hit that is not judged yet, its step and the time left of it, s */
   double largest_force, quick_change, quick_time, quick_step;
   double hit_change, hit_time, hit_h, hit_left;
+  int64_t abrupt_steps; /* in which one of these, of tyres their load, changed by more than a tenth of the largest */
   /* Systems with tyres: largest load, N; where loads changed too quickly for the step, the worst h sqrt(h) times the
    * root of the squares of their changes in a step over the largest load, s^1.5, 0: nowhere; when the first began, s; a
    * step that would do, s. The sum of the squares now, N^2; largest h^3 times it that is not judged yet, N^2 s^3, when it
@@ -376,6 +377,8 @@ ALI3_API void ali3_contacts(const ali3_instance *in, unsigned char *touching);
 /* Per force element (ne) a number of the smooth piece of its law that holds in the present state with the present
  * inputs: where it changes, a stop is met or left, friction sticks or slips, a limit is reached. */
 ALI3_API void ali3_law_pieces(ali3_instance *in, uint32_t *piece);
+/* Loads of tyres, forces of contacts and of springs with end stops now, N: how many; `force` may be NULL. */
+ALI3_API int32_t ali3_contact_forces(const ali3_instance *in, double *force);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is

@@ -41,6 +41,15 @@ def test_the_slope_is_that_of_near_runs_in_a_wide_range() -> None:
     assert found.slope == pytest.approx(-0.69 / 800.0 / (1.0 + found.best.x / 800.0) ** 2, rel=0.1)
 
 
+def test_a_value_that_is_met_at_once_gets_one_near_run_for_its_slope() -> None:
+    """The secant of the ends meets it; their slope is 5."""
+    found = sought(lambda x: (x - 2.0) + (x - 2.0) ** 3 + 1.0, 1.0, 0.0, 4.0)
+    assert found.best is not None
+    assert found.best.x == pytest.approx(2.0)
+    assert len(found.runs) == 4
+    assert found.slope == pytest.approx(1.0, abs=0.1)
+
+
 def test_two_solutions_inside_the_range_and_the_one_near_the_start() -> None:
     for start, x in ((0.5, 1.0), (3.5, 3.0)):
         found = sought(lambda x: (x - 2.0) ** 2, 1.0, 0.0, 4.0, start=start)

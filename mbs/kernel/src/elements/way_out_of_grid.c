@@ -1,6 +1,7 @@
 /* Level rays from the point are followed to where the surface falls below it; the nearest such place is the foot, with
  * the direction of the best ray refined. The distance is then continuous in the point and its gradient the normal of the
- * face, so that what a face takes up it also gives back. */
+ * face, so that what a face takes up it also gives back. It has a kink where two faces are equally far: there the normal
+ * jumps from one to the other, the distance does not. */
 #include "way_out_of_grid.h"
 
 #include <math.h>

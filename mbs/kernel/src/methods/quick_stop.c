@@ -5,11 +5,13 @@
 #include <math.h>
 
 #include "../elements/element.h"
+#include "../elements/tyre_contact.h"
 
 static const double QUICK = 0.0315; /* sqrt(s); calibrated on random drives of two cars over kerbs and drops */
 static const double SAFE = 0.3;     /* of the limit: what a step would do with */
+static const double ABRUPT = 0.1;   /* of the largest force: a change in a step */
 static const double SPAN = 0.5;     /* s after a hit in which its wheel lands: the largest force there counts too */
-enum { OF_A_TYRE = 3 };             /* first outputs of what touches a road that are forces */
+enum { LOAD = 2, OF_A_TYRE = 3 };   /* output of a tyre; first outputs of what touches a road that are forces */
 
 /* The change of a force in a step up to which nothing is said. */
 static double limit(const ali3_report *r, double h) { return QUICK / sqrt(h) * r->largest_force; }
@@ -25,31 +27,60 @@ static void judge(ali3_report *r) {
   r->hit_change = 0.0;
 }
 
-static void look_at(ali3_instance *in, double h, int32_t e) {
+/* Outputs of an element that are forces of a contact or a stop: how many, and the first. Of a tyre its load: the others
+ * follow pedals that jump. */
+static int32_t forces_of(const ali3_system *S, int32_t e, int32_t *first) {
+  const ali3_element_type *kind = S->el_kind[e];
+  const int32_t n_out = S->el_out_ptr[e + 1] - S->el_out_ptr[e];
+  const bool tyre = kind->depth == ali3_tyre_depth;
+  *first = S->el_out_ptr[e] + (tyre ? LOAD : kind->rebound != NULL ? 1 : 0);
+  return tyre || kind->rebound != NULL ? 1 : kind->depth == NULL ? 0 : n_out < OF_A_TYRE ? n_out : OF_A_TYRE;
+}
+
+int32_t ali3_contact_forces(const ali3_instance *in, double *force) {
+  int32_t n = 0;
+  for (int32_t e = 0; e < in->system->size.ne; e++) {
+    int32_t first;
+    const int32_t mine = forces_of(in->system, e, &first);
+    for (int32_t i = 0; force != NULL && i < mine; i++) force[n + i] = in->now.out[first + i];
+    n += mine;
+  }
+  return n;
+}
+
+/* Largest change of such a force of element e in the step. */
+static double look_at(ali3_instance *in, double h, int32_t e) {
   const ali3_system *S = in->system;
   ali3_report *r = &in->report;
   const ali3_element_type *kind = S->el_kind[e];
   const double *from = in->next.out + S->el_out_ptr[e], *to = in->now.out + S->el_out_ptr[e];
   const int32_t n_out = S->el_out_ptr[e + 1] - S->el_out_ptr[e];
+  int32_t first;
+  double most = 0.0;
+  for (int32_t i = forces_of(S, e, &first); i-- > 0;)
+    most = fmax(most, fabs(in->now.out[first + i] - in->next.out[first + i]));
   for (int32_t i = 0; kind->depth != NULL && i < n_out && i < OF_A_TYRE; i++)
     r->largest_force = fmax(r->largest_force, fabs(to[i]));
-  if (kind->rebound == NULL) return;
+  if (kind->rebound == NULL) return most;
   r->largest_force = fmax(r->largest_force, fabs(to[1]));
   const int32_t nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e];
   const double change = kind->rebound(in->el_real + S->el_real_ptr[e], nreal, from[0], to[0]);
-  if (!(change > fmax(limit(r, h), r->hit_change))) return;
+  if (!(change > fmax(limit(r, h), r->hit_change))) return most;
   if (r->hit_change == 0.0) {
     r->hit_time = ali3_time(in);
     r->hit_left = SPAN;
   }
   r->hit_change = change;
   r->hit_h = h;
+  return most;
 }
 
 /* After a step of size h from in->next to in->now. */
 void ali3_quick_stop(ali3_instance *in, double h) {
   ali3_report *r = &in->report;
-  for (int32_t e = 0; e < in->system->size.ne; e++) look_at(in, h, e);
+  double most = 0.0;
+  for (int32_t e = 0; e < in->system->size.ne; e++) most = fmax(most, look_at(in, h, e));
+  if (most > ABRUPT * r->largest_force) r->abrupt_steps++;
   r->hit_left -= h;
   if (r->hit_change > 0.0 && r->hit_left < 0.5 * h) judge(r);
 }

@@ -1,0 +1,141 @@
+/* Where a force of a tyre, a contact or a spring with end stops changes abruptly, the next 0.2 s are made a second time
+ * with half the step: what both differ by is the error of the step (step doubling). A run without such changes, or that
+ * has been told of one, pays nothing. The other motion is a snapshot of the same instance. */
+#include <math.h>
+#include <string.h>
+
+#include "slave.h"
+
+static const double SPAN = 0.2; /* s after the last abrupt step: a wheel on its tyre swings about twice */
+static const double LATER = 0.5; /* s after a difference in which the largest force comes: a wheel lands */
+static const double WRONG = 0.05; /* of the largest force */
+static const double ORDER_2 = 4.0 / 3.0; /* error of a step over the difference to half of it */
+static const double SAFE = 0.6; /* of WRONG: what a step would do with, by order one as at a kink */
+static const double FREE = 1.0, SHARE = 0.1; /* s, and of the time driven: how much is made twice at most */
+
+/* From the state that is there now nothing is made twice. */
+void slave_half_steps_begin(slave *s) {
+  ali3_report report;
+  s->half_steps.left = s->half_steps.apart = 0.0;
+  s->half_steps.abrupt = ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.abrupt_steps : 0;
+}
+
+/* Work of one block: the snapshot of this motion at the end of the step, that of the other, forces of both, inputs. */
+static bool allocate(slave *s) {
+  slave_half_steps *t = &s->half_steps;
+  const size_t size = ali3_snapshot_size(s->fidelity.system), n = (size_t)ali3_contact_forces(s->fidelity.kernel, NULL);
+  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
+  if (t->end != NULL) return true;
+  t->end = s->memory.allocate(1, 2 * size + (2 * n + (size_t)(2 * z.nu + z.np)) * sizeof(double));
+  if (t->end == NULL) return false;
+  t->other = (unsigned char *)t->end + size;
+  t->force = (double *)((unsigned char *)t->other + size);
+  t->input = t->force + 2 * n;
+  t->parameter = t->input + 2 * z.nu;
+  return true;
+}
+
+void slave_half_steps_free(slave *s) {
+  if (s->half_steps.end != NULL) s->memory.release(s->half_steps.end);
+  memset(&s->half_steps, 0, sizeof s->half_steps);
+}
+
+/* The communication step from the state of `other`, with inputs and parameters of the one that was made. */
+static ali3_status make(slave *s) {
+  slave_half_steps *t = &s->half_steps;
+  ali3_instance *kernel = s->fidelity.kernel;
+  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
+  const double h = 0.5 * s->made.h;
+  ali3_status status = ALI3_OK;
+  for (int32_t i = 0; i < z.np; i++) ali3_get_parameter(kernel, i, &t->parameter[i]);
+  for (int32_t i = 0; i < z.nu; i++) ali3_get_input(kernel, i, &t->input[i]);
+  slave_inputs_at(s, 0.0, t->input);
+  ali3_snapshot_restore(kernel, t->other);
+  for (int32_t i = 0; i < z.np && status == ALI3_OK; i++) {
+    double was;
+    ali3_get_parameter(kernel, i, &was);
+    if (was != t->parameter[i]) status = ali3_set_parameter(kernel, i, t->parameter[i]);
+  }
+  for (int32_t i = 0; i < z.nu && status == ALI3_OK; i++) status = ali3_set_input(kernel, i, t->input[i]);
+  for (int64_t k = 1; k <= 2 * s->made.n && status == ALI3_OK; k++) {
+    memcpy(t->input + z.nu, t->input, (size_t)z.nu * sizeof(double));
+    slave_inputs_at(s, (double)k * h, t->input + z.nu);
+    status = ali3_run(kernel, h, 1, t->input + z.nu, 1, NULL, NULL, NULL);
+  }
+  return status;
+}
+
+/* Largest difference of the forces of both motions, N. */
+static double difference(slave *s) {
+  slave_half_steps *t = &s->half_steps;
+  const int32_t n = ali3_contact_forces(s->fidelity.kernel, t->force);
+  double most = 0.0;
+  for (int32_t i = 0; i < n; i++) most = fmax(most, fabs(t->force[i] - t->force[n + i]));
+  return most;
+}
+
+/* The other motion through the communication step, which ends at `now`; the kernel comes back to this one. */
+static void follow(slave *s, double now) {
+  slave_half_steps *t = &s->half_steps;
+  ali3_instance *kernel = s->fidelity.kernel;
+  ali3_snapshot_take(kernel, t->end);
+  ali3_contact_forces(kernel, t->force + ali3_contact_forces(kernel, NULL));
+  if (make(s) == ALI3_OK) {
+    const double apart = difference(s);
+    if (apart > t->apart) {
+      t->apart = apart;
+      t->time = now;
+      t->h = s->made.h;
+    }
+    ali3_snapshot_take(kernel, t->other);
+  } else {
+    t->left = 0.0;
+  }
+  ali3_snapshot_restore(kernel, t->end);
+}
+
+/* The largest difference, when what comes later has shown how large forces are. */
+static slave_status judge(slave *s, const ali3_report *r) {
+  slave_half_steps *t = &s->half_steps;
+  const double error = ORDER_2 * t->apart / r->largest_force, h = t->h;
+  t->apart = 0.0;
+  if (!(error > WRONG)) return SLAVE_OK;
+  if (slave_event_told(r)) return slave_say_event(s, r);
+  s->event_said = true;
+  return slave_say(
+      s, SLAVE_WARNING,
+      "At %.4g s a contact or a stop had changed a force too quickly for the step: made again with half of "
+      "it, forces are off by about %.2g %% of the largest. Run again with a step_size of %.2g s. This is "
+      "said once.",
+      t->time, 100.0 * error, h * fmin(0.5, SAFE * WRONG / error));
+}
+
+/* What is not judged when the run ends. */
+void slave_half_steps_end(slave *s) {
+  ali3_report report;
+  if (s->half_steps.apart > 0.0 && !s->event_said && ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK)
+    judge(s, &report);
+}
+
+/* After a good communication step whose start the fidelity keeps; before slopes are forgotten. */
+slave_status slave_halve_steps(slave *s) {
+  slave_half_steps *t = &s->half_steps;
+  ali3_report report;
+  if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
+  const bool abrupt = report.abrupt_steps > t->abrupt, rests = !(t->left > 0.0);
+  const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
+  t->abrupt = report.abrupt_steps;
+  if (abrupt && rests) {
+    if (t->spent > FREE + SHARE * (now - s->calls.start_time) || !allocate(s))
+      return slave_event_told(&report) ? slave_say_event(s, &report) : SLAVE_OK;
+    memcpy(t->other, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
+  }
+  if (abrupt) t->left = SPAN;
+  if (t->left > 0.0) {
+    t->left -= length;
+    t->spent += length;
+    follow(s, now);
+  }
+  const bool shown = now > t->time + LATER || slave_event_told(&report);
+  return t->apart > 0.0 && shown ? judge(s, &report) : SLAVE_OK;
+}

@@ -1,0 +1,80 @@
+"""A contact or a stop that is too quick for the step: a second motion with half of it tells, and changes no bit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.scenes import prototype_car
+
+HostMaker = Callable[..., Any]
+WHEELS = ("FL", "FR", "RL", "RR")
+FORCES = [f"{name}_{w}.{what}" for w in WHEELS for name, what in (("wheel", "Fz"), ("spring", "force"))]
+FALL = {"initial.z": 0.18, "initial.speed": 8.4}  # onto the metal of the rebound stops, within a step of 2 ms
+WORDS = "made again with half"
+EVERY, SPAN = 0.002, 0.8  # s
+
+
+def drive(driven: Any, step: float, values: dict[str, float] = FALL) -> tuple[np.ndarray, list[str]]:
+    """Forces at communication points, and what was said of the second motion."""
+    driven.start(values | {"step_size": step})
+    rows = []
+    for k in range(round(SPAN / EVERY)):
+        driven.step(k * EVERY, EVERY)
+        rows.append([driven.get(name) for name in FORCES])
+    return np.array(rows), [m for m in driven.messages if WORDS in m]
+
+
+def test_what_it_tells_is_the_error_and_the_step_that_it_names_is_enough(prototype_fmu: Path, host: HostMaker) -> None:
+    """By the same motion with steps of 0.05 ms."""
+    fine, nothing = drive(host(prototype_fmu), 5e-5)
+    coarse, said = drive(host(prototype_fmu), EVERY)
+    size = np.abs(coarse).max()
+    assert nothing == []
+    assert len(said) == 1
+    told = float(said[0].split("about ")[1].split(" %")[0]) / 100.0
+    assert told > 0.05
+    assert told == pytest.approx(np.abs(coarse - fine).max() / size, rel=0.3)
+    named = float(said[0].split("step_size of ")[1].split(" s")[0])
+    assert named <= 0.5 * EVERY
+    again, said = drive(host(prototype_fmu), named)
+    assert said == []
+    assert np.abs(again - fine).max() < 0.05 * size
+
+
+def test_the_motion_is_that_of_the_engine_to_the_last_bit(prototype_fmu: Path, host: HostMaker) -> None:
+    found, said = drive(host(prototype_fmu), EVERY)
+    assert said
+    pose = mbs.Pose(z=FALL["initial.z"], speed=FALL["initial.speed"])
+    system = mbs.compile(prototype_car.build())
+    run = mbs.simulate(system, SPAN, EVERY, pose=pose, progress=False, estimate_error=False)
+    assert (found == np.array([run[name] for name in FORCES]).T[1:]).all()
+
+
+def test_a_run_that_ends_soon_is_judged_at_its_end(prototype_fmu: Path, host: HostMaker) -> None:
+    driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
+    for k in range(150):
+        driven.step(k * EVERY, EVERY)
+    assert driven.messages == []
+    driven.slave.terminate()
+    assert [m for m in driven.messages if WORDS in m]
+
+
+def test_a_state_from_before_is_judged_anew(prototype_fmu: Path, host: HostMaker) -> None:
+    """Back in the fall after the other motion had begun: the same is told as without."""
+    driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
+    driven.step(0.0, EVERY)
+    state = driven.slave.getFMUstate()
+    for k in range(1, 70):
+        driven.step(k * EVERY, EVERY)
+    driven.slave.setFMUstate(state)
+    for k in range(1, 400):
+        driven.step(k * EVERY, EVERY)
+    (said,) = [m for m in driven.messages if WORDS in m]
+    plain = drive(host(prototype_fmu), EVERY)[1]
+    assert [said] == plain
