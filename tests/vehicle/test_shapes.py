@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import mbs
-from mbs.vehicle import car as car_module
 from mbs.vehicle import car_names, load
+from mbs.vehicle.shapes import car_shapes as shapes_module
 from mbs.vehicle.shapes.body_shell import DASHBOARD, BodyShell
 from mbs.vehicle.shapes.car_shapes import SUSPENSIONS
 from mbs.vehicle.shapes.occupants import driver_place
@@ -188,9 +188,9 @@ def test_looks_change_no_motion() -> None:
 def test_a_car_is_not_drawn_before_it_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     shapes = len(scene("prototype")["shapes"])
     drawn_cars: list[str] = []
-    draws = car_module.car_shapes
+    draws = shapes_module.car_shapes
     monkeypatch.setattr(
-        car_module, "car_shapes", lambda b, car, spins: drawn_cars.append(car.name) or draws(b, car, spins)
+        shapes_module, "car_shapes", lambda b, car, spins: drawn_cars.append(car.name) or draws(b, car, spins)
     )
     system = mbs.compile(load("prototype").model())
     assert drawn_cars == []
