@@ -105,7 +105,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], kind: str = "") ->
         Class of the table.
     """
     mark = f' class="{html.escape(kind)}"' if kind else ""
-    heads = "".join(f'<th scope="col">{html.escape(text)}</th>' for text in head)
+    heads = "".join(f'<th scope="col">{html.escape(text)}</th>' if text else "<td></td>" for text in head)
     lines = [f'<div class="wide" tabindex="0"><table{mark}><thead><tr>{heads}</tr></thead><tbody>']
     for first, *others in rows:
         if others:

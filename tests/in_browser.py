@@ -15,7 +15,9 @@ import numpy as np
 import pytest
 
 from viewer.browser import VARIABLE, BrowserError, find_chromium, launch_arguments
-from viewer.bundle import bundle
+from viewer.bundle import HERE, bundle
+
+PAGE = HERE / "page"
 
 
 def chromium_or_skip() -> Path:
@@ -29,6 +31,19 @@ def chromium_or_skip() -> Path:
         if os.environ.get(VARIABLE):
             raise
         pytest.skip(str(error))
+
+
+AXE = Path(os.environ.get("ALI3_AXE", PAGE / "node_modules" / "axe-core" / "axe.min.js"))
+with_axe = pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm --prefix viewer/page ci")
+_FINDINGS = """async () => (await axe.run(document, { resultTypes: ['violations'] })).violations
+  .map(({ id, nodes }) => `${id}: ${nodes.length}, such as ${nodes[0].html.slice(0, 120)}`)"""
+
+
+def axe_findings(page: Any) -> list[str]:
+    """What axe-core finds in a page of playwright, a line for each rule."""
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    found: list[str] = page.evaluate(_FINDINGS)
+    return found
 
 
 @contextmanager

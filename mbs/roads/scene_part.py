@@ -21,6 +21,7 @@ MOST_READ = 4_000_000
 """Points of a large road file that are read to draw it."""
 MOST = 400
 """Points along a side of a grid; of a larger one every so many are left, as its note says."""
+BESIDE = 10.0  # m, to which a level strip of frictions is drawn at least: the values of its border go on
 EDGE = 1e-3  # m, along which the step of a kerb is drawn
 
 
@@ -113,12 +114,18 @@ def _kerb(road: KerbRoad) -> dict[str, Any]:
 def _grid(road: GridRoad, most: int) -> dict[str, Any]:
     heights = np.asarray(road.heights, float)
     frictions = np.broadcast_to(np.asarray(road.frictions, float), heights.shape)
+    origin = np.array(road.origin, float)
+    if heights.min() == heights.max() and frictions.min() != frictions.max():
+        missing = BESIDE - 0.5 * (np.array(heights.shape) - 1) * road.spacing
+        more = np.maximum(np.ceil(missing / road.spacing), 0).astype(int)
+        heights, frictions = (np.pad(values, [(n, n) for n in more], mode="edge") for values in (heights, frictions))
+        origin -= more * np.array(road.spacing, float)
     every = [max(1, -(-(n - 1) // (most - 1))) for n in heights.shape]
     part = tuple(slice(None, None, k) for k in every)
     thin = heights[part]
     found: dict[str, Any] = {
         "kind": "grid",
-        "origin": [float(x) for x in road.origin],
+        "origin": [float(x) for x in origin],
         "spacing": [float(d) * k for d, k in zip(road.spacing, every, strict=True)],
         "shape": list(thin.shape),
         "heights": encoded(thin),

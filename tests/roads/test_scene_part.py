@@ -15,6 +15,7 @@ from mbs.roads import write_road
 from mbs.roads.scene_part import drawn_roads, scene_part
 from mbs.worlds.command import main
 from tests.elements.harness import contacts
+from viewer.base64_numbers import decoded
 from viewer.scene import scene_errors
 
 SCENE = {"format": "ALi3 scene", "version": 1, "name": "roads", "extent": 1.0, "frames": {}, "shapes": []}
@@ -49,6 +50,18 @@ def test_a_kerb_is_a_step_where_it_is(upper: str, heights: list[float]) -> None:
     assert part["heights"] == heights
     assert part["origin"] == [7.5, 0.0, 0.0]
     assert part["stations"][0] < 0.0 < part["stations"][1]
+
+
+def test_two_frictions_are_drawn_as_far_as_a_car_is_wide_and_farther() -> None:
+    """The values of the border go on in the physics; the strip in which they change is 0.3 m wide."""
+    road = GridRoad((-20.0, -0.15), (400.0, 0.1), np.zeros((2, 4)), np.tile([0.2, 0.2, 1.0, 1.0], (2, 1)))
+    part = valid(scene_part(road))
+    y = part["origin"][1] + part["spacing"][1] * np.arange(part["shape"][1])
+    frictions = decoded(part["frictions"], "f").reshape(part["shape"])
+    assert part["origin"][0] == -20.0
+    assert y.min() <= -10.0
+    assert y.max() >= 10.0
+    assert np.allclose(frictions, np.where(y > 0.0, 1.0, 0.2))
 
 
 def grid(nx: int, ny: int) -> GridRoad:

@@ -6,7 +6,6 @@ axe-core looks for controls without a name, faint words, and parts that no reade
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,7 +17,7 @@ import pytest
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.view.command import main as view
-from tests.in_browser import wait_until
+from tests.in_browser import axe_findings, wait_until, with_axe
 from tests.viewer.bars import check_bar
 from tests.viewer.hand_scenes import crank
 from tests.viewer.simulator_program import Program
@@ -26,9 +25,6 @@ from viewer.page_file import write_page
 from viewer.recording import Recording
 
 ROOT = Path(__file__).parents[2]
-AXE = Path(os.environ.get("ALI3_AXE", ROOT / "viewer" / "page" / "node_modules" / "axe-core" / "axe.min.js"))
-FINDINGS = """async () => (await axe.run(document, { resultTypes: ['violations'] })).violations
-  .map(({ id, nodes }) => `${id}: ${nodes.length}, such as ${nodes[0].html.slice(0, 120)}`)"""
 CONTROLS = "button, select, input, summary, a[href]"
 SEEN = f"""() => [...document.querySelectorAll('{CONTROLS}')]
   .filter((part) => part.checkVisibility({{ visibilityProperty: true }}) && !part.disabled)"""
@@ -40,7 +36,6 @@ INK = """bar => getComputedStyle(document.querySelector(bar + ' button')).color
   .match(/[0-9]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0)"""
 NAMES = f"""() => ({SEEN})().map((part) =>
   (part.labels?.[0] ?? part).textContent.trim() || part.title || part.ariaLabel)"""
-with_axe = pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm --prefix viewer/page ci")
 KINDS = ("live", "recorded", "plots", "simulator")
 BARS = {"live": ".a3-bar", "recorded": ".ali3-bar", "plots": ".ali3-bar", "simulator": ".a3-controls"}
 
@@ -111,9 +106,7 @@ def shown(kind: str, chromium: Any, request: pytest.FixtureRequest, tmp_path_fac
 
 def findings(page: Any) -> list[str]:
     page.evaluate(OPEN)
-    page.evaluate(AXE.read_text(encoding="utf-8"))
-    found: list[str] = page.evaluate(FINDINGS)
-    return found
+    return axe_findings(page)
 
 
 @with_axe

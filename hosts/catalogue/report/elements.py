@@ -60,7 +60,7 @@ def table(
             body.append(element("tr", element("th", groups[k], colspan=len(head), scope="colgroup", class_="group")))
         cells = [c if not isinstance(c, str) and c.tag == "td" else element("td", c) for c in row[1:]]
         body.append(element("tr", element("th", row[0], scope="row"), *cells))
-    heads = [element("th", cell, scope="col") for cell in head]
+    heads = [element("th", cell, scope="col") if cell else element("td") for cell in head]
     made = element(
         "table", element("caption", caption), element("thead", element("tr", *heads)), element("tbody", *body)
     )

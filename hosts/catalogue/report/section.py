@@ -51,7 +51,9 @@ def section(
     if pictures:
         parts.append(element("div", *map(_figure, pictures), class_="plots"))
     parts += [
-        _measures(label, [m.displayed() for m in record.measures]) for label, record in done.items() if record.measures
+        _measures(label, test.title, [m.displayed() for m in record.measures])
+        for label, record in done.items()
+        if record.measures
     ]
     if test.settings:
         parts.append(_settings(test, settings))
@@ -122,7 +124,7 @@ def _settings(test: StandardTest, settings: Mapping[str, float]) -> HtmlElement:
     )
 
 
-def _measures(label: str, measures: Sequence[Measure]) -> HtmlElement:
+def _measures(label: str, test: str, measures: Sequence[Measure]) -> HtmlElement:
     rows: list[list[Content]] = []
     for m in measures:
         state: Content = NONE
@@ -141,5 +143,5 @@ def _measures(label: str, measures: Sequence[Measure]) -> HtmlElement:
     return element(
         "details",
         element("summary", f"Measures of {label} ({len(measures)})"),
-        table(f"Measures of {label}", head, rows),
+        table(f"{test}: measures of {label}", head, rows),
     )

@@ -90,7 +90,7 @@ def _extremes(data: StudyData, response: Response, rows: Sequence[Row], commands
         ]
         cells.append((str(row.index), f"{row.value:.6g}", *values, commands_cell(commands(row.index))))
     head = ("run", response.title, *(p.title for p in data.parameters), "to repeat it")
-    return table("Highest runs, then lowest", head, cells)
+    return table(f"Highest runs of {response.title}, then lowest", head, cells)
 
 
 def indices_of(data: StudyData, response: Response) -> Indices | str:

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { roadHeight } from "../src/looks/road_height.js";
-import { strip, surfaces, wetness } from "../src/looks/roads.js";
+import { kept, strip, surfaces, wetness } from "../src/looks/roads.js";
 
 const KERB = { stations: [-0.5, 0.5], heights: [0, 0.1] };
 
@@ -48,4 +48,10 @@ test("the ground below a point is that of the highest road there", () => {
   near([grid], [1.125, 9, -5], 2.5, [0, 1, 0]);
   assert.equal(roadHeight([grid], up, [0, 0, 0]), null);
   assert.equal(roadHeight([{ kind: "file" }], up, [0, 0, 0]), null);
+});
+
+test("lines of a grid between two equal neighbours are left out, its ends and every change stay", () => {
+  const values = [1, 1, 1, 1, 2, 3, 3, 3, 1];
+  assert.deepEqual(kept(values.length, (k) => values[k] === values[k + 1]), [0, 3, 4, 5, 7, 8]); // prettier-ignore
+  assert.deepEqual(kept(2, () => true), [0, 1]); // prettier-ignore
 });

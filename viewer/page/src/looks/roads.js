@@ -179,6 +179,17 @@ function rebuild(geometry, pairs, { forward, side, up, half }) {
 /** Axes of a grid in the earth. @param {Data} road @param {number[]} up */
 export const groundAxes = (road, up) => road.axes ?? (Math.abs(up[2]) > 0.5 ? [[1, 0, 0], [0, 1, 0]] : [[1, 0, 0], [0, 0, -1]]); // prettier-ignore
 
+const within = (/** @type {number} */ n, /** @type {(k: number) => boolean} */ holds) => [...Array(n).keys()].every(holds);
+
+/**
+ * Lines of a grid that are drawn: those between two equal neighbours are left out, which would be needles.
+ * @param {number} n how many there are @param {(k: number) => boolean} same whether a line equals the next one
+ */
+export function kept(n, same) {
+  const equal = Array.from({ length: n - 1 }, (_, k) => same(k));
+  return [...Array(n).keys()].filter((k) => k === 0 || k === n - 1 || !(equal[k - 1] && equal[k]));
+}
+
 /** Heights on a grid, in pieces; what has little friction is wet or ice. Around it lies grass. */
 function grid(road, { up, road: material, grass }) {
   const [nx, ny] = road.shape;
@@ -188,14 +199,18 @@ function grid(road, { up, road: material, grass }) {
   const axes = groundAxes(road, up);
   const world = (x, y, z) => add(add(scale(axes[0], x), scale(axes[1], y)), scale(up, z));
   const pieces = [];
-  for (let i0 = 0; i0 < nx - 1; i0 += PIECE) {
-    for (let j0 = 0; j0 < ny - 1; j0 += PIECE) {
-      const [i1, j1] = [Math.min(i0 + PIECE, nx - 1), Math.min(j0 + PIECE, ny - 1)];
+  const same = (/** @type {number} */ a, /** @type {number} */ b) => heights[a] === heights[b] && frictions?.[a] === frictions?.[b];
+  const along = kept(nx, (k) => within(ny, (j) => same(k * ny + j, (k + 1) * ny + j)));
+  const aside = kept(ny, (k) => within(nx, (i) => same(i * ny + k, i * ny + k + 1)));
+  for (let i0 = 0; i0 < along.length - 1; i0 += PIECE) {
+    for (let j0 = 0; j0 < aside.length - 1; j0 += PIECE) {
+      const [i1, j1] = [Math.min(i0 + PIECE, along.length - 1), Math.min(j0 + PIECE, aside.length - 1)];
       const [positions, wets, triangles] = [[], [], []];
       for (let i = i0; i <= i1; i++) {
         for (let j = j0; j <= j1; j++) {
-          positions.push(...world((i - i0) * dx, (j - j0) * dy, heights[i * ny + j]));
-          wets.push(frictions === null ? 0 : wetness(frictions[i * ny + j]));
+          const at = along[i] * ny + aside[j];
+          positions.push(...world((along[i] - along[i0]) * dx, (aside[j] - aside[j0]) * dy, heights[at]));
+          wets.push(frictions === null ? 0 : wetness(frictions[at]));
         }
       }
       const row = j1 - j0 + 1;
@@ -205,7 +220,7 @@ function grid(road, { up, road: material, grass }) {
           triangles.push(a, a + row, a + 1, a + 1, a + row, a + row + 1);
         }
       }
-      pieces.push(piece(world(road.origin[0] + i0 * dx, road.origin[1] + j0 * dy, 0), positions, triangles, wets, material));
+      pieces.push(piece(world(road.origin[0] + along[i0] * dx, road.origin[1] + aside[j0] * dy, 0), positions, triangles, wets, material));
     }
   }
   const low = heights.reduce((a, b) => Math.min(a, b), Infinity);

@@ -1,0 +1,48 @@
+"""axe-core finds nothing in reports, in light and dark, with all that can be opened open."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ali3 import html
+from hosts.catalogue.report import write_report
+from hosts.study.analysis.report import report_of
+from tests.hosts.catalogue.synthetic_records import synthetic
+from tests.hosts.study.frames import frame_of
+from tests.in_browser import axe_findings, headless_chromium, with_axe
+
+OPEN = "() => document.querySelectorAll('details').forEach((part) => { part.open = true; })"
+
+
+def written(folder: Path) -> list[Path]:
+    """A report of the catalogue, one of a study with two measures, and one of the tables of the others."""
+    catalogue, tables = folder / "catalogue.html", folder / "tables.html"
+    write_report(catalogue, *synthetic(folder / "none.fmu", tests=2, points=100))
+    x = {"mass": [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]}
+    frame = frame_of(
+        x, {"peak": [1.0, 4.0, 2.0, 5.0, 3.0, 6.0], "rest": [3.0, 1.0, 2.0, 6.0, 5.0, 4.0]}, {"mass": "kg"}
+    )
+    study, *_ = report_of(frame, folder, lambda index: [f"ali3 run {index}"])
+    table = html.table(["", "front", "rear"], [["Axles"], ["toe", "1", "2"]])
+    tables.write_text(html.report("Axles", f"<h1>Axles</h1>{table}"), encoding="utf-8")
+    return [catalogue, study, tables]
+
+
+@with_axe
+@pytest.mark.slow
+def test_axe_finds_nothing_in_reports(tmp_path: Path) -> None:
+    files = written(tmp_path)
+    found: dict[str, Any] = {}
+    with headless_chromium() as chromium:
+        for colours in ("light", "dark"):
+            page = chromium.new_page(viewport={"width": 900, "height": 700}, color_scheme=colours)
+            for file in files:
+                page.goto(file.as_uri())
+                page.evaluate(OPEN)
+                found[f"{file.name} {colours}"] = axe_findings(page)
+            page.close()
+    assert {key: words for key, words in found.items() if words} == {}
+    assert len(found) == 6
