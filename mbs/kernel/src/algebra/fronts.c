@@ -127,7 +127,8 @@ ALI3_INLINED void assemble(const real *block, const int32_t *map, int32_t n_pivo
   int32_t j = n_pivot;
   for (; j + 1 < n && map[n - 1] - map[j] != n - 1 - j; j += 2) {
     const real *restrict column = block + (int64_t)j * n, *restrict other = column + n;
-    real *restrict target = parent + (int64_t)map[j] * parent_n, *restrict second = parent + (int64_t)map[j + 1] * parent_n;
+    real *restrict target = parent + (int64_t)map[j] * parent_n, *restrict second =
+                                                                     parent + (int64_t)map[j + 1] * parent_n;
     target[map[j]] += column[j];
     for (int32_t i = j + 1; i < n; i++) {
       const int32_t at = map[i];

@@ -24,6 +24,8 @@
  * as loops around that carry many along have no registers left. */
 #define ALI3_ANEW(number) __asm__("" : "+r"(number))
 
+enum { ALI3_LARGE = 12 }; /* coordinates of a front from which on it is worth while to count in fours */
+
 /* The first entry of a column of a front, of length n, that is worked on for the sake of those from `from` on: so that a
  * whole number of fours is left, up to three above the diagonal, which nobody reads. */
 static inline int32_t ali3_by_fours(int32_t from, int32_t n) {

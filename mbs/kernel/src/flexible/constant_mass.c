@@ -8,7 +8,7 @@ enum { MANY = 8 };
 
 /* out += the multiples of four columns, in turn. */
 ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real *x, const int32_t *col, int32_t n,
-                           real *restrict out) {
+                              real *restrict out) {
   const real *restrict a = val + mirror[0], *restrict b = val + mirror[1], *restrict c = val + mirror[2],
                        *restrict d = val + mirror[3];
   const real w = x[col[0]], y = x[col[1]], z = x[col[2]], v = x[col[3]];

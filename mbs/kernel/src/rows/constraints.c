@@ -63,7 +63,7 @@ static inline void add_stretch(const ali3_system *S, int32_t i, int32_t n, const
 }
 
 /* A sum with the terms of entry i, of which many may lie side by side. */
-static inline real add_run(const ali3_system *S, int32_t i, const real *q, real sum) {
+ALI3_INLINED real add_run(const ali3_system *S, int32_t i, const real *q, real sum) {
   const int32_t run = S->hess_run[i], end = S->hess_ptr[i + 1];
   for (int32_t t = S->hess_ptr[i]; t < run; t++) sum += S->hess_val[t] * q[S->hess_col[t]];
   return run < end ? sum + ali3_numbers_from_far(S->hess_val + run, q + S->hess_col[run], end - run) : sum;
@@ -113,8 +113,7 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
     }
     for (; i < S->row_stretch[k]; i++) {
       const double lin = row_lin[i];
-      real sum = ali3_same(lin);
-      sum = add_run(S, i, q, sum);
+      const real sum = add_run(S, i, q, ali3_same(lin));
       J[i] = sum;
       value += (sum + lin) * q[col[i]];
     }
@@ -182,9 +181,7 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
       add_terms(S, i, qd, entry);
       value = ali3_triple_sum(value, entry, qd + col[i]);
     }
-    for (; i < S->row_stretch[k]; i++) {
-      value += add_run(S, i, qd, ali3_same(0.0)) * qd[col[i]];
-    }
+    for (; i < S->row_stretch[k]; i++) value += add_run(S, i, qd, ali3_same(0.0)) * qd[col[i]];
     if (i < ptr[k + 1]) value += stretch_gamma(S, i, ptr[k + 1] - i, qd);
     gamma[k] = value;
   }
@@ -287,7 +284,8 @@ static inline void add_triple(real *block, int64_t n, const real *J, int32_t j, 
 
 /* Weight J' J of four rows with the same stretch, from row k on: in columns of the stretch one after the other while an
  * entry is in hand. */
-ALI3_INLINED void square_of_four(const ali3_system *S, int32_t k, const real *J, double weight, real *block, int64_t n) {
+ALI3_INLINED void square_of_four(const ali3_system *S, int32_t k, const real *J, double weight, real *block,
+                                 int64_t n) {
   const int32_t *ptr = S->row_ptr, *first = S->row_stretch, *loc = S->row_loc, length = ptr[k + 1] - first[k];
   for (int32_t row = k; row < k + 4; row++)
     for (int32_t j = ptr[row]; j < first[row]; j++) {
