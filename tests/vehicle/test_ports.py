@@ -172,9 +172,7 @@ def open_and_own(s: mbs.Simulation, name: str, amplitude: float, parts: int) -> 
         ({}, "steering", 0.1, "energy.steering"),
     ],
 )
-def test_the_work_that_moves_the_rack_is_booked(
-    ports: dict[str, str], name: str, amplitude: float, book: str
-) -> None:
+def test_the_work_that_moves_the_rack_is_booked(ports: dict[str, str], name: str, amplitude: float, book: str) -> None:
     """The acceleration of the rack jumps with each demand. Work and error of the energy are of second order in the step
     all the same, and what they leave open of the change of the energy is below 1e-5 of the largest work.
     """

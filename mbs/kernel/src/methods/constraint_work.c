@@ -55,13 +55,13 @@ real ali3_constraint_work(ali3_instance *in, double h, real *guides) {
   return ali3_where(filtered, work - newton, work);
 }
 
-/* The square of what (24) changed, in the metric of M: twice what it takes where rows are at rest. in->w, the mean of
- * the velocities before and after it, is lost. */
-static real square_of_change(ali3_instance *in) {
+/* The square of what (24) changed, in the metric of the diagonal of M. */
+static real square_of_change(const ali3_instance *in) {
   real square = {0};
-  for (int32_t i = 0; i < in->system->size.nq; i++) in->w[i] = 2.0 * (in->next.qd[i] - in->w[i]);
-  ali3_mass_times(in, in->w, in->x);
-  for (int32_t i = 0; i < in->system->size.nq; i++) square += in->w[i] * in->x[i];
+  for (int32_t i = 0; i < in->system->size.nq; i++) {
+    const real change = 2.0 * (in->next.qd[i] - in->w[i]);
+    square += in->mass_floor[i] * change * change;
+  }
   return square;
 }
 
