@@ -55,16 +55,6 @@ real ali3_constraint_work(ali3_instance *in, double h, real *guides) {
   return ali3_where(filtered, work - newton, work);
 }
 
-/* The square of what (24) changed, in the metric of the diagonal of M. */
-static real square_of_change(const ali3_instance *in) {
-  real square = {0};
-  for (int32_t i = 0; i < in->system->size.nq; i++) {
-    const real change = 2.0 * (in->next.qd[i] - in->w[i]);
-    square += in->mass_floor[i] * change * change;
-  }
-  return square;
-}
-
 /* After the projections: the kinetic energy that (24) gave to the velocity rate D + hat, less what the multipliers after
  * (25) give to the work of drives. *kinetic is the kinetic energy of the mean of the velocities before and after (24),
  * *end that after it but for the square of what (24) changed, *open the power of the forces that (25) leaves without
@@ -89,13 +79,8 @@ real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *ope
   *open = power;
   if (!driven) return given - drive;
   const truth filtered = follows(in);
-  if (!ali3_any(filtered)) {
-    *guides += drive;
-    return given - drive;
-  }
-  const real lost = 0.5 * square_of_change(in);
-  *guides += ali3_where(filtered, given + lost + drive, drive);
-  return ali3_where(filtered, -lost - drive, given - drive);
+  *guides += ali3_where(filtered, given + drive, drive);
+  return ali3_where(filtered, -drive, given - drive);
 }
 
 /* What an error of the energy is judged beside: the kinetic energy, what the forces in in->Q can give in a step and
