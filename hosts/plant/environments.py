@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
+from hosts.common.errors import HostError
 from hosts.driving.courses import course_of
 from hosts.fmu.fmu import StepRefusedError
 from hosts.plant.car import Car
@@ -40,6 +42,9 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
 
     def _advance(self, inputs: NDArray[np.float64]) -> str:
         """A step; the words of the solver where it refuses it."""
+        for name, value in zip(self.car.inputs, inputs.tolist(), strict=True):
+            if not math.isfinite(value):
+                raise HostError(f"The action is refused: '{name}' would be {value:g}; it must be a finite number.")
         self._steps += 1
         try:
             self.car.step(inputs)

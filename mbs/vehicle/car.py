@@ -42,10 +42,10 @@ from mbs.vehicle.outputs import (
     chassis_outputs,
     health_outputs,
     lever_outputs,
+    steering_work,
     used_inputs,
     wheel_outputs,
     wheel_poses,
-    steering_work,
     work_outputs,
 )
 from mbs.vehicle.port_parts import driver_inputs, force_ports, port_outputs, road_ports, torque_ports, wind_port

@@ -148,18 +148,18 @@ def rotor() -> Model:
 
 
 def test_what_a_guide_gives_is_no_error():
-    """The input of a driven wheel steps and swings: what stays open falls with the square of the step.
+    """The input of a driven wheel steps and swings: what stays open falls with the cube of the step.
 
-    Where the work of drives counts with the multipliers of Newton's loop it falls with the step: 3.2 and 1.6 J in place
-    of 0.35 and 0.09 J.
+    Where the work of drives counts with the multipliers after the projection of the acceleration it falls with the
+    square: 0.35 and 0.09 J in place of 0.01 and 0.002 J.
     """
     asked = {"target": lambda t: (1.0 if t > 0.5 else 0.0) + 0.5 * np.sin(9.0 * t)}
     reports = [
         simulate(compile(rotor()), 2.0, h, asked, progress=False, estimate_error=False).report for h in (4e-3, 2e-3)
     ]
     assert reports[0].kinetic_peak > 20.0
-    assert abs(reports[0].energy_error) < 0.02 * reports[0].kinetic_peak
-    assert reports[0].energy_error == pytest.approx(4.0 * reports[1].energy_error, rel=0.1)
+    assert abs(reports[0].energy_error) < 1e-3 * reports[0].kinetic_peak
+    assert abs(reports[0].energy_error) > 5.0 * abs(reports[1].energy_error)
 
 
 def watched_rotor():
@@ -183,10 +183,10 @@ def test_the_work_of_a_guide_is_the_change_of_the_energy_where_inputs_jump():
         end = simulation.sensors
         change = end["energy"] - start["energy"]
         left.append(change - end["guides"])
-        assert left[-1] == pytest.approx(simulation.instance.report()["energy_error"], abs=1e-2 * abs(left[-1]))
+        assert left[-1] == pytest.approx(simulation.instance.report()["energy_error"], rel=1e-2)
     assert change > 0.3
     assert abs(left[0]) < 0.01 * change
-    assert left[0] == pytest.approx(4.0 * left[1], rel=0.1)
+    assert abs(left[0]) > 3.5 * abs(left[1])
 
 
 @pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "energy_momentum"])
@@ -198,4 +198,4 @@ def test_each_method_sums_up_the_work_of_a_guide(method):
         left.append(np.ptp(run["energy"] - run["guides"]))
         assert np.ptp(run["guides"]) > 1.0
     assert left[0] < 0.03 * np.ptp(run["guides"])
-    assert left[0] == pytest.approx(4.0 * left[1], rel=0.25)
+    assert left[0] > 3.0 * left[1]

@@ -113,7 +113,7 @@ def test_what_a_port_replaces_is_left_out_and_all_else_stays_in_its_order() -> N
     gone = {
         "torque": ({"throttle", "selector"}, {"engine_speed", "gear", "drive_torque"}),
         "brakes": ({"brake"}, set()),
-        "steering": ({"steering", "steering_wheel_angle_demand"}, {"steering_demand_excess"}),
+        "steering": ({"steering", "steering_wheel_angle_demand"}, {"steering_demand_excess", "energy.steering"}),
     }
     kinds = {"torque": "hub_motors", "brakes": "pressure", "steering": "rack_position"}
     for port, (no_inputs, no_sensors) in gone.items():
@@ -172,9 +172,7 @@ def open_and_own(s: mbs.Simulation, name: str, amplitude: float, parts: int) -> 
         ({}, "steering", 0.1, "energy.steering"),
     ],
 )
-def test_the_work_that_moves_the_rack_is_booked(
-    ports: dict[str, str], name: str, amplitude: float, book: str
-) -> None:
+def test_the_work_that_moves_the_rack_is_booked(ports: dict[str, str], name: str, amplitude: float, book: str) -> None:
     """The acceleration of the rack jumps with each demand. Work and error of the energy are of second order in the step
     all the same, and what they leave open of the change of the energy is below 1e-5 of the largest work.
     """
@@ -184,8 +182,8 @@ def test_the_work_that_moves_the_rack_is_booked(
         works[parts] = of_all[book]
         assert abs(left[parts] - own[parts]) < 1e-5 / parts * max(map(abs, of_all.values()))
     assert works[16] > 1.0
-    assert abs(works[4] - works[16]) < 2e-3
-    assert abs(works[1] - works[16]) < 0.1
+    assert abs(works[4] - works[16]) < 4e-3
+    assert abs(works[1] - works[16]) < 1e-2
     assert abs(own[4]) < 0.01
     assert abs(own[16]) < 1e-3
 

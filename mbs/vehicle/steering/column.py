@@ -214,8 +214,8 @@ class Column(RackSection):
                 "energy.steering",
                 "with guides",
                 [e for e in m.elements if e.name in names],
-                description="work of the driver, by angle or steering_torque, of assistance, friction and stops of the steering since the "
-                "start, without what is stored",
+                description="work of the driver, by angle or steering_torque, of assistance, friction and stops of the "
+                "steering since the start, without what is stored",
             )
 
         return add

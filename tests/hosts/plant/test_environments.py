@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from pathlib import Path
 
 import gymnasium
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
+from hosts.common.errors import HostError
 from hosts.plant import environments  # registers them
 
 LANE, BRAKES = "ali3/LaneKeeping-v0", "ali3/AntiLockBraking-v0"
@@ -66,6 +68,14 @@ def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
         ends[gain] = bool(left)
         made.close()
     assert ends == {1.0: False, 0.0: True}
+
+
+def test_an_action_that_is_not_finite_is_refused(braked_fmu: Path) -> None:
+    """A port of the car would hold its last value."""
+    with closing(environments.AntiLockBraking(str(braked_fmu))) as env:
+        env.reset(seed=1)
+        with pytest.raises(HostError, match=r"'wheel_FR.brake_torque_demand' would be nan"):
+            env.step(np.array([0.5, np.nan, 0.5, 0.5], np.float32))
 
 
 def test_brakes_that_let_go_stop_earlier_than_locked_ones(braked_fmu: Path) -> None:

@@ -7,7 +7,8 @@
  * Phi_t a parabola. There lam is that after (25), which sensors show: it differs from lam1 by a term of order h where
  * the rate of a guide bends, and the energy that (24) gives by another; each alone adds up to an error of first order,
  * and together they cancel. Guides that follow an input begin to move within a step: the mean of Phi_t at both ends
- * would be wrong by half. */
+ * would be wrong by half. Where one moves, lam0 is that before a jump of its acceleration, for which Newton's loop makes
+ * up: there the force is the mean of lam0 and lam1 with what (24) adds, and the work of drives is that of this force. */
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
@@ -55,20 +56,10 @@ real ali3_constraint_work(ali3_instance *in, double h, real *guides) {
   return ali3_where(filtered, work - newton, work);
 }
 
-/* The square of what (24) changed, in the metric of M: twice what it takes where rows are at rest. in->w, the mean of
- * the velocities before and after it, is lost. */
-static real square_of_change(ali3_instance *in) {
-  real square = {0};
-  for (int32_t i = 0; i < in->system->size.nq; i++) in->w[i] = 2.0 * (in->next.qd[i] - in->w[i]);
-  ali3_mass_times(in, in->w, in->x);
-  for (int32_t i = 0; i < in->system->size.nq; i++) square += in->w[i] * in->x[i];
-  return square;
-}
-
-/* After the projections: the kinetic energy that (24) gave to the velocity rate D + hat, less what the multipliers after
- * (25) give to the work of drives. *kinetic is the kinetic energy of the mean of the velocities before and after (24),
- * *end that after it but for the square of what (24) changed, *open the power of the forces that (25) leaves without
- * balance now. */
+/* After the projections: the kinetic energy that (24) gave to the velocity rate D + hat, which is work of drives where
+ * filtered guides move, less what the multipliers after (25) give to the work of drives. *kinetic is the kinetic energy
+ * of the mean of the velocities before and after (24), *end that after it but for the square of what (24) changed, *open
+ * the power of the forces that (25) leaves without balance now. */
 real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guides) {
   const ali3_vectors *v = &in->next;
   const int32_t nq = in->system->size.nq;
@@ -89,13 +80,8 @@ real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *ope
   *open = power;
   if (!driven) return given - drive;
   const truth filtered = follows(in);
-  if (!ali3_any(filtered)) {
-    *guides += drive;
-    return given - drive;
-  }
-  const real lost = 0.5 * square_of_change(in);
-  *guides += ali3_where(filtered, given + lost + drive, drive);
-  return ali3_where(filtered, -lost - drive, given - drive);
+  *guides += ali3_where(filtered, given + drive, drive);
+  return ali3_where(filtered, -drive, given - drive);
 }
 
 /* What an error of the energy is judged beside: the kinetic energy, what the forces in in->Q can give in a step and
