@@ -90,9 +90,8 @@ def _check_units(root: Any, file: object) -> None:
             try:
                 float(text or "0")
             except ValueError:
-                raise ParameterSetError(
-                    f"{file}, line {unit.sourceline}: the unit '{unit.get('name')}' has '{text}' where a number must be."
-                ) from None
+                where = f"{file}, line {unit.sourceline}: the unit '{unit.get('name')}'"
+                raise ParameterSetError(f"{where} has '{text}' where a number must be.") from None
 
 
 def _schema(root: Any, file: object) -> Any:

@@ -21,7 +21,7 @@ from filelock import FileLock
 # Before NumPy is loaded: beside other processes, threads of BLAS make small matrices several times as slow.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-# Else every program that a test starts compiles all that it imports, and pytest every test file in each of its processes.
+# Else every program that a test starts compiles all that it imports, and each process of pytest every test.
 if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
     sys.dont_write_bytecode = False
 
