@@ -10,6 +10,7 @@ import os
 import re
 import shutil
 import signal
+import sys
 import tempfile
 from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
@@ -19,6 +20,10 @@ from filelock import FileLock
 
 # Before NumPy is loaded: beside other processes, threads of BLAS make small matrices several times as slow.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+# Else every program that a test starts compiles all that it imports, and each process of pytest every test.
+if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
+    sys.dont_write_bytecode = False
 
 # A shell that runs the tests in the background ignores Ctrl-C, `nohup` a closed terminal; programs that the tests start
 # would inherit that.

@@ -124,6 +124,7 @@ def build_and_test(root: Path, batches: Sequence[Batch], changed: Path | None, w
     with words.open("w") as stream:
         os.dup2(stream.fileno(), 1)
         os.dup2(stream.fileno(), 2)
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # for which tests/conftest.py writes all the same
     sys.dont_write_bytecode = True
     os.chdir(root)
     sys.path.insert(0, str(root))

@@ -7,7 +7,8 @@ import shutil
 import struct
 import subprocess
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -240,7 +241,18 @@ def test_other_tools_do_not_mind_it(small: Callable[[str], Fmu], tmp_path: Path,
     assert "nothing bad found" in capfd.readouterr().out
 
 
-def test_the_platform_is_asked_for_by_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_platform_is_asked_for_by_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its compilation takes longest where it was never done: other tests look at what it gives."""
+    asked: list[tuple[tuple[str, ...], str]] = []
+
+    def compiled(targets: Sequence[str], face: str, *_: object) -> bytes:
+        asked.append((tuple(targets), face))
+        return b"\0asm"
+
+    monkeypatch.setattr("fmu_src.native.package.compile_library", compiled)
+    monkeypatch.setattr("fmu_src.native.ahead.compiled_ahead", lambda work: nullcontext())
     scene = ["--scene", f"{SCENES}:crane", "--out", str(tmp_path)]
     assert build_fmu.main([*scene, "--platforms", "wasm32"]) == 0
     printed = capsys.readouterr().out
@@ -249,6 +261,8 @@ def test_the_platform_is_asked_for_by_name(tmp_path: Path, capsys: pytest.Captur
     assert sorted(p.name for p in tmp_path.iterdir()) == ["Crane.fmu", "Crane.ssv"]
     with zipfile.ZipFile(tmp_path / "Crane.fmu") as archive:
         assert [n for n in archive.namelist() if n.startswith("binaries/")] == ["binaries/wasm32/Crane.wasm"]
+        assert archive.read("binaries/wasm32/Crane.wasm") == b"\0asm"
+    assert asked == [(("wasm32-wasi",), "fmi2")]
 
 
 def test_sources_for_a_file_system_leave_the_room_out() -> None:
