@@ -3,22 +3,26 @@
 Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms, with links and by tables (fidelity 10),
 and four-bar mechanisms of 2 and 40 windows swing at 10 ms from slightly different speeds: one after the other, in lanes
 of each width that the processor has, and in the widest lanes on all cores. Each way makes a part of the same steps in
-turn, so that ratios hold on a busy machine; seconds are those in which its threads had a core.
+turn, so that ratios hold on a busy machine; seconds are those in which its threads had a core, and of several rounds
+each part counts by its least. With ``--older FOLDER``, a clone at another commit whose kernel is compiled, its cars
+with links make the same steps one after the other in turn.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from ali3.running import run_command
-from benchmarks.car.lanes import measure, varied_cars, varied_four_bars
+from benchmarks.car.lanes import CARS, SECONDS, Start, measure, varied_cars, varied_four_bars
+from benchmarks.car.older_cars import older_cars
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings
+from mbs import Settings, System
 from mbs.kernel.binding import KernelError
 
 SCENES = (
@@ -36,6 +40,7 @@ COLUMNS = {
     "way": "",
     "us_a_step": ".1f",
     "ratio": ".2f",
+    "ratio_to_older": ".2f",
     "cars_in_real_time_a_core": ".0f",
     "steps_alone": "d",
     "kilobytes_a_car": ".0f",
@@ -44,10 +49,13 @@ COLUMNS = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
-    options = parser_of("throughput", __doc__).parse_args(arguments)
+    parser = parser_of("throughput", __doc__)
+    parser.add_argument("--older", type=Path, metavar="FOLDER", help="a clone at the commit to compare with")
+    parser.add_argument("--rounds", type=int, default=3, metavar="N", help="runs of each way (default: 3)")
+    options = parser.parse_args(arguments)
 
     def work() -> int:
-        rows = [row for scene in watched(SCENES) for row in measure(*scene)]
+        rows = [row for scene in watched(SCENES) for row in rows_of(*scene, rounds=options.rounds, older=options.older)]
         print_table(rows, COLUMNS)
         for line in thousand(rows):
             print(line)
@@ -55,6 +63,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
 
     return run_command(work, (KernelError,))
+
+
+def rows_of(
+    scene: str, h: float, make: Callable[[], tuple[System, Start]], *, rounds: int, older: Path | None
+) -> list[dict[str, Any]]:
+    """Rows of a scene, beside the cars of another commit where they are asked for and the car has links."""
+    arguments = make.args if isinstance(make, partial) else ()
+    if older is None or arguments[1:] != (0,):
+        return measure(scene, h, make, rounds=rounds)
+    with older_cars(older, arguments[0], h, SECONDS, CARS) as cars:
+        return measure(scene, h, make, rounds=rounds, older=cars)
 
 
 def thousand(rows: Sequence[dict[str, Any]]) -> list[str]:

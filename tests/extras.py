@@ -114,7 +114,10 @@ READERS = (
 OF_THE_CLONE = {
     "benchmarks": ("-c", "import benchmarks.fmu, benchmarks.wasm, benchmarks.real_time, benchmarks.work_precision"),
     "docs": ("-m", "sphinx", "-W", "-q", "-b", "html", "docs", "site"),
-    "peers": ("-c", "from benchmarks.peers import drake_peer, exudyn_peer, mujoco_car, mujoco_peer, pinocchio_peer"),
+    "peers": (
+        "-c",
+        "from benchmarks.peers import commonroad_car, drake_peer, exudyn_peer, mujoco_car, mujoco_peer, pinocchio_peer",
+    ),
     "test": ("-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/viewer/test_mesh_file.py", "tests/commands"),
     "viewer": ("-c", "from viewer.bundle import bundle; print(bundle())"),
 }

@@ -9,9 +9,12 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from benchmarks.car import manoeuvres
+from benchmarks.car.older_cars import OlderCars
 from mbs import Simulation, System, compile
+from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.many import Many, widest_lanes
 from mbs.scenes import double_four_bar, prototype_car
 from mbs.settings.input_signals import InputSignals
@@ -19,6 +22,7 @@ from mbs.simulation.prepared_system import prepared
 
 CARS = 16  # two full groups of the widest lanes
 PARTS, SECONDS = 20, 4.0  # parts of a run, length of it, s
+OLDER = "single, older"
 Start: TypeAlias = Callable[[int, float, float], Simulation]
 """Of the number of a variant, the step and the end of the run, s."""
 
@@ -55,70 +59,87 @@ def varied_four_bars(windows: int) -> tuple[System, Start]:
 
 
 def measure(
-    scene: str, h: float, make: Callable[[], tuple[System, Start]], seconds: float = SECONDS
+    scene: str,
+    h: float,
+    make: Callable[[], tuple[System, Start]],
+    seconds: float = SECONDS,
+    *,
+    rounds: int = 1,
+    older: OlderCars | None = None,
 ) -> list[dict[str, Any]]:
-    """Rows of one scene: us of a core for a step of a car, and the ratio to cars one after the other."""
+    """Rows of one scene: us of a core for a step of a car, and the ratio to cars one after the other.
+
+    Each part of a run counts by the least of the rounds. `older` are cars of another commit, which make the same steps
+    in turn; then rows have the ratio to them too.
+    """
     system, start = make()
     loaded, steps = prepared(system)[0], int(seconds / h / PARTS)
-    widths = [w for w in (2, 4, 8) if w <= widest_lanes()]
-    cores = os.cpu_count() or 1
-    threads = f"{widths[-1]} lanes, {cores} threads"
-    ways = ["single", *(f"{w} lanes" for w in widths), threads]
-    cars = {way: [start(k, h, seconds) for k in range(CARS)] for way in ways}
-    lanes = {w: Many(loaded, w) for w in widths}
-    more = [Many(loaded, widths[-1]) for _ in range(cores)]
-    spent, alone = dict.fromkeys(ways, 0.0), dict.fromkeys(ways, 0)
-
-    def together(many: Many, group: list[Simulation]) -> int:
-        nothing = [None] * len(group)
-        ended = many.run([c.instance for c in group], h, steps, steps, nothing, nothing)
-        for end in ended:
-            if end.error is not None:
-                raise end.error
-        return sum(end.alone for end in ended)
-
-    def on_all_cores(group: list[Simulation]) -> int:
-        size = min(widths[-1], -(-len(group) // cores))
-        parts = [group[i : i + size] for i in range(0, len(group), size)]
-        return sum(pool.map(together, more, parts))
-
-    with ThreadPoolExecutor(cores) as pool:
-        for _ in range(PARTS):
-            spent["single"] += _timed(lambda: [c.instance.run(h, steps) for c in cars["single"]], time.thread_time)
-            for w in widths:
-                way = f"{w} lanes"
-                for first in range(0, CARS, w):
-                    group, many = cars[way][first : first + w], lanes[w]
-                    begin = time.thread_time()
-                    alone[way] += together(many, group)
-                    spent[way] += time.thread_time() - begin
-            begin = time.process_time()
-            alone[threads] += on_all_cores(cars[threads])
-            spent[threads] += time.process_time() - begin
-    for way in ways[1:]:  # a faster run of other numbers would be none
+    ways = _ways(loaded)
+    least: dict[str, NDArray[np.float64]] = {}  # of each part
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for _ in range(rounds):
+            cars = {way: [start(k, h, seconds) for k in range(CARS)] for way in ways}
+            spent: dict[str, list[float]] = {way: [] for way in ways}
+            alone = dict.fromkeys(ways, 0)
+            if older is not None:
+                older.start()
+                spent[OLDER] = []
+            for _ in range(PARTS):
+                for way, many in ways.items():
+                    used, made_alone = _step(cars[way], many, h, steps, pool)
+                    spent[way].append(used)
+                    alone[way] += made_alone
+                if older is not None:
+                    spent[OLDER].append(older.run(steps))
+            least = {way: np.minimum(part, least.get(way, np.inf)) for way, part in spent.items()}
+    for way in ways:  # a faster run of other numbers would be none
         if any(a.instance.save() != b.instance.save() for a, b in zip(cars["single"], cars[way], strict=True)):
             raise RuntimeError(f"{scene}: the cars in {way} are not those one after the other.")
-    made = CARS * PARTS * steps
-    rows = []
-    for way in ways:
-        us = 1e6 * spent[way] / made
-        group_bytes = 0.0 if way == "single" else lanes[int(way.split()[0])].size / int(way.split()[0])
-        rows.append(
-            {
-                "scene": scene,
-                "step_ms": 1e3 * h,
-                "way": way,
-                "us_a_step": us,
-                "ratio": spent["single"] / spent[way],
-                "cars_in_real_time_a_core": h / (1e-6 * us),
-                "steps_alone": alone[way],
-                "kilobytes_a_car": 1e-3 * (loaded.instance_size + group_bytes),
-            }
-        )
-    return rows
+    us = {way: 1e6 * float(part.sum()) / (CARS * PARTS * steps) for way, part in least.items()}
+    return [
+        {
+            "scene": scene,
+            "step_ms": 1e3 * h,
+            "way": way,
+            "us_a_step": us[way],
+            "ratio": us["single"] / us[way],
+            "cars_in_real_time_a_core": h / (1e-6 * us[way]),
+            "steps_alone": alone[way],
+            "kilobytes_a_car": 1e-3 * (loaded.instance_size + (many[0].size / many[0].width if many else 0.0)),
+        }
+        | ({"ratio_to_older": us[OLDER] / us[way]} if older is not None else {})
+        for way, many in ways.items()
+    ]
 
 
-def _timed(action: Callable[[], object], clock: Callable[[], float]) -> float:
-    begin = clock()
-    action()
-    return clock() - begin
+def _ways(loaded: LoadedSystem) -> dict[str, list[Many]]:
+    """Ways to step the cars by name, with the groups of each: none for a car alone, one a thread."""
+    widths = [w for w in (2, 4, 8) if w <= widest_lanes()]
+    cores = os.cpu_count() or 1
+    ways: dict[str, list[Many]] = {"single": [], **{f"{w} lanes": [Many(loaded, w)] for w in widths}}
+    return ways | {f"{widths[-1]} lanes, {cores} threads": [Many(loaded, widths[-1]) for _ in range(cores)]}
+
+
+def _step(
+    cars: list[Simulation], groups: list[Many], h: float, steps: int, pool: ThreadPoolExecutor
+) -> tuple[float, int]:
+    """Seconds of cores for so many steps of the cars, and how many were made alone."""
+
+    def together(number: int) -> int:
+        many, alone = groups[number], 0
+        for first in range(number * size, len(cars), len(groups) * size):
+            instances = [car.instance for car in cars[first : first + size]]
+            nothing = [None] * len(instances)
+            for end in many.run(instances, h, steps, steps, nothing, nothing):
+                if end.error is not None:
+                    raise end.error
+                alone += end.alone
+        return alone
+
+    size = min(groups[0].width, -(-len(cars) // len(groups))) if groups else 1
+    begin = time.process_time()
+    if not groups:
+        for car in cars:
+            car.instance.run(h, steps)
+    alone = sum((pool.map if len(groups) > 1 else map)(together, range(len(groups))))
+    return time.process_time() - begin, alone

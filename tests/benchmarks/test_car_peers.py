@@ -1,4 +1,4 @@
-"""`python -m benchmarks.car_peers`: MuJoCo's car weighs and turns as a car does, and is driven as ours is."""
+"""`python -m benchmarks.car_peers`: MuJoCo's car and CommonRoad's turn as cars do, and are driven as ours is."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from mbs.vehicle import load
 
 mujoco = pytest.importorskip("mujoco")
 from benchmarks.peers import mujoco_car  # noqa: E402
+
+vehiclemodels = pytest.importorskip("vehiclemodels")
+from benchmarks.peers import commonroad_car  # noqa: E402
 
 CAR, MASS, H = load("prototype"), 600.0, 5e-3
 
@@ -47,6 +50,27 @@ def test_cars_in_threads_are_those_one_after_the_other() -> None:
     assert not np.array_equal(one[0], one[2])
 
 
+def test_commonroads_car_is_that_of_its_own_functions() -> None:
+    """A step of h of the compiled car beside one by the functions as they are installed."""
+    from vehiclemodels.init_mb import init_mb
+    from vehiclemodels.parameters_vehicle2 import parameters_vehicle2
+    from vehiclemodels.vehicle_dynamics_mb import vehicle_dynamics_mb
+
+    def rate(x: np.ndarray) -> np.ndarray:
+        return np.array(vehicle_dynamics_mb(list(x), [0.2, 0.0], parameters_vehicle2()))
+
+    x = np.array(init_mb([0.0, 0.0, 0.0, 15.0, 0.0, 0.0, 0.0], parameters_vehicle2()), float)
+    first = rate(x)
+    second = rate(x + 0.5 * H * first)
+    third = rate(x + 0.5 * H * second)
+    expected = x + H / 6.0 * (first + 2.0 * second + 2.0 * third + rate(x + H * third))
+    states, seconds = commonroad_car.drive(1, 15.0, H, np.minimum(0.2 * H * np.arange(1, 401), 0.02))
+    np.testing.assert_allclose(states[0], expected, rtol=1e-12, atol=1e-13)
+    yaw, speed = commonroad_car.motion(states)
+    assert yaw[-1] == pytest.approx(speed[-1] * 0.02 / 2.58, rel=0.3)  # wheelbase, m; it understeers
+    assert seconds > 0.0
+
+
 @pytest.mark.slow
 def test_the_command_has_a_row_for_each_way(tmp_path, capsys, monkeypatch) -> None:
     monkeypatch.setattr(car_peers, "SCENES", car_peers.SCENES[1:])
@@ -57,12 +81,16 @@ def test_the_command_has_a_row_for_each_way(tmp_path, capsys, monkeypatch) -> No
     monkeypatch.setattr(car_peers, "measure", lambda *scene: measure(*scene, seconds=3.0))
     assert car_peers.main(["--json", str(tmp_path / "rows.json")]) == 0
     rows = json.loads((tmp_path / "rows.json").read_text("utf-8"))["rows"]
-    ways = {car: [row["way"] for row in rows if row["car"] == car] for car in ("links", "tables", "MuJoCo")}
+    ways = {
+        car: [row["way"] for row in rows if row["car"] == car] for car in ("links", "tables", "MuJoCo", "CommonRoad")
+    }
     assert ways["links"] == ways["tables"]
     assert ways["MuJoCo"][0] == ways["links"][0] == "single"
+    assert ways["CommonRoad"] == ["single"]
     yaw = {row["car"]: row["yaw_rate"] for row in rows}
     assert yaw["links"] > 0.05
     assert yaw["MuJoCo"] == pytest.approx(yaw["links"], rel=0.3)
+    assert yaw["CommonRoad"] == pytest.approx(yaw["links"], rel=0.3)
     assert yaw["tables"] == pytest.approx(yaw["links"], rel=1e-3)
     assert all(row["cars_in_real_time_a_core"] == pytest.approx(1e4 / row["us_a_step"]) for row in rows)
     assert "its error against the others is not defined" in capsys.readouterr().out

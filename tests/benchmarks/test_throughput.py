@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+from functools import partial
+from pathlib import Path
 
 import pytest
 
 from benchmarks import throughput
 from benchmarks.car import lanes
+from benchmarks.car.older_cars import older_cars
 from mbs.kernel.binding.many import widest_lanes
 
 
@@ -31,3 +34,15 @@ def test_ways_and_the_thousand_cars(tmp_path, capsys, monkeypatch):
     said = capsys.readouterr().out
     assert f"takes {single:.1f} ms on 1000 cores" in said
     assert said.count("a second of 1000 cars") == 1  # a mechanism is no car
+    assert "ratio_to_older" not in rows["single"]
+
+
+@pytest.mark.slow
+def test_beside_cars_of_a_clone() -> None:
+    """The clone is this one: its car takes as long as a single one here, but for what else the machine does."""
+    name, h, seconds = "slalom", 0.005, 0.2
+    with older_cars(Path(__file__).parents[2], name, h, seconds, lanes.CARS) as cars:
+        rows = throughput.measure(name, h, partial(lanes.varied_cars, name, 0), seconds, rounds=2, older=cars)
+    ratio = {row["way"]: row["ratio_to_older"] for row in rows}
+    assert 0.2 < ratio["single"] < 5.0
+    assert all(row["ratio_to_older"] == pytest.approx(row["ratio"] * ratio["single"]) for row in rows)

@@ -27,11 +27,13 @@ void ali3_active_signals(ali3_instance *in, const real *q, const real *qd) {
 /* y += a x but for the idle lanes */
 ALI3_INLINED void add_row(real *restrict y, const real *restrict x, double a, truth idle, int64_t n) {
 #ifdef ALI3_WIDTH
-  for (int64_t i = 0; i < n; i++) y[i] = ali3_where(idle, y[i], y[i] + a * x[i]);
-#else
-  (void)idle;
-  ali3_add_multiple(y, x, a, n);
+  if (ali3_any(idle)) {
+    for (int64_t i = 0; i < n; i++) y[i] = ali3_where(idle, y[i], y[i] + a * x[i]);
+    return;
+  }
 #endif
+  (void)idle;
+  ali3_add_multiple(y, x, ali3_same(a), n);
 }
 
 /* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a

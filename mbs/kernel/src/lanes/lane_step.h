@@ -78,12 +78,15 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
   memcpy(Q, in->gravity_force, (size_t)nq * sizeof *Q);
   for (int32_t e = 0; e < S->size.ne; e++) {
     const truth idle = in->idle[e];
-    if (!ali3_any(ali3_not(idle))) continue;
+    const bool some = ali3_any(idle);
+    if (some && !ali3_any(ali3_not(idle))) continue;
     for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
       const int32_t signal = el_sig[i];
       const real force = f[i];
-      for (int32_t k = ptr[signal]; k < ptr[signal + 1]; k++)
-        Q[col[k]] = ali3_add_unless(idle, Q[col[k]], val[k] * force);
+      for (int32_t k = ptr[signal]; k < ptr[signal + 1]; k++) {
+        const real sum = Q[col[k]] + val[k] * force;
+        Q[col[k]] = some ? ali3_where(idle, Q[col[k]], sum) : sum;
+      }
     }
   }
   if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->Q);
@@ -92,16 +95,18 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
 static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
   const double c = in->rule.c, rate = in->rule.rate;
+  const real *D = in->D, *d0 = in->d0, *now = in->now.q, *hat = in->hat, *Q = in->Q;
+  real *q = in->next.q, *qd = in->next.qd, *w = in->w, *r = in->r;
   for (int32_t i = 0; i < S->size.nq; i++) {
-    in->next.q[i] = in->now.q[i] + in->D[i];
-    in->next.qd[i] = rate * in->D[i] + in->hat[i];
-    in->w[i] = in->D[i] - in->d0[i];
+    q[i] = now[i] + D[i];
+    qd[i] = rate * D[i] + hat[i];
+    w[i] = D[i] - d0[i];
   }
   ali3_constraints(in, in->next.q, in->next.s, in->Phi, in->J);
   ali3_velocity_values(in, in->J, in->next.qd, rate, in->Phi);
   forces(in, lanes, tangent);
-  ali3_mass_times(in, in->w, in->r);
-  for (int32_t i = 0; i < S->size.nq; i++) in->r[i] -= c * in->Q[i];
+  ali3_mass_times(in, w, r);
+  for (int32_t i = 0; i < S->size.nq; i++) r[i] -= c * Q[i];
 }
 
 /* The largest so far with its number; a NaN stays. */
@@ -114,14 +119,18 @@ static void take_larger(real size, int32_t number, real *largest, truth *worst) 
 /* Residual with the multipliers, and violation; returns the lanes where both are finite. */
 static truth judge(ali3_lane_group *in) {
   const ali3_system *S = in->system;
-  real residual = {0}, violation = {0};
-  ali3_rows_transposed(S, in->J, in->next.lam, in->x);
+  const double c = in->rule.c, *row_measure = S->row_measure;
+  const real *r = in->r, *inverse = in->mass_floor_inverse, *Phi = in->Phi;
+  real *x = in->x, residual = {0}, violation = {0};
+  truth coordinate = *in->worst_coordinate, row = *in->worst_row;
+  ali3_rows_transposed(S, in->J, in->next.lam, x);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    in->x[i] = in->r[i] + in->rule.c * in->x[i];
-    take_larger(ali3_abs(in->x[i]) * in->mass_floor_inverse[i], i, &residual, in->worst_coordinate);
+    x[i] = r[i] + c * x[i];
+    take_larger(ali3_abs(x[i]) * inverse[i], i, &residual, &coordinate);
   }
-  for (int32_t k = 0; k < S->size.nc; k++)
-    take_larger(ali3_abs(in->Phi[k]) * S->row_measure[k], k, &violation, in->worst_row);
+  for (int32_t k = 0; k < S->size.nc; k++) take_larger(ali3_abs(Phi[k]) * row_measure[k], k, &violation, &row);
+  *in->worst_coordinate = coordinate;
+  *in->worst_row = row;
   *in->residual = residual;
   *in->violation = violation;
   return (residual < 1e300) & (violation < 1e300);
@@ -165,18 +174,19 @@ static truth correct(ali3_lane_group *in, truth lanes, truth kept, int32_t itera
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c, alpha = in->alpha;
-  real *lam = in->next.lam;
+  const real *Phi = in->Phi, *r = in->r, *w = in->w, *gamma = in->gamma;
+  real *lam = in->next.lam, *mu = in->mu, *x = in->x, *change = in->lam, *D = in->D;
   *in->at_work = lanes;
-  for (int32_t k = 0; k < nc; k++) in->mu[k] = ali3_where(kept, ali3_same(0.0), lam[k]) + alpha * in->Phi[k];
-  ali3_rows_transposed(S, in->J_tangent, in->mu, in->w);
-  for (int32_t i = 0; i < nq; i++) in->x[i] = -(ali3_where(kept, in->x[i], in->r[i]) + c * in->w[i]);
-  ali3_solve(in, in->F, in->x);
-  const truth finite = all_finite(in->x, nq);
-  ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
-  for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
+  for (int32_t k = 0; k < nc; k++) mu[k] = ali3_where(kept, ali3_same(0.0), lam[k]) + alpha * Phi[k];
+  ali3_rows_transposed(S, in->J_tangent, mu, in->w);
+  for (int32_t i = 0; i < nq; i++) x[i] = -(ali3_where(kept, x[i], r[i]) + c * w[i]);
+  ali3_solve(in, in->F, x);
+  const truth finite = all_finite(x, nq);
+  ali3_rows_times(S, in->J_tangent, x, in->gamma);
+  for (int32_t k = 0; k < nc; k++) change[k] = alpha * (Phi[k] + gamma[k]);
   ali3_accelerate(in, iteration);
-  for (int32_t k = 0; k < nc; k++) lam[k] = ali3_where(lanes, lam[k] + in->lam[k], lam[k]);
-  for (int32_t i = 0; i < nq; i++) in->D[i] = ali3_where(lanes, in->D[i] + in->x[i], in->D[i]);
+  for (int32_t k = 0; k < nc; k++) lam[k] = ali3_where(lanes, lam[k] + change[k], lam[k]);
+  for (int32_t i = 0; i < nq; i++) D[i] = ali3_where(lanes, D[i] + x[i], D[i]);
   return finite;
 }
 
