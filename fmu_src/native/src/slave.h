@@ -228,6 +228,8 @@ slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, cons
 
 /* step.c */
 slave_status slave_step(slave *s, double time, double step);
+
+/* slopes.c */
 void slave_add_slopes(const double *slope, double elapsed, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
 
