@@ -23,7 +23,9 @@ from benchmarks.shared.command import watched
 from benchmarks.shared.figures import Again, all_differences, between, read, rows_of
 from benchmarks.shared.pages import DOCS
 from benchmarks.shared.warned import wrong_on_purpose
+from fmu_src.variables.variables import variable_table
 from mbs.scenes import double_four_bar as four_bar_scene
+from mbs.scenes import prototype_car
 from mbs.scenes import puma as puma_scene
 
 SPEED, PAPER, STABILITY = "docs/speed.md", "docs/speed_and_accuracy.md", "docs/stability.md"
@@ -115,6 +117,13 @@ def instructions() -> list[Again]:
     return [Again(SPEED, block, "instructions", ("scene", "step, ms"))]
 
 
+def outputs() -> list[Again]:
+    """How many outputs the rigid car's FMU has, of which the page of FMUs tells the cost."""
+    table = variable_table(mbs.compile(prototype_car.build()).meta, pose=True, step_size=0.002)
+    count = sum(v.causality == "output" for v in table)
+    return [Again("docs/fmu.md", f"| all {count} outputs after a step")]
+
+
 def readme() -> list[Again]:
     """Sentences of README.md are those of the tables of its pages."""
     ratios = [1.0 / float(row["ratio"]) for row in rows_of(between(read(PAPER), "ratios")) if row["ratio"] != "–"]
@@ -141,6 +150,7 @@ MADE: dict[str, Callable[[], list[Again]]] = {
     "flexible": flexible,
     "roads and tyres": roads_and_tyres,
     "instructions": instructions,
+    "outputs": outputs,
     "README": readme,
 }
 

@@ -18,6 +18,7 @@ _CLOSEST = 1e-4  # part of the range that is not divided any more
 _INWARD = (0.0, 0.0625, 0.125, 0.25)  # parts of the range, where the run at an end fails
 _EXTREMUM, _SEEN = 0.02, 8  # part of the range, and runs, to which an extremum is found
 _APART, _PART = 0.01, 0.02  # of the range, or of the value, between runs that tell a slope
+_FAR = 0.25  # of the distance to the neighbour on the other side: that one is too far
 _NEAR = 0.05  # of the range, or of the value: farther ones tell another slope
 
 
@@ -248,6 +249,10 @@ class _Search:
         below = [run for u, run in apart if u < place] or [best]
         above = [run for u, run in apart if u > place] or [best]
         one, other = below[-1], above[0]
+        if 0.0 < best.x - one.x < _FAR * (other.x - best.x):
+            other = best
+        elif 0.0 < other.x - best.x < _FAR * (best.x - one.x):
+            one = best
         return Found(
             runs,
             best,

@@ -8,6 +8,7 @@
 
 static const double SPAN = 0.2; /* s after the last abrupt step: a wheel on its tyre swings about twice */
 static const double LATER = 0.5; /* s after a difference in which the largest force comes: a wheel lands */
+static const double JUMP = 0.05; /* of its range: an input that jumps */
 static const double WRONG = 0.05; /* of the largest force */
 static const double ORDER_2 = 4.0 / 3.0; /* error of a step over the difference to half of it */
 static const double SAFE = 0.6; /* of WRONG: what a step would do with, by order one as at a kink */
@@ -23,7 +24,8 @@ void slave_half_steps_begin(slave *s) {
 /* Work of one block: the snapshot of this motion at the end of the step, that of the other, forces of both, inputs. */
 static bool allocate(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  const size_t size = ali3_snapshot_size(s->fidelity.system), n = (size_t)ali3_contact_forces(s->fidelity.kernel, NULL);
+  const size_t size = ali3_snapshot_size(s->fidelity.system),
+               n = (size_t)ali3_contact_forces(s->fidelity.kernel, 1, NULL);
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   if (t->end != NULL) return true;
   t->end = s->memory.allocate(1, 2 * size + (2 * n + (size_t)(2 * z.nu + z.np)) * sizeof(double));
@@ -40,6 +42,19 @@ void slave_half_steps_free(slave *s) {
   memset(&s->half_steps, 0, sizeof s->half_steps);
 }
 
+/* Whether an input goes on from the last step by much of its range: tyres then differ for a few steps in what follows
+ * it, and only their loads are compared. */
+static bool jumps(const slave *s, const double *input) {
+  const slave_table *t = &slave_the_table;
+  for (size_t i = 0; i < t->n_known; i++) {
+    const slave_variable *v = &t->variable[i];
+    double was;
+    if (v->source != SLAVE_INPUT || ali3_get_input(s->fidelity.kernel, v->index, &was) != ALI3_OK) continue;
+    if (fabs(v->scale * (input[v->index] - was)) > JUMP * (v->max - v->min)) return true;
+  }
+  return false;
+}
+
 /* The communication step from the state of `other`, with inputs and parameters of the one that was made. */
 static ali3_status make(slave *s) {
   slave_half_steps *t = &s->half_steps;
@@ -51,6 +66,7 @@ static ali3_status make(slave *s) {
   for (int32_t i = 0; i < z.nu; i++) ali3_get_input(kernel, i, &t->input[i]);
   slave_inputs_at(s, 0.0, t->input);
   ali3_snapshot_restore(kernel, t->other);
+  t->jumped = t->jumped || jumps(s, t->input);
   for (int32_t i = 0; i < z.np && status == ALI3_OK; i++) {
     double was;
     ali3_get_parameter(kernel, i, &was);
@@ -65,33 +81,26 @@ static ali3_status make(slave *s) {
   return status;
 }
 
-/* Largest difference of the forces of both motions, N. */
-static double difference(slave *s) {
-  slave_half_steps *t = &s->half_steps;
-  const int32_t n = ali3_contact_forces(s->fidelity.kernel, t->force);
-  double most = 0.0;
-  for (int32_t i = 0; i < n; i++) most = fmax(most, fabs(t->force[i] - t->force[n + i]));
-  return most;
-}
-
 /* The other motion through the communication step, which ends at `now`; the kernel comes back to this one. */
 static void follow(slave *s, double now) {
   slave_half_steps *t = &s->half_steps;
   ali3_instance *kernel = s->fidelity.kernel;
   ali3_snapshot_take(kernel, t->end);
-  ali3_contact_forces(kernel, t->force + ali3_contact_forces(kernel, NULL));
-  if (make(s) == ALI3_OK) {
-    const double apart = difference(s);
-    if (apart > t->apart) {
-      t->apart = apart;
-      t->time = now;
-      t->h = s->made.h;
-    }
-    ali3_snapshot_take(kernel, t->other);
-  } else {
-    t->left = 0.0;
-  }
+  const bool good = make(s) == ALI3_OK;
+  const int32_t n = ali3_contact_forces(kernel, !t->jumped, t->force);
+  if (good) ali3_snapshot_take(kernel, t->other);
   ali3_snapshot_restore(kernel, t->end);
+  if (!good) {
+    t->left = 0.0;
+    return;
+  }
+  ali3_contact_forces(kernel, !t->jumped, t->force + n);
+  double apart = 0.0;
+  for (int32_t i = 0; i < n; i++) apart = fmax(apart, fabs(t->force[i] - t->force[n + i]));
+  if (!(apart > t->apart)) return;
+  t->apart = apart;
+  t->time = now;
+  t->h = s->made.h;
 }
 
 /* The largest difference, when what comes later has shown how large forces are. */
@@ -129,6 +138,7 @@ slave_status slave_halve_steps(slave *s) {
     if (t->spent > FREE + SHARE * (now - s->calls.start_time) || !allocate(s))
       return slave_event_told(&report) ? slave_say_event(s, &report) : SLAVE_OK;
     memcpy(t->other, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
+    t->jumped = false;
   }
   if (abrupt) t->left = SPAN;
   if (t->left > 0.0) {

@@ -124,6 +124,7 @@ typedef struct { /* of a motion that is made a second time with half the step, s
   double left, spent; /* s: of the time that is made twice, 0: nothing is; made twice so far */
   double apart, time, h; /* largest difference of forces that is not judged yet, N; when, s; inner step there, s */
   int64_t abrupt; /* abrupt steps that were seen */
+  bool jumped; /* an input has, since it began */
 } slave_half_steps;
 
 typedef struct { /* a System of the FMU at work */
@@ -227,6 +228,8 @@ slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, cons
 
 /* step.c */
 slave_status slave_step(slave *s, double time, double step);
+
+/* slopes.c */
 void slave_add_slopes(const double *slope, double elapsed, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
 

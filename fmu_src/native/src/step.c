@@ -60,27 +60,6 @@ static ali3_status apply_pending(slave *s) {
   return status;
 }
 
-/* What derivatives change in the inputs (nu) at `elapsed` after the communication point. */
-void slave_add_slopes(const double *slope, double elapsed, double *input) {
-  const slave_table *t = &slave_the_table;
-  for (size_t i = 0; i < t->n_known; i++) {
-    if (t->variable[i].source != SLAVE_INPUT) continue;
-    double *u = &input[t->variable[i].index], power = 1.0;
-    for (int k = 0; k < SLAVE_MOST_ORDERS; k++) {
-      power *= elapsed / (k + 1);
-      *u += slope[i * SLAVE_MOST_ORDERS + (size_t)k] * power / t->variable[i].scale;
-    }
-  }
-}
-
-/* The inputs at `elapsed` after the communication point; the kernel holds them in their ranges. */
-void slave_inputs_at(const slave *s, double elapsed, double *input) {
-  const slave_table *t = &slave_the_table;
-  for (size_t i = 0; i < t->n_known; i++)
-    if (t->variable[i].source == SLAVE_INPUT) input[t->variable[i].index] = s->value[i] / t->variable[i].scale;
-  slave_add_slopes(s->slope, elapsed, input);
-}
-
 /* *left: the largest residual of an inner step that ended at the limit of its iterations. */
 static ali3_status advance(slave *s, int64_t n, double h, double *left) {
   ali3_instance *kernel = s->fidelity.kernel;

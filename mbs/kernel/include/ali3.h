@@ -377,8 +377,9 @@ ALI3_API void ali3_contacts(const ali3_instance *in, unsigned char *touching);
 /* Per force element (ne) a number of the smooth piece of its law that holds in the present state with the present
  * inputs: where it changes, a stop is met or left, friction sticks or slips, a limit is reached. */
 ALI3_API void ali3_law_pieces(ali3_instance *in, uint32_t *piece);
-/* Loads of tyres, forces of contacts and of springs with end stops now, N: how many; `force` may be NULL. */
-ALI3_API int32_t ali3_contact_forces(const ali3_instance *in, double *force);
+/* Loads of tyres, or all of their forces, forces of contacts and of springs with end stops now, N: how many; `force` may
+ * be NULL. */
+ALI3_API int32_t ali3_contact_forces(const ali3_instance *in, int32_t all, double *force);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is

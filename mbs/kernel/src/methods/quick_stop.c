@@ -27,21 +27,21 @@ static void judge(ali3_report *r) {
   r->hit_change = 0.0;
 }
 
-/* Outputs of an element that are forces of a contact or a stop: how many, and the first. Of a tyre its load: the others
- * follow pedals that jump. */
-static int32_t forces_of(const ali3_system *S, int32_t e, int32_t *first) {
+/* Outputs of an element that are forces of a contact or a stop: how many, and the first. Of a tyre its load, or all: the
+ * others follow pedals that jump. */
+static int32_t forces_of(const ali3_system *S, int32_t e, bool all, int32_t *first) {
   const ali3_element_type *kind = S->el_kind[e];
   const int32_t n_out = S->el_out_ptr[e + 1] - S->el_out_ptr[e];
-  const bool tyre = kind->depth == ali3_tyre_depth;
+  const bool tyre = kind->depth == ali3_tyre_depth && !all;
   *first = S->el_out_ptr[e] + (tyre ? LOAD : kind->rebound != NULL ? 1 : 0);
   return tyre || kind->rebound != NULL ? 1 : kind->depth == NULL ? 0 : n_out < OF_A_TYRE ? n_out : OF_A_TYRE;
 }
 
-int32_t ali3_contact_forces(const ali3_instance *in, double *force) {
+int32_t ali3_contact_forces(const ali3_instance *in, int32_t all, double *force) {
   int32_t n = 0;
   for (int32_t e = 0; e < in->system->size.ne; e++) {
     int32_t first;
-    const int32_t mine = forces_of(in->system, e, &first);
+    const int32_t mine = forces_of(in->system, e, all != 0, &first);
     for (int32_t i = 0; force != NULL && i < mine; i++) force[n + i] = in->now.out[first + i];
     n += mine;
   }
@@ -57,7 +57,7 @@ static double look_at(ali3_instance *in, double h, int32_t e) {
   const int32_t n_out = S->el_out_ptr[e + 1] - S->el_out_ptr[e];
   int32_t first;
   double most = 0.0;
-  for (int32_t i = forces_of(S, e, &first); i-- > 0;)
+  for (int32_t i = forces_of(S, e, false, &first); i-- > 0;)
     most = fmax(most, fabs(in->now.out[first + i] - in->next.out[first + i]));
   for (int32_t i = 0; kind->depth != NULL && i < n_out && i < OF_A_TYRE; i++)
     r->largest_force = fmax(r->largest_force, fabs(to[i]));
