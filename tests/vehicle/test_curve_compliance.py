@@ -160,7 +160,7 @@ def test_a_car_keeps_its_books_and_does_so_in_lanes(content: dict[str, Any], fol
         ),
         (
             {"lateral_per_lateral_force": 1e-6},
-            r"lateral_per_lateral_force is 1e-06 m/N and .* 0 rad/N; .* 0\.02 to 20 m",
+            r"lateral_per_lateral_force is 1e-06 m/N and .* 0 rad/N; .* 0\.05 to 1\.5 m",
         ),
         ({"camber_per_lateral_forces": -4e-6}, r"camber_per_lateral_forces"),
         ({"longitudinal_per_longitudinal_force": -1e-7}, r"longitudinal_per_longitudinal_force is -1e-07"),

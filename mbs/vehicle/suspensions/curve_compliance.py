@@ -5,8 +5,8 @@ c_m M_z. A turn u of the wheel against the stiffness 1/c_m, with which the conta
 that by virtual work: it is a turn about the elastic centre.
 
 With the compliances g of the inclination and a of the place of the contact per lateral force, the wheel leans about an
-axis at the height a/g over the contact, against the stiffness a/g2: the lever of the force is that height, too. Along
-that axis it slides against 1/b, the compliance of its place along x. The body that leans and slides carries the table.
+axis at the height a/g over the contact, against a spring of 1/a at the contact, where the force is. Along that axis
+it slides against 1/b, with b the compliance of its place along x. The body that leans and slides carries the table.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from mbs.vehicle.suspensions.curve_table import OTHER, RACK
 
 TURNS = np.linspace(-0.06, 0.06, 7)  # rad: points of the table
 FORWARD = (1.0, 0.0, 0.0)
-LEAST_HEIGHT, LARGEST_HEIGHT = 0.02, 20.0  # m
+LEAST_HEIGHT, LARGEST_HEIGHT = 0.05, 1.5  # m
 BASE_SHARE = 1e-3  # of the carrier's mass, of the body that a leaning table stands on
 
 
@@ -105,17 +105,18 @@ class Compliance(Section):
         point = side.point((centre[0], centre[1], way / lean if lean else centre[2]))
         for name, place in (("rear", point), ("front", np.add(point, FORWARD))):  # no row twice, as joints would have
             b.m.point_on_line(f"compliance axis {w} {name}", (base, place), (chassis, point), axis=FORWARD)
-        # 1 m long, between points that move along it: at a lever of 1 m over the axis, and on it
-        for name, ends, stiffness in (
-            ("lean", ((0.0, -1.0, 1.0), (0.0, 0.0, 1.0)), way / lean**2 if lean else 0.0),
-            ("slide", ((-1.0, 0.0, 0.0), (0.0, 0.0, 0.0)), 1.0 / slide if slide else 0.0),
+        # 1 m long, to points that move along it: at the contact to the side, on the axis forward
+        contact = (point[0], point[1], 0.0)
+        for name, last, along, compliance in (
+            ("lean", contact, (0.0, 1.0, 0.0), way),
+            ("slide", point, FORWARD, slide),
         ):
-            first, last = (np.add(point, end).tolist() for end in ends)
-            if stiffness:
-                spring, damping = f"spring of compliance {name} {w}", self.loss_time * stiffness
-                b.m.spring_damper(spring, (chassis, first), (base, last), stiffness=stiffness, damping=damping)
+            ends = (chassis, np.subtract(last, along)), (base, last)
+            if compliance:
+                spring, stiffness = f"spring of compliance {name} {w}", 1.0 / compliance
+                b.m.spring_damper(spring, *ends, stiffness=stiffness, damping=self.loss_time * stiffness)
             else:
-                b.m.distance(f"rod against {name} {w}", (chassis, first), (base, last))
+                b.m.distance(f"rod against {name} {w}", *ends)
         return base, 1.0 - BASE_SHARE
 
     def rack_end(self, b: CarBuilder, side: Side, rack: Coordinate, steer_per_rack: float) -> Coordinate:
