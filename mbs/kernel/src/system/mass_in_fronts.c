@@ -2,7 +2,20 @@
 #include <string.h>
 
 #include "../system.h"
+#include "../tabled/tabled.h"
 #include "loading.h"
+
+/* A base may be lighter than the bodies that tables place on it. */
+static void carried(const ali3_system *s, double *floor) {
+  for (int32_t i = 0; i < s->n_tabled; i++) {
+    const double *m = s->tabled_mass + ALI3_TABLED_MOMENTS * (int64_t)i;
+    const int32_t *frame = s->tabled_frame + 12 * (int64_t)i;
+    for (int k = 0; frame[0] >= 0 && k < 12; k++) {
+      const double own = k < 3 ? m[0] : m[3 + k / 3]; /* the mass, then second moments */
+      if (floor[frame[k]] < own) floor[frame[k]] = own;
+    }
+  }
+}
 
 void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front, double *floor, double *floor_inverse,
                          double *missing) {
@@ -24,6 +37,7 @@ void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front,
     const bool massless = !(floor[i] > 1e-12 * typical);
     missing[i] = massless ? typical : 0.0;
     if (massless) floor[i] = typical;
-    floor_inverse[i] = 1.0 / floor[i];
   }
+  carried(s, floor);
+  for (int32_t i = 0; i < nq; i++) floor_inverse[i] = 1.0 / floor[i];
 }
