@@ -366,24 +366,26 @@ def hinged(tabled: bool) -> System:
     m = Model("hinged")
     heavy = m.body("heavy", mass=50.0, com=(0, 0, 0), inertia=(5.0, 6.0, 7.0))
     m.initial_velocity(heavy, (0, 0, 0), (0, 0, 0))
+    along = np.linspace(-0.4, 0.4, 9)
+    table: dict[str, Any] = {
+        "axes": [along],
+        "places": [[0.0, 1.0, z] for z in along],
+        "rotations": np.tile(np.eye(3), (9, 1, 1)),
+        "com": (0, 1, 0),
+    }
+    if tabled:  # dependents come first, and neither end of the hinge is eliminated
+        slide = m.travel("slide")
+        m.tabled_body("beside", base=heavy, parameters=slide, mass=1e-9, inertia=(1e-9, 1e-9, 1e-9), **table)
     light = m.body("light", mass=0.01, com=(0, 1, 0), inertia=(1e-4, 1e-4, 1e-4))
     m.revolute("hinge", heavy, light, point=(0.1, 1.0, 0.4), axis=(1, 0, 0))
     m.spring_damper("hinge spring", (heavy, (0, 0, 1.0)), (light, (0, 1, 1.0)), stiffness=2e3, free_length=0.8)
     end: Body
-    part: dict[str, Any] = {"mass": 8.0, "com": (0, 1, 0), "inertia": (0.3, 0.4, 0.2)}
+    part: dict[str, Any] = {"mass": 8.0, "inertia": (0.3, 0.4, 0.2)}
     if tabled:
-        along, slide = np.linspace(-0.4, 0.4, 9), m.travel("slide")
-        places, turned = [[0.0, 1.0, z] for z in along], np.tile(np.eye(3), (9, 1, 1))
-        end = m.tabled_body("end", base=light, parameters=slide, axes=[along], places=places, rotations=turned, **part)
+        end = m.tabled_body("end", base=light, parameters=slide, **part, **table)
         m.add(ScalarSpringDamper(900.0, 3.0, 0.1, unit="N").record("spring", slide.affine))
-        no: dict[str, Any] = {
-            "mass": 1e-9,
-            "com": (0, 1, 0),
-            "inertia": (1e-9, 1e-9, 1e-9),
-        }  # neither end of the hinge is eliminated
-        m.tabled_body("beside", base=heavy, parameters=slide, axes=[along], places=places, rotations=turned, **no)
     else:
-        end = m.body("end", **part)
+        end = m.body("end", com=(0, 1, 0), **part)
         m.prismatic("slide", light, end, point=(0, 1, 0), axis=(0, 0, 1))
         m.spring_damper(
             "spring", (light, (0, 1, -5.0)), (end, (0, 1, 0)), stiffness=900.0, damping=3.0, free_length=5.1
