@@ -10,9 +10,9 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 47209,
+    "build": 47297,
     "build --kernel": 400,
-    "car": 34143,
+    "car": 34231,
     "run": 4298,
     "run, all of it": 8582,
     "view": 962,
@@ -23,7 +23,7 @@ MOST = {
     "compare": 9865,
     "study": 7579,
     "study --run": 8564,
-    "study, all of it": 16392,
+    "study, all of it": 16370,
     "road": 700,
 }
 """Lines; a command that needs fewer takes its number down with it."""
