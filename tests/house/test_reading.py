@@ -10,20 +10,20 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 47297,
+    "build": 47245,
     "build --kernel": 400,
-    "car": 34231,
+    "car": 34172,
     "run": 4298,
     "run, all of it": 8582,
     "view": 962,
     "simulator": 9035,
     "simulator, all of it": 16245,
     "check": 6181,
-    "catalogue": 8693,
+    "catalogue": 8695,
     "compare": 9865,
     "study": 7579,
     "study --run": 8564,
-    "study, all of it": 16370,
+    "study, all of it": 16372,
     "road": 700,
 }
 """Lines; a command that needs fewer takes its number down with it."""
