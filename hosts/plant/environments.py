@@ -42,9 +42,6 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
 
     def _advance(self, inputs: NDArray[np.float64]) -> str:
         """A step; the words of the solver where it refuses it."""
-        for name, value in zip(self.car.inputs, inputs.tolist(), strict=True):
-            if not math.isfinite(value):
-                raise HostError(f"The action is refused: '{name}' would be {value:g}; it must be a finite number.")
         self._steps += 1
         try:
             self.car.step(inputs)
@@ -196,7 +193,11 @@ class AntiLockBraking(CarEnvironment):
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """A step; see `gymnasium.Env.step`."""
-        refused = self._advance(np.clip(action, 0.0, 1.0) * self._torque)
+        asked = np.clip(action, 0.0, 1.0) * self._torque
+        for name, value in zip(self.car.inputs, asked.tolist(), strict=True):
+            if not math.isfinite(value):  # a port would hold its last value
+                raise HostError(f"The action is refused: '{name}' would be {value:g}; it must be a finite number.")
+        refused = self._advance(asked)
         speed, yaw = self._now[0], self._now[11]
         reward = -float(speed) * self.car.step_length - float(yaw) ** 2
         ended = speed < self.STANDING or abs(yaw) > 0.5

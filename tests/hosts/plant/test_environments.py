@@ -71,7 +71,7 @@ def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
 
 
 def test_an_action_that_is_not_finite_is_refused(braked_fmu: Path) -> None:
-    """A port of the car would hold its last value."""
+    """The ports of the car hold their last values, which a policy that learns would not be told."""
     with closing(environments.AntiLockBraking(str(braked_fmu))) as env:
         env.reset(seed=1)
         with pytest.raises(HostError, match=r"'wheel_FR.brake_torque_demand' would be nan"):
