@@ -29,7 +29,7 @@ from mbs.scenes import (
 Array = NDArray[np.float64]
 SAMPLES = 50  # instants of a run at which errors are measured; steps are end / (SAMPLES k)
 STORED = Path(__file__).with_name("stored")
-"""Motions that take minutes to compute; `python -m benchmarks.references.store` writes them."""
+"""Motions that take seconds or minutes to compute; `python -m benchmarks.references.store` writes them."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +58,8 @@ class Case:
         Whether the dense methods in Python are run.
     unit : str
         Of the output point.
+    slow : bool
+        Whether `exact` takes seconds: its motion is stored too.
     """
 
     title: str
@@ -71,6 +73,12 @@ class Case:
     map_work: float = 2.4e5
     classical: bool = True
     unit: str = "m"
+    slow: bool = False
+
+    @property
+    def stored(self) -> bool:
+        """Whether the motion is read from a file."""
+        return self.exact is None or self.slow
 
 
 def _xy(name: str) -> tuple[str, ...]:
@@ -154,6 +162,7 @@ CASES: dict[str, Case] = {
         5.0,
         (1, 2, 4, 10, 20, 40, 100, 200),
         references.spatial_crank,
+        slow=True,
     ),
     "cart_pole": Case(
         "cart-pole with a light cart: spikes of 4429 rad/s",
@@ -173,6 +182,7 @@ CASES: dict[str, Case] = {
         (1, 2, 4, 10, 20, 40, 100, 200),
         references.rolling_bicycle,
         unit="rad",
+        slow=True,
     ),
     "spatial_chain": Case(
         "chain of ten links: smooth, no loop",
@@ -197,7 +207,7 @@ def system_of(name: str) -> mbs.System:
 @cache
 def exact_of(name: str) -> Array:
     """Output point (SAMPLES + 1, k) at equal intervals up to the end."""
-    if CASES[name].exact is None:
+    if CASES[name].stored:
         return np.asarray(np.loadtxt(STORED / f"{name}.csv", delimiter=",", ndmin=2)[:, 1:])
     return computed(name)
 

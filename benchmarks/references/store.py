@@ -1,4 +1,4 @@
-"""Compute the motions without an exact reduction, which take minutes: minimum-norm accelerations, DOP853 or Radau.
+"""Compute the motions that take long: those without an exact reduction by minimum-norm accelerations, DOP853 or Radau.
 
 python -m benchmarks.references.store [SCENE ...]
 """
@@ -12,7 +12,7 @@ import numpy as np
 
 from benchmarks.references.cases import CASES, SAMPLES, STORED, computed
 
-NAMES = tuple(name for name, case in CASES.items() if case.exact is None)
+NAMES = tuple(name for name, case in CASES.items() if case.stored)
 
 
 def main(names: Sequence[str]) -> int:
@@ -21,7 +21,7 @@ def main(names: Sequence[str]) -> int:
         case = CASES[name]
         rows = np.column_stack([np.linspace(0.0, case.end, SAMPLES + 1), computed(name)])
         header = f"python -m benchmarks.references.store {name}\n" + ",".join(["time_s", *case.sensors])
-        np.savetxt(STORED / f"{name}.csv", rows, fmt="%.15g", delimiter=",", header=header)
+        np.savetxt(STORED / f"{name}.csv", rows, fmt="%.17g", delimiter=",", header=header)
     return 0
 
 

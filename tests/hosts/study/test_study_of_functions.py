@@ -20,7 +20,7 @@ from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.study.store import read_study
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.drawn]
 
 ROOT = Path(__file__).parents[3]
 STUDY = """fmu = "{fmu}"
