@@ -4,14 +4,14 @@ Slightly different cars drive the slalom at 5 ms and the lane change at 10 ms, w
 and four-bar mechanisms of 2 and 40 windows swing at 10 ms from slightly different speeds: one after the other, in lanes
 of each width that the processor has, and in the widest lanes on all cores. Each way makes a part of the same steps in
 turn, so that ratios hold on a busy machine; seconds are those in which its threads had a core, and of several rounds
-each part counts by its least. With ``--older FOLDER``, a clone at another commit whose kernel is compiled, its cars
-with links make the same steps one after the other in turn.
+each part counts by its least. With ``--older FOLDER``, a clone at another commit whose kernel is compiled, only
+the cars with links run, and those of the clone make the same steps one after the other in turn.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -33,6 +33,7 @@ SCENES = (
     ("double four-bar", 0.01, partial(varied_four_bars, 2)),
     ("40 windows", 0.01, partial(varied_four_bars, 40)),
 )
+WITH_LINKS = SCENES[:2]
 THOUSAND = 1000
 COLUMNS = {
     "scene": "",
@@ -55,8 +56,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
 
     def work() -> int:
-        rows = [row for scene in watched(SCENES) for row in rows_of(*scene, rounds=options.rounds, older=options.older)]
-        print_table(rows, COLUMNS)
+        scenes = SCENES if options.older is None else WITH_LINKS
+        rows = [row for scene in watched(scenes) for row in rows_of(*scene, rounds=options.rounds, older=options.older)]
+        print_table(rows, {key: form for key, form in COLUMNS.items() if key in rows[0]})
         for line in thousand(rows):
             print(line)
         save_rows(options.json, describe("throughput", Settings()), rows)
@@ -66,13 +68,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def rows_of(
-    scene: str, h: float, make: Callable[[], tuple[System, Start]], *, rounds: int, older: Path | None
+    scene: str, h: float, make: partial[tuple[System, Start]], *, rounds: int, older: Path | None
 ) -> list[dict[str, Any]]:
-    """Rows of a scene, beside the cars of another commit where they are asked for and the car has links."""
-    arguments = make.args if isinstance(make, partial) else ()
-    if older is None or arguments[1:] != (0,):
+    """Rows of a scene, beside the cars of another commit where they are asked for."""
+    if older is None:
         return measure(scene, h, make, rounds=rounds)
-    with older_cars(older, arguments[0], h, SECONDS, CARS) as cars:
+    with older_cars(older, make.args[0], h, SECONDS, CARS) as cars:
         return measure(scene, h, make, rounds=rounds, older=cars)
 
 

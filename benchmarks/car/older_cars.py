@@ -28,8 +28,11 @@ system = mbs.compile(prototype_car.build())
 names, rows = told["inputs"], np.array(told["rows"])
 first = dict(zip(names, rows[0].tolist()))
 pose = mbs.Pose(**told["pose"])
-order = [names.index(entry["name"]) for entry in system.meta["inputs"]]
-table = np.ascontiguousarray(rows[1:, order])
+declared = system.meta["inputs"]
+table = np.tile([float(entry["start"]) for entry in declared], (len(rows) - 1, 1))
+for column, entry in enumerate(declared):
+    if entry["name"] in names:
+        table[:, column] = rows[1:, names.index(entry["name"])]
 values = np.empty((1, len(system.meta["sensors"])))
 print("ready", flush=True)
 for line in sys.stdin:
@@ -80,15 +83,16 @@ def older_cars(folder: Path, name: str, h: float, seconds: float, cars: int) -> 
     names = [system.meta["inputs"][i]["name"] for i in signals.columns()]
     pose = manoeuvres.start_of(manoeuvre, system)[1]
     assert pose is not None
-    times = h * np.arange(round(seconds / h) + 1)
+    times = h * np.arange(round(seconds / h) + 1, dtype=float)
     rows = signals.at(times, 1e-6 * h)
     rows[0] = signals.at(times[:1], 1e-6 * h, after_jump=True)[0]
     told = {"inputs": names, "rows": rows.tolist(), "h": h, "cars": cars}
     told["pose"] = {key: getattr(pose, key) for key in ("x", "y", "yaw", "speed")}
     environment = os.environ | {"PYTHONPATH": str(folder)}
     command = [sys.executable, "-P", "-c", PROGRAM]
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-    with subprocess.Popen(command, cwd=folder, env=environment, **pipes) as process:
+    with subprocess.Popen(
+        command, cwd=folder, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as process:
         try:
             asked = OlderCars(process)
             asked.ask(json.dumps(told))

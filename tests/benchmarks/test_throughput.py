@@ -20,8 +20,8 @@ def test_ways_and_the_thousand_cars(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(lanes, "PARTS", 2)
     names = [scene for scene, *_ in throughput.SCENES]
     measure = throughput.measure
-    monkeypatch.setattr(throughput, "measure", lambda *scene: measure(*scene, seconds=0.1))
-    assert throughput.main(["--json", str(tmp_path / "rows.json")]) == 0
+    monkeypatch.setattr(throughput, "measure", lambda *scene, **more: measure(*scene, seconds=0.1, **more))
+    assert throughput.main(["--json", str(tmp_path / "rows.json"), "--rounds", "2"]) == 0
     written = json.loads((tmp_path / "rows.json").read_text("utf-8"))["rows"]
     rows, planar = ({row["way"]: row for row in written if row["scene"] == name} for name in names)
     assert list(planar) == list(rows)
