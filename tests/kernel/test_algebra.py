@@ -180,12 +180,24 @@ def chain(n: int, groups: list[int]) -> SystemBuilder:
     return b
 
 
+def woven(n: int, groups: list[int]) -> SystemBuilder:
+    """The same with springs between points far apart: what a front passes on does not lie side by side in the next."""
+    b = chain(n, groups)
+    for ends in ((0, 11), (1, 7, 10), (2, 6, 9), (3, 8), (4, 11)):
+        signal = b.signal({i: 0.3 + 0.1 * i for i in ends}, 0.2)
+        b.elements.append(Element(1, [signal, signal], [300.0, 8.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4))
+    return b
+
+
+@pytest.mark.parametrize("scene", [chain, woven])
 @pytest.mark.parametrize("groups", [[12], [4, 4, 4], [2] * 6, [1] * 12, [3, 1, 5, 3]], ids=str)
-def test_fronts_solve_as_one_dense_front_does(groups: list[int]) -> None:
+def test_fronts_solve_as_one_dense_front_does(
+    scene: Callable[[int, list[int]], SystemBuilder], groups: list[int]
+) -> None:
     """Thirty steps do not depend on how the coordinates are cut into fronts; the tangent is positive definite."""
-    b = chain(6, groups)
+    b = scene(6, groups)
     instance = initialised(b)
-    reference = initialised(chain(6, [12]))
+    reference = initialised(scene(6, [12]))
     for i in (instance, reference):
         i.set_settings(tolerance_r=1e-13, tolerance_phi=1e-12)
     for _ in range(30):
