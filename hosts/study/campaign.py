@@ -177,7 +177,7 @@ def _print_plan(plan: Plan, trial: Trial, folder: Path, scheduler: str | None, w
     if plan.work.signals:
         print(f"signals     {_some(plan.work.signals)}")
     whole = plan.runs * trial.seconds
-    where = "on one worker" if scheduler is not None else f"with {count} workers"
+    where = "on one worker" if count == 1 else f"with {count} workers"
     print(
         f"estimate    {trial.seconds:.3g} s a run, {duration(whole / count)} in all {where}; "
         f"{_size(bytes_of(plan))} of results",

@@ -156,7 +156,9 @@ def test_units_and_names_that_are_markup_are_refused_by_the_reader_and_by_the_pa
     recording.scene.update(scene)  # past the reader
     shown = opened(chromium, write_page(tmp_path / "p.html", recording, options={"arrows": True}).path)
     problem = shown.evaluate("async () => { await player.ready; return player.problem; }")
-    assert re.fullmatch(r"The scene has the (unit|name) \".*, which is none\.", problem, re.DOTALL)
+    assert re.fullmatch(
+        r"The scene has the (unit|name) \".*; a \1 is without control characters, < and >.*\.", problem, re.DOTALL
+    )
     check(shown, problem)
 
 

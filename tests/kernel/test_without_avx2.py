@@ -35,7 +35,7 @@ def states() -> bytes:
 
 @pytest.mark.slow
 def test_states_have_the_same_bits_without_avx2(tmp_path):
-    """Two numbers a vector in place of four, in what is compiled for both; nothing else is compiled anew."""
+    """Two numbers a vector in place of four, in what is compiled for both; nothing else is compiled again."""
     if widest_lanes() == 2:
         pytest.skip("this processor has no AVX2")
     file, library = tmp_path / "processor.c", tmp_path / build.library_name(build.host_target())

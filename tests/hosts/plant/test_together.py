@@ -60,7 +60,7 @@ def test_they_are_single_ones_to_the_last_bit(named: tuple[str, dict[str, Any]])
 
 @pytest.mark.parametrize("mode", list(AutoresetMode))
 def test_new_starts_are_those_of_gymnasium(rigid_fmu: Path, mode: AutoresetMode) -> None:
-    """Each way of Gymnasium to start anew: the same numbers, ends and further words."""
+    """Each way of Gymnasium to start again: the same numbers, ends and further words."""
 
     def make() -> LaneKeeping:
         return LaneKeeping(str(rigid_fmu), seconds=0.1)

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { actOf, ROWS } from "../src/common/key_table.js";
 import { keys, needed } from "../src/common/keys.js";
+import { playerActs } from "../src/player/keys.js";
 
 const KEYS = ["a", "A", " ", "Enter", "ArrowLeft", "Home", "5"];
 const input = (type) => ({ tagName: "INPUT", type });
@@ -77,4 +78,14 @@ test("caps lock changes no key", () => {
   for (const row of ROWS.filter(({ where }) => where !== "recorded")) {
     for (const key of row.keys ?? []) for (const typed of [key, key.toUpperCase()]) assert.equal(actOf({ key: typed, code: "" }, all), row.act);
   }
+});
+
+test("a page of results has the keys of its own cameras only", () => {
+  const ofCameras = (cameras) => {
+    const acts = Object.keys(playerActs(/** @type {any} */ ({ cameras, clock: {}, has: {}, look: {} })));
+    return acts.filter((act) => act.includes("camera"));
+  };
+  assert.deepEqual(ofCameras([]), []);
+  assert.deepEqual(ofCameras(["orbit"]), ["camera orbit"]);
+  assert.deepEqual(ofCameras(["orbit", "chase", "wheel FL", "side", "top"]), ["next camera", "camera chase", "camera wheel", "camera orbit", "camera top"]);
 });

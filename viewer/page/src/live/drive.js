@@ -279,7 +279,7 @@ class Drive {
       help: () => this.help.toggle(),
       close: () => this.help.toggle(false),
       "full screen": () => fullScreen(this.root),
-      ...cameraActs({ names: () => this.view.cameraNames, now: () => this.view.cameras?.name, choose: (name) => this._tell(this.camera(name), 3000) }),
+      ...cameraActs({ names: () => this.view.cameraNames, all: this.view.cameraNames, now: () => this.view.cameras?.name, choose: (name) => this._tell(this.camera(name), 3000) }),
       ...Object.fromEntries(shown.map((what) => [what, () => this._flip(what)])),
       ...(this.isCar ? { levers: flipLevers, mute: () => this._mute() } : {}),
     };

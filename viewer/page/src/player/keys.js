@@ -34,7 +34,7 @@ export function playerActs(player) {
     help: () => player.help.toggle(),
     close: () => (player.settings.toggle(false), player.help.toggle(false)),
     "full screen": () => fullScreen(player.root),
-    ...cameraActs({ names: () => player.cameras, now: () => player.cameraName, choose: (name) => player.camera(name) }),
+    ...cameraActs({ names: () => player.cameras, all: player.cameras, now: () => player.cameraName, choose: (name) => player.camera(name) }),
     ...Object.fromEntries(switches.map((what) => [what, () => player.set({ [what]: !look[what] })])),
   };
 }

@@ -6,7 +6,7 @@ export const NAME = /^[^\u0000-\u001f<>\u007f-\u009f\u2028\u2029]*$/;
 export const UNIT = /^[^\u0000-\u001f"&'<>`\u007f-\u009f\u2028\u2029]{0,40}$/;
 
 /**
- * The first name or unit that is none.
+ * The first name or unit that is not allowed.
  * @param {Data} scene
  * @returns {string} a sentence; empty where all are good
  */
@@ -21,9 +21,10 @@ export function wrongName(scene) {
     ...stresses.map((stress) => stress.limit_name),
     ...Object.keys(scene.frames ?? {}),
   ];
-  const wrong = (kind, pattern, texts) => {
+  const wrong = (kind, pattern, texts, right) => {
     const found = texts.find((text) => text !== undefined && text !== null && !pattern.test(text));
-    return found === undefined ? "" : `The scene has the ${kind} ${JSON.stringify(found).slice(0, 80)}, which is none.`;
+    return found === undefined ? "" : `The scene has the ${kind} ${JSON.stringify(found).slice(0, 80)}; ${right}.`;
   };
-  return wrong("unit", UNIT, units) || wrong("name", NAME, names);
+  const right = "without control characters, < and >";
+  return wrong("unit", UNIT, units, `a unit is ${right}, quotes and &, of at most 40 characters`) || wrong("name", NAME, names, `a name is ${right}`);
 }
