@@ -78,3 +78,25 @@ def test_a_state_from_before_is_judged_anew(prototype_fmu: Path, host: HostMaker
     (said,) = [m for m in driven.messages if WORDS in m]
     plain = drive(host(prototype_fmu), EVERY)[1]
     assert [said] == plain
+
+
+def test_a_host_that_sets_a_state_before_each_step_is_told_what_steps_tell_themselves(
+    prototype_fmu: Path, host: HostMaker
+) -> None:
+    """No second motion lives long enough there; with steps of 5 ms the rebound stop tells by its tangent."""
+    driven = host(prototype_fmu).start(FALL | {"step_size": 0.005})
+    for k in range(160):
+        driven.slave.setFMUstate(driven.slave.getFMUstate())
+        driven.step(k * 0.005, 0.005)
+    (said,) = driven.messages
+    assert "rebound stop too hard" in said
+
+
+def test_a_box_that_hops_on_and_on_is_made_twice_for_a_second_only(build: Callable[..., Path], host: HostMaker) -> None:
+    """Each hop is abrupt, so the two motions go apart until the second one ends; half a second later it is judged."""
+    driven = host(build("hopper")).start({"step_size": 0.004})
+    for k in range(500):
+        driven.step(k * 0.004, 0.004)
+    (said,) = driven.messages
+    assert WORDS in said
+    assert float(said.split("At ")[1].split(" s")[0]) < 1.4

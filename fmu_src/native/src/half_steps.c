@@ -16,9 +16,11 @@ static const double FREE = 1.0, SHARE = 0.1; /* s, and of the time driven: how m
 
 /* From the state that is there now nothing is made twice. */
 void slave_half_steps_begin(slave *s) {
+  slave_half_steps *t = &s->half_steps;
   ali3_report report;
-  s->half_steps.left = s->half_steps.apart = 0.0;
-  s->half_steps.abrupt = ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.abrupt_steps : 0;
+  t->alone = t->alone || t->left > 0.0 || t->apart > 0.0;
+  t->left = t->apart = 0.0;
+  t->abrupt = ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.abrupt_steps : 0;
 }
 
 /* Work of one block: the snapshot of this motion at the end of the step, that of the other, forces of both, inputs. */
@@ -92,6 +94,7 @@ static void follow(slave *s, double now) {
   ali3_snapshot_restore(kernel, t->end);
   if (!good) {
     t->left = 0.0;
+    t->alone = true;
     return;
   }
   ali3_contact_forces(kernel, !t->jumped, t->force + n);
@@ -119,11 +122,20 @@ static slave_status judge(slave *s, const ali3_report *r) {
       t->time, 100.0 * error, h * fmin(0.5, SAFE * WRONG / error));
 }
 
+/* What can be said by now, or when the run has `ended`. */
+static slave_status tell(slave *s, const ali3_report *r, double now, bool ended) {
+  const slave_half_steps *t = &s->half_steps;
+  const bool told = slave_event_told(r);
+  slave_status status = SLAVE_OK;
+  if (t->apart > 0.0 && (ended || told || now > t->time + LATER)) status = judge(s, r);
+  if (s->event_said || !t->alone || !told || (t->left > 0.0 && !ended)) return status;
+  return slave_say_event(s, r);
+}
+
 /* What is not judged when the run ends. */
 void slave_half_steps_end(slave *s) {
   ali3_report report;
-  if (s->half_steps.apart > 0.0 && !s->event_said && ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK)
-    judge(s, &report);
+  if (!s->event_said && ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK) tell(s, &report, 0.0, true);
 }
 
 /* After a good communication step whose start the fidelity keeps; before slopes are forgotten. */
@@ -134,18 +146,19 @@ slave_status slave_halve_steps(slave *s) {
   const bool abrupt = report.abrupt_steps > t->abrupt, rests = !(t->left > 0.0);
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
   t->abrupt = report.abrupt_steps;
-  if (abrupt && rests) {
-    if (t->spent > FREE + SHARE * (now - s->calls.start_time) || !allocate(s))
-      return slave_event_told(&report) ? slave_say_event(s, &report) : SLAVE_OK;
-    memcpy(t->other, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
-    t->jumped = false;
+  t->driven += length;
+  if (abrupt && (t->spent > FREE + SHARE * t->driven || !allocate(s))) {
+    t->alone = true;
+  } else if (abrupt) {
+    if (rests) memcpy(t->other, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
+    t->jumped = t->jumped && !rests;
+    t->alone = t->alone && !rests;
+    t->left = SPAN;
   }
-  if (abrupt) t->left = SPAN;
   if (t->left > 0.0) {
     t->left -= length;
     t->spent += length;
     follow(s, now);
   }
-  const bool shown = now > t->time + LATER || slave_event_told(&report);
-  return t->apart > 0.0 && shown ? judge(s, &report) : SLAVE_OK;
+  return tell(s, &report, now, false);
 }

@@ -121,10 +121,11 @@ typedef struct { /* the last good communication step, whose start the fidelity k
 typedef struct { /* of a motion that is made a second time with half the step, see half_steps.c */
   void *end, *other; /* snapshots: this motion after the communication step, the other one; NULL: not needed yet */
   double *force, *input, *parameter; /* work */
-  double left, spent; /* s: of the time that is made twice, 0: nothing is; made twice so far */
+  double left, spent, driven; /* s: of the time that is made twice, 0: nothing is; made twice so far; of all steps */
   double apart, time, h; /* largest difference of forces that is not judged yet, N; when, s; inner step there, s */
   int64_t abrupt; /* abrupt steps that were seen */
   bool jumped; /* an input has, since it began */
+  bool alone; /* not all of an abrupt change was made twice: what steps tell themselves holds */
 } slave_half_steps;
 
 typedef struct { /* a System of the FMU at work */
