@@ -187,7 +187,7 @@ def test_drives_work_apart_from_elements():
 
 def test_what_is_refused():
     m = swing(0.0)
-    kinds = "'heat'; it must be kinetic, gravity, elastic, total, work, nonconservative or by inputs"
+    kinds = "'heat'; it must be kinetic, gravity, elastic, total, work, nonconservative, by inputs or with guides"
     with pytest.raises(ModelError, match=kinds):
         m.sense_energy("w", "heat", "spring")
     for elements in ([], ["spring", "spring"]):
