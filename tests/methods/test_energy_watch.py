@@ -199,3 +199,17 @@ def test_each_method_sums_up_the_work_of_a_guide(method):
         assert np.ptp(run["guides"]) > 1.0
     assert left[0] < 0.03 * np.ptp(run["guides"])
     assert left[0] > 3.0 * left[1]
+
+
+@pytest.mark.parametrize("method", ["ali3p", "energy_momentum"])
+def test_the_work_of_a_guide_is_the_same_whether_steps_are_read_or_not(method):
+    """Energy-momentum steps have multipliers of their ends only where they are read: else 1.13 J are 1.63 J."""
+    works = []
+    for parts in (1, 100):
+        simulation = Simulation(watched_rotor(), settings=Settings(method=method))
+        simulation.set_input("target", 0.5)
+        for _ in range(100 // parts):
+            simulation.instance.run(1e-3, parts)
+        works.append(simulation.sensors["guides"])
+    assert works[0] > 1.0
+    assert works[1] == works[0]

@@ -146,7 +146,8 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
   in->call_residual = 0.0;
   for (int64_t n = 0; n < n_steps; n++) {
     const bool recorded = (out != NULL || positions != NULL) && (n + 1) % every == 0;
-    in->unobserved = !recorded && n + 1 < n_steps;
+    /* the work of guides reads the end of each step */
+    in->unobserved = !recorded && n + 1 < n_steps && in->system->n_guide_work == 0;
     in->sampled = n + 1 < n_steps;
     const ali3_status status = step(in, h, inputs != NULL ? inputs + n * nu : NULL);
     if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, unobserved, sampled), h);
