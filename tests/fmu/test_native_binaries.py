@@ -86,7 +86,7 @@ def test_universal_refuses_what_is_none() -> None:
 
 @pytest.mark.slow
 def test_the_file_is_small(all_platforms: Path) -> None:
-    assert all_platforms.stat().st_size < 2.1e6  # 0.1 MB of it for AVX2 (decision 160)
+    assert all_platforms.stat().st_size < 2.2e6  # 0.1 MB of it for AVX2 (decision 160)
 
 
 def host_rows(program: list[str], folder: Path, library: str) -> np.ndarray:

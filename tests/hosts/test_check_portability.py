@@ -142,7 +142,11 @@ CALLS: list[tuple[str, str, str, Change]] = [
         "native",
         "quiet steps",
         "status 1",
-        ("sources/step.c", "return slave_watch(s);", "return s->calls.step_warned ? SLAVE_WARNING : SLAVE_OK;"),
+        (
+            "sources/step.c",
+            "return halved > watched ? halved : watched;",
+            "return halved > watched || s->calls.step_warned ? SLAVE_WARNING : SLAVE_OK;",
+        ),
     ),
     ("native", "resources", "FILE://", ("sources/resource.c", "uri[n] == scheme[n] - ('a' - 'A')", "0")),
     (
