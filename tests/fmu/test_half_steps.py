@@ -65,7 +65,7 @@ def test_a_run_that_ends_soon_is_judged_at_its_end(prototype_fmu: Path, host: Ho
     assert [m for m in driven.messages if WORDS in m]
 
 
-def test_a_state_from_before_is_judged_anew(prototype_fmu: Path, host: HostMaker) -> None:
+def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMaker) -> None:
     """Back in the fall after the other motion had begun: the same is told as without."""
     driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
     driven.step(0.0, EVERY)

@@ -9,7 +9,7 @@
  * is loaded and stored once. Four are one sum, fewer are subtracted in turn. */
 ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_t n, const real *f, int32_t count,
                            int64_t from) {
-  ALI3_ANEW(n);
+  ALI3_OPAQUE(n);
   const real *restrict c1 = c + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;
   if (count == PANEL) {
     ALI3_BY_FOURS
@@ -28,7 +28,7 @@ ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_
 
 /* The same of the columns of two panels, one after the other. */
 ALI3_INLINED void subtract_both(real *restrict target, const real *restrict c, int64_t n, const real *f, int64_t from) {
-  ALI3_ANEW(n);
+  ALI3_OPAQUE(n);
   const real *restrict c1 = c + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;
   const real *restrict d = c3 + n, *restrict d1 = d + n, *restrict d2 = d1 + n, *restrict d3 = d2 + n;
   ALI3_BY_FOURS
@@ -39,7 +39,7 @@ ALI3_INLINED void subtract_both(real *restrict target, const real *restrict c, i
 
 /* L_jp of the pivots of panels from their unscaled columns. */
 ALI3_INLINED void factors(const real *panel, const real *inverse, int32_t count, int64_t n, int32_t j, real *factor) {
-  ALI3_ANEW(n);
+  ALI3_OPAQUE(n);
   for (int32_t k = 0; k < count; k++) factor[k] = panel[k * n + j] * inverse[k];
 }
 
@@ -157,6 +157,13 @@ ALI3_INLINED ali3_status factorise(ali3_instance *in, real *F) {
   return ALI3_OK;
 }
 
+/* Those of a front: its pivots, which lie side by side in b, then the rest. */
+ALI3_INLINED void unknowns(const real *b, int32_t first, int32_t n_pivot, const int32_t *idx, int32_t n,
+                           real *restrict x) {
+  ali3_copy(x, b + first, n_pivot);
+  for (int32_t i = n_pivot; i < n; i++) x[i] = b[idx[i]];
+}
+
 /* x becomes L^-1' x front by front. */
 ALI3_INLINED void substitute_back(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
@@ -200,16 +207,15 @@ ALI3_INLINED void substitute_from_far(ali3_instance *in, const double *F, double
   double *restrict x = in->local;
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {
     const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
-    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-    ali3_copy(x, b + first, n_pivot);
-    for (int32_t i = n_pivot; i < n; i++) x[i] = b[idx[i]];
+    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
+    unknowns(b, first, n_pivot, S->front_idx + S->front_ptr[f], n, x);
     back_by_fours(F + S->front_off[f], x, n_pivot, n);
     ali3_copy(b + first, x, n_pivot);
   }
 }
 #endif
 
-/* b becomes the solution. The pivots of a front lie side by side in b. */
+/* b becomes the solution. */
 ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
   real *restrict x = in->local;
@@ -217,8 +223,7 @@ ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
     const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-    ali3_copy(x, b + first, n_pivot);
-    for (int32_t i = n_pivot; i < n; i++) x[i] = b[idx[i]];
+    unknowns(b, first, n_pivot, idx, n, x);
     ali3_front_forward(F + S->front_off[f], x, n_pivot, n);
     ali3_copy(b + first, x, n_pivot);
     for (int32_t i = n_pivot; i < n; i++) b[idx[i]] = x[i];

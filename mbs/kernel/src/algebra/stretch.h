@@ -22,7 +22,7 @@
 
 /* A number of which the compiler takes nothing for granted: addresses that follow from it are found where they are used,
  * as loops around that carry many along have no registers left. */
-#define ALI3_ANEW(number) __asm__("" : "+r"(number))
+#define ALI3_OPAQUE(number) __asm__("" : "+r"(number))
 
 enum { ALI3_LARGE = 12 }; /* coordinates of a front from which on it is worth while to count in fours */
 

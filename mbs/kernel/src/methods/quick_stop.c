@@ -54,15 +54,13 @@ static double look_at(ali3_instance *in, double h, int32_t e) {
   ali3_report *r = &in->report;
   const ali3_element_type *kind = S->el_kind[e];
   const double *from = in->next.out + S->el_out_ptr[e], *to = in->now.out + S->el_out_ptr[e];
-  const int32_t n_out = S->el_out_ptr[e + 1] - S->el_out_ptr[e];
   int32_t first;
   double most = 0.0;
   for (int32_t i = forces_of(S, e, false, &first); i-- > 0;)
     most = fmax(most, fabs(in->now.out[first + i] - in->next.out[first + i]));
-  for (int32_t i = 0; kind->depth != NULL && i < n_out && i < OF_A_TYRE; i++)
-    r->largest_force = fmax(r->largest_force, fabs(to[i]));
+  for (int32_t i = forces_of(S, e, true, &first); i-- > 0;)
+    r->largest_force = fmax(r->largest_force, fabs(in->now.out[first + i]));
   if (kind->rebound == NULL) return most;
-  r->largest_force = fmax(r->largest_force, fabs(to[1]));
   const int32_t nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e];
   const double change = kind->rebound(in->el_real + S->el_real_ptr[e], nreal, from[0], to[0]);
   if (!(change > fmax(limit(r, h), r->hit_change))) return most;

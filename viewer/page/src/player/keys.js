@@ -1,5 +1,4 @@
 // What keys do in the player, by the names of the table of keys.
-import { fullScreen } from "../common/full_screen.js";
 import { cameraActs } from "../common/views.js";
 import { SPEEDS } from "./clock.js";
 
@@ -33,7 +32,7 @@ export function playerActs(player) {
     settings: () => player.settings.toggle(),
     help: () => player.help.toggle(),
     close: () => (player.settings.toggle(false), player.help.toggle(false)),
-    "full screen": () => fullScreen(player.root),
+    "full screen": () => player.fullScreen(),
     ...cameraActs({ names: () => player.cameras, all: player.cameras, now: () => player.cameraName, choose: (name) => player.camera(name) }),
     ...Object.fromEntries(switches.map((what) => [what, () => player.set({ [what]: !look[what] })])),
   };
