@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs import Pose, Simulation, compile
 from mbs.vehicle import Car, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.linkages.curve_grid import write_curve_table
@@ -35,6 +36,17 @@ def light_armed(name: str) -> Car:
             data[axle]["suspension"]["torsional_stiffness"] = 20.0
             data[axle].pop("anti_roll_bar", None)
     return car_from(data, load(name).folder, name)
+
+
+def after_a_turn(car: Car, speed: float, **inputs: float) -> tuple[dict[str, float], dict[str, float]]:
+    """Coordinates and outputs of a car after 3 s with constant inputs, by name."""
+    simulation = Simulation(compile(car.model()), pose=Pose(speed=speed))
+    for name, value in inputs.items():
+        simulation.set_input(name, value)
+    for _ in range(600):
+        simulation.step(0.005)
+    names = simulation.system.meta["coordinates"]
+    return dict(zip(names, simulation.state.q.tolist(), strict=True)), simulation.sensors
 
 
 def curved_content(car: Car, folder: Path, axles: Sequence[str] = ("front", "rear")) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from mbs.vehicle import Car, CarFileError
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car import car_from
 from mbs.vehicle.springs import AxleSprings
-from tests.vehicle.curved_car import curved_content, light_armed
+from tests.vehicle.curved_car import after_a_turn, curved_content, light_armed
 
 STEER = {"per_moment": 8e-5}
 CAMBER, LATERAL, FORWARD = -4e-6, 1.5e-6, 8e-7  # rad/N, m/N
@@ -107,13 +107,7 @@ def test_a_rig_finds_the_compliances_of_the_file(axle: str, content: dict[str, A
 def test_wheels_of_a_turning_car_lean_by_their_lateral_forces(content: dict[str, Any], folder: Path) -> None:
     """In a steady turn: moments of contact and inertia about the axis over its stiffness, that of the load left out."""
     car = compliant(content, folder, front=STEER | ALL, rear=STEER | ALL)
-    simulation = Simulation(compile(car.model()), pose=Pose(speed=15.0))
-    for name, value in (("steering", 0.15), ("throttle", 0.2)):
-        simulation.set_input(name, value)
-    for _ in range(600):
-        simulation.step(0.005)
-    at = dict(zip(simulation.system.meta["coordinates"], simulation.state.q, strict=True))
-    out = simulation.sensors
+    at, out = after_a_turn(car, 15.0, steering=0.15, throttle=0.2)
     roll = out["chassis.roll"]
     for wheel, axle in (("FL", car.front), ("FR", car.front), ("RL", car.rear), ("RR", car.rear)):
         lean = np.arctan2(at[f"compliance {wheel}.bz"], at[f"compliance {wheel}.cz"]) - roll

@@ -23,7 +23,7 @@ from mbs.vehicle.kinematics.compliance import compliance
 from mbs.vehicle.side import Side
 from mbs.vehicle.suspensions.curve_poses import wheel_curves
 from mbs.vehicle.suspensions.curve_table import COLUMNS, FINEST, read_curves
-from tests.vehicle.curved_car import curved_content, light_armed
+from tests.vehicle.curved_car import after_a_turn, curved_content, light_armed
 
 WHEELS = ("FL", "FR", "RL", "RR")
 CARS = ("saloon", "hatchback", "prototype")
@@ -94,13 +94,7 @@ def test_compliance_is_what_the_forces_in_the_contact_ask_for(content: dict, fol
     data = _with(data, "rear", compliance=rear)
     data = _with(data, "front", compliance={"per_moment": c_m})
     car = car_from(data, folder / "saloon", "compliant")
-    simulation = Simulation(compile(car.model()), pose=Pose(speed=20.0))
-    for name, value in (("steering", 0.1), ("throttle", 0.3)):
-        simulation.set_input(name, value)
-    for _ in range(600):
-        simulation.step(0.005)
-    at = dict(zip(simulation.system.meta["coordinates"], simulation.state.q, strict=False))
-    out = simulation.sensors
+    at, out = after_a_turn(car, 20.0, steering=0.1, throttle=0.3)
     for side, sign in (("L", 1.0), ("R", -1.0)):
         Fx, Fy, Mz = (out[f"wheel_R{side}.{name}"] for name in ("Fx", "Fy", "Mz"))
         turn = at[f"compliance steer R{side}"]

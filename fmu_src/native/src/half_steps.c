@@ -63,18 +63,11 @@ static ali3_status make(slave *s) {
   ali3_instance *kernel = s->fidelity.kernel;
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   const double h = 0.5 * s->made.h;
-  ali3_status status = ALI3_OK;
-  for (int32_t i = 0; i < z.np; i++) ali3_get_parameter(kernel, i, &t->parameter[i]);
-  for (int32_t i = 0; i < z.nu; i++) ali3_get_input(kernel, i, &t->input[i]);
+  slave_look_at_step(s, t->parameter, t->input);
   slave_inputs_at(s, 0.0, t->input);
   ali3_snapshot_restore(kernel, t->other);
   t->jumped = t->jumped || jumps(s, t->input);
-  for (int32_t i = 0; i < z.np && status == ALI3_OK; i++) {
-    double was;
-    ali3_get_parameter(kernel, i, &was);
-    if (was != t->parameter[i]) status = ali3_set_parameter(kernel, i, t->parameter[i]);
-  }
-  for (int32_t i = 0; i < z.nu && status == ALI3_OK; i++) status = ali3_set_input(kernel, i, t->input[i]);
+  ali3_status status = slave_set_step(s, t->parameter, t->input);
   for (int64_t k = 1; k <= 2 * s->made.n && status == ALI3_OK; k++) {
     memcpy(t->input + z.nu, t->input, (size_t)z.nu * sizeof(double));
     slave_inputs_at(s, (double)k * h, t->input + z.nu);

@@ -37,13 +37,11 @@ static bool allocate(slave *s, replay *r) {
   return true;
 }
 
-/* The step as it was made: what it ended with, and its inputs and parameters, which its start does not have. */
+/* The step as it was made: what it ended with, and what its start does not have. */
 static void look(slave *s, replay *r) {
-  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   ali3_snapshot_take(s->fidelity.kernel, r->end);
   ali3_get_settings(s->fidelity.kernel, &r->settings);
-  for (int32_t i = 0; i < z.nu; i++) ali3_get_input(s->fidelity.kernel, i, &r->held[i]);
-  for (int32_t i = 0; i < z.np; i++) ali3_get_parameter(s->fidelity.kernel, i, &r->parameter[i]);
+  slave_look_at_step(s, r->parameter, r->held);
 }
 
 /* The direction in parts of the inputs' ranges, and how far to go each way. */
@@ -77,17 +75,9 @@ static ali3_status begin(slave *s, const replay *r, double part) {
   exact.step_iterations = ITERATIONS;
   exact.tolerance_r = 1e-300;
   ali3_snapshot_restore(kernel, s->fidelity.start);
-  ali3_status status = ali3_set_settings(kernel, &exact);
-  for (int32_t i = 0; i < z.np && status == ALI3_OK; i++) {
-    double was;
-    ali3_get_parameter(kernel, i, &was);
-    if (was != r->parameter[i]) status = ali3_set_parameter(kernel, i, r->parameter[i]);
-  }
-  for (int32_t i = 0; i < z.nu && status == ALI3_OK; i++) {
-    r->set[i] = r->held[i] + part * r->unit[i];
-    status = ali3_set_input(kernel, i, r->set[i]);
-  }
-  return status;
+  for (int32_t i = 0; i < z.nu; i++) r->set[i] = r->held[i] + part * r->unit[i];
+  const ali3_status status = ali3_set_settings(kernel, &exact);
+  return status == ALI3_OK ? slave_set_step(s, r->parameter, r->set) : status;
 }
 
 /* To its end; *contact: one with a road was made or lost on the way. */

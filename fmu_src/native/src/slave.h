@@ -240,6 +240,10 @@ void slave_half_steps_begin(slave *s);
 void slave_half_steps_end(slave *s);
 void slave_half_steps_free(slave *s);
 
+/* made_again.c: parameters and inputs of the step that was made; the same set in the state of its start */
+void slave_look_at_step(const slave *s, double *parameter, double *input);
+ali3_status slave_set_step(const slave *s, const double *parameter, const double *input);
+
 /* replay.c */
 slave_status slave_step_derivative(slave *s, const double *direction, bool left_out, double *out);
 

@@ -85,10 +85,8 @@ class TwistBeam(Section):
 
         Parameters
         ----------
-        axle : str
-            "front" or "rear".
-        springs : AxleSprings
-            Springs, dampers and stops of the axle.
+        axle, springs
+            As of `IndependentSuspension.corners`.
         tie_rod : TieRodEnd
             Of no use here.
         """
