@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import ClassVar
 
 from mbs.model.records import Guide
@@ -21,20 +22,21 @@ class SteeringSection(Section):
     """Why tables over the travel of a rack cannot be steered by it; empty where they can."""
 
     @property
+    @abstractmethod
     def wheel_angle_max(self) -> float:
         """Angle of the steering wheel at full lock, rad."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def full(self) -> float:
         """Its motion at full lock, m or rad."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def lateral_travel(self) -> tuple[str, float]:
         """Key that gives it and how far the ends of the tie rods go aside at full lock, m."""
-        raise NotImplementedError
 
+    @abstractmethod
     def wheel_at(self, motion: float) -> tuple[float, float]:
         """Angle of the steering wheel, rad, and its change per motion.
 
@@ -43,7 +45,6 @@ class SteeringSection(Section):
         motion : float
             m or rad, positive where it steers to the left.
         """
-        raise NotImplementedError
 
     def signed(self, way: float) -> float:
         """Sign of its motion where it steers to the left.
@@ -55,6 +56,7 @@ class SteeringSection(Section):
         """
         return way
 
+    @abstractmethod
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
         """What the inner ends of the tie rods hang on where a guide gives its motion.
 
@@ -65,7 +67,6 @@ class SteeringSection(Section):
         way : float
             As of `signed`.
         """
-        raise NotImplementedError
 
     @property
     def on_flexible_chassis(self) -> bool:
