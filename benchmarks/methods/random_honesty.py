@@ -68,6 +68,7 @@ def _mechanism(number: int, rng: np.random.Generator) -> Iterator[dict[str, Any]
         yield case | {"asked": "reference", "verdict": "none", "reason": str(none)}
         return
     system = mbs.compile(random_mechanisms.model_of(drawing))
+    system.to_bytes()  # assembly modes are searched on demand: at the model's cost, not at the first run's
     t = np.linspace(0.0, drawing.span, newton_euler.INSTANTS + 1)
     axes = "xyz"[: drawing.dimension]
     names = [f"tip{i}.{c}" for i in range(len(drawing.links)) for c in axes]
