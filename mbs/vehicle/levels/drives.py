@@ -29,11 +29,13 @@ class Drive:
     Parameters
     ----------
     name : str
+        Of its rows.
     duration : float
         s.
     inputs : dict of str to signal
         As `mbs.simulate` takes them.
     parameters : dict of str to float
+        Values before the start.
     speed : float
         At the start, m/s.
     """

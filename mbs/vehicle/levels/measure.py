@@ -61,6 +61,7 @@ def measure(
     systems : dict of Fidelity to System
         Of `systems_of`; the last is the reference.
     drives : sequence of Drive
+        What the car does.
     steps : sequence of float
         s; whole parts of the longest one.
     repeats : int
