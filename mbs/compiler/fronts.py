@@ -61,10 +61,8 @@ def build_fronts(pattern: sparse.csc_matrix, order: Index, late: Mapping[int, in
     structure = _columns(pattern, order)
     parent = [min(s) if s else -1 for s in structure]
     groups, above = _merge(structure, parent)
-    groups = {
-        k: sorted(p, key=lambda c: (late.get(order[c], 0), order[c] if order[c] in late else c))
-        for k, p in groups.items()
-    }
+    ranks = {k: (late[c], c) for k, c in enumerate(map(int, order)) if c in late}
+    groups = {k: sorted(p, key=lambda c: ranks.get(c, (0, c))) for k, p in groups.items()}
     return _number(np.asarray(order), structure, groups, above)
 
 

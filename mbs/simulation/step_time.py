@@ -44,7 +44,7 @@ def step_time(
     table = None
     if columns:
         table = np.tile([float(entry["start"]) for entry in declared], (steps, 1))
-        table[:, columns] = signals.at(h * np.arange(1, steps + 1), 1e-6 * h)
+        table[:, columns] = signals.at(h * np.arange(1.0, steps + 1.0), 1e-6 * h)
     values = np.empty((1, len(system.meta["sensors"])))
 
     def once() -> float:

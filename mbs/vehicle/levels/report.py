@@ -108,7 +108,9 @@ def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path |
 
 def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Lines of the table: a level each, its largest errors and the processor time of its slowest drive."""
-    lines = [("fidelity", "step, ms", "path, %", "loads, %", "moments, %", "ms per s", "times real time")]
+    lines: list[tuple[str, ...]] = [
+        ("fidelity", "step, ms", "path, %", "loads, %", "moments, %", "ms per s", "times real time")
+    ]
     for name, h in dict.fromkeys((row["fidelity"], row["h_s"]) for row in rows):
         mine = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
         errors = [_most(mine, output, 100.0, ".2g") for output in TITLES]
