@@ -32,7 +32,7 @@ COMMANDS = (
         "car",
         "mbs.vehicle.command",
         "",
-        "copy a car to a folder, check a car file, or draw the kinematics of its axles",
+        "copy a car, check a car file, draw the kinematics of its axles, or find its cheapest level within tolerances",
     ),
     Command(
         "run", "hosts.run.command", "hosts", "run an FMU or drive a car through a manoeuvre; tables and charts of it"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from argparse import ArgumentTypeError
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,8 @@ from benchmarks.shared.command import pyplot, save_chart
 from mbs.common.errors import ModelError
 from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
+from mbs.vehicle.levels import choice
+from mbs.vehicle.levels.choice import Choice
 
 COLOURS = {
     Fidelity.TABLE: "#999999",
@@ -27,29 +28,6 @@ COLOURS = {
 COMPARED = tuple(COLOURS)
 TICKS = (25, 50, 100, 200, 400, 800)  # us, of the chart
 STRESSES = ("moment", "moment_unfiltered")
-
-
-@dataclass(frozen=True)
-class Choice:
-    """The cheapest measured way to an output.
-
-    Attributes
-    ----------
-    h : float
-        Step, s.
-    error : float
-        Largest over the manoeuvres.
-    ms_per_second : float
-        Processor time per simulated second, of the slowest manoeuvre.
-    left_out : str
-        What this fidelity does without.
-    """
-
-    fidelity: Fidelity
-    h: float
-    error: float
-    ms_per_second: float
-    left_out: str
 
 
 def fidelity_of(text: str) -> Fidelity:
@@ -98,19 +76,6 @@ def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, 
     }
 
 
-def left_out(fidelity: Fidelity) -> str:
-    """What a fidelity does without, in words."""
-    texts = {
-        Fidelity.TABLE: "deformation and stresses, and forces in the links",
-        Fidelity.RIGID: "deformation and stresses",
-        Fidelity.QUASI_STATIC: "vibration of the frame and the effect of its bending on the motion",
-        Fidelity.LOAD_PATHS: "deformations that no recorded load excites, and vibration that is not in their shapes",
-        Fidelity.DYNAMIC: "fixed-interface modes above the fifth",
-        Fidelity.MANY_MODES: "fixed-interface modes above the fortieth",
-    }
-    return texts[fidelity]
-
-
 def cheapest(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> Choice:
     """The fidelity and step with the least time per simulated second that meet a tolerance in all manoeuvres measured.
 
@@ -125,28 +90,7 @@ def cheapest(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> C
     """
     if output not in OUTPUTS:
         raise ValueError(f"There is no output {output!r}; there are: {', '.join(OUTPUTS)}.")
-    if not tolerance > 0.0:
-        raise ValueError(f"The tolerance on {output} is {tolerance:g}; it must be positive.")
-    names = {row["manoeuvre"] for row in rows}
-    found: list[Choice] = []
-    smallest = float("inf")
-    for name, h in dict.fromkeys((row["fidelity"], row["h_s"]) for row in rows):
-        fidelity = Fidelity.of(name)
-        if fidelity is Fidelity.PAPER:
-            continue  # shown for comparison
-        mine = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
-        errors = [row[output] for row in mine]
-        if {row["manoeuvre"] for row in mine} != names or any(e is None for e in errors):
-            continue
-        smallest = min(smallest, max(errors))
-        if max(errors) <= tolerance:
-            cost = max(1e-3 * row["us_per_step"] / h for row in mine)
-            found.append(Choice(fidelity, h, max(errors), cost, left_out(fidelity)))
-    if not found:
-        raise ValueError(
-            f"No fidelity that was measured has {output} right to {tolerance:g}; the best is {smallest:.2g} away."
-        )
-    return min(found, key=lambda c: c.ms_per_second)
+    return choice.cheapest(rows, {output: tolerance})
 
 
 def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:

@@ -15,14 +15,13 @@ from hosts.measures.low_pass import low_pass
 from mbs import Settings, System, Trajectory, compile
 from mbs.scenes import kerb_test, prototype_car
 from mbs.vehicle import Fidelity
+from mbs.vehicle.levels.errors import LOADS, POSITION, error_of_change, path_error
 
 FOLDER = Path(__file__).parents[2] / "tests" / "data" / "fidelity"
 NAMES = ("kerb_test", "double_lane_change_replay", "drop")
 INTERVAL = 0.01  # s, between the samples of a reference
 FREQUENCY = 10.0  # Hz, of the low-pass
 MOMENTS = tuple(f"bending_moment.{g}" for g in prototype_car.car().tubular_frame.section.gauges)
-POSITION = ("chassis.x", "chassis.y", "chassis.z")
-LOADS = tuple(f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR"))
 FILTERED = "filtered."
 OUTPUTS = ("moment", "moment_unfiltered", "motion", "wheel_load")
 """What has an error: moments after and before the filter and wheel loads as parts of their largest change, the place
@@ -88,16 +87,11 @@ def read_peaks(name: str) -> dict[str, float]:
 def errors(values: dict[str, NDArray[np.float64]], reference: dict[str, NDArray[np.float64]]) -> dict[str, float]:
     """Errors by `OUTPUTS`, of what there are values."""
 
-    def relative(signals: tuple[str, ...]) -> float:
-        size = max(float(np.abs(reference[s] - reference[s][0]).max()) for s in signals)
-        return max(float(np.abs(values[s] - reference[s]).max()) for s in signals) / size
-
-    gap = np.array([values[s] - reference[s] for s in POSITION])
-    found = {"motion": float(np.linalg.norm(gap, axis=0).max()), "wheel_load": relative(LOADS)}
+    found = {"motion": path_error(values, reference), "wheel_load": error_of_change(values, reference, LOADS)}
     if MOMENTS[0] not in values:
         return found
     return {
-        "moment": relative(tuple(FILTERED + s for s in MOMENTS)),
-        "moment_unfiltered": relative(MOMENTS),
+        "moment": error_of_change(values, reference, tuple(FILTERED + s for s in MOMENTS)),
+        "moment_unfiltered": error_of_change(values, reference, MOMENTS),
         **found,
     }

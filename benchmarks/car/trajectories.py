@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TypeAlias
 
@@ -14,15 +13,14 @@ from benchmarks.car import manoeuvres
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.write_manoeuvre import write_manoeuvre
 from mbs import Settings, Trajectory
+from mbs.vehicle.levels.errors import LOADS, POSITION, load_error, path_error
 
 Column: TypeAlias = NDArray[np.float64]
 FOLDER = Path(__file__).parents[2] / "tests" / "data" / "car"
 STEP = 1e-4  # s
 CHECKS = (1e-3, 5e-4, 2.5e-4)  # s, steps that show the order
 TIGHT = Settings(tolerance_r=1e-12)
-POSITION = ("chassis.x", "chassis.y", "chassis.z")
 WHEELS = ("FL", "FR", "RL", "RR")
-LOADS = tuple(f"wheel_{w}.Fz" for w in WHEELS)
 SENSORS = (
     *POSITION,
     *(f"chassis.{name}" for name in ("yaw", "pitch", "roll", "vx", "vy", "wz", "ay")),
@@ -58,18 +56,6 @@ def read(
     names = lines[len(head)].split(",")
     table = np.array([[float(v) for v in line.split(",")] for line in lines[len(head) + 1 :]])
     return table[:, 0], dict(zip(names[1:], table[:, 1:].T, strict=True)), length
-
-
-def path_error(found: Trajectory | Mapping[str, Column], values: Mapping[str, Column]) -> float:
-    """Largest distance of the reference point from where it is in the reference at the same time, m."""
-    gap = np.array([found[s] - values[s] for s in POSITION])
-    return float(np.max(np.linalg.norm(gap, axis=0)))
-
-
-def load_error(found: Trajectory | Mapping[str, Column], values: Mapping[str, Column]) -> float:
-    """Largest error of a wheel load over the largest wheel load."""
-    peak = max(float(values[s].max()) for s in LOADS)
-    return max(float(np.abs(found[s] - values[s]).max()) for s in LOADS) / peak
 
 
 def load_error_in_time(found: Trajectory, fine: Trajectory, late: float) -> float:

@@ -1,14 +1,11 @@
-"""Repeated timing: of an action, and of the steps of a run in the kernel without what comes before them."""
+"""Repeated timing of an action; that of the steps of a run is `mbs.simulation.step_time`."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
-import numpy as np
-
-from mbs import Pose, Simulation, System
-from mbs.settings.input_signals import InputSignals, Signal
+from mbs.simulation.step_time import step_time as step_time
 
 
 def best_time(action: Callable[[], float | None], repeats: int = 5, warm_up: int = 1) -> float:
@@ -29,47 +26,3 @@ def best_time(action: Callable[[], float | None], repeats: int = 5, warm_up: int
         if k >= warm_up:
             walls.append(wall)
     return min(walls)
-
-
-def step_time(
-    system: System,
-    duration: float,
-    h: float,
-    repeats: int,
-    clock: Callable[[], float],
-    inputs: Mapping[str, Signal] | None = None,
-    parameters: Mapping[str, float] | None = None,
-    pose: Pose | None = None,
-) -> float:
-    """Least time of all steps of a run, s; start and table of inputs are made before.
-
-    Parameters
-    ----------
-    duration, h : float
-        Of the run and of a step, s.
-    repeats : int
-        Timed runs, after one more.
-    clock : callable
-        Seconds: `time.perf_counter` for wall time, `time.process_time` for that of the processor.
-    inputs, parameters, pose
-        As `mbs.simulate` takes them; the inputs have their first values before the start is made consistent.
-    """
-    steps = round(duration / h)
-    declared = system.meta["inputs"]
-    signals = InputSignals(inputs or {}, declared)
-    columns = signals.columns()
-    first = signals.at(np.zeros(1), 1e-6 * h, after_jump=True)[0]
-    start = {declared[i]["name"]: float(value) for i, value in zip(columns, first, strict=True)}
-    table = None
-    if columns:
-        table = np.tile([float(entry["start"]) for entry in declared], (steps, 1))
-        table[:, columns] = signals.at(h * np.arange(1, steps + 1), 1e-6 * h)
-    values = np.empty((1, len(system.meta["sensors"])))
-
-    def once() -> float:
-        simulation = Simulation(system, inputs=start, parameters=parameters, pose=pose)
-        begin = clock()
-        simulation.instance.run(h, steps, table, steps, values)
-        return clock() - begin
-
-    return best_time(once, repeats)

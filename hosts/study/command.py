@@ -30,8 +30,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.st
     parser.add_argument("--dry-run", action="store_true", help="check all, print the plan and stop")
     add_option(parser, "--again", "runs that failed are kept as failed")
     parser.add_argument("--run", type=int, metavar="INDEX", help="print the commands that repeat a run of the results")
-    parser.add_argument("--report", action="store_true", help="only write the report of the results")
-    parser.add_argument("--no-report", action="store_true", help="write no report at the end")
+    both = argparse.BooleanOptionalAction
+    parser.add_argument("--report", action=both, help="only write the report of the results; or none at the end")
     parser.add_argument(
         "--target",
         metavar="MEASURE=VALUE",
@@ -66,7 +66,7 @@ def _study(options: argparse.Namespace, prog: str) -> int:
     if ended is None:
         return 0
     kept = _keeps_limits(ended.folder)
-    if not options.no_report:
+    if options.report is not False:
         _report(ended.folder)
     return 0 if ended.good and kept else NOT_GOOD
 
@@ -86,7 +86,7 @@ def _keeps_limits(folder: Path) -> bool:
 def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.study.target import find_target, target_of
 
-    others = given_of(parser, options, ("scheduler", "jobs", "dry_run", "again", "run", "report", "no_report"))
+    others = given_of(parser, options, ("scheduler", "jobs", "dry_run", "again", "run", "report"))
     if others:
         raise HostError(f"{others[0]} does not go with --target, which makes its own runs.")
     if options.by is None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,8 +51,8 @@ def _trapezoid(pivots: int, size: int) -> int:
     return pivots * size - pivots * (pivots - 1) // 2
 
 
-def build_fronts(pattern: sparse.csc_matrix, order: Index) -> Fronts:
-    """Fronts of a symmetric pattern for an elimination order."""
+def build_fronts(pattern: sparse.csc_matrix, order: Index, late: Mapping[int, int] = MappingProxyType({})) -> Fronts:
+    """Fronts of a symmetric pattern for an elimination order; pivots in `late` come last, by its numbers."""
     n = pattern.shape[0]
     if n == 0:
         return Fronts(np.zeros(0, int), np.zeros(1, int), [], np.zeros(0, int))
@@ -59,6 +61,8 @@ def build_fronts(pattern: sparse.csc_matrix, order: Index) -> Fronts:
     structure = _columns(pattern, order)
     parent = [min(s) if s else -1 for s in structure]
     groups, above = _merge(structure, parent)
+    ranks = {k: (late[c], c) for k, c in enumerate(map(int, order)) if c in late}
+    groups = {k: sorted(p, key=lambda c: ranks.get(c, (0, c))) for k, p in groups.items()}
     return _number(np.asarray(order), structure, groups, above)
 
 
@@ -134,7 +138,7 @@ def _number(order: Index, structure: list[set[int]], groups: dict[int, list[int]
         stack.extend(children[k])
     post.reverse()
     front_of = {k: s for s, k in enumerate(post)}
-    sequence = [c for k in post for c in sorted(groups[k])]
+    sequence = [c for k in post for c in groups[k]]
     new = np.empty(len(order), dtype=np.int64)
     new[sequence] = np.arange(len(order))
     col = np.concatenate([[0], np.cumsum([len(groups[k]) for k in post])]).astype(np.int64)

@@ -272,8 +272,10 @@ def _symbolic(
     def pattern_with(room: Mapping[int, frozenset[int]]) -> sparse.csc_matrix:
         return clique_pattern(nz, cliques + [spread(c, behind, nz) for c in element_cliques(model, known.seen, room)])
 
-    drawn = pattern_with({})
+    drawn = pattern_with({})  # columns of modes lie side by side:
+    late = {c: k for k, places in enumerate(flexible_cliques(model, full), 1) for c in places[12:]}
     if not model.written_axes:
-        return build_fronts(drawn, fill_reducing_order(drawn)), (drawn.nnz + nz) // 2
+        return build_fronts(drawn, fill_reducing_order(drawn), late), (drawn.nnz + nz) // 2
     cliques += axis_cliques(model, full)  # what turns the axes of wheels has room; the order is that without
-    return build_fronts(pattern_with(axis_room(model, known.seen)), fill_reducing_order(drawn)), (drawn.nnz + nz) // 2
+    room = pattern_with(axis_room(model, known.seen))
+    return build_fronts(room, fill_reducing_order(drawn), late), (drawn.nnz + nz) // 2

@@ -1,7 +1,7 @@
 """Copies a car of the package to a folder, or checks a car file and prints what the car is: ali3 car.
 
 With --kinematics: draws its wheel travel and steer curves in the terms of ISO 8855, and prints what its axles are as
-drawn.
+drawn. With --cheapest: measures error and cost of each fidelity and step, and names the cheapest within tolerances.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from pathlib import Path
 
 from ali3.errors import UserError
 from ali3.old_options import add_old_names
-from ali3.options import Parser, add_option, given_of
+from ali3.options import Parser, add_option, given_of, name_and_text
 from ali3.running import run_command
 
-_OF_KINEMATICS = ("travel", "fidelity", "points", "out", "json")
+_OF_KINEMATICS = ("travel", "fidelity", "points", "out")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehicle.command") -> int:
@@ -25,7 +25,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
     parser.add_argument("folder", nargs="?", type=Path, metavar="FOLDER", help="copy the car there; it must not exist")
     add_option(parser, "--list")
     add_option(parser, "--show-parameters")
-    curves = parser.add_argument_group("kinematics")
+    curves = parser.add_argument_group("kinematics, cheapest level")
     curves.add_argument("--kinematics", action="store_true", help="draw the curves of the axles")
     curves.add_argument(
         "--travel",
@@ -37,17 +37,41 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
     curves.add_argument("--points", type=int, metavar="N", help="of each curve; default: 81")
     add_option(curves, "--fidelity", "with a flexible frame, where there is one")
     add_option(curves, "--out", "out/kinematics/CAR")
-    add_option(curves, "--json")
+    curves.add_argument(
+        "--cheapest",
+        type=name_and_text,
+        nargs="*",
+        metavar="NAME=VALUE",
+        help="find the cheapest fidelity and step: path=1 loads=3 moments=P, in percent; drive=FILE, a CSV table of "
+        "inputs over time, speed=V, m/s at its start; default: path=1 loads=3, three drives",
+    )
+    add_option(parser, "--json", "of --kinematics or --cheapest")
     add_old_names(parser, {"--parameters": "--show-parameters"})
     options = parser.parse_args(arguments)
     if not options.list and options.car is None:
         parser.error("a CAR is needed, or --list")
     if options.kinematics and not options.list:
-        return _kinematics(options)
+        return _kinematics(options, parser)
+    if options.cheapest is not None and not options.list:
+        return run_command(lambda: _cheapest(options, parser), (ValueError, RuntimeError))
     return run_command(lambda: _run(options, parser), (ValueError,))
 
 
-def _kinematics(options: argparse.Namespace) -> int:
+def _cheapest(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+    from mbs.vehicle.levels.report import report
+
+    if options.folder is not None:
+        raise UserError("A car is copied to a FOLDER, or its levels are compared by --cheapest; give one of them.")
+    _refuse(given_of(parser, options, _OF_KINEMATICS), "--kinematics")
+    return report(options)
+
+
+def _refuse(given: Sequence[str], where: str) -> None:
+    if given:
+        raise UserError(f"{given[0]} goes with {where}.")
+
+
+def _kinematics(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from ali3.extras import command_needs
     from mbs.common.errors import ModelError
 
@@ -58,6 +82,7 @@ def _kinematics(options: argparse.Namespace) -> int:
 
         if options.folder is not None:
             raise UserError("A car is copied to a FOLDER, or its curves are drawn by --kinematics; give one of them.")
+        _refuse(given_of(parser, options, ("cheapest",)), "a call without --kinematics")
         return report(options)
 
     return run_command(work, (ModelError,))
@@ -66,9 +91,8 @@ def _kinematics(options: argparse.Namespace) -> int:
 def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from mbs.vehicle.car_file import car_names, load
 
-    given = given_of(parser, options, _OF_KINEMATICS)
-    if given:
-        raise UserError(f"{given[0]} goes with --kinematics.")
+    _refuse(given_of(parser, options, _OF_KINEMATICS), "--kinematics")
+    _refuse(given_of(parser, options, ("json",)), "--kinematics or --cheapest")
     if options.list:
         width = max(map(len, car_names()))
         for name in car_names():

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from mbs import compile
-from mbs.compiler.fronts import build_fronts
+from mbs.compiler.fronts import DENSE_SIZE, build_fronts
 from mbs.compiler.ordering import clique_pattern, fill_reducing_order
+from mbs.scenes import prototype_car
 from tests.compiler.mechanisms import MODELS
 
 
@@ -25,8 +26,13 @@ def covered(fronts, n):
 def test_the_numeric_factor_fits_into_the_fronts(seed, n):
     rng = np.random.default_rng(seed)
     cliques = [rng.choice(n, size=rng.integers(2, 5), replace=False) for _ in range(n)]
-    pattern = clique_pattern(n, cliques)
-    fronts = build_fronts(pattern, fill_reducing_order(pattern))
+    modes = rng.choice(n, size=5, replace=False)
+    late = {int(c): 1 + k // 3 for k, c in enumerate(modes)}
+    pattern = clique_pattern(n, [*cliques, modes])
+    fronts = build_fronts(pattern, fill_reducing_order(pattern), late)
+    for begin, end in zip(fronts.col[:-1], fronts.col[1:], strict=True):
+        numbers = [(late[c], c) if c in late else (0, 0) for c in fronts.order[begin:end].tolist()]
+        assert n <= DENSE_SIZE or numbers == sorted(numbers)  # modes last, each body's in their order
     assert sorted(fronts.order) == list(range(n))
     A = pattern.toarray() * rng.uniform(0.1, 1.0, size=(n, n))
     A = A + A.T + 2 * n * np.eye(n)
@@ -60,3 +66,9 @@ def test_rows_and_mass_point_into_their_fronts(name):
         index = a["front_idx"][a["front_ptr"][s] :]
         assert (index[row], index[column]) == (i, j)
         assert a["front_col"][s] <= j < a["front_col"][s + 1]
+
+
+def test_modes_of_a_car_lie_side_by_side():
+    a = compile(prototype_car.build(fidelity="dynamic")).arrays
+    assert np.diff(a["flex_mode"]).tolist() == [1] * (len(a["flex_mode"]) - 1)
+    assert max(a["flex_frame"]) < min(a["flex_mode"])

@@ -32,6 +32,7 @@ WAYS = {
         **TYPED,
         "FOLDER": "mbs.vehicle.copy_car",
         "--kinematics": "mbs.vehicle.kinematics.report",
+        "--cheapest": "mbs.vehicle.levels.report",
         "tyre.kind magic_formula": "mbs.tyre_files",
         "frame.kind nastran": "mbs.flexible.read_nastran",
         "frame.kind calculix": "mbs.flexible.read_calculix",

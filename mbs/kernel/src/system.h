@@ -152,6 +152,8 @@ struct ali3_system {
   double *mass_floor; /* nq: M_ii, or a typical mass for massless coordinates */
   double *mass_floor_inverse; /* nq */
   double *mass_missing; /* nq: mass_floor - M_ii where M_ii is zero, else 0 */
+  int32_t
+      *mass_stretch; /* nq: entries of mass_ptr between which the columns of a row are neighbours, or twice its end */
   int32_t *mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns */
   int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */

@@ -5,16 +5,49 @@
 #include "front_block.h"
 #include "processor.h"
 
-/* target -= f[0] c + f[1] c1 + ... of `count` columns of length n, from entry `from` on, so that a column of the target
- * is loaded and stored once. Four are one sum, fewer are subtracted in turn. */
+/* The next column, whose address is kept and not found again from that of the first. */
+ALI3_INLINED const real *next_column(const real *column, int64_t n) {
+  column += n;
+  ALI3_OPAQUE(column);
+  return column;
+}
+
+/* target -= the multiples of four columns, `count` entries long, in one sum, so that an entry is in hand once. */
+ALI3_INLINED void subtract_four(real *restrict target, const real *restrict a, const real *restrict b,
+                                const real *restrict c, const real *restrict d, const real *f, int64_t count) {
+  ALI3_BY_FOURS
+  for (int64_t i = 0; i < count; i++) target[i] -= (f[0] * a[i] + f[1] * b[i]) + (f[2] * c[i] + f[3] * d[i]);
+}
+
+/* The same of the columns of two panels, one panel after the other. */
+ALI3_INLINED void subtract_eight(real *restrict target, const real *restrict a, const real *restrict b,
+                                 const real *restrict c, const real *restrict d, const real *restrict a1,
+                                 const real *restrict b1, const real *restrict c1, const real *restrict d1,
+                                 const real *f, int64_t count) {
+  ALI3_BY_FOURS
+  for (int64_t i = 0; i < count; i++)
+    target[i] = (target[i] - ((f[0] * a[i] + f[1] * b[i]) + (f[2] * c[i] + f[3] * d[i]))) -
+                ((f[4] * a1[i] + f[5] * b1[i]) + (f[6] * c1[i] + f[7] * d1[i]));
+}
+
+/* target -= the multiples of one or two panels of columns of length n, from entry `from` on. */
+ALI3_INLINED void subtract_panels(real *restrict target, const real *panel, int32_t count, int64_t n, const real *f,
+                                  int64_t from) {
+  const real *a = next_column(panel + from, 0), *b = next_column(a, n), *c = next_column(b, n), *d = next_column(c, n);
+  if (count == PANEL) {
+    subtract_four(target + from, a, b, c, d, f, n - from);
+    return;
+  }
+  const real *a1 = next_column(d, n), *b1 = next_column(a1, n), *c1 = next_column(b1, n), *d1 = next_column(c1, n);
+  subtract_eight(target + from, a, b, c, d, a1, b1, c1, d1, f, n - from);
+}
+
+/* target -= f[0] c + f[1] c1 + ... of less than a panel of columns of length n, in turn, from entry `from` on. */
 ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_t n, const real *f, int32_t count,
                            int64_t from) {
   ALI3_OPAQUE(n);
-  const real *restrict c1 = c + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;
-  if (count == PANEL) {
-    ALI3_BY_FOURS
-    for (int64_t i = from; i < n; i++) target[i] -= (f[0] * c[i] + f[1] * c1[i]) + (f[2] * c2[i] + f[3] * c3[i]);
-  } else if (count == 3) {
+  const real *restrict c1 = c + n, *restrict c2 = c1 + n;
+  if (count == 3) {
     ALI3_BY_FOURS
     for (int64_t i = from; i < n; i++) target[i] = ((target[i] - f[0] * c[i]) - f[1] * c1[i]) - f[2] * c2[i];
   } else if (count == 2) {
@@ -24,17 +57,6 @@ ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_
     ALI3_BY_FOURS
     for (int64_t i = from; i < n; i++) target[i] -= f[0] * c[i];
   }
-}
-
-/* The same of the columns of two panels, one after the other. */
-ALI3_INLINED void subtract_both(real *restrict target, const real *restrict c, int64_t n, const real *f, int64_t from) {
-  ALI3_OPAQUE(n);
-  const real *restrict c1 = c + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;
-  const real *restrict d = c3 + n, *restrict d1 = d + n, *restrict d2 = d1 + n, *restrict d3 = d2 + n;
-  ALI3_BY_FOURS
-  for (int64_t i = from; i < n; i++)
-    target[i] = (target[i] - ((f[0] * c[i] + f[1] * c1[i]) + (f[2] * c2[i] + f[3] * c3[i]))) -
-                ((f[4] * d[i] + f[5] * d1[i]) + (f[6] * d2[i] + f[7] * d3[i]));
 }
 
 /* L_jp of the pivots of panels from their unscaled columns. */
@@ -77,7 +99,10 @@ ALI3_INLINED ali3_status eliminate_panel(ali3_instance *in, real *block, int32_t
   if (status != ALI3_OK) return status;
   for (int32_t j = start + count; j < n; j++) {
     factors(panel, inverse, count, n, j, factor);
-    subtract(block + (int64_t)j * n, panel, n, factor, count, ali3_by_fours(j, n));
+    if (count == PANEL)
+      subtract_panels(block + (int64_t)j * n, panel, PANEL, n, factor, ali3_by_fours_below(j, n));
+    else
+      subtract(block + (int64_t)j * n, panel, n, factor, count, ali3_by_fours(j, n));
   }
   scale(block, start, count, n, inverse);
   return ALI3_OK;
@@ -90,13 +115,13 @@ ALI3_INLINED ali3_status eliminate_two(ali3_instance *in, real *block, int32_t f
   ali3_status status = inside_panel(in, block, first, start, PANEL, n, inverse);
   for (int32_t j = start + PANEL; j < start + BOTH && status == ALI3_OK; j++) {
     factors(panel, inverse, PANEL, n, j, factor);
-    subtract(block + (int64_t)j * n, panel, n, factor, PANEL, ali3_by_fours(j, n));
+    subtract_panels(block + (int64_t)j * n, panel, PANEL, n, factor, ali3_by_fours_below(j, n));
   }
   if (status == ALI3_OK) status = inside_panel(in, block, first, start + PANEL, PANEL, n, inverse + PANEL);
   if (status != ALI3_OK) return status;
   for (int32_t j = start + BOTH; j < n; j++) {
     factors(panel, inverse, BOTH, n, j, factor);
-    subtract_both(block + (int64_t)j * n, panel, n, factor, ali3_by_fours(j, n));
+    subtract_panels(block + (int64_t)j * n, panel, BOTH, n, factor, ali3_by_fours_below(j, n));
   }
   scale(block, start, BOTH, n, inverse);
   return ALI3_OK;

@@ -38,6 +38,16 @@ static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
 #endif
 }
 
+/* The same from an entry on that is no less than three. */
+static inline int64_t ali3_by_fours_below(int64_t from, int64_t n) {
+#ifdef ALI3_WIDTH
+  (void)n;
+  return from;
+#else
+  return n - ((n - from + 3) & ~(int64_t)3);
+#endif
+}
+
 /* y += a x */
 static inline void ali3_add_multiple(real *restrict y, const real *restrict x, real a, int64_t n) {
   ALI3_BY_FOURS

@@ -7,6 +7,7 @@
 
 #include "../algebra/fronts.h"
 #include "../algebra/processor.h"
+#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "body_arrays.h"
 #include "flexible_body.h"
@@ -155,13 +156,36 @@ ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, do
   }
 }
 
+/* The rows of modes in the columns of the frame; these come first and those lie side by side, unless the front of the
+ * body has many others. */
+ALI3_INLINED void add_coupling(const ali3_flexible *f, int32_t size, double wM, double wK, double *block) {
+  const int32_t n = f->n, *mode = f->loc + 12;
+  bool together = mode[n - 1] - mode[0] == n - 1;
+  for (int i = 0; i < 12; i++) together = together && f->loc[i] < mode[0];
+  for (int i = 0; i < 4; i++)
+    for (int k = 0; k < 3; k++) {
+      const double *restrict X = i == 0 ? f->P : f->D + 3 * (i - 1) * n, *restrict Y = X + n, *restrict Z = Y + n;
+      const double *restrict hang = i == 0 ? f->P : f->P + (i - 1) * n;
+      const double ax = wM * f->A[k], ay = wM * f->A[3 + k], az = wM * f->A[6 + k],
+                   g = i == 0 ? 0.0 : wK * f->gravity[k];
+      const int32_t at = f->loc[3 * i + k];
+      double *restrict column = block + (int64_t)at * size + mode[0];
+      if (together) {
+        ALI3_BY_FOURS
+        for (int32_t j = 0; j < n; j++) column[j] += (ax * X[j] + ay * Y[j]) + (az * Z[j] - g * hang[j]);
+        continue;
+      }
+      for (int32_t j = 0; j < n; j++)
+        ali3_add_lower(block, size, at, mode[j], (ax * X[j] + ay * Y[j]) + (az * Z[j] - g * hang[j]));
+    }
+}
+
 /* F += wM (M(q) - constant part) + wC C + wK K at the q that was prepared; K with the part of the weight. */
 ALI3_INLINED void flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, double *F) {
   const ali3_system *s = in->system;
   for (int32_t b = 0; b < s->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
-    const int32_t n = f.n, front = s->flex_front[b], size = s->front_ptr[front + 1] - s->front_ptr[front];
-    const int32_t *mode = f.loc + 12;
+    const int32_t front = s->flex_front[b], size = s->front_ptr[front + 1] - s->front_ptr[front];
     double *block = F + s->front_off[front];
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) {
@@ -169,15 +193,7 @@ ALI3_INLINED void flexible_tangent(const ali3_instance *in, double wM, double wC
         ali3_add_lower(block, size, axis, f.loc[k], wM * f.S[i]);
         for (int l = 0; l <= i; l++) ali3_add_lower(block, size, axis, f.loc[3 + 3 * l + k], wM * f.J[3 * i + l]);
       }
-    for (int i = 0; i < 4; i++)
-      for (int k = 0; k < 3; k++) {
-        const double *restrict X = i == 0 ? f.P : f.D + 3 * (i - 1) * n;
-        const double *restrict hang = i == 0 ? f.P : f.P + (i - 1) * n;
-        const double ax = wM * f.A[k], ay = wM * f.A[3 + k], az = wM * f.A[6 + k], g = i == 0 ? 0.0 : wK * f.gravity[k];
-        for (int32_t j = 0; j < n; j++)
-          ali3_add_lower(block, size, f.loc[3 * i + k], mode[j],
-                         (ax * X[j] + ay * X[n + j]) + (az * X[2 * n + j] - g * hang[j]));
-      }
+    add_coupling(&f, size, wM, wK, block);
     if (wC != 0.0 || wK != 0.0) add_moduli(&f, size, wC, wK, block);
   }
 }

@@ -282,6 +282,14 @@ static inline void add_triple(real *block, int64_t n, const real *J, int32_t j, 
   }
 }
 
+/* target += the multiples of four rows, in turn while an entry is in hand. */
+ALI3_INLINED void add_four(real *restrict target, const real *restrict a, const real *restrict b,
+                           const real *restrict c, const real *restrict d, const real *f, int64_t count) {
+  ALI3_BY_FOURS
+  for (int64_t i = 0; i < count; i++)
+    target[i] = (((target[i] + f[0] * a[i]) + f[1] * b[i]) + f[2] * c[i]) + f[3] * d[i];
+}
+
 /* Weight J' J of four rows with the same stretch, from row k on: in columns of the stretch one after the other while an
  * entry is in hand. */
 ALI3_INLINED void square_of_four(const ali3_system *S, int32_t k, const real *J, double weight, real *block,
@@ -294,14 +302,13 @@ ALI3_INLINED void square_of_four(const ali3_system *S, int32_t k, const real *J,
       for (int32_t i = j; i < first[row]; i++) column[loc[i]] += factor * J[i];
       ali3_add_multiple(column + loc[first[row]], J + first[row], factor, length);
     }
-  const real *restrict a = J + first[k], *restrict b = J + first[k + 1], *restrict c = J + first[k + 2],
-                       *restrict d = J + first[k + 3];
-  for (int32_t j = 0; j < length; j++) {
-    real *restrict column = block + (int64_t)(loc[first[k]] + j) * n + loc[first[k]];
-    const real x = weight * a[j], y = weight * b[j], z = weight * c[j], w = weight * d[j];
-    ALI3_BY_FOURS
-    for (int32_t i = ali3_by_fours(j, length); i < length; i++)
-      column[i] = (((column[i] + x * a[i]) + y * b[i]) + z * c[i]) + w * d[i];
+  const real *a = J + first[k], *b = J + first[k + 1], *c = J + first[k + 2], *d = J + first[k + 3];
+  for (int64_t j = 0; j < length; j++) {
+    const real factor[4] = {weight * a[j], weight * b[j], weight * c[j], weight * d[j]};
+    int64_t from = j < 3 ? j : ali3_by_fours_below(j, length);
+    ALI3_OPAQUE(from);
+    real *column = block + (loc[first[k]] + j) * n + loc[first[k]] + from;
+    add_four(column, a + from, b + from, c + from, d + from, factor, length - from);
   }
 }
 

@@ -44,6 +44,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->mass_floor_inverse = ali3_pool_items(p, nq, sizeof(double));
   s->mass_missing = ali3_pool_items(p, nq, sizeof(double));
   s->mass_alike = ali3_pool_items(p, nq, sizeof(int32_t));
+  s->mass_stretch = ali3_pool_items(p, nq, 2 * sizeof(int32_t));
   s->mass_mirror = ali3_pool_items(p, (size_t)s->n_mass_col, sizeof(int32_t));
   s->diagonal_pos = ali3_pool_items(p, nq, sizeof(int32_t));
   s->el_kind = ali3_pool_items(p, ne, sizeof *s->el_kind);
@@ -265,6 +266,15 @@ static void derive_stretches(ali3_system *s) {
   }
 }
 
+/* The longest stretch of a row whose columns are neighbours, its first entry and its end; none where it is short. */
+static void longest_stretch(const int32_t *col, int32_t begin, int32_t end, int32_t *stretch) {
+  stretch[0] = stretch[1] = end;
+  for (int32_t i = begin, first = begin; i < end; i++) {
+    if (i > first && col[i] != col[i - 1] + 1) first = i;
+    if (i + 1 - first >= SHORTEST && i + 1 - first > stretch[1] - stretch[0]) stretch[0] = first, stretch[1] = i + 1;
+  }
+}
+
 static void derive_mass_rows(ali3_system *s) {
   const int32_t *ptr = s->mass_ptr, *col = s->mass_col;
   for (int32_t i = s->size.nq - 1; i >= 0; i--) {
@@ -272,6 +282,7 @@ static void derive_mass_rows(ali3_system *s) {
     const bool alike = i + 1 < s->size.nq && ptr[i + 2] - ptr[i + 1] == n &&
                        memcmp(col + ptr[i], col + ptr[i + 1], (size_t)n * sizeof *col) == 0;
     s->mass_alike[i] = alike ? s->mass_alike[i + 1] + 1 : 1;
+    longest_stretch(col, ptr[i], ptr[i + 1], s->mass_stretch + 2 * (int64_t)i);
     for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
       const int32_t j = col[k];
       s->mass_mirror[k] = ptr[j] + ali3_find(col + ptr[j], ptr[j + 1] - ptr[j], i);

@@ -1,0 +1,107 @@
+"""The cheapest measured level, fidelity and step, that meets tolerances."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mbs.vehicle.fidelity import Fidelity
+
+LEFT_OUT = {
+    Fidelity.TABLE: "deformation and stresses, and forces in the links",
+    Fidelity.RIGID: "deformation and stresses",
+    Fidelity.QUASI_STATIC: "vibration of the frame and the effect of its bending on the motion",
+    Fidelity.LOAD_PATHS: "deformations that no recorded load excites, and vibration that is not in their shapes",
+    Fidelity.DYNAMIC: "fixed-interface modes above the fifth",
+    Fidelity.MANY_MODES: "fixed-interface modes above the fortieth",
+}
+"""What a fidelity does without, in words."""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The cheapest measured way to an output.
+
+    Attributes
+    ----------
+    h : float
+        Step, s.
+    errors : dict of str to float
+        Of the outputs that were asked for, largest over the manoeuvres.
+    ms_per_second : float
+        Processor time per simulated second, of the slowest manoeuvre.
+    """
+
+    fidelity: Fidelity
+    h: float
+    errors: dict[str, float]
+    ms_per_second: float
+
+    @property
+    def error(self) -> float:
+        """The largest error."""
+        return max(self.errors.values())
+
+    @property
+    def left_out(self) -> str:
+        """What this fidelity does without."""
+        return LEFT_OUT[self.fidelity]
+
+
+def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[Choice]:
+    """Each fidelity and step that was measured in all manoeuvres, with its largest errors and its cost.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        With "manoeuvre", "fidelity" (name), "h_s", "us_per_step", and the error of each output; None where there is
+        none.
+    outputs : sequence of str
+        Those that must have an error.
+    """
+    names = {row["manoeuvre"] for row in rows}
+    found: list[Choice] = []
+    for name, h in dict.fromkeys((row["fidelity"], row["h_s"]) for row in rows):
+        fidelity = Fidelity.of(name)
+        mine = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
+        known = all(row[output] is not None for row in mine for output in outputs)
+        if fidelity in LEFT_OUT and known and {row["manoeuvre"] for row in mine} == names:
+            errors = {output: max(row[output] for row in mine) for output in outputs}
+            found.append(Choice(fidelity, h, errors, max(1e-3 * row["us_per_step"] / h for row in mine)))
+    return found
+
+
+def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> Choice:
+    """The fidelity and step with the least time per simulated second that meet tolerances in all manoeuvres measured.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        As for `levels`.
+    tolerances : mapping of str to float
+        On the errors of outputs.
+
+    Raises
+    ------
+    ValueError
+        A tolerance is not positive, or nothing that was measured meets all; the message says how near the nearest is.
+    """
+    for output, tolerance in tolerances.items():
+        if not tolerance > 0.0:
+            raise ValueError(f"The tolerance on {output} is {tolerance:g}; it must be positive.")
+    found = levels(rows, list(tolerances))
+    good = [c for c in found if all(c.errors[output] <= most for output, most in tolerances.items())]
+    if good:
+        return min(good, key=lambda c: c.ms_per_second)
+    asked = " and ".join(f"{output} right to {most:g}" for output, most in tolerances.items())
+    if not found:
+        raise ValueError(f"No fidelity that was measured has {asked}: none has all of these outputs in all manoeuvres.")
+    near = nearest(found, tolerances).errors
+    named = [f"{output} {error:.2g}" if len(near) > 1 else f"{error:.2g}" for output, error in near.items()]
+    raise ValueError(f"No fidelity that was measured has {asked}; the best is {' and '.join(named)} away.")
+
+
+def nearest(found: Sequence[Choice], tolerances: Mapping[str, float]) -> Choice:
+    """The level whose largest error in parts of its tolerance is the least."""
+    return min(found, key=lambda c: max(c.errors[output] / most for output, most in tolerances.items()))

@@ -1,0 +1,121 @@
+"""What a car does while its levels are compared."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ali3.tables import TextTable
+from mbs.common.errors import ModelError
+from mbs.settings.input_signals import Signal
+from mbs.simulation.state import Pose
+from mbs.system.system import System
+
+ACCELERATION = 4.0  # m/s2, to the side in the slalom
+SPEED, FREQUENCY, SLALOM = 15.0, 0.5, 6.0  # m/s, Hz, s
+BRAKING, BRAKE, BRAKE_TIME = 20.0, 0.3, 4.0  # m/s, part of the pedal, s
+KERB_SPEED, KERB_AT, KERB, KERB_TIME = 5.0, 4.0, 0.05, 3.0  # m/s, m, m, s
+SHORTEST = 0.1  # s
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Inputs over time, from a start.
+
+    Parameters
+    ----------
+    name : str
+        Of its rows.
+    duration : float
+        s.
+    inputs : dict of str to signal
+        As `mbs.simulate` takes them.
+    parameters : dict of str to float
+        Values before the start.
+    speed : float
+        At the start, m/s.
+    """
+
+    name: str
+    duration: float
+    inputs: dict[str, Signal]
+    parameters: dict[str, float] = field(default_factory=dict)
+    speed: float = 0.0
+
+    @property
+    def pose(self) -> Pose:
+        """Start of a run."""
+        return Pose(speed=self.speed)
+
+
+def own_drives(system: System) -> list[Drive]:
+    """The drives that a car can do by itself: a slalom, braking, and a kerb.
+
+    Parameters
+    ----------
+    system : System
+        Of the rigid car.
+
+    Returns
+    -------
+    list of Drive
+        The slalom (0.5 Hz, 15 m/s) steers as far as 4 m/s2 to the side need without slip of the tyres; the brake is
+        pressed to 0.3 within 0.2 s at 20 m/s; the kerb is 5 cm down at 5 m/s. What needs an input or a parameter that
+        the car does not have is left out.
+    """
+    constants = {entry["name"]: float(entry["value"]) for entry in system.meta["constants"]}
+    inputs = {entry["name"] for entry in system.meta["inputs"]}
+    parameters = {entry["name"] for entry in system.meta["parameters"]}
+    found = []
+    if "steering" in inputs:
+        angle = constants["vehicle.wheelbase"] * ACCELERATION / SPEED**2
+        t = np.linspace(0.0, SLALOM, round(SLALOM / 0.01) + 1)
+        turns = np.sin(2.0 * math.pi * FREQUENCY * t) * np.minimum(t / 2.0, 1.0) ** 2
+        part = min(angle / constants["vehicle.front_wheel_angle_max"], 1.0)
+        found.append(Drive("slalom", SLALOM, {"steering": (t, part * turns)}, speed=SPEED))
+    if "brake" in inputs:
+        times = np.array([0.0, 0.5, 0.7, BRAKE_TIME])
+        pressed = np.array([0.0, 0.0, BRAKE, BRAKE])
+        found.append(Drive("braking", BRAKE_TIME, {"brake": (times, pressed)}, speed=BRAKING))
+    if {"road.kerb_x", "road.kerb_height"} <= parameters:
+        ahead = {"road.kerb_x": KERB_AT, "road.kerb_height": KERB}
+        found.append(Drive("kerb", KERB_TIME, {}, ahead, KERB_SPEED))
+    if not found:
+        raise ModelError("The car has no input for its steering or brake and no kerb; give a drive of your own.")
+    return found
+
+
+def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
+    """A drive from a table of inputs over time.
+
+    Parameters
+    ----------
+    file : Path
+        CSV with the column ``time``, s, and one of each input; linear in between.
+    speed : float
+        At the start, m/s.
+    inputs : collection of str
+        That the car has.
+
+    Raises
+    ------
+    FileError
+        It is no such table; the message names file and fault.
+    """
+    table = TextTable(file)
+    if "time" not in table.names or len(table.names) < 2:
+        raise table.error(f"{file} has no column 'time' and beside it one of an input, such as 'steering'.")
+    unknown = [name for name in table.names if name != "time" and name not in inputs]
+    if unknown:
+        raise table.error(f"{file}: the car has no input '{unknown[0]}'; it has {', '.join(sorted(inputs))}.")
+    columns = dict(zip(table.names, table.values().T, strict=True))
+    t = columns.pop("time")
+    if not (np.diff(t) >= 0.0).all() or t[0] != 0.0 or t[-1] < SHORTEST:
+        raise table.error(
+            f"{file}: times go from {t[0]:g} to {t[-1]:g} s; they must rise from 0 to {SHORTEST:g} s or more."
+        )
+    return Drive(file.stem, float(t[-1]), {name: (t, values) for name, values in columns.items()}, speed=speed)

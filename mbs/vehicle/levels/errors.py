@@ -1,0 +1,31 @@
+"""Errors of the signals of a car against those of another run at the same times."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+
+Signals: TypeAlias = "Mapping[str, Any]"
+
+POSITION = ("chassis.x", "chassis.y", "chassis.z")
+LOADS = tuple(f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR"))
+
+
+def path_error(found: Signals, reference: Signals) -> float:
+    """Largest distance of the reference point from where it is in the reference at the same time, m."""
+    gap = np.array([found[s] - reference[s] for s in POSITION])
+    return float(np.max(np.linalg.norm(gap, axis=0)))
+
+
+def load_error(found: Signals, reference: Signals) -> float:
+    """Largest error of a wheel load over the largest wheel load."""
+    peak = max(float(reference[s].max()) for s in LOADS)
+    return max(float(np.abs(found[s] - reference[s]).max()) for s in LOADS) / peak
+
+
+def error_of_change(found: Signals, reference: Signals, signals: Sequence[str]) -> float:
+    """Largest error of these signals over their largest change from the start."""
+    size = max(float(np.abs(reference[s] - reference[s][0]).max()) for s in signals)
+    return max(float(np.abs(found[s] - reference[s]).max()) for s in signals) / size

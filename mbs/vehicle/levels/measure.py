@@ -1,0 +1,139 @@
+"""Errors and cost of the levels of a car: each fidelity that it has, with several steps."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.low_pass import low_pass
+from mbs.common.errors import ModelError
+from mbs.compiler.compile import compile
+from mbs.results.simulation_error import SimulationError
+from mbs.results.trajectory import Trajectory
+from mbs.simulation.run import simulate
+from mbs.simulation.step_time import step_time
+from mbs.system.system import System
+from mbs.vehicle.car import Car
+from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.levels.drives import Drive
+from mbs.vehicle.levels.errors import LOADS, POSITION, error_of_change, load_error, path_error
+
+STEPS = (0.01, 0.005, 0.002)  # s
+FINE = 0.0005  # s, of the reference
+FREQUENCY = 10.0  # Hz, of the low-pass of moments
+
+
+def systems_of(car: Car) -> dict[Fidelity, System]:
+    """The car with each fidelity that it has, the cheapest first and the most detailed last.
+
+    Raises
+    ------
+    ModelError
+        The car does not stand on tyres of its own.
+    """
+    if car.ports.tyre is not None:
+        raise ModelError(f"The tyres of the car '{car.name}' are at ports (ports.tyre): by itself it drives nowhere.")
+    found = {}
+    if car.front.by_curves is None or car.rear.by_curves is None:  # else it is by tables as it is
+        try:
+            found[Fidelity.TABLE] = compile(car.model(fidelity=Fidelity.TABLE))
+        except ModelError as error:
+            warnings.warn(str(error), RuntimeWarning, stacklevel=2)
+    return found | {fidelity: compile(model()) for fidelity, model in car.fidelities().items()}
+
+
+def measure(
+    systems: dict[Fidelity, System],
+    drives: Sequence[Drive],
+    steps: Sequence[float] = STEPS,
+    repeats: int = 2,
+    tell: Callable[[float], None] = lambda share: None,
+) -> list[dict[str, Any]]:
+    """Errors of each level against the most detailed one with steps of 0.5 ms, and what it costs.
+
+    Parameters
+    ----------
+    systems : dict of Fidelity to System
+        Of `systems_of`; the last is the reference.
+    drives : sequence of Drive
+        What the car does.
+    steps : sequence of float
+        s; whole parts of the longest one.
+    repeats : int
+        Timed runs of each level.
+    tell : callable
+        Receives the share that is done.
+
+    Returns
+    -------
+    list of dict
+        Of each drive, fidelity and step: "path", the largest distance from the reference over the length of the way or
+        1 m, whichever is longer; "load", the largest error of a wheel load over the largest load; "moment", the largest
+        error of a moment of the gauges over the largest change, after a low-pass of 10 Hz, None where there are none;
+        "us_per_step", processor time; "failed", why a run ended early, with None for all else; empty where none did.
+    """
+    finest = list(systems)[-1]
+    grid = max(steps)
+    todo = sum(drive.duration for drive in drives) * (
+        1.0 / FINE + len(systems) * (2 + repeats) * sum(1 / h for h in steps)
+    )
+    done, rows = 0.0, []
+    for drive in drives:
+        fine, _ = _run(systems[finest], drive, FINE, grid, stresses=not finest.rigid)
+        way = float(np.linalg.norm(np.diff([fine[s] for s in POSITION], axis=1), axis=0).sum())
+        done += drive.duration / FINE
+        for fidelity, system in systems.items():
+            for h in steps:
+                tell(min(done / todo, 1.0))
+                row = {"manoeuvre": drive.name, "fidelity": fidelity.name.lower(), "h_s": h}
+                rows.append(row | _row(fidelity, system, drive, h, repeats, fine, max(way, 1.0), grid))
+                done += (2 + repeats) * drive.duration / h
+    tell(1.0)
+    return rows
+
+
+def _row(
+    fidelity: Fidelity,
+    system: System,
+    drive: Drive,
+    h: float,
+    repeats: int,
+    fine: dict[str, Any],
+    way: float,
+    grid: float,
+) -> dict[str, Any]:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # how far a run is off is measured here
+            found, duration = _run(system, drive, h, grid, stresses=not fidelity.rigid)
+    except SimulationError as error:
+        return {"path": None, "load": None, "moment": None, "us_per_step": None, "failed": str(error)}
+    moments = [name for name in found if name not in (*POSITION, *LOADS)]
+    spent = step_time(system, duration, h, repeats, time.process_time, drive.inputs, drive.parameters, drive.pose)
+    return {
+        "path": path_error(found, fine) / way,
+        "load": load_error(found, fine),
+        "moment": error_of_change(found, fine, moments) if moments else None,
+        "us_per_step": 1e6 * spent * h / duration,
+        "failed": "",
+    }
+
+
+def _run(
+    system: System, drive: Drive, h: float, grid: float, *, stresses: bool
+) -> tuple[dict[str, NDArray[np.float64]], float]:
+    """Signals at the times of the grid, moments after the low-pass, and how long the run was, s."""
+    end = grid * int(drive.duration / grid + 1e-9)
+    run: Trajectory = simulate(
+        system, end, h, drive.inputs, parameters=drive.parameters, pose=drive.pose, progress=False, estimate_error=False
+    )
+    every = round(grid / h)
+    values = {s: np.asarray(run[s])[::every] for s in (*POSITION, *LOADS)}
+    sensors = [entry["name"] for entry in system.meta["sensors"]] if stresses else []
+    moments = [name for name in sensors if name.startswith("bending_moment.")]
+    return values | {s: low_pass(run[s], h, FREQUENCY)[::every] for s in moments}, end

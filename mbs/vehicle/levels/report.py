@@ -1,0 +1,157 @@
+"""Prints the table of the levels of a car and the cheapest that meets tolerances: ``ali3 car CAR --cheapest``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import warnings
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ali3.decimal_number import parse_number
+from ali3.errors import UserError
+from ali3.words import brief
+from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.levels.choice import LEFT_OUT, Choice, cheapest, levels, nearest
+from mbs.vehicle.levels.measure import FINE
+
+USUAL = {"path": 1.0, "loads": 3.0}
+"""Tolerances where none are given, percent."""
+OUTPUTS = {"path": "path", "loads": "load", "moments": "moment"}
+"""Errors of a row by the names of the command."""
+TITLES = {"path": "of the way", "load": "of the wheel loads", "moment": "of the moments in the frame"}
+
+
+def report(options: argparse.Namespace) -> int:
+    """Measure, print, and write what was asked for; gives the exit code."""
+    from ali3.files import check_writable, write_text
+    from ali3.told_warnings import told_warnings
+    from mbs.common.progress import progress_for
+    from mbs.vehicle.car_file import load
+    from mbs.vehicle.levels.drives import own_drives, read_drive
+    from mbs.vehicle.levels.measure import measure, systems_of
+
+    tolerances, file, speed = asked_of(options.cheapest)
+    if options.json:
+        check_writable(options.json)
+    with told_warnings():
+        car = load(options.car)
+    if "moment" in tolerances and Fidelity.QUASI_STATIC not in car.fidelities():
+        raise UserError(f"The car '{car.name}' has no moments in a frame: it has no flexible one. Leave moments out.")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        systems = systems_of(car)
+    for warning in caught:
+        print(f"note: {warning.message}", file=sys.stderr)
+    rigid = systems[Fidelity.RIGID]
+    if file is None:
+        drives = own_drives(rigid)
+    else:
+        names = {entry["name"] for entry in rigid.meta["inputs"]}
+        drives = [read_drive(file, speed, names)]
+    with progress_for(None) as bar:
+        rows = measure(systems, drives, tell=bar.update)
+    finest = list(systems)[-1]
+    doing = ", ".join(drive.name for drive in drives)
+    print(
+        f"{car.name}: errors against fidelity {finest.value} with steps of {1e3 * FINE:g} ms, the largest of: {doing}\n"
+    )
+    print("\n".join(table(rows)))
+    for row in rows:
+        if row["failed"]:
+            what = f"{row['manoeuvre']}, fidelity {Fidelity.of(row['fidelity']).value}, {1e3 * row['h_s']:g} ms"
+            print(f"note: {what}: {row['failed']}", file=sys.stderr)
+    try:
+        choice = cheapest(rows, tolerances)
+    except ValueError:
+        choice = None
+    if options.json:
+        content = {
+            "car": car.name,
+            "reference": {"fidelity": finest.value, "h_s": FINE},
+            "tolerances": tolerances,
+            "cheapest": None if choice is None else {"fidelity": choice.fidelity.value, "h_s": choice.h},
+            "rows": [row | {"fidelity": Fidelity.of(row["fidelity"]).value} for row in rows],
+        }
+        write_text(options.json, json.dumps(content, indent=1) + "\n")
+    if choice is None:
+        raise UserError(_none(rows, tolerances))
+    print("\n" + _sentence(choice, tolerances))
+    return 0
+
+
+def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path | None, float]:
+    """Tolerances in parts, the file of a drive, its speed at the start in m/s; `UserError` for what is none of them."""
+    given = dict(words)
+    numbers = {name: text for name, text in given.items() if name != "drive"}
+    unknown = [name for name in numbers if name not in (*OUTPUTS, "speed")]
+    if unknown:
+        raise UserError(
+            f"--cheapest takes {', '.join(OUTPUTS)}, drive and speed, each as NAME=VALUE, not {brief(unknown[0])}."
+        )
+    values: dict[str, float] = dict(USUAL)
+    for name, text in numbers.items():
+        try:
+            values[name] = parse_number(text)
+        except ValueError:
+            raise UserError(f"{name} of --cheapest is {brief(text)}; it must be a number.") from None
+        if name != "speed" and not values[name] > 0.0:
+            raise UserError(f"{name} of --cheapest is {values[name]:g}; it is in percent and must be positive.")
+    if "speed" in values and "drive" not in given:
+        raise UserError("speed of --cheapest is that at the start of a drive; give drive=FILE too.")
+    speed = values.pop("speed", 0.0)
+    tolerances = {OUTPUTS[name]: 0.01 * percent for name, percent in values.items()}
+    return tolerances, Path(given["drive"]) if "drive" in given else None, speed
+
+
+def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Lines of the table: a level each, its largest errors and the processor time of its slowest drive."""
+    lines: list[tuple[str, ...]] = [
+        ("fidelity", "step, ms", "path, %", "loads, %", "moments, %", "ms per s", "times real time")
+    ]
+    for name, h in dict.fromkeys((row["fidelity"], row["h_s"]) for row in rows):
+        mine = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
+        errors = [_most(mine, output, 100.0, ".2g") for output in TITLES]
+        cost = _most(mine, "us_per_step", 1e-3 / h, ".1f")
+        real = "-" if cost == "-" else f"{1e3 / max(1e-3 * row['us_per_step'] / h for row in mine):.0f}"
+        lines.append((f"{Fidelity.of(name).value:>3} {name}", f"{1e3 * h:g}", *errors, cost, real))
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return [
+        "  ".join(
+            cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(line, widths, strict=True))
+        )
+        for line in lines
+    ]
+
+
+def _most(rows: Sequence[Mapping[str, Any]], key: str, factor: float, form: str) -> str:
+    values = [row[key] for row in rows]
+    return "-" if None in values else format(factor * max(values), form)
+
+
+def _asked(tolerances: Mapping[str, float]) -> str:
+    words = [f"{100.0 * most:g} % {TITLES[output]}" for output, most in tolerances.items()]
+    return ", ".join(words[:-1]) + (" and " if len(words) > 1 else "") + words[-1]
+
+
+def _sentence(choice: Choice, tolerances: Mapping[str, float]) -> str:
+    return (
+        f"Cheapest within {_asked(tolerances)}: fidelity {choice.fidelity.value} with steps of {1e3 * choice.h:g} ms, "
+        f"{choice.ms_per_second:.1f} ms of processor time a simulated second "
+        f"({1e3 / choice.ms_per_second:.0f} times real time). It leaves out {LEFT_OUT[choice.fidelity]}."
+    )
+
+
+def _none(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> str:
+    found = levels(rows, list(tolerances))
+    if not found:
+        return f"No level is within {_asked(tolerances)}: no run of a level with these outputs came to its end."
+    near = nearest(found, tolerances)
+    errors = ", ".join(f"{100.0 * near.errors[output]:.2g} % {TITLES[output]}" for output in tolerances)
+    return (
+        f"No level is within {_asked(tolerances)}; the nearest is fidelity {near.fidelity.value} with steps of "
+        f"{1e3 * near.h:g} ms, {errors}. Give a larger tolerance, or take steps shorter than "
+        f"{1e3 * min(c.h for c in found):g} ms."
+    )
