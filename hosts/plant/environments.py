@@ -50,7 +50,8 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
             given = np.array(np.nan)
         if given.shape != box.shape or not np.isfinite(given).all():
             raise HostError(f"The action is {brief(action)}; it must be {box.shape[0]} finite numbers, in an array.")
-        return np.clip(given, box.low, box.high)
+        held: NDArray[np.float64] = np.clip(given, box.low, box.high)
+        return held
 
     def _advance(self, inputs: NDArray[np.float64]) -> str:
         """A step; the words of the solver where it refuses it."""
