@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +10,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
+from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.driving.courses import course_of
 from hosts.fmu.fmu import StepRefusedError
@@ -39,6 +39,19 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
         self.car.reset(int(self.np_random.integers(2**31)), **ranges)
         self._steps = 0
         self.car.read(self._reads, self._now)
+
+    def _held(self, action: Floats) -> NDArray[np.float64]:
+        """An action, held within its space; refused where it is none, before anything changes."""
+        box = self.action_space
+        assert isinstance(box, spaces.Box)
+        try:
+            given = np.asarray(action, dtype=float)
+        except (TypeError, ValueError):
+            given = np.array(np.nan)
+        if given.shape != box.shape or not np.isfinite(given).all():
+            raise HostError(f"The action is {brief(action)}; it must be {box.shape[0]} finite numbers, in an array.")
+        held: NDArray[np.float64] = np.clip(given, box.low, box.high)
+        return held
 
     def _advance(self, inputs: NDArray[np.float64]) -> str:
         """A step; the words of the solver where it refuses it."""
@@ -130,7 +143,7 @@ class LaneKeeping(LaneEnvironment):
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """A step; see `gymnasium.Env.step`."""
-        steering, before = min(max(float(action[0]), -1.0), 1.0), self._steering
+        steering, before = float(self._held(action)[0]), self._steering
         self._steering = steering
         throttle = min(max(0.3 * (0.5 * (self._speed[0] + self._speed[1]) - float(self._now[3])), 0.0), 1.0)
         refused = self._advance(np.array([steering, throttle]))
@@ -193,11 +206,7 @@ class AntiLockBraking(CarEnvironment):
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """A step; see `gymnasium.Env.step`."""
-        asked = np.clip(action, 0.0, 1.0) * self._torque
-        for name, value in zip(self.car.inputs, asked.tolist(), strict=True):
-            if not math.isfinite(value):  # a port would hold its last value
-                raise HostError(f"The action is refused: '{name}' would be {value:g}; it must be a finite number.")
-        refused = self._advance(asked)
+        refused = self._advance(self._held(action) * self._torque)
         speed, yaw = self._now[0], self._now[11]
         reward = -float(speed) * self.car.step_length - float(yaw) ** 2
         ended = speed < self.STANDING or abs(yaw) > 0.5

@@ -86,7 +86,7 @@ class ProvingGroundLap(LaneEnvironment):
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """A step; see `gymnasium.Env.step`."""
-        self._steering, pedal = (float(np.clip(part, -1.0, 1.0)) for part in action)
+        self._steering, pedal = self._held(action).tolist()
         refused = self._advance(np.array([self._steering, max(pedal, 0.0), max(-pedal, 0.0)]))
         seen = self._observed()
         made = math.remainder(self.lane.way - self._way, self.lane.length)

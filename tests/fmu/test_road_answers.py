@@ -86,6 +86,20 @@ def test_an_answer_far_from_what_it_is_for_is_told_once(host, sledge) -> None:
     assert "'road_x' holds for the point (0, 0, 0), 10 m from its wheel" in told[0]
 
 
+@pytest.mark.parametrize(("height", "where"), [(150.0, "above"), (-150.0, "below")])
+def test_an_answer_that_leaves_the_plane_of_the_last_one_is_told_once(host, sledge, height, where) -> None:
+    """A road that goes on with its slope does not, nor does one a kerb away."""
+    uphill = {"road_normal_x": -0.6, "road_normal_z": 0.8}
+    h = host(sledge).start(LEVEL | uphill)
+    for k, (x, up) in enumerate([(4.0, 3.0), (8.0, 6.2), (8.0, 6.2 + height), (8.0, 6.2)]):
+        h.set("road_x", x)
+        h.set("road_height", up)
+        h.step(0.001 * k, 0.001)
+        told = [text for text in h.messages if "the plane of the last one" in text]
+        assert len(told) == (k > 1)
+    assert f"At 0.002 s the answer 'road_height' = {6.2 + height:g} m lies 150 m {where} the plane" in told[0]
+
+
 def test_the_start_is_lifted_to_the_answer(host, sledge) -> None:
     assert host(sledge).start(LEVEL | {"road_height": 2.0}).get("z") == pytest.approx(2.3, abs=1e-9)
 

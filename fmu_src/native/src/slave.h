@@ -94,7 +94,8 @@ enum {
   SLAVE_HELD_FLAT = 8,
   SLAVE_HELD_NORMAL = 16,
   SLAVE_FAR = 32, /* also of a hub: that it is slow for the step */
-  SLAVE_SAID = 63
+  SLAVE_JUMPED = 64,
+  SLAVE_SAID = 127
 }; /* bits of an input: set by the host, said once */
 enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* what was said of limited iterations */
 enum { SLAVE_SHORTER_STEPS = 1, SLAVE_LONGER_STEPS }; /* and of inner steps that are not step_size */
@@ -269,9 +270,10 @@ slave_status slave_say_event(slave *s, const ali3_report *r);
 void slave_watch_outputs(slave *s);
 void slave_watch_ports(slave *s);
 
-/* wheel_answers.c: normals that are none hold the last ones; answers far from a wheel, and steps that are long for a
- * tyre, are told */
+/* wheel_answers.c: normals that are none hold the last ones; answers that jump or are far from a wheel, and steps that
+ * are long for a tyre, are told */
 void slave_hold_normals(slave *s);
+void slave_watch_jumps(slave *s);
 void slave_bad_normal(const slave *s, char *text, size_t size);
 void slave_watch_answers(slave *s);
 

@@ -133,6 +133,7 @@ static slave_status try_step(slave *s, double time, double step) {
   double h, left;
   if (!possible(s, time, step, now)) return SLAVE_ERROR;
   slave_hold_normals(s);
+  slave_watch_jumps(s);
   const int64_t n = division(s, now, time + step, &h);
   ali3_snapshot_take(s->fidelity.kernel,
                      s->fidelity.snapshot); /* inputs, parameters and inner steps go back together */

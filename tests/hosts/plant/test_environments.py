@@ -70,12 +70,20 @@ def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
     assert ends == {1.0: False, 0.0: True}
 
 
-def test_an_action_that_is_not_finite_is_refused(braked_fmu: Path) -> None:
-    """The ports of the car hold their last values, which a policy that learns would not be told."""
-    with closing(environments.AntiLockBraking(str(braked_fmu))) as env:
-        env.reset(seed=1)
-        with pytest.raises(HostError, match=r"'wheel_FR.brake_torque_demand' would be nan"):
-            env.step(np.array([0.5, np.nan, 0.5, 0.5], np.float32))
+def test_an_action_that_is_none_is_refused_and_changes_nothing(braked_fmu: Path, rigid_fmu: Path) -> None:
+    """Ports hold their last values and a car takes the first of several, which a policy that learns would not know."""
+    for make, path in ((environments.AntiLockBraking, braked_fmu), (environments.LaneKeeping, rigid_fmu)):
+        with closing(make(str(path))) as env:
+            shape = env.action_space.shape
+            rows = []
+            for bad in (False, True):
+                env.reset(seed=1)
+                for action in (np.full(shape, np.nan), np.full(shape, -np.inf), np.zeros(7), "x", None) if bad else ():
+                    with pytest.raises(HostError, match=f"must be {shape[0]} finite numbers"):
+                        env.step(action)
+                rows.append(env.step(np.full(shape, 0.5, np.float32)))
+            assert (rows[0][0] == rows[1][0]).all()
+            assert rows[0][1] == rows[1][1]
 
 
 def test_brakes_that_let_go_stop_earlier_than_locked_ones(braked_fmu: Path) -> None:

@@ -91,8 +91,8 @@ def test_steps_are_under_way_at_once(rigid_fmu: Path) -> None:
         car = env.unwrapped.car
         car.step = lambda inputs, inner=car.step: (meeting.wait(), inner(inputs))[1]
     made.step(np.zeros((4, 1), np.float32))
-    with pytest.raises(HostError, match="not finite|refused"):
-        made.step(np.array([[0.0], [0.0], [np.nan], [0.0]], np.float32))
+    with pytest.raises(HostError, match="must be 1 finite numbers"):
+        made.step(np.array([[0.0], [0.0], [np.nan], [np.nan]], np.float32))
     seen, *_ = made.step(np.zeros((4, 1), np.float32))
     assert np.isfinite(seen).all()
     made.close()
