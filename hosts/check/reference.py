@@ -18,7 +18,6 @@ from ali3.tables import TextTable
 from hosts.check.junit import Case
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
-from hosts.driving.co_simulation import run_with_bar
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
@@ -26,6 +25,7 @@ from hosts.driving.manoeuvre_table import read_table
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
+from hosts.driving.run_with_bar import run_with_bar
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 

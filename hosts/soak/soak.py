@@ -88,7 +88,8 @@ def soak(options: argparse.Namespace, prog: str) -> int:
 def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> None:
     """Drive all tasks under a progress bar, each in a process; of one that is not done its outcome has the seconds."""
     from ali3.bars import bar as bar_of
-    from ali3.isolated import Lost, done_by
+    from ali3.isolated import Lost
+    from ali3.shared_tasks import done_by
     from hosts.soak.drive import Failure, drive
 
     form = "{desc}: {percentage:3.0f} % {bar} {n_fmt} of {total_fmt} s, {elapsed} so far, {remaining} to go"

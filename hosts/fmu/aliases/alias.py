@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
-from hosts.fmu.aliases.derivation import Derivation
 from hosts.fmu.aliases.derived import Derived
 
 
@@ -67,10 +66,6 @@ class Aliases:
     def why_missing(self, name: str) -> str:
         """Why this FMU does not have one of our names, in a sentence; empty where the file does not know it."""
         return self.missing.get(name, "")
-
-    def derivation(self, ours: Sequence[str]) -> Derivation:
-        """What computes the derived variables from recorded ones by our names; see `Derivation`."""
-        return Derivation(self.derived, ours)
 
     def scales(self, theirs: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Factors and offsets of variables.
