@@ -165,7 +165,7 @@ class BodyVocabulary(ModelCore):
         Parameters
         ----------
         reduced : ReducedBody
-            For instance of `mbs.flexible.craig_bampton.craig_bampton`.
+            For instance of `mbs.flexible.craig_bampton`.
         origin : array_like, shape (3,)
             Where the origin of the finite-element model is in the reference configuration, earth axes, m.
         axes : array_like, shape (3, 3), optional

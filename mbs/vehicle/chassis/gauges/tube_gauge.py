@@ -10,8 +10,9 @@ import numpy as np
 from pydantic import Discriminator, Tag
 
 from mbs.common.errors import ModelError
-from mbs.flexible import Frame, StrainGauge
 from mbs.flexible.beam_axes import beam_axes
+from mbs.flexible.frame import Frame
+from mbs.flexible.recovery import StrainGauge
 from mbs.vehicle.chassis.gauges.reading import STRESS, Reading
 from mbs.vehicle.quantities import Fraction, Quantity
 from mbs.vehicle.section import Section

@@ -12,9 +12,9 @@ from scipy.sparse.linalg import spsolve
 from ali3.extras import missing_module
 from ali3.reading import no_file
 from mbs.common.errors import ModelError
-from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.foreign_file import read_foreign
+from mbs.flexible.matrix_files import external_model
 
 
 def read_calculix(deck: str | Path) -> FiniteElementModel:
