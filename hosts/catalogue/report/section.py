@@ -6,8 +6,8 @@ import shlex
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from ali3.html_elements import Content, element, table
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
-from hosts.catalogue.report.elements import Content, element, table
 from hosts.catalogue.report.numbers import NONE, bounds, unit_shown, with_unit
 from hosts.catalogue.report.pictures import Picture
 from hosts.measures.measure import Measure
