@@ -56,8 +56,6 @@ def forget_oldest(room: Path, kept: int, in_use: float = 0.0) -> None:
 
     Parameters
     ----------
-    room : Path
-        Of the cache.
     kept : int
         How many stay.
     in_use : float

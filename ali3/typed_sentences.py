@@ -41,8 +41,6 @@ class Sentences:
     ----------
     top : type
         The whole file: a model, or several of which the key ``kind`` chooses one.
-    data : mapping
-        Its content.
     forms : mapping of str to str
         Patterns of texts in words.
     names : str
@@ -67,13 +65,7 @@ class Sentences:
         return self._words_of(path) or "the file"
 
     def of(self, error: ValidationError) -> list[str]:
-        """A sentence for each fault; a key that is misspelt is not missing besides.
-
-        Parameters
-        ----------
-        error : ValidationError
-            Of the content.
-        """
+        """A sentence for each fault; a key that is misspelt is not missing besides."""
         items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
         missing = [self._path(item["loc"]) for item in items if item["type"] == MISSING]
         found, meant = [], []

@@ -96,13 +96,7 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
 
 
 def grip_of(car: Car) -> dict[str, str]:
-    """What the tyres of each axle reach, a sentence each; a user may expect the forces of the tyre's file.
-
-    Parameters
-    ----------
-    car : Car
-        Any.
-    """
+    """What the tyres of each axle reach, a sentence each; a user may expect the forces of the tyre's file."""
     return dict(grip_row(car, axle) for axle in ("front", "rear"))
 
 

@@ -118,8 +118,6 @@ def drive_circle(
     ----------
     side : float
         1 to the left, -1 to the right.
-    settings : mapping of str to float
-        Of the test.
     ratio : float
         Of the steering.
     progress : callable

@@ -36,8 +36,6 @@ def inputs_of(
 
     Parameters
     ----------
-    start : mapping of str to float, int, bool or str
-        Start values.
     end : float
         s.
     step : float

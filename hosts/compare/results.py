@@ -31,8 +31,6 @@ class Outcome:
     ----------
     before, after : Comparison
         With the parameters of the FMU and with fitted ones.
-    notes, problems : list of str
-        Sentences.
     """
 
     before: Comparison

@@ -46,8 +46,6 @@ class Task:
 
     Parameters
     ----------
-    aliases : Aliases
-        Of the FMU.
     inputs, outputs : dict of str to Signal
         From time 0 on; outputs of windows one window after the other.
     stretches : list of Stretch

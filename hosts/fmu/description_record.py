@@ -11,13 +11,7 @@ from hosts.fmu.variables import Variable, Variables
 
 
 def description_record(description: ModelDescription, variables: Variables) -> dict[str, Any]:
-    """What `modelDescription.xml` says, as the page reads it.
-
-    Parameters
-    ----------
-    variables : Variables
-        Of it.
-    """
+    """What `modelDescription.xml` says, as the page reads it."""
     experiment = description.defaultExperiment
     times = {"startTime": "startTime", "stopTime": "stopTime", "stepSize": "stepSize"}
     found = {key: getattr(experiment, name, None) for key, name in times.items()}

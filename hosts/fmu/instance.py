@@ -57,8 +57,6 @@ class Instance:
     ----------
     three : bool
         Whether it is FMI 3.0.
-    slave : FMU2Slave or FMU3Slave
-        Of FMPy.
     """
 
     def __init__(

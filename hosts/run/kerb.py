@@ -37,8 +37,6 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
         1 to 3; by default that of the FMU.
     step : float, optional
         Communication step, s; by default `STEP`.
-    out : Path
-        Folder.
 
     Returns
     -------

@@ -35,8 +35,6 @@ class Plan:
 
     Parameters
     ----------
-    work : Work
-        For the workers.
     kinds : dict of str to str
         ``Real``, ``Integer``, ... of the parameters.
     units : dict of str to str

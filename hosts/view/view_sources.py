@@ -57,8 +57,6 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
         Results and FMUs.
     geometry : Path, optional
         FMU or scene that results are drawn with, in place of that of their record.
-    run : RunWishes
-        For FMUs.
 
     Returns
     -------

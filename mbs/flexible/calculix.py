@@ -22,11 +22,6 @@ def read_calculix(deck: str | Path) -> FiniteElementModel:
 
     The deck must have no supports and SI units; nodes keep their numbers as names and have three translations.
 
-    Parameters
-    ----------
-    deck : str or Path
-        Input deck.
-
     Returns
     -------
     FiniteElementModel

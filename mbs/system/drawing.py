@@ -75,8 +75,6 @@ class AmplitudePlace:
 
     Parameters
     ----------
-    modes : sequence of str
-        Names of the modes.
     row : int
         The first amplitude; the others follow.
     columns : sequence of str

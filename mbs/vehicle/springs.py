@@ -215,8 +215,6 @@ def spring_and_damper(
 
     Parameters
     ----------
-    name : str
-        Of the element.
     lower, upper : (Body, point)
         The ends as drawn, m.
 

@@ -61,8 +61,6 @@ def make_world(
     ----------
     file : Path
         ``.toml`` of a world or of a road, or ``.road``.
-    name : str
-        Of the world.
     road : Path
         To write.
     tell : callable

@@ -36,8 +36,6 @@ def section(
         Those used.
     command : sequence of str
         That makes the whole report; empty where nobody knows it.
-    pictures : sequence of Picture
-        Of the test.
     """
     done = {label: r for label, r in records.items() if isinstance(r, TestRecord)}
     parts: list[Content] = [element("h2", test.title), *(_standard(s) for s in test.standards)]

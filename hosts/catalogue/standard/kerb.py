@@ -99,8 +99,6 @@ def measures_of(result: Result, prefix: str) -> list[Measure]:
     ----------
     result : Result
         From rolling at rest to rolling at rest again.
-    prefix : str
-        Of the names.
     """
     loads = at_wheels(result, "Fz")
     assert loads is not None  # one of the needs

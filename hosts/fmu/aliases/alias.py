@@ -15,13 +15,7 @@ from hosts.fmu.aliases.derived import Derived
 
 @dataclass(frozen=True)
 class Alias:
-    """One variable: value of the FMU = factor * ours + offset.
-
-    Parameters
-    ----------
-    ours, theirs : str
-        Names.
-    """
+    """One variable: value of the FMU = factor * ours + offset."""
 
     ours: str
     theirs: str

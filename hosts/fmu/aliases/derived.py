@@ -16,8 +16,6 @@ class Derived:
 
     Parameters
     ----------
-    ours : str
-        Name.
     formula : str
         Of `FORMULAS`.
     arguments : tuple of str or float

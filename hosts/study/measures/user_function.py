@@ -33,8 +33,6 @@ class UserFunction:
     ----------
     name : str
         Of its column, or what its columns begin with.
-    source : str
-        Of the file.
     """
 
     name: str
