@@ -21,7 +21,7 @@ def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
     Parameters
     ----------
     folder : path
-        That is not there. If another program makes it meanwhile, its folder stays.
+        One that does not exist. If another program makes it meanwhile, its folder stays.
 
     Yields
     ------

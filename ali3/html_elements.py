@@ -87,7 +87,7 @@ def document(title: str, body: Iterable[HtmlElement], style: str = "") -> str:
     Parameters
     ----------
     style : str
-        CSS besides that of all reports.
+        CSS beside that of all reports.
     """
     return html.report(clean(title), markup(body), style)
 

@@ -135,17 +135,17 @@ class TestedCar:
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """By our names."""
+        """Our names of inputs."""
         return self.facts.inputs
 
     @property
     def outputs(self) -> tuple[str, ...]:
-        """By our names; real and whole ones."""
+        """Our names of real and whole outputs."""
         return self.facts.outputs
 
     @property
     def parameters(self) -> tuple[str, ...]:
-        """By our names; real and whole ones."""
+        """Our names of real and whole parameters."""
         return self.facts.parameters
 
     @property

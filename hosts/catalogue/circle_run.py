@@ -64,7 +64,7 @@ class CircleRun:
 
 
 class _Watch:
-    """Sees when the car runs steadily, from when on speed or steering rise, and when the run is over."""
+    """Sees when the car runs steadily, from which time speed or steering rise, and when the run is over."""
 
     def __init__(self, side: float, method: float, first: float, rate: float, tolerance: float) -> None:
         self.side, self.method, self.first, self.rate, self.tolerance = side, method, first, rate, tolerance

@@ -81,7 +81,7 @@ class Deviation:
         return f"{self.error:.3g}{unit}", f"{self.at:g} s", f"{100.0 * self.share:.2g} %", f"{100.0 * self.bound:g} %"
 
     def case(self, reference: str) -> Case:
-        """For a JUnit file."""
+        """The result as a case of a JUnit file."""
         error, at, share, bound = self.words
         words = f"largest error {error} at {at}, {share} of its range; the bound is {bound}"
         return Case(reference, self.name, "good" if self.good else "bad", words)

@@ -96,7 +96,7 @@ class Replay(Closing):
     step : float
         Communication step, s.
     stretches : sequence of Stretch
-        That are driven one after the other, each from its start.
+        Windows that are driven one after the other, each from its start.
     jobs : int
         Processes that share the stretches; what they give does not depend on their number.
 

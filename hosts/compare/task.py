@@ -78,7 +78,7 @@ class Task:
 
     @property
     def end(self) -> float:
-        """Of what is compared, s."""
+        """End of what is compared, s."""
         return self.stretches[-1].place + self.stretches[-1].end
 
 

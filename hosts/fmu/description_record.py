@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from fmpy.model_description import ModelDescription
 
+from hosts.common.numbers import or_null
 from hosts.fmu.variables import Variable, Variables
 
 
@@ -34,8 +34,8 @@ def _variable(v: Variable, reference: int) -> dict[str, Any]:
         "variability": v.variability,
         "unit": v.unit,
         "start": v.start,
-        "min": v.low if math.isfinite(v.low) else None,
-        "max": v.high if math.isfinite(v.high) else None,
+        "min": or_null(v.low),
+        "max": or_null(v.high),
         "description": v.description,
         "items": v.items or None,
     }

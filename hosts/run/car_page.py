@@ -14,9 +14,9 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from ali3.chart_style import BLUE, GREEN, ORANGE, RED, SKY
+from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 from hosts.run.plot_panels import draw_lines, table_of
-from hosts.run.run_summary import WHEELS
 
 _STANDING = 0.5
 
@@ -65,7 +65,7 @@ _CAR_PANELS = (
 )
 
 
-def car_page(result: Result, rows: Sequence[tuple[str, str]], gates: NDArray[np.float64]) -> Figure:
+def car_page(result: Result, rows: Sequence[tuple[str, str]], gates: NDArray[np.float64] | None) -> Figure:
     """Path, summary and panels of a car, on a figure; gates as `hosts.run.result_plots.plot_page` takes them."""
     hidden = () if _has_stresses(result) else ("bending_moment.", "stress.")
     panels = [p for p in _CAR_PANELS if any(n in result and not n.startswith(hidden) for _, n, _ in p.lines)]
@@ -75,7 +75,7 @@ def car_page(result: Result, rows: Sequence[tuple[str, str]], gates: NDArray[np.
     engine: Any = figure.get_layout_engine()
     engine.set(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)
     grid = figure.add_gridspec(lines + 1, 3, height_ratios=(1.2, *[1.0] * lines))
-    _path(figure.add_subplot(grid[0, :2]), result, gates)
+    _path(figure.add_subplot(grid[0, :2]), result, np.zeros((0, 4)) if gates is None else gates)
     table_of(figure.add_subplot(grid[0, 2]), rows)
     first: Axes | None = None
     for k, panel in enumerate(panels):

@@ -1,6 +1,6 @@
 """Drives a car for hours by itself: the work of ``ali3 check FMU --soak``.
 
-A drive is a seed: runs of 15 to 60 s from starts by chance, up to 40 m/s and 100 km away, with jumps, sudden turns,
+A drive is a seed: runs of 15 to 60 s from random starts, up to 40 m/s and 100 km away, with jumps, sudden turns,
 roll-overs, resets and rewinds, all in one process. The same seed gives the same drive. Every step is checked.
 """
 

@@ -47,7 +47,7 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
     file : Path
         Where it was read from; files it names are looked for beside it.
     opened : Fmu
-        That is run.
+        The FMU of the study.
 
     Raises
     ------

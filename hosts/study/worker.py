@@ -39,7 +39,7 @@ class _Room:
         return Path(self.folder.name, self.work.fmu)
 
     def bench(self, kind: type[Bench] | type[IsolatedBench]) -> Bench | IsolatedBench:
-        """That of this thread."""
+        """The bench of this thread."""
         bench: Bench | IsolatedBench | None = getattr(self.of_thread, kind.__name__, None)
         if bench is None:
             bench = kind(self.work, self.fmu)

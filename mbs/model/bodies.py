@@ -230,7 +230,7 @@ class BodyVocabulary(ModelCore):
 
         What is left out follows from the joints: of all velocities that have the given part, the start takes the one
         with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
-        rest. What the joints do not allow of the given part is left away, as little of it as they ask for.
+        rest. Of the given part the joints take away what they do not allow, and no more.
 
         Parameters
         ----------

@@ -94,6 +94,8 @@ class ChannelSensorVocabulary(SensorBase):
             Of the motion: the value, its rate or its second rate.
         joints : sequence of Joint, optional
             Of the force: drives, and distances whose end the guide slides; by default all that there are so far.
+        scale : float
+            Factor on it.
         unit : str
             By default that of the guide, or of its rate where it is in m or rad; of a force N or N m.
 

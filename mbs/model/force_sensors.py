@@ -78,6 +78,8 @@ class ForceSensorVocabulary(SensorBase):
             A force element of this model or its name.
         output : str
             Name of one of its outputs.
+        scale : float
+            Factor on it.
         """
         element_name = element.name if isinstance(element, ElementRecord) else element
         if not isinstance(element_name, str) or not isinstance(output, str):

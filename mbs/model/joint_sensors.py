@@ -169,6 +169,8 @@ class JointSensorVocabulary(SensorBase):
             Distances with one end on the body.
         axis : array_like, shape (dimension,)
             Fixed in the body, earth axes in the reference configuration, of any length.
+        scale : float
+            Factor on it.
 
         Raises
         ------

@@ -117,6 +117,8 @@ class MotionSensorVocabulary(SensorBase):
             ``body.combination(weights)``, with a row of `ReducedBody.recovery` a stress or a moment.
         order : {0, 1, 2}
             The value, its rate or its second rate.
+        scale : float
+            Factor on it.
         unit : str
             By default that of the coordinate, "1" of an expression.
         display_unit : str

@@ -49,7 +49,7 @@ class TubularFrame:
 
     @property
     def material(self) -> Material:
-        """Of all tubes."""
+        """Material of all tubes."""
         given = self.section.material
         return Material(given.E, given.nu, given.rho, given.yield_strength)
 

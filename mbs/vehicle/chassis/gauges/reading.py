@@ -32,7 +32,7 @@ class Reading:
 
     @property
     def name(self) -> str:
-        """Of the output."""
+        """Name of the output."""
         return f"{self.quantity}.{self.gauge}"
 
 
