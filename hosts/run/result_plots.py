@@ -18,7 +18,6 @@ from hosts.driving.result import Result
 from hosts.run.plot_panels import draw_lines, table_of
 
 _MAX_PANELS = 9
-_NO_GATES = np.zeros((0, 4))
 
 
 def plot_page(
@@ -36,11 +35,10 @@ def plot_page(
         Drawn into the path; first and last x, right and left y of each, m.
     """
     with plt.rc_context(STYLE):
-        is_car = all(n in result for n in ("chassis.x", "chassis.y", "speed", "wheel_FL.Fz"))
-        if is_car:
+        if all(n in result for n in ("chassis.x", "chassis.y", "speed", "wheel_FL.Fz")):
             from hosts.run.car_page import car_page
 
-            figure = car_page(result, rows, _NO_GATES if gates is None else gates)
+            figure = car_page(result, rows, gates)
         else:
             figure = _plain_page(result, rows)
         figure.suptitle(title, x=0.012, y=0.988, ha="left", va="top", fontsize=15, fontweight="bold")
