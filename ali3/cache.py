@@ -24,8 +24,6 @@ def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> P
     ----------
     parts : str
         Names of folders inside the cache.
-    name : str
-        Of the cache.
     variable : str
         Of the environment.
 

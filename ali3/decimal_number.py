@@ -7,7 +7,7 @@ import math
 import re
 
 DECIMAL = r"(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?"
-"""Pattern of a decimal number without its sign. What `float` takes besides, such as 1_0 or digits of other scripts, is
+"""Pattern of a decimal number without its sign. What else `float` takes, such as 1_0 or digits of other scripts, is
 more often a slip than a number."""
 
 _NUMBER = re.compile(rf"[+-]?{DECIMAL}", re.ASCII)

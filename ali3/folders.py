@@ -21,7 +21,7 @@ def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
     Parameters
     ----------
     folder : path
-        That is not there. If another program makes it meanwhile, its folder stays.
+        One that does not exist. If another program makes it meanwhile, its folder stays.
 
     Yields
     ------
@@ -56,8 +56,6 @@ def forget_oldest(room: Path, kept: int, in_use: float = 0.0) -> None:
 
     Parameters
     ----------
-    room : Path
-        Of the cache.
     kept : int
         How many stay.
     in_use : float

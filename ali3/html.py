@@ -8,7 +8,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import html
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from importlib.resources import files
 
 
@@ -90,44 +90,6 @@ def report(title: str, body: str, style: str = "") -> str:
         CSS beside that of all reports.
     """
     return page(title, f"<main>{body}</main>", files(__package__).joinpath("report.css").read_text("utf-8") + style)
-
-
-def table(head: Sequence[str], rows: Iterable[Sequence[str]], kind: str = "") -> str:
-    """Markup of a table that can be scrolled sideways.
-
-    Parameters
-    ----------
-    head : sequence of str
-        Texts of the first row.
-    rows : iterable of sequence of str
-        Texts. A row of one text is a heading over the next ones; of the others the first is their header.
-    kind : str, optional
-        Class of the table.
-    """
-    mark = f' class="{html.escape(kind)}"' if kind else ""
-    heads = "".join(f'<th scope="col">{html.escape(text)}</th>' if text else "<td></td>" for text in head)
-    lines = [f'<div class="wide" tabindex="0"><table{mark}><thead><tr>{heads}</tr></thead><tbody>']
-    for first, *others in rows:
-        if others:
-            cells = "".join(f"<td>{html.escape(text)}</td>" for text in others)
-            lines.append(f'<tr><th scope="row">{html.escape(first)}</th>{cells}</tr>')
-        else:
-            lines.append(f'<tr><th class="group" scope="colgroup" colspan="{len(head)}">{html.escape(first)}</th></tr>')
-    return "\n".join([*lines, "</tbody></table></div>"])
-
-
-def picture(png: bytes, what: str, kind: str = "plot") -> str:
-    """Markup of an image within the page.
-
-    Parameters
-    ----------
-    what : str
-        What it shows, in words.
-    kind : str
-        Class of the figure.
-    """
-    source = base64.b64encode(png).decode("ascii")
-    return f'<figure class="{kind}"><img alt="{html.escape(what)}" src="data:image/png;base64,{source}"></figure>'
 
 
 def _hash(text: str) -> str:

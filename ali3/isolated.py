@@ -14,8 +14,7 @@ import sys
 import tempfile
 import threading
 import traceback
-from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,7 +26,6 @@ from ali3.running import module_command, sentence
 
 _START = 20.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms
-_LOOK = 0.5  # s after which Ctrl-C is noticed where nothing arrives
 _SAID = "said.txt"
 _MOST_SAID = 4000  # bytes
 
@@ -177,74 +175,6 @@ class Isolated(Generic[T, R]):
             said = Path(folder.name, _SAID).read_bytes()[-_MOST_SAID:]
             return how_ended(process.returncode, said.decode("utf-8", "replace"))
         return how_ended(process.returncode)
-
-
-def done_by(
-    work: Callable[[T, Tell], R], tasks: Sequence[T], jobs: int, told: Callable[[int, Any], None]
-) -> Generator[tuple[int, R | Lost]]:
-    """Do tasks, several at a time; give each result with the place of its task as soon as it is there.
-
-    Parameters
-    ----------
-    work : callable
-        See `Isolated`.
-    jobs : int
-        At a time.
-    told : callable
-        Called with the place of a task and what its work tells.
-
-    Raises
-    ------
-    UserError
-        The work of a task has raised one; no further task is begun.
-
-    Notes
-    -----
-    Where the iteration is left early, as by Ctrl-C, the processes are ended.
-    """
-    workers: list[Isolated[T, R]] = [Isolated(work) for _ in range(max(1, min(jobs, len(tasks))))]
-    try:
-        yield from shared_by(workers, tasks, told)
-    finally:
-        for worker in workers:
-            worker.close()
-
-
-def shared_by(
-    workers: Sequence[Isolated[T, R]], tasks: Sequence[T], told: Callable[[int, Any], None] = lambda place, word: None
-) -> Generator[tuple[int, R | Lost]]:
-    """As `done_by`, by processes that are there and stay; where the iteration is left early, they are ended."""
-    idle: queue.SimpleQueue[Isolated[T, R]] = queue.SimpleQueue()
-    arrived: queue.SimpleQueue[tuple[int, Future[R | Lost] | None, Any]] = queue.SimpleQueue()
-    for worker in workers:
-        idle.put(worker)
-
-    def one(place: int) -> R | Lost:
-        worker = idle.get()
-        try:
-            return worker.do(tasks[place], lambda word: arrived.put((place, None, word)))
-        finally:
-            idle.put(worker)
-
-    with ThreadPoolExecutor(len(workers)) as pool:
-        try:
-            for place in range(len(tasks)):
-                future = pool.submit(one, place)
-                future.add_done_callback(lambda future, place=place: arrived.put((place, future, None)))  # type: ignore[misc]
-            left = len(tasks)
-            while left:
-                with suppress(queue.Empty):
-                    place, ended, word = arrived.get(timeout=_LOOK)
-                    if ended is None:
-                        told(place, word)
-                    else:
-                        left -= 1
-                        yield place, ended.result()
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            for worker in workers:
-                worker.close()
-            raise
 
 
 def _serve() -> None:

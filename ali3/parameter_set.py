@@ -26,8 +26,6 @@ class Entry:
         As the file has it; for numbers the text that reads back as the same double.
     unit : str, optional
         Of a real value.
-    description : str
-        For a person.
     """
 
     name: str
@@ -43,8 +41,6 @@ class ParameterSet:
 
     Parameters
     ----------
-    units : mapping of str to UnitDefinition
-        Of the units in use.
     version : str
         Of the content, empty where there is none.
     """

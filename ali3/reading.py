@@ -29,7 +29,7 @@ LARGEST_TOML = 1_000_000
 LARGEST_TEXT = 10_000_000
 LARGEST_JSON = 100_000_000
 LARGEST_STATE = 100_000_000
-"""Of the saved state of an FMU."""
+"""Largest saved state of an FMU, bytes."""
 DEEPEST = 100
 MOST_ENTRIES = 3_000_000
 LARGEST_WHOLE = 2**63 - 1

@@ -17,13 +17,7 @@ _terminals: list[int] = []
 
 
 class Stopped(KeyboardInterrupt):
-    """A signal other than Ctrl-C asks this program to end.
-
-    Parameters
-    ----------
-    number : int
-        Of the signal.
-    """
+    """A signal other than Ctrl-C asks this program to end."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)

@@ -20,13 +20,7 @@ def keys_of(table: Table) -> dict[str, FieldInfo]:
 
 
 def annotation_of(field: FieldInfo) -> Any:
-    """Type of a field with what is annotated to it.
-
-    Parameters
-    ----------
-    field : FieldInfo
-        Of a table.
-    """
+    """Type of a field with what is annotated to it."""
     told = [*field.metadata, *([field] if field.title else [])]
     return Annotated[(field.annotation, *told)] if told else field.annotation
 
@@ -61,13 +55,7 @@ def _dict_of(annotation: Any) -> tuple[Any, ...] | None:
 
 
 def kinds_of(table: Table) -> tuple[str, ...]:
-    """Values of `kind` that name a template; empty where it has none.
-
-    Parameters
-    ----------
-    table : type of BaseModel
-        The template.
-    """
+    """Values of `kind` that name a template; empty where it has none."""
     return get_args(table.model_fields["kind"].annotation) if "kind" in table.model_fields else ()
 
 

@@ -41,8 +41,6 @@ class Sentences:
     ----------
     top : type
         The whole file: a model, or several of which the key ``kind`` chooses one.
-    data : mapping
-        Its content.
     forms : mapping of str to str
         Patterns of texts in words.
     names : str
@@ -63,17 +61,11 @@ class Sentences:
         self._words_of = place
 
     def place(self, path: Sequence[str]) -> str:
-        """Where something stands."""
+        """Where in the file something stands."""
         return self._words_of(path) or "the file"
 
     def of(self, error: ValidationError) -> list[str]:
-        """A sentence for each fault; a key that is misspelt is not missing besides.
-
-        Parameters
-        ----------
-        error : ValidationError
-            Of the content.
-        """
+        """A sentence for each fault; a misspelt key is not told as missing too."""
         items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
         missing = [self._path(item["loc"]) for item in items if item["type"] == MISSING]
         found, meant = [], []
@@ -207,7 +199,7 @@ def _tag(item: Any) -> Any:
 
 
 def _limits(item: Any) -> str:
-    """What is asked of a text or a list besides its type."""
+    """What a text or a list must satisfy beside its type."""
     context = item.get("ctx", {})
     if item["type"] == "string_too_long":
         return f" of at most {context['max_length']} characters"

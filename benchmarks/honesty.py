@@ -1,5 +1,5 @@
 """Whether a run reports that it is wrong: ``python -m benchmarks.honesty [--json FILE] [--quick]``,
-or of mechanisms and cars by chance ``--random N --seed S [--before FILE]``.
+or of random mechanisms and cars ``--random N --seed S [--before FILE]``.
 
 Every scene, method and manoeuvre of the car at coarse and fine steps, as `mbs.simulate` runs it: the true error beside
 its estimate. A run is wrong when a judged sensor is off by more than 5 % of the largest range in its unit at one of
@@ -51,7 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--method", action="append", choices=list(TITLES), help="a method; may be given again")
     parser.add_argument("--quick", action="store_true", help="three scenes, the default method, a few steps")
     parser.add_argument("--longest", type=float, default=LONG, metavar="S", help="of a run, before finer steps stop")
-    parser.add_argument("--random", type=int, metavar="N", help="so many mechanisms and cars by chance instead")
+    parser.add_argument("--random", type=int, metavar="N", help="so many random mechanisms and cars instead")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of --random; 1 if not given")
     parser.add_argument("--before", type=Path, metavar="FILE", help="rows of --random to compare costs with")
     options = parser.parse_args(arguments)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mbs.common.lazy_modules import lazy_modules
 
@@ -38,8 +37,6 @@ if TYPE_CHECKING:
     from mbs.simulation.stepping import Simulation
     from mbs.system.system import System, SystemFileError
 
-# packages of their own, imported when they are first asked for: mbs.vehicle.load("prototype")
-_package = lazy_modules("mbs", ("elements", "flexible", "roads", "scenes", "shapes", "vehicle"))
 # imported when they are first asked for: commands that need no engine start fast
 _LAZY = {
     "Affine": "mbs.common.affine",
@@ -79,6 +76,8 @@ _LAZY = {
     "simulate": "mbs.simulation.run",
     "simulate_many": "mbs.simulation.many_runs",
 }
+# packages of their own too: mbs.vehicle.load("prototype")
+__getattr__ = lazy_modules("mbs", ("elements", "flexible", "roads", "scenes", "shapes", "vehicle"), _LAZY)
 
 __all__ = [
     "Accuracy",
@@ -118,9 +117,3 @@ __all__ = [
     "simulate_many",
     "write_road",
 ]
-
-
-def __getattr__(name: str) -> Any:
-    if name in _LAZY:
-        return getattr(import_module(_LAZY[name]), name)
-    return _package(name)

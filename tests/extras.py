@@ -97,13 +97,13 @@ READERS = (
     ),
     Reader(
         "",
-        "from mbs.flexible.read_nastran import read_nastran as r; r('{}', 'bar.op4')",
+        "from mbs.flexible.nastran import read_nastran as r; r('{}', 'bar.op4')",
         ("bar.bdf",),
     ),
-    Reader("", "from mbs.flexible.read_nastran import read_nastran as r; r('bar.bdf', '{}')", ("bar.op4",)),
+    Reader("", "from mbs.flexible.nastran import read_nastran as r; r('bar.bdf', '{}')", ("bar.op4",)),
     Reader(
         "fem",
-        "import pathlib, shutil; from mbs.flexible.read_calculix import read_calculix; f = pathlib.Path('{}'); "
+        "import pathlib, shutil; from mbs.flexible.calculix import read_calculix; f = pathlib.Path('{}'); "
         "[shutil.copy(f'bar{{s}}', f'deck{{s}}') for s in ('.inp', '.sti', '.mas', '.dof')]; "
         "shutil.copy(f, f'deck{{f.suffix}}'); read_calculix('deck.inp')",
         ("bar.inp", "bar.sti", "bar.mas", "bar.dof"),

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.flexible import FiniteElementModel, natural_modes
+from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.fixed_interface import FixedInterface
+from mbs.flexible.frequencies import natural_modes
 from mbs.vehicle import Car
 
 COUPLE = 1e3  # N m; the frame is linear

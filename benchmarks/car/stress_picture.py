@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs import Simulation, Trajectory, compile
-from mbs.flexible import Frame, ReducedBody
+from mbs.flexible.frame import Frame
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
+from mbs.flexible.reduced_body import ReducedBody
 from mbs.scenes import kerb_test
 from mbs.vehicle import Fidelity
 from viewer.pictures import write_picture

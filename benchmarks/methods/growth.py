@@ -14,7 +14,7 @@ import mbs
 from benchmarks.methods.arithmetic import compiled_loop_peak, dgemm_peak, operations, resident
 from benchmarks.shared.command import pyplot, save_chart, watched
 from benchmarks.shared.machine import machine
-from mbs.flexible import craig_bampton
+from mbs.flexible.component_modes import craig_bampton
 from mbs.scenes import double_four_bar
 from mbs.vehicle import load
 

@@ -51,8 +51,6 @@ class Animation:
         1 is real time.
     camera : str, optional
         Its name; by default the first.
-    options : mapping
-        Of the page.
     """
 
     title: str

@@ -178,7 +178,7 @@ COLUMNS = {
     "peaks, %": ".1f",
 }
 PAPER = {"guide": "the paper's, measured", "iterations": 2.0, "most": 3}
-_LATEST, _EDGE = 0.5, 0.1  # s, of a shift that is looked for, and what is left away at the end
+_LATEST, _EDGE = 0.5, 0.1  # s, of a shift that is looked for, and what is cut off at the end
 
 
 def moments(run: Trajectory) -> Array:

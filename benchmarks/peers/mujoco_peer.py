@@ -58,7 +58,7 @@ def scenes() -> tuple[str, ...]:
 
 
 def integrators(scene: str) -> tuple[str, ...]:
-    """Those that are tried."""
+    """Integrators that are tried."""
     return INTEGRATORS
 
 

@@ -22,10 +22,6 @@ def parser_of(name: str, text: str | None, *, json: bool = True, chart: str | No
 
     Parameters
     ----------
-    name : str
-        Of the module.
-    text : str
-        Its documentation.
     json : bool
         With the option ``--json FILE``.
     chart : str, optional

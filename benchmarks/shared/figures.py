@@ -97,5 +97,5 @@ def differences(again: Again, text: str) -> list[str]:
 
 
 def all_differences(made: Sequence[Again]) -> list[str]:
-    """Of all pages."""
+    """Differences on all pages, a line each."""
     return [line for again in made for line in differences(again, read(again.page))]

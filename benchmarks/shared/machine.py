@@ -39,8 +39,6 @@ def describe(
 
     Parameters
     ----------
-    settings : Settings, optional
-        Of the solver.
     repeats, warm_up : int
         Measured runs of a figure, and unmeasured ones before them.
     **more

@@ -21,8 +21,6 @@ def draw(drive: Drive, time: Array, car: Array, bicycle: Array, name: str, file:
         Yaw rate of the multibody car, s and rad/s.
     bicycle : ndarray of shape (n,)
         Yaw rate of a bicycle at the samples of the drive.
-    name : str
-        Of that bicycle.
     """
     plt = pyplot()
     begin, end = JUDGED[0]

@@ -135,8 +135,6 @@ class FmuBuilder:
     ----------
     system : mbs.System, sequence of them or mapping of int to mbs.System
         As for `build_fmu`.
-    name : str
-        Of the scene.
     fidelity : int
         The default among several Systems.
     rights : tuple of str

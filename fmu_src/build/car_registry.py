@@ -55,7 +55,7 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
     poses : {"wheels", "all"} or None
         As `fmu_src.geometry.posed.posed_systems` takes it.
     ports : str, optional
-        As `mbs.vehicle.ports.chosen_ports` takes them, besides those of the file; the name of what is built says
+        As `mbs.vehicle.ports.chosen_ports` takes them, in addition to those of the file; the name of what is built says
         then that it has ports.
     fidelity : float, optional
         Number of a member of `mbs.vehicle.Fidelity` that is alone in what is built, which its name says; by default
@@ -96,13 +96,7 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
 
 
 def grip_of(car: Car) -> dict[str, str]:
-    """What the tyres of each axle reach, a sentence each; a user may expect the forces of the tyre's file.
-
-    Parameters
-    ----------
-    car : Car
-        Any.
-    """
+    """What the tyres of each axle reach, a sentence each; a user may expect the forces of the tyre's file."""
     return dict(grip_row(car, axle) for axle in ("front", "rear"))
 
 

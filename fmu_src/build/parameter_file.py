@@ -20,8 +20,6 @@ def parameter_set(name: str, table: Sequence[Variable], texts: Sequence[TextVari
 
     Parameters
     ----------
-    name : str
-        Of the set.
     texts : sequence of TextVariable
         Those that are text.
     """

@@ -7,6 +7,8 @@ from html import escape
 from typing import Any
 
 from ali3 import html
+from ali3.html_elements import markup
+from ali3.html_elements import table as html_table
 from fmu_src.variables.variables import Variable
 
 _STYLE = "svg { max-width: 22em; color: var(--ink); }\n"
@@ -43,7 +45,7 @@ def documentation(
         HTML that needs no other file but the picture.
     """
     columns = ("name", "causality", "variability", "unit", "start", "min", "max", "description")
-    rows = html.table(columns, ([_cell(getattr(v, c)) for c in columns] for v in table))
+    rows = markup([html_table("", columns, ([_cell(getattr(v, c)) for c in columns] for v in table))])
     words = "\n".join(f"<p>{escape(p)}</p>" for p in paragraphs)
     body = (
         f"<h1>{escape(name)}</h1><p>{escape(description)}</p>\n"

@@ -26,10 +26,6 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
     ----------
     system : mbs.System
         The default one.
-    table : sequence of Variable
-        Of the FMU.
-    name, description : str
-        Of the model.
 
     Returns
     -------

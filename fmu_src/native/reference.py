@@ -154,8 +154,6 @@ def reference_files(name: str, runs: Sequence[ReferenceRun], stop_time: float, s
 
     Parameters
     ----------
-    name : str
-        Of the model.
     runs : sequence of ReferenceRun
         As `reference_runs` gives them.
     stop_time, step : float

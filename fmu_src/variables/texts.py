@@ -17,8 +17,6 @@ def check_texts(description: str, rights: Sequence[str], table: Sequence[Variabl
 
     Parameters
     ----------
-    description : str
-        Of the model.
     rights : sequence of str
         Author, copyright, licence.
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 
 from hosts.catalogue.record import Line, Plot
+from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 from hosts.measures.braking import (
     corrected_to,
@@ -20,7 +21,7 @@ from hosts.measures.braking import (
     travelled,
 )
 from hosts.measures.measure import Limit, Measure
-from hosts.measures.wheels import WHEELS, at_wheels, duration
+from hosts.measures.wheels import at_wheels, duration
 
 WORKS = ("energy.drive", "energy.brakes", "energy.tyres", "energy.dampers", "energy.drag", "energy.ground")
 _R13H = "UN R13-H Annex 3, type 0 with the engine disconnected, at 100 km/h"

@@ -10,6 +10,7 @@ from pathlib import Path
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
 from hosts.driving.derived_columns import derive_columns
+from hosts.driving.ground_marks import marked
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.result import Result
@@ -110,7 +111,8 @@ class TestedCar:
             start = {**manoeuvre.start, **{n: x for n, x in self.start.items() if n not in manoeuvre.start}}
             step = communication_step(fmu, manoeuvre, self.step)
             every = 1 if record_step is None else max(1, round(record_step / step))
-            result = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
+            driven = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
+            result = marked(driven, pilot)
             derive_columns(result, self.aliases, every > 1)
             return result
 
@@ -133,17 +135,17 @@ class TestedCar:
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """By our names."""
+        """Our names of inputs."""
         return self.facts.inputs
 
     @property
     def outputs(self) -> tuple[str, ...]:
-        """By our names; real and whole ones."""
+        """Our names of real and whole outputs."""
         return self.facts.outputs
 
     @property
     def parameters(self) -> tuple[str, ...]:
-        """By our names; real and whole ones."""
+        """Our names of real and whole parameters."""
         return self.facts.parameters
 
     @property

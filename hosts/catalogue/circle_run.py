@@ -64,7 +64,7 @@ class CircleRun:
 
 
 class _Watch:
-    """Sees when the car runs steadily, from when on speed or steering rise, and when the run is over."""
+    """Sees when the car runs steadily, from which time speed or steering rise, and when the run is over."""
 
     def __init__(self, side: float, method: float, first: float, rate: float, tolerance: float) -> None:
         self.side, self.method, self.first, self.rate, self.tolerance = side, method, first, rate, tolerance
@@ -118,8 +118,6 @@ def drive_circle(
     ----------
     side : float
         1 to the left, -1 to the right.
-    settings : mapping of str to float
-        Of the test.
     ratio : float
         Of the steering.
     progress : callable

@@ -162,7 +162,8 @@ def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> 
 def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcome]], out: Path) -> Generator[None]:
     """Do all tasks under a progress bar; after each its outcome is among the others, and kept in the folder."""
     from ali3.bars import bar as bar_of
-    from ali3.isolated import Lost, done_by
+    from ali3.isolated import Lost
+    from ali3.shared_tasks import done_by
     from hosts.catalogue.kept import keep
     from hosts.catalogue.task import do
 

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.record import Line, Plot
+from hosts.common.wheels import WHEELS
 from hosts.driving.course import Course
 from hosts.driving.result import Result
 from hosts.measures.clearance import clearance, outline
 from hosts.measures.measure import Measure
-from hosts.measures.wheels import WHEELS, at_wheels, duration, lifted_wheels
+from hosts.measures.wheels import at_wheels, duration, lifted_wheels
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from ali3.files import write_text
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.task import Outcome, run_file
+from hosts.common.numbers import or_null
 from hosts.measures.measure import Measure
 
 _COLUMNS = ("test", "car", "measure", "value", "unit", "lowest", "highest", "kept", "limit", "note", "text")
@@ -85,15 +86,11 @@ def _of_car(test: str, label: str, outcome: Outcome) -> dict[str, Any]:
 
 
 def _of_measure(m: Measure) -> dict[str, Any]:
-    made: dict[str, Any] = {"value": _number(m.value), "unit": m.unit, "text": m.text}
+    made: dict[str, Any] = {"value": or_null(m.value), "unit": m.unit, "text": m.text}
     if m.limit is not None:
-        limit = {"lowest": _number(m.limit.lowest), "highest": _number(m.limit.highest), "source": m.limit.source}
+        limit = {"lowest": or_null(m.limit.lowest), "highest": or_null(m.limit.highest), "source": m.limit.source}
         made |= {"limit": limit, "kept": m.is_kept}
     return made | ({"note": m.note} if m.note else {})
-
-
-def _number(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
 
 
 def write_measures(

@@ -54,8 +54,6 @@ def held(
         s.
     inputs : mapping of str to float
         Those that the car does not have are left out.
-    start : mapping of str to float
-        Start values.
     """
     values = {n: np.full(2, x) for n, x in inputs.items() if n in car.facts.inputs}
     return Manoeuvre(name, np.array([0.0, stop_time]), values, stop_time, dict(start))

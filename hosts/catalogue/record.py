@@ -125,8 +125,6 @@ class StandardTest(Protocol):
     ----------
     name : str
         Of the command, such as ``step_steer``.
-    title : str
-        For people.
     needs : tuple of str
         Variables by our names without which the test cannot be done.
     """

@@ -171,8 +171,6 @@ def steer(
 
     Parameters
     ----------
-    name : str
-        Of the run.
     speed : float
         m/s.
     time, angle : ndarray of shape (n,)

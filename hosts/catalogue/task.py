@@ -29,10 +29,6 @@ class Task:
 
     Parameters
     ----------
-    test : str
-        Its name.
-    settings : mapping of str to float
-        Of the test.
     folder : Path, optional
         Where a table of each run is written; none without it.
     """

@@ -93,8 +93,8 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "*=0.01; repeatable",
     )
     soak = parser.add_argument_group(
-        "drives by chance, in place of the check",
-        "A drive is a seed: runs of 15 to 60 s from starts by chance, up to 40 m/s and 100 km away, with jumps, sudden "
+        "random drives, in place of the check",
+        "A drive is a seed: runs of 15 to 60 s from random starts, up to 40 m/s and 100 km away, with jumps, sudden "
         "turns, roll-overs, resets and rewinds, all in one process. Every step is checked.",
     )
     soak.add_argument("--soak", action="store_true", help="drive a car so, for hours")

@@ -24,8 +24,6 @@ class Finding:
 
     Parameters
     ----------
-    check : str
-        Name of the check.
     verdict : str
         ``good``, ``note`` or ``bad``.
     words : str

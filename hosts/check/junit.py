@@ -48,8 +48,6 @@ def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
     ----------
     file : Path
         Whole or not at all; its folder is made.
-    suite : str
-        Name of the suite.
 
     Raises
     ------

@@ -18,7 +18,6 @@ from ali3.tables import TextTable
 from hosts.check.junit import Case
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
-from hosts.driving.co_simulation import run_with_bar
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
@@ -26,6 +25,7 @@ from hosts.driving.manoeuvre_table import read_table
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
+from hosts.driving.run_with_bar import run_with_bar
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
@@ -81,7 +81,7 @@ class Deviation:
         return f"{self.error:.3g}{unit}", f"{self.at:g} s", f"{100.0 * self.share:.2g} %", f"{100.0 * self.bound:g} %"
 
     def case(self, reference: str) -> Case:
-        """For a JUnit file."""
+        """The result as a case of a JUnit file."""
         error, at, share, bound = self.words
         words = f"largest error {error} at {at}, {share} of its range; the bound is {bound}"
         return Case(reference, self.name, "good" if self.good else "bad", words)

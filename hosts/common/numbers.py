@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TypeAlias
 
 from ali3.decimal_number import parse_number
@@ -18,6 +19,11 @@ def parse_value(text: str) -> Value:
     if len(word) >= 2 and word[0] == word[-1] and word[0] in "\"'":
         return word[1:-1]
     return word == "true" if word in ("true", "false") else parse_number(word)
+
+
+def or_null(value: float) -> float | None:
+    """A number as JSON has it, which knows neither infinity nor NaN."""
+    return float(value) if math.isfinite(value) else None
 
 
 def is_round_off(change: float, size: float) -> bool:

@@ -57,7 +57,7 @@ def compare(
     curves : mapping of str to Curve
         Of these signals.
     longest_delay : float
-        That is looked for, s.
+        The one that is looked for, s.
     skip : float
         Seconds at the beginning that are not compared.
     """

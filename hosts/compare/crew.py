@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ali3.isolated import Isolated, Lost, shared_by
+from ali3.isolated import Isolated, Lost
+from ali3.shared_tasks import shared_by
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.compare.loaded_fmu import LoadedFmu

@@ -79,8 +79,6 @@ class Fit:
         By signal, in its unit: root mean square over parts of the log left out of the fit in turn, to first order.
     criterion : float
         Of Bayes (Schwarz), with the effective number of samples: the lower of two fits to the same log is the better.
-    units : dict of str to str
-        Of the signals.
     refused : list of str
         Of each start that the FMU refused: a sentence with its parameters.
     """

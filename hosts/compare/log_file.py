@@ -143,7 +143,7 @@ def _read_parquet(path: Path) -> RawLog:
     try:
         with parquet.ParquetFile(path) as file:
             content = file.read()
-        # What pandas has written besides adds nothing: an index is a column too. It may be damaged.
+        # What pandas has written beside the columns adds nothing: an index is a column too. It may be damaged.
         table = content.replace_schema_metadata(None).to_pandas()
         table = table[[name for name in table if not name.startswith("__index_level_")]]
     except (ArrowException, OSError, ValueError, KeyError) as error:

@@ -36,8 +36,6 @@ def inputs_of(
 
     Parameters
     ----------
-    start : mapping of str to float, int, bool or str
-        Start values.
     end : float
         s.
     step : float
@@ -98,7 +96,7 @@ class Replay(Closing):
     step : float
         Communication step, s.
     stretches : sequence of Stretch
-        That are driven one after the other, each from its start.
+        Windows that are driven one after the other, each from its start.
     jobs : int
         Processes that share the stretches; what they give does not depend on their number.
 

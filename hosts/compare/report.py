@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from html import escape
 from pathlib import Path
 
-from ali3 import html
 from ali3.files import write_text
+from ali3.html_elements import document, element, picture, table
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 from hosts.compare.fit_result import Fit
@@ -47,38 +46,43 @@ def write_report(
     paths : mapping of str to Path
         ``.html`` is written; ``.png`` is there and goes into it.
     """
-    parts = [f"<h1>{escape(title)}</h1>"]
-    parts += [f'<p class="problem">{escape(line)}</p>' for line in problems]
-    parts.append("<h2>Deviations</h2>" if after is None else "<h2>Deviations before the fit</h2>")
-    parts.append(html.table(_COLUMNS, _rows(before), "numbers"))
+    parts = [element("h1", title), *(element("p", line, class_="problem") for line in problems)]
+    parts.append(element("h2", "Deviations" if after is None else "Deviations before the fit"))
+    parts.append(table("", _COLUMNS, _rows(before), "numbers"))
     if after is not None and fit is not None:
         parts += [
-            "<h2>Deviations with the fitted parameters and sensors</h2>",
-            html.table(_COLUMNS, _rows(after), "numbers"),
+            element("h2", "Deviations with the fitted parameters and sensors"),
+            table("", _COLUMNS, _rows(after), "numbers"),
         ]
-        parts += ["<h2>Fit</h2>", html.table(FIT_COLUMNS, fit_rows(fit), "numbers")]
+        parts += [element("h2", "Fit"), table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
         parts.append(
-            f"<p>Residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; {fit.samples} "
-            f"samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}.</p>"
+            element(
+                "p",
+                f"Residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; {fit.samples} "
+                f"samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}.",
+            )
         )
-        parts += [f"<p>{escape(line)}.</p>" for line in left_out_words(fit) + start_words(fit)]
-        parts.append("<h3>Correlation of the errors</h3>")
+        parts += [element("p", f"{line}.") for line in left_out_words(fit) + start_words(fit)]
+        parts.append(element("h3", "Correlation of the errors"))
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
-        parts.append(html.table(("", *names), rows, "numbers"))
+        parts.append(table("", ("", *names), rows, "numbers"))
     c = before.common
     if math.isfinite(c.delay):
         parts.append(
-            f"<p>All signals together: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late, its clock "
-            f"{1e6 * c.drift:.3g} ± {1e6 * c.drift_error:.2g} ppm fast.</p>"
+            element(
+                "p",
+                f"All signals together: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late, its clock "
+                f"{1e6 * c.drift:.3g} ± {1e6 * c.drift_error:.2g} ppm fast.",
+            )
         )
     if told:
-        parts.append("<h2>By speed and lateral acceleration</h2>")
-        parts.append(html.table(_BIN_COLUMNS, bin_rows(told, before), "numbers"))
-    parts.append(html.picture(paths[".png"].read_bytes(), title))
-    parts += [f'<p class="note">{escape(line)}</p>' for line in notes]
-    parts.append(f"<footer>{_FOOT}</footer>")
-    write_text(paths[".html"], html.report(title, "\n".join(parts)))
+        parts.append(element("h2", "By speed and lateral acceleration"))
+        parts.append(table("", _BIN_COLUMNS, bin_rows(told, before), "numbers"))
+    parts.append(picture(paths[".png"].read_bytes(), title))
+    parts += [element("p", line, class_="note") for line in notes]
+    parts.append(element("footer", _FOOT))
+    write_text(paths[".html"], document(title, parts))
 
 
 def bin_rows(told: Sequence[Bin], comparison: Comparison) -> list[Sequence[str]]:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ali3.files import whole_file, write_text
+from hosts.common.numbers import or_null
 from hosts.compare.comparison import Comparison
 from hosts.measures.measure import Measure
 
@@ -50,7 +51,7 @@ def measure_records(measures: Sequence[Measure]) -> list[dict[str, Any]]:
     return [
         {
             "name": m.name,
-            "value": m.value if math.isfinite(m.value) else None,
+            "value": or_null(m.value),
             "unit": m.unit,
             "text": m.text,
             "note": m.note,

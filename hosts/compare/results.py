@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 
 from ali3.files import check_writable
 from ali3.write_parameter_set import write_parameter_set
+from hosts.common.numbers import or_null
 from hosts.compare.comparison import Comparison, measures
 from hosts.compare.fit_result import Fit
 from hosts.compare.page import comparison_figure, write_picture, write_summary
@@ -31,8 +31,6 @@ class Outcome:
     ----------
     before, after : Comparison
         With the parameters of the FMU and with fitted ones.
-    notes, problems : list of str
-        Sentences.
     """
 
     before: Comparison
@@ -101,9 +99,9 @@ def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
                     "unit": x.unknown.unit,
                     "start": x.unknown.start,
                     "value": x.value,
-                    "half_width_95": x.half_width if math.isfinite(x.half_width) else None,
+                    "half_width_95": or_null(x.half_width),
                     "bound": x.bound,
-                    "without": x.without if math.isfinite(x.without) else None,
+                    "without": or_null(x.without),
                     "folds": x.folds,
                 }
                 for x in f.found
@@ -121,7 +119,7 @@ def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
             "converged": f.converged,
             "starts": [asdict(start) for start in f.starts],
             "refused_starts": f.refused,
-            "left_out": {n: x if math.isfinite(x) else None for n, x in f.left_out.items()},
+            "left_out": {n: or_null(x) for n, x in f.left_out.items()},
             "criterion": f.criterion,
         }
     return record

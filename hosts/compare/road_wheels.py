@@ -39,8 +39,6 @@ def steering_for(path: Path, aliases: Aliases, start: Mapping[str, Value], angle
     ----------
     path : Path
         FMU.
-    start : mapping of str to float, int, bool or str
-        Start values.
     angle : Signal
         Of `mean_angle`.
 

@@ -39,7 +39,7 @@ def measured_start(
     Returns
     -------
     start : dict
-        To be set besides `given`.
+        What is set in addition to `given`.
     notes : list of str
         What the start is, in sentences.
     """

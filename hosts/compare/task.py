@@ -46,8 +46,6 @@ class Task:
 
     Parameters
     ----------
-    aliases : Aliases
-        Of the FMU.
     inputs, outputs : dict of str to Signal
         From time 0 on; outputs of windows one window after the other.
     stretches : list of Stretch
@@ -80,7 +78,7 @@ class Task:
 
     @property
     def end(self) -> float:
-        """Of what is compared, s."""
+        """End of what is compared, s."""
         return self.stretches[-1].place + self.stretches[-1].end
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 from fmpy.model_description import ScalarVariable
@@ -13,7 +12,6 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.ground_marks import marks_of, marks_of_inputs
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.missed_jumps import missed_end, missed_jumps
 from hosts.driving.pilots.pilot import Pilot
@@ -23,17 +21,6 @@ from hosts.driving.run_checks import check_columns
 from hosts.driving.senses import Senses
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import StepRefusedError
-
-
-def run_with_bar(
-    fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Pilot | None = None, every: int = 1
-) -> Result:
-    """`run` with a progress bar on the terminal; its last step has a row also where the stop time has none."""
-    from ali3.bars import bar as bar_of
-
-    steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
-    with bar_of(total=steps, desc=what, unit="step") as bar:
-        return run(fmu, manoeuvre, step, driver, lambda done: bar.update(done - bar.n), every=every, last=True)
 
 
 def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
@@ -173,7 +160,7 @@ def run(
     progress(rows.done)
     recorded, values = rows.close(last)
     names = inputs + outputs
-    made = Result(
+    return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
         step * np.array(recorded, dtype=np.float64),
@@ -189,7 +176,6 @@ def run(
         missed=[told for told in (missed_jumps(manoeuvre, step, straight, whole, acts), end) if told is not None],
         start=dict(manoeuvre.start),
     )
-    return replace(made, marks=marks_of_inputs(made) if driver is None else marks_of(driver))
 
 
 def _is_whole(variable: ScalarVariable) -> bool:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.derivation import Derivation
 
 
 def derive_columns(result: Result, aliases: Aliases, thinned: bool = False) -> None:
@@ -41,7 +42,7 @@ def _with_central_rates(
     """Write derived columns of a record again: a rate that was made during the run did not know the next row."""
     made = {d.ours for d in aliases.derived}
     there = [k for k, name in enumerate(names) if name not in made]
-    derivation = aliases.derivation([names[k] for k in there])
+    derivation = Derivation(aliases.derived, [names[k] for k in there])
     columns = derivation.record(time, values[:, there])
     for k, name in enumerate(derivation.names):
         if name in names:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -15,6 +16,11 @@ Mark: TypeAlias = dict[str, Any]
 _ACROSS = 4.0  # m, of a line across the way
 _STEADY, _SETTLED = 10.0, 2.0  # s that a steering angle is held which makes a circle, and after which it is driven
 _MOVES = 1.0  # m/s
+
+
+def marked(result: Result, pilot: object | None) -> Result:
+    """A run with the marks that its pilot drives by, or without a pilot those that its inputs show."""
+    return replace(result, marks=marks_of_inputs(result) if pilot is None else marks_of(pilot))
 
 
 def marks_of(pilot: object) -> list[Mark]:

@@ -131,7 +131,7 @@ class WildDriver:
         return {"steering": a * math.sin(phase), "throttle": max(c * push, 0.0), "brake": max(-c * push, 0.0)}
 
     def _flick(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """From lock to lock at once."""
+        """Turn the wheel from lock to lock at once."""
         a, b, c = self._numbers[:3]
         side = 1.0 if a < 0.5 else -1.0
         return {"steering": side if t < 0.2 + 0.8 * b else -side, "throttle": c}

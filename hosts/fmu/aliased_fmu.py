@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
 from hosts.fmu.aliases.alias import Alias, Aliases
+from hosts.fmu.aliases.derivation import Derivation
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
 
@@ -47,7 +48,7 @@ class AliasedFmu:
             a.ours: _scaled(fmu.table[a.theirs], a) for a in self._alias.values() if a.theirs in fmu.table.names
         }
         self._inputs, self._outputs = self.names("input"), self.names("output")
-        self._derivation = aliases.derivation((*self._inputs, *self._outputs))
+        self._derivation = Derivation(aliases.derived, (*self._inputs, *self._outputs))
         self.variables |= {name: _derived(name) for name in self._derivation.names}
         self._held = dict(zip(self._inputs, self.start_values(self._inputs).tolist(), strict=True))
         self._slopes: dict[str, float] = {}

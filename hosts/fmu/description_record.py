@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from fmpy.model_description import ModelDescription
 
+from hosts.common.numbers import or_null
 from hosts.fmu.variables import Variable, Variables
 
 
 def description_record(description: ModelDescription, variables: Variables) -> dict[str, Any]:
-    """What `modelDescription.xml` says, as the page reads it.
-
-    Parameters
-    ----------
-    variables : Variables
-        Of it.
-    """
+    """What `modelDescription.xml` says, as the page reads it."""
     experiment = description.defaultExperiment
     times = {"startTime": "startTime", "stopTime": "stopTime", "stepSize": "stepSize"}
     found = {key: getattr(experiment, name, None) for key, name in times.items()}
@@ -40,8 +34,8 @@ def _variable(v: Variable, reference: int) -> dict[str, Any]:
         "variability": v.variability,
         "unit": v.unit,
         "start": v.start,
-        "min": v.low if math.isfinite(v.low) else None,
-        "max": v.high if math.isfinite(v.high) else None,
+        "min": or_null(v.low),
+        "max": or_null(v.high),
         "description": v.description,
         "items": v.items or None,
     }

@@ -80,11 +80,6 @@ def unpack(path: Path, folder: Path) -> None:
 class Fmu(Closing):
     """One instance of a co-simulation FMU (FMI 2.0 or 3.0), ready to be initialised.
 
-    Parameters
-    ----------
-    path : Path
-        The FMU.
-
     Attributes
     ----------
     variables : dict of str to ScalarVariable

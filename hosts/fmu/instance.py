@@ -57,8 +57,6 @@ class Instance:
     ----------
     three : bool
         Whether it is FMI 3.0.
-    slave : FMU2Slave or FMU3Slave
-        Of FMPy.
     """
 
     def __init__(
@@ -200,7 +198,7 @@ class Instance:
         return call, (ctypes.c_uint32 * len(references))(*references), (ctype * size)()
 
     def _counts(self, buffer: Sequence[float]) -> tuple[int, ...]:
-        """What FMI 3.0 wants besides: the number of values."""
+        """What FMI 3.0 asks for too: the number of values."""
         return (len(buffer),) if self.three else ()
 
     def step(self, time: float, length: float) -> bool:

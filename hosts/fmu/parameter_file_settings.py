@@ -17,11 +17,6 @@ from hosts.fmu.variables import Variable, Variables, kind_words
 def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
     """Values of an SSV file.
 
-    Parameters
-    ----------
-    variables : Variables
-        Of the FMU.
-
     Raises
     ------
     HostError

@@ -16,8 +16,6 @@ def parameter_set_of(variables: Variables, name: str, values: Mapping[str, Value
 
     Parameters
     ----------
-    name : str
-        Of the set.
     values : mapping of str to float, int, bool or str
         Other values than those of the FMU.
     """

@@ -40,6 +40,6 @@ class Setting:
         return f"{v.text(v.start)} -> {v.with_unit(self.value)} ({given}{self.source})"
 
     def record(self) -> dict[str, Any]:
-        """For JSON."""
+        """The setting as JSON."""
         v = self.variable
         return {"name": v.name, "old": v.start, "new": self.value, "unit": v.unit, "from": self.source}

@@ -19,13 +19,7 @@ _MOST_IN_TITLE = 2
 
 
 class Settings:
-    """Values by name; what is added later replaces what was there.
-
-    Parameters
-    ----------
-    variables : Variables
-        Of the FMU.
-    """
+    """Values by name; what is added later replaces what was there."""
 
     def __init__(self, variables: Variables) -> None:
         self._variables = variables
@@ -125,13 +119,7 @@ class Settings:
         return self._notes + changes + steering_rows(self._variables, self.start)
 
     def title(self, name: str) -> str:
-        """A name for a picture with the first of what the user has changed.
-
-        Parameters
-        ----------
-        name : str
-            Of the run.
-        """
+        """A name for a picture with the first of what the user has changed."""
         mine = [s for s in self.changes if not s.source.startswith(START_OF)]
         shown = [f"{s.variable.name} {s.variable.with_unit(s.value)}" for s in mine[:_MOST_IN_TITLE]]
         more = [f"{len(mine) - len(shown)} more"] if len(mine) > len(shown) else []

@@ -172,7 +172,7 @@ class Variables:
 
     @property
     def parameters(self) -> list[Variable]:
-        """In the order of the FMU."""
+        """Parameters in the order of the FMU."""
         return [v for v in self._variables.values() if v.causality == "parameter"]
 
     def settable(self, name: str, source: str) -> Variable:

@@ -31,7 +31,7 @@ class Gradient:
 
 
 NONE = Gradient(math.nan, math.nan, math.nan)
-"""Where there is no line."""
+"""The gradient where no line can be fitted."""
 
 
 def gradient(x: NDArray[np.float64], y: NDArray[np.float64], low: float, high: float) -> Gradient:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 
-WHEELS = ("FL", "FR", "RL", "RR")
 LIFTED = 1.0
 """A wheel with a load up to this has left the road, N: solvers leave a rest of rounding errors."""
 

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from ali3.words import brief
 from hosts.common.errors import HostError
+from hosts.common.wheels import WHEELS
 from hosts.driving.courses import course_of
 from hosts.fmu.fmu import StepRefusedError
 from hosts.plant.car import Car
 from hosts.plant.lane import Lane
 
 Floats = NDArray[np.float32]
-_WHEELS = ("FL", "FR", "RL", "RR")
 
 
 class CarEnvironment(gymnasium.Env[Floats, Floats]):
@@ -186,9 +186,9 @@ class AntiLockBraking(CarEnvironment):
         seconds: float = 15.0,
         step: float = 0.01,
     ) -> None:
-        inputs = tuple(f"wheel_{w}.brake_torque_demand" for w in _WHEELS)
-        slips = tuple(f"wheel_{w}.slip" for w in _WHEELS)
-        rates = tuple(f"wheel_{w}.omega" for w in _WHEELS)
+        inputs = tuple(f"wheel_{w}.brake_torque_demand" for w in WHEELS)
+        slips = tuple(f"wheel_{w}.slip" for w in WHEELS)
+        rates = tuple(f"wheel_{w}.omega" for w in WHEELS)
         reads = ("speed", *slips, *rates, "chassis.wz", "chassis.ax", "chassis.yaw")
         ports = None if Path(car).suffix.lower() == ".fmu" else "brakes"
         made = Car(car, ports=ports, step=step, inputs=inputs, parameters={"selector": 0})

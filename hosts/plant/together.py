@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from functools import partial
@@ -11,6 +10,7 @@ from typing import Any
 import gymnasium
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
+from ali3.cores import available_cores
 from hosts.common.errors import HostError
 from hosts.plant.environments import AntiLockBraking, Floats, LaneKeeping
 from hosts.plant.lap import ProvingGroundLap
@@ -89,7 +89,7 @@ class Together(SyncVectorEnv[Floats, Floats]):
         if threads is not None and not (isinstance(threads, int) and threads >= 1):
             raise HostError(f"The number of threads is {threads!r}; it must be a whole number from 1.")
         super().__init__([lambda make=make: _Ahead(make()) for make in env_fns], **options)  # type: ignore[misc]
-        self._threads = min(self.num_envs, threads or _cores())
+        self._threads = min(self.num_envs, threads or available_cores())
         self._pool = ThreadPoolExecutor(self._threads)
 
     def step(self, actions: Any) -> Any:
@@ -109,11 +109,6 @@ class Together(SyncVectorEnv[Floats, Floats]):
         """End the threads, free the cars."""
         self._pool.shutdown()
         super().close_extras(**options)
-
-
-def _cores() -> int:
-    """Those that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _several(environment: Callable[..., _Single], num_envs: int, options: dict[str, Any]) -> Together:

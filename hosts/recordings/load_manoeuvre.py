@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
-
-import numpy as np
 
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_file import read_manoeuvre
-from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.recordings.format import is_recording
 
 
@@ -31,22 +27,3 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     from hosts.recordings.last_drive import recorded_manoeuvre
 
     return recorded_manoeuvre(Path(manoeuvre))
-
-
-def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) -> Manoeuvre:
-    """What an FMU is run through.
-
-    Parameters
-    ----------
-    given : str, optional
-        As `load_manoeuvre` takes it; without it inputs keep their start values.
-    stop_time : float, optional
-        s; by default that of the manoeuvre, else that of the FMU's default experiment, else 10 s.
-    """
-    if given is not None:
-        manoeuvre = load_manoeuvre(given)
-        return manoeuvre if stop_time is None else replace(manoeuvre, stop_time=stop_time)
-    if stop_time is None:
-        experiment = fmu.description.defaultExperiment
-        stop_time = float(experiment.stopTime) if experiment is not None and experiment.stopTime else 10.0
-    return Manoeuvre("run", np.zeros(0), {}, stop_time)

@@ -183,7 +183,7 @@ class RecordedDrive:
 
     @property
     def first_epoch(self) -> int:
-        """Of the first row."""
+        """Epoch of the first row."""
         first = next(iter(self.blocks()), None)
         return 0 if first is None else int(first.epoch[0])
 

@@ -23,8 +23,6 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
 
     Parameters
     ----------
-    name : str
-        Of the run.
     geometry : Path, optional
         FMU or scene that is drawn in place of the FMU that was recorded.
 

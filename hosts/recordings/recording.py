@@ -54,7 +54,7 @@ def recording_meta(
     start : mapping of str to float, int, bool or str
         All values that are set before the start.
     seed : int, optional
-        Of a driver by chance.
+        Of a random driver.
     world : str, optional
         Name or file.
 

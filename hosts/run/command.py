@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from hosts.driving.driver import Driver
     from hosts.driving.result import Result
     from hosts.driving.simulated_fmu import SimulatedFmu
-    from hosts.fmu.fmu import Fmu
     from hosts.run.other_names import OtherNames
 
 
@@ -82,20 +81,24 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from hosts.driving.co_simulation import run_with_bar
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
     from hosts.driving.run_checks import check_columns, communication_step, steps_of
+    from hosts.driving.run_with_bar import run_with_bar
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
-    from hosts.recordings.load_manoeuvre import manoeuvre_of
+    from hosts.recordings.asked_manoeuvre import manoeuvre_of
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
     from hosts.run.run_summary import energy_balance, summary
 
     path, known = fmu_file(options.fmu), dict(options.driver)
     with Fmu(path) as opened:
-        other = None if options.aliases is None else _other_names(opened, options.aliases)
+        other: OtherNames | None = None
+        if options.aliases is not None:
+            from hosts.run.other_names import OtherNames
+
+            other = OtherNames(opened, options.aliases)
         fmu: SimulatedFmu = opened if other is None else other.fmu
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
         if known and not manoeuvre.driver:
@@ -138,12 +141,6 @@ def _of_course(result: Result, driver: Driver) -> tuple[Sequence[tuple[str, str]
     from hosts.run.course_result import gate_edges, passed
 
     return passed(result, driver), gate_edges(driver)
-
-
-def _other_names(fmu: Fmu, file: Path) -> OtherNames:
-    from hosts.run.other_names import OtherNames
-
-    return OtherNames(fmu, file)
 
 
 def _words(name: str) -> str:

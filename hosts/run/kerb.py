@@ -37,8 +37,6 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
         1 to 3; by default that of the FMU.
     step : float, optional
         Communication step, s; by default `STEP`.
-    out : Path
-        Folder.
 
     Returns
     -------
@@ -52,10 +50,10 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
     """
     import numpy as np
 
-    from hosts.driving.co_simulation import run_with_bar
     from hosts.driving.manoeuvre import Manoeuvre
     from hosts.driving.manoeuvre_settings import set_in
     from hosts.driving.run_checks import communication_step
+    from hosts.driving.run_with_bar import run_with_bar
     from hosts.fmu.built_fmu import fmu_of_scene
     from hosts.fmu.fmu import Fmu
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record

@@ -22,8 +22,6 @@ class OtherNames:
 
     Parameters
     ----------
-    fmu : Fmu
-        As it is.
     file : Path
         Of ``--aliases``.
 

@@ -20,8 +20,6 @@ def result_paths(out: Path, stem: str) -> tuple[Path, Path, Path]:
 
     Parameters
     ----------
-    out : Path
-        Folder.
     stem : str
         Name of the files without suffix.
     """

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 from hosts.driving.senses import COSTLY
 
-WHEELS = ("FL", "FR", "RL", "RR")
 # A wheel that carries less is in the air, N.
 _LIFT_FORCE = 1.0
 # Outputs that hold energy, and those of the work since the start, with the words of the table.

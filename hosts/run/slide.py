@@ -33,10 +33,6 @@ def write_slide(
 
     Parameters
     ----------
-    stem : Path
-        Of the files.
-    head : sequence of str
-        Of the columns.
     rows : sequence of sequence of str
         At most `MOST_ROWS` are shown; a sentence below tells of the others.
     plots : sequence of callable

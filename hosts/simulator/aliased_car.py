@@ -9,6 +9,7 @@ import numpy as np
 
 from hosts.common.numbers import Value
 from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.derivation import Derivation
 from hosts.simulator.car import Car, Event, Moment
 from hosts.simulator.step_times import StepTimes
 
@@ -32,7 +33,7 @@ class AliasedCar:
         self._car = car
         self._aliases = aliases
         ours = aliases.names(car.names)
-        self._derivation = aliases.derivation(ours)
+        self._derivation = Derivation(aliases.derived, ours)
         self.names = (*ours, *self._derivation.names)
         self.inputs = aliases.names(car.inputs)
         self.step = car.step

@@ -95,7 +95,7 @@ class Web:
         Parameters
         ----------
         pages : int
-            That are connected.
+            How many are connected.
         """
         headers = request.headers
         found = {name: headers.get_all(name) for name in ("Host", "Origin")}

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-WHEELS = ("FL", "FR", "RL", "RR")
+from hosts.common.wheels import WHEELS
+
 LARGEST_BALANCE = 0.04
 """Of `solver.energy_balance`: above it no run of the engine's trials was right, and the FMU itself warns."""
 

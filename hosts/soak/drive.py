@@ -140,7 +140,7 @@ class _Drive:
         return row
 
     def run(self) -> None:
-        """A run from a start by chance until its end or a failure."""
+        """A run from a random start until its end or a failure."""
         task, number = self.task, self.outcome.runs
         self.outcome.runs += 1
         seed = 100_000 * task.seed + number

@@ -50,7 +50,7 @@ class Ground:
 
     @property
     def record(self) -> dict[str, Any]:
-        """For JSON."""
+        """The ground as JSON."""
         return {"road": self.road, "targets": [asdict(target) for target in self.targets]}
 
 

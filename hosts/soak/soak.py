@@ -1,6 +1,6 @@
 """Drives a car for hours by itself: the work of ``ali3 check FMU --soak``.
 
-A drive is a seed: runs of 15 to 60 s from starts by chance, up to 40 m/s and 100 km away, with jumps, sudden turns,
+A drive is a seed: runs of 15 to 60 s from random starts, up to 40 m/s and 100 km away, with jumps, sudden turns,
 roll-overs, resets and rewinds, all in one process. The same seed gives the same drive. Every step is checked.
 """
 
@@ -88,7 +88,8 @@ def soak(options: argparse.Namespace, prog: str) -> int:
 def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> None:
     """Drive all tasks under a progress bar, each in a process; of one that is not done its outcome has the seconds."""
     from ali3.bars import bar as bar_of
-    from ali3.isolated import Lost, done_by
+    from ali3.isolated import Lost
+    from ali3.shared_tasks import done_by
     from hosts.soak.drive import Failure, drive
 
     form = "{desc}: {percentage:3.0f} % {bar} {n_fmt} of {total_fmt} s, {elapsed} so far, {remaining} to go"

@@ -162,7 +162,7 @@ def _keep_limits(plan: Plan, folder: Path, before: dict[str, Any], content: byte
 
 
 def out_folder(out: Path | None, study: StudyFile, file: Path) -> Path:
-    """Where the results go."""
+    """Folder of the results."""
     return out if out is not None else Path("out", study.name or file.stem)
 
 

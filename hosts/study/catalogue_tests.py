@@ -13,9 +13,8 @@ from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.fmu.aliases.other_names import OtherNames
+from hosts.fmu.aliases.alias import Aliases
 from hosts.study.job import Job
-from hosts.study.other_names import as_aliases
 
 
 def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where: str) -> tuple[str, dict[str, float]]:
@@ -46,7 +45,7 @@ def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where
     return test.name, settings
 
 
-def performed(job: Job, path: Path, name: str, aliases: OtherNames | None, values: Mapping[str, Value]) -> TestRecord:
+def performed(job: Job, path: Path, name: str, aliases: Aliases | None, values: Mapping[str, Value]) -> TestRecord:
     """What the test of a job has yielded.
 
     Parameters
@@ -59,5 +58,5 @@ def performed(job: Job, path: Path, name: str, aliases: OtherNames | None, value
         Of the parameters.
     """
     step = None if math.isnan(job.step) else job.step
-    car = TestedCar(name, path, as_aliases(aliases), {**job.start, **values}, step)
+    car = TestedCar(name, path, aliases or Aliases(), {**job.start, **values}, step)
     return perform(standard_test(job.test), car, job.settings)

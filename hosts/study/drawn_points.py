@@ -1,4 +1,4 @@
-"""Points of the unit cube by chance, a block at a time, so that a million of them need no memory."""
+"""Random points of the unit cube, a block at a time, so that a million of them need no memory."""
 
 from __future__ import annotations
 

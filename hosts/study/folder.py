@@ -44,13 +44,7 @@ def read_record(folder: Path) -> dict[str, Any] | None:
 
 
 def begin_study(folder: Path, record: Mapping[str, Any], study_file: bytes, fmu: Path) -> None:
-    """Write what a study begins with; the record comes last and says that the rest is there.
-
-    Parameters
-    ----------
-    study_file : bytes
-        Content of the study file.
-    """
+    """Write what a study begins with; the record comes last and says that the rest is there."""
     with whole_file(folder / "study.toml") as made:
         made.write_bytes(study_file)
     with whole_file(folder / fmu.name) as made:

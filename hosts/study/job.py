@@ -18,8 +18,6 @@ class Job:
         With all start values but the parameters.
     test : str
         Of the catalogue, where there is no manoeuvre.
-    settings : dict of str to float
-        Of the test.
     measures : tuple of str
         Of the test; empty: all.
     start : dict of str to float, int, bool or str

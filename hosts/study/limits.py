@@ -15,6 +15,7 @@ from scipy.stats import binomtest
 
 from ali3.files import whole_file, write_text
 from hosts.common.display_units import shown_in
+from hosts.common.numbers import or_null
 from hosts.measures.measure import Limit
 from hosts.study.work import DONE, FAILED, MISSING
 
@@ -202,16 +203,16 @@ def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
         {
             "measure": s.measure,
             "manoeuvre": s.manoeuvre,
-            "lowest": _number(s.limit.lowest),
-            "highest": _number(s.limit.highest),
+            "lowest": or_null(s.limit.lowest),
+            "highest": or_null(s.limit.highest),
             "unit": s.unit,
             "within": s.within,
             "outside": s.outside,
             "without_result": s.without_result,
             "absent": s.absent,
-            "share": _number(s.share),
-            "share_low": _number(s.low),
-            "share_high": _number(s.high),
+            "share": or_null(s.share),
+            "share_low": or_null(s.low),
+            "share_high": or_null(s.high),
         }
         for s in found
     ]
@@ -220,7 +221,3 @@ def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
         pd.DataFrame(rows).to_csv(made, index=False)
     write_text(record, json.dumps(rows, indent=1, allow_nan=False) + "\n")
     return [table, record]
-
-
-def _number(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None

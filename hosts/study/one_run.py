@@ -85,9 +85,9 @@ class Bench:
         fmu, work = self._fresh(), self._work
         seen: SimulatedFmu = fmu
         if work.aliases is not None:
-            from hosts.study.other_names import derive, under_names
+            from hosts.fmu.aliased_fmu import seen_through
 
-            seen = under_names(fmu, work.aliases)
+            seen = seen_through(fmu, work.aliases)
         manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
         driver: Driver | None = None
         if manoeuvre.driver:
@@ -96,7 +96,9 @@ class Bench:
             driver = driver_of(seen, manoeuvre)
         result = run(seen, manoeuvre, job.step, driver)
         if work.aliases is not None:
-            derive(result, work.aliases)
+            from hosts.driving.derived_columns import derive_columns
+
+            derive_columns(result, work.aliases)
         outcome = _of_result(result, job)
         if job.every:
             outcome.signals = sampled(result, work.signals, job)

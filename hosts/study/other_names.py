@@ -5,13 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from hosts.common.errors import HostError
-from hosts.driving.derived_columns import derive_columns
-from hosts.driving.result import Result
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.fmu.aliased_fmu import AliasedFmu, seen_through
+from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.of_file import aliases_of
-from hosts.fmu.aliases.other_names import OtherNames
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
 
@@ -26,24 +23,6 @@ def aliases_beside(name: str, file: Path, fmu: Fmu) -> Aliases:
     """
     beside = file.parent / name
     return aliases_of(beside if beside.is_file() else name, fmu.table)
-
-
-def under_names(fmu: Fmu, names: OtherNames) -> SimulatedFmu:
-    """The FMU under our names."""
-    return seen_through(fmu, as_aliases(names))
-
-
-def derive(result: Result, names: OtherNames) -> None:
-    """See `derive_columns`."""
-    derive_columns(result, as_aliases(names))
-
-
-def as_aliases(names: OtherNames | None) -> Aliases:
-    """The aliases, of which there may be none."""
-    if names is None:
-        return Aliases()
-    assert isinstance(names, Aliases)
-    return names
 
 
 def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:

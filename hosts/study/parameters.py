@@ -80,7 +80,7 @@ class Parameter:
         return Parameter(self.name, self.kind, self.unit, self.low, self.high, self.log, tuple(values), self.count)
 
     def record(self) -> dict[str, Any]:
-        """For JSON."""
+        """The parameter as JSON."""
         low, high = (None if math.isnan(x) else x for x in (self.low, self.high))
         return {
             "kind": self.kind,

@@ -23,13 +23,7 @@ _NAME = "part-{:06d}.parquet"
 
 
 def table_schema(record: Mapping[str, Any]) -> Any:
-    """Columns of the table with their units, and what `pandas.read_parquet` gives as ``attrs``.
-
-    Parameters
-    ----------
-    record : mapping
-        Of the study.
-    """
+    """Columns of the table with their units, and what `pandas.read_parquet` gives as ``attrs``."""
     units = record["units"]
     fields = [("index", pa.int64()), ("point", pa.int64()), ("manoeuvre", pa.string()), ("seed", pa.int64())]
     fields += [(name, _TYPES.get(p["kind"], pa.string())) for name, p in record["parameters"].items()]
@@ -99,13 +93,7 @@ def forget_failed(folder: Path) -> int:
 
 
 class PartWriter:
-    """Writes rows as parts, each of them at once.
-
-    Parameters
-    ----------
-    record : mapping
-        Of the study.
-    """
+    """Writes rows as parts, each of them at once."""
 
     def __init__(self, folder: Path, record: Mapping[str, Any]) -> None:
         self._folder, self._record = folder, record

@@ -16,7 +16,7 @@ from hosts.common.program import program_digest, versions
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import Fmu
 from hosts.study.job import Job
-from hosts.study.measures import StudyMeasure, parse_measure
+from hosts.study.measures.study_measure import StudyMeasure
 from hosts.study.parameters import Parameter
 from hosts.study.planned_runs import planned_runs
 from hosts.study.points import Points, digest
@@ -35,8 +35,6 @@ class Plan:
 
     Parameters
     ----------
-    work : Work
-        For the workers.
     kinds : dict of str to str
         ``Real``, ``Integer``, ... of the parameters.
     units : dict of str to str
@@ -194,6 +192,10 @@ def _measures(
     """Measures of manoeuvres, and the units of their columns."""
     if study.measures and not stop_times:
         raise HostError(f"{file}: [measures] are of manoeuvres; this study has tests only, which have their own.")
+    if not study.measures:
+        return [], {}
+    from hosts.study.measures.parse import parse_measure
+
     recorded = {n: units[n] for n in (*fmu.names("input"), *fmu.names("output"))}
     measures: list[StudyMeasure] = []
     columns: dict[str, str] = {}

@@ -8,7 +8,7 @@ from typing import Any
 
 from hosts.common.errors import HostError
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.fmu.aliases.other_names import OtherNames
+from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
 from hosts.study.job import Job
@@ -33,7 +33,7 @@ class PlannedRuns:
     """
 
     fmu: SimulatedFmu
-    aliases: OtherNames | None
+    aliases: Aliases | None
     points: Points
     parameters: dict[str, Any]
     jobs: list[Job]
@@ -47,7 +47,7 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
     file : Path
         Where it was read from; files it names are looked for beside it.
     opened : Fmu
-        That is run.
+        The FMU of the study.
 
     Raises
     ------
@@ -55,12 +55,13 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
         An unknown parameter, a value out of range with its row, an empty grid, a manoeuvre that overwrites a parameter.
     """
     fmu: SimulatedFmu = opened
-    aliases: OtherNames | None = None
+    aliases: Aliases | None = None
     if study.aliases is not None:
-        from hosts.study.other_names import aliases_beside, under_names
+        from hosts.fmu.aliased_fmu import seen_through
+        from hosts.study.other_names import aliases_beside
 
         aliases = aliases_beside(study.aliases, file, opened)
-        fmu = under_names(opened, aliases)
+        fmu = seen_through(opened, aliases)
     points, parameters = _points(study, file, opened, fmu)
     return PlannedRuns(fmu, aliases, points, parameters, jobs_of(study, file, fmu, list(parameters)))
 

@@ -43,7 +43,7 @@ class SampledPoints:
 
 
 def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, file: str) -> SampledPoints:
-    """Points of a grid or by chance.
+    """Points of a grid, or random ones.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, f
 
 
 def _drawn(d: int, sampling: SamplingEntry, file: str) -> Sampler:
-    """Points of d dimensions by chance."""
+    """Random points of d dimensions."""
     from hosts.study.drawn_points import LatinHypercube, Saltelli, SobolSequence
 
     n, seed = sampling.runs or 0, sampling.seed

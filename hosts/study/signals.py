@@ -26,13 +26,7 @@ def signal_store(folder: Path, label: str) -> Path:
 
 
 def make_store(folder: Path, job: Job, record: Mapping[str, Any]) -> None:
-    """An empty group for a manoeuvre; all values are NaN.
-
-    Parameters
-    ----------
-    record : mapping
-        Of the study.
-    """
+    """An empty group for a manoeuvre; all values are NaN."""
     import dask.array
     import xarray as xr
 

@@ -16,6 +16,7 @@ from ali3.files import make_folder, write_text
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.display_units import Shown, shown_in
 from hosts.common.errors import HostError
+from hosts.common.numbers import or_null
 from hosts.common.units import conversion
 from hosts.fmu.fmu import described
 from hosts.fmu.parameters_as_set import parameter_set_of
@@ -335,8 +336,8 @@ def _record(search: _Search, found: Found, lines: list[str], file: Path) -> Path
         "tolerance": found.tolerance,
         "value": None if found.best is None else found.best.x,
         "reached": None if found.best is None else found.best.y,
-        "sensitivity": found.slope if math.isfinite(found.slope) else None,
-        "runs": [{**asdict(run), "y": run.y if math.isfinite(run.y) else None} for run in found.runs],
+        "sensitivity": or_null(found.slope),
+        "runs": [{**asdict(run), "y": or_null(run.y)} for run in found.runs],
         "words": lines,
     }
     write_text(file, json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")

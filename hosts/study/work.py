@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
-from hosts.fmu.aliases.other_names import OtherNames
+from hosts.fmu.aliases.alias import Aliases
 from hosts.study.job import Job
 
 if TYPE_CHECKING:
-    from hosts.study.measures import StudyMeasure
+    from hosts.study.measures.study_measure import StudyMeasure
 
 DONE, INCOMPLETE, FAILED = "done", "incomplete", "failed"
 """How a run ended: every measure that exists is a number; some is none; there is no result."""
@@ -39,7 +39,7 @@ class Work:
         Of manoeuvres.
     columns : tuple of str
         All measures of the table.
-    aliases : OtherNames, optional
+    aliases : Aliases, optional
         Of an alias file.
     reuse : bool
         Whether an instance of the FMU is used again after a reset.
@@ -56,7 +56,7 @@ class Work:
     measures: tuple[StudyMeasure, ...]
     columns: tuple[str, ...]
     signals: tuple[str, ...]
-    aliases: OtherNames | None = None
+    aliases: Aliases | None = None
     reuse: bool = False
     time_limit: float | None = None
 

@@ -39,7 +39,7 @@ class _Room:
         return Path(self.folder.name, self.work.fmu)
 
     def bench(self, kind: type[Bench] | type[IsolatedBench]) -> Bench | IsolatedBench:
-        """That of this thread."""
+        """The bench of this thread."""
         bench: Bench | IsolatedBench | None = getattr(self.of_thread, kind.__name__, None)
         if bench is None:
             bench = kind(self.work, self.fmu)
@@ -53,15 +53,7 @@ _rooms: dict[str, _Room] = {}
 
 
 class StudyPlugin(WorkerPlugin):
-    """Brings a study to each worker that there is and that comes.
-
-    Parameters
-    ----------
-    key : str
-        Of the study.
-    fmu : bytes
-        Content of the FMU.
-    """
+    """Brings a study to each worker that there is and that comes."""
 
     def __init__(self, key: str, work: Work, seed: int, fmu: bytes) -> None:
         self.name = f"ali3-study-{key}"
@@ -100,11 +92,6 @@ def why_wrong(key: str, dask_worker: Worker) -> str:
 
 def run_chunk(key: str, chunk: Chunk) -> list[Outcome]:
     """Make the runs of a chunk; a task of Dask.
-
-    Parameters
-    ----------
-    key : str
-        Of the study.
 
     Returns
     -------

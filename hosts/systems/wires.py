@@ -37,8 +37,6 @@ def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[
     ----------
     connections : mapping of str to str
         Outputs by the inputs that take them, each as ``part.variable``.
-    parts : mapping of str to Fmu
-        By name.
 
     Raises
     ------

@@ -54,7 +54,7 @@ class FmuParts:
 
     @property
     def name(self) -> str:
-        """Of the model."""
+        """Name of the model."""
         return str(self.description.modelName)
 
     def roads(self) -> dict[str, list[Any]]:

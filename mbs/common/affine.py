@@ -17,8 +17,6 @@ class Affine:
     ----------
     terms : mapping of int to float
         Full-coordinate number to coefficient; zeros are left out.
-    constant : float
-        Constant part.
 
     Examples
     --------

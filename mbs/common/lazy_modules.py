@@ -1,13 +1,13 @@
-"""Modules of a package as its attributes without an import of their own: ``mbs.vehicle.load`` after ``import mbs``."""
+"""Modules and names of a package as its attributes, imported when they are first asked for: ``mbs.vehicle.load``."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from importlib import import_module
-from types import ModuleType
+from typing import Any
 
 
-def lazy_modules(package: str, names: Iterable[str]) -> Callable[[str], ModuleType]:
+def lazy_modules(package: str, names: Iterable[str], homes: Mapping[str, str] | None = None) -> Callable[[str], Any]:
     """What a package takes as its ``__getattr__``.
 
     Parameters
@@ -15,13 +15,17 @@ def lazy_modules(package: str, names: Iterable[str]) -> Callable[[str], ModuleTy
     package : str
         Its full name.
     names : iterable of str
-        Its modules that are imported when they are first asked for.
+        Modules of the package.
+    homes : mapping of str to str, optional
+        Functions, classes and others by name, with the full name of the module that each is in.
     """
-    known = frozenset(names)
+    modules, places = frozenset(names), dict(homes or {})
 
-    def module(name: str) -> ModuleType:
-        if name not in known:
-            raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        return import_module(f"{package}.{name}")
+    def attribute(name: str) -> Any:
+        if name in places:
+            return getattr(import_module(places[name]), name)
+        if name in modules:
+            return import_module(f"{package}.{name}")
+        raise AttributeError(f"module {package!r} has no attribute {name!r}")
 
-    return module
+    return attribute

@@ -22,7 +22,7 @@ TIME = 0.1
 
 
 def flexible_bodies(model: Model) -> list[FlexibleBody]:
-    """Those of a model."""
+    """Flexible bodies of a model."""
     return [b for b in model.bodies if isinstance(b, FlexibleBody)]
 
 

@@ -107,7 +107,7 @@ class Loops:
         self.columns = np.array([6 * k + c for k in range(len(self.bodies)) for c in columns], dtype=np.int64)
 
     def drawn(self) -> Places:
-        """Where the bodies are drawn."""
+        """Places of the bodies as drawn."""
         return self._drawn
 
     def names(self) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from mbs.common.affine import Affine
-from mbs.common.checks import flag, instance_of, is_number, mapping, shown
+from mbs.common.checks import flag, instance_of, mapping
 from mbs.common.errors import ModelError
 from mbs.compiler.armatures import armature_arrays
 from mbs.compiler.consistent import close_position
@@ -32,7 +33,6 @@ from mbs.compiler.metadata import metadata
 from mbs.compiler.natural import natural_coordinates
 from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
 from mbs.compiler.ordering import clique_pattern, fill_reducing_order
-from mbs.compiler.overconstrained import MOST_TOLERANCE, TOLERANCE, corrected_joints, redrawn
 from mbs.compiler.payloads import payload_arrays, payload_cliques, with_room
 from mbs.compiler.polynomial import RowTerms, row_terms
 from mbs.compiler.ports import with_ports_of
@@ -67,6 +67,8 @@ from mbs.system.system import System
 Array = NDArray[np.float64]
 Drawer = Callable[[Model, sparse.csr_matrix, Array, Array], Drawing]
 Tables = dict[str, Any]
+Correction = Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]
+"""Makes a context in which joints are drawn as their loops close, of the corrections by joint: m and rad."""
 LoopWatch = Callable[
     [Model, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
 ]
@@ -75,14 +77,16 @@ LoopWatch = Callable[
 def to_system(
     model: Model,
     *,
-    tolerance: float = TOLERANCE,
+    closing: Callable[[Model], Correction] | None = None,
     drawing: Drawer | None = None,
     watch: LoopWatch | None = None,
 ) -> System:
-    """`mbs.compiler.compile.compile`, for those who neither draw the model nor step it.
+    """`mbs.compiler.compile.compile`, for those who neither draw the model nor step it, and have no loops to close.
 
     Parameters
     ----------
+    closing : callable, optional
+        `closed_loops`: finds what corrects the drawing of overconstrained loops.
     watch : callable, optional
         `mode_arrays`: makes what steps are watched by.
     drawing : callable, optional
@@ -92,27 +96,27 @@ def to_system(
     instance_of(Model, model, "What compile takes", "a Model")
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")
-    if not is_number(tolerance) or not 0.0 <= tolerance <= MOST_TOLERANCE:
-        raise ModelError(
-            f"The tolerance of compile is {shown(tolerance)}; it must be a number from 0 to {MOST_TOLERANCE:g}."
-        )
-    joints = corrected_joints(model, float(tolerance))
-    with redrawn(joints):
-        closed = {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}
-        system = _compile(model, closed, watch)
+    corrected: Correction = closing(model) if closing else lambda: nullcontext({})
+    with corrected() as closed:
+        system = _compile(model, closed, closing, watch)
     if drawing is None:
         return system
     frames, start = system.frames, system.arrays["q0"]
     assert frames is not None
 
     def draw() -> Drawing:
-        with redrawn(joints):
+        with corrected():
             return drawing(model, frames.T, frames.constant, start)
 
     return system.with_drawing(model.drawn_late(draw))
 
 
-def _compile(model: Model, closed: dict[str, tuple[float, float]], watch: LoopWatch | None) -> System:
+def _compile(
+    model: Model,
+    closed: dict[str, tuple[float, float]],
+    closing: Callable[[Model], Correction] | None,
+    watch: LoopWatch | None,
+) -> System:
     """The System of a model whose loops are closed; `closed` is for its report."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
@@ -222,19 +226,23 @@ def _compile(model: Model, closed: dict[str, tuple[float, float]], watch: LoopWa
     report["length"], report["length_stated"] = length, model.length is not None
     meta = metadata(model, [c.name for c in info], rows, report, lengths)
     if not flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
-        return System(tables, meta, frames, modes=modes, ported=_ported(model, watch))
+        return System(tables, meta, frames, modes=modes, ported=_ported(model, closing, watch))
     parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
     resting = System(tables, meta, frames)
     q = equilibrium(resting, parameters)
     tables.update(start_arrays(resting, parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
-    return System(tables, meta, frames, modes=modes, ported=_ported(model, watch))
+    return System(tables, meta, frames, modes=modes, ported=_ported(model, closing, watch))
 
 
-def _ported(model: Model, watch: LoopWatch | None) -> Callable[[System], System | None] | None:
+def _ported(
+    model: Model, closing: Callable[[Model], Correction] | None, watch: LoopWatch | None
+) -> Callable[[System], System | None] | None:
     """What makes the System with ports of the System of a model."""
     make = model.with_ports
-    return None if make is None else lambda system: with_ports_of(to_system(make(), watch=watch), system)
+    if make is None:
+        return None
+    return lambda system: with_ports_of(to_system(make(), closing=closing, watch=watch), system)
 
 
 def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from mbs.common.affine import Affine
 from mbs.compiler.local_vectors import body_length, distinct
 from mbs.model.body import Body
+from mbs.model.coordinate import CoordinateInfo
 from mbs.model.model import Model
 
 Array = NDArray[np.float64]
@@ -28,16 +29,6 @@ DROP = 1e-13
 
 
 @dataclass(frozen=True)
-class NaturalCoordinate:
-    """A full coordinate: component of a point or vector of a body, an angle or a spin; lengths in m."""
-
-    name: str
-    kind: str
-    component: int
-    reference: float
-
-
-@dataclass(frozen=True)
 class NaturalCoordinates:
     """Full coordinates of a model.
 
@@ -47,13 +38,13 @@ class NaturalCoordinates:
         The coordinates of the model (centre of mass and unit axes) as expressions of these.
     """
 
-    info: list[NaturalCoordinate]
+    info: list[CoordinateInfo]
     expressions: list[Affine]
 
 
 def natural_coordinates(model: Model) -> NaturalCoordinates:
     """Choose the points and vectors of every body."""
-    info = [NaturalCoordinate(c.name, c.kind, c.component, c.reference) for c in model.coordinates]
+    info = [*model.coordinates]
     expressions = [Affine({i: 1.0}) for i in range(len(info))]
     for body in model.bodies:
         if not (body.is_point or body.is_flexible or body.is_base):
@@ -65,7 +56,7 @@ Choice = tuple[str, float, Array]
 """Name, 1 for a point or 0 for a vector, and its local components, m."""
 
 
-def _describe(body: Body, info: list[NaturalCoordinate], expressions: list[Affine]) -> None:
+def _describe(body: Body, info: list[CoordinateInfo], expressions: list[Affine]) -> None:
     chosen = choose(body)
     d = body.dimension
     if d == 3:
@@ -84,7 +75,7 @@ def _describe(body: Body, info: list[NaturalCoordinate], expressions: list[Affin
         for k in range(d):
             kind = "point" if o else "vector"
             reference = float(o * body.com[k] + w[k])
-            info[body.start + d * n + k] = NaturalCoordinate(f"{body.name}.{name}{'xyz'[k]}", kind, k, reference)
+            info[body.start + d * n + k] = CoordinateInfo(f"{body.name}.{name}{'xyz'[k]}", kind, k, reference)
 
 
 def choose(body: Body) -> list[Choice]:

@@ -16,13 +16,15 @@ no more directions than it takes to explain the misfit.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.common.checks import is_number, shown
 from mbs.common.errors import ModelError
 from mbs.compiler.loop_conditions import EXACT, Condition, Loops, Places, loops_of
 from mbs.compiler.mobility import Closed, close, motion
@@ -91,16 +93,44 @@ def corrected_joints(model: Model, tolerance: float = TOLERANCE) -> list[Correct
     return [joint for loops in loops_of(model, MOST_BODIES) for joint in _correct(loops, tolerance)]
 
 
+def closed_loops(
+    tolerance: float,
+) -> Callable[[Model], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
+    """What finds the corrections of a model's drawing, and gives a context in which it is drawn so; see `to_system`.
+
+    Parameters
+    ----------
+    tolerance : float
+        See `corrected_joints`.
+
+    Raises
+    ------
+    ModelError
+        The tolerance is not in its range.
+    """
+    if not is_number(tolerance) or not 0.0 <= tolerance <= MOST_TOLERANCE:
+        raise ModelError(
+            f"The tolerance of compile is {shown(tolerance)}; it must be a number from 0 to {MOST_TOLERANCE:g}."
+        )
+    return lambda model: partial(redrawn, corrected_joints(model, float(tolerance)))
+
+
 @contextmanager
-def redrawn(joints: list[Corrected]) -> Iterator[None]:
-    """The model of these joints with their corrected ends, while the context lasts."""
+def redrawn(joints: list[Corrected]) -> Iterator[dict[str, tuple[float, float]]]:
+    """The model of these joints with their corrected ends, while the context lasts.
+
+    Yields
+    ------
+    dict of str to (float, float)
+        By joint how far it was corrected, m and rad.
+    """
     bodies = {id(b): b for j in joints if j.joint.drawing for b in j.joint.drawing.bodies}.values()
     drawn = [(b, list(b.joint_points), list(b.joint_axes)) for b in bodies]
     old = [(j.joint, {name: getattr(j.joint, name) for name in REDRAWN}) for j in joints]
     try:
         for given in joints:
             _redraw(given)
-        yield
+        yield {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}
     finally:
         for joint, attributes in old:
             for name, value in attributes.items():

@@ -31,8 +31,6 @@ def pose_arrays(
     ----------
     q : ndarray
         Position of z to be moved, in the order of `remaining`.
-    order : ndarray
-        Elimination order.
     """
     if not model.floating:
         return {name: np.zeros(0) for name in NAMES}

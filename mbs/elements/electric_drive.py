@@ -54,7 +54,7 @@ class ElectricDrive:
         """Inertia for the spin of each wheel, for `Model.armature`, that stands for the rotor.
 
         It is exact while both wheels turn alike; a difference of their speeds does not turn a real rotor, so that a
-        single spinning wheel is somewhat too heavy with it.
+        single spinning wheel has then somewhat too much inertia.
 
         Parameters
         ----------

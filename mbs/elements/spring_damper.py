@@ -25,7 +25,7 @@ class EndStops:
     """Stops that act beyond two lengths; a stiffness of 0 switches one off.
 
     Over the compression x beyond its length a stop has the force ``k x (1 + (x/L)^2)``, and beyond its travel that of
-    metal on metal besides, which sets in as a parabola. Times ``1 + chi x'`` while it is compressed and
+    metal on metal too, which sets in as a parabola. Times ``1 + chi x'`` while it is compressed and
     ``1/(1 - chi x')`` while it is let go (K. H. Hunt, F. R. E. Crossley, Journal of Applied Mechanics 42, 1975,
     440-445, without their pull), it takes energy and never pulls. Without the last eight numbers it is linear.
     """

@@ -36,7 +36,7 @@ class BeamFrame:
     positions : array_like, shape (n, 3)
         Nodes, m.
     masses : array_like, shape (n,), or mapping of node name or number to kg
-        Lumped masses carried by the nodes besides the beams.
+        Lumped masses carried by the nodes in addition to the beams.
     names : sequence of str, optional
         One per node; by default the node numbers.
     theory : str

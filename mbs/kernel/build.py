@@ -140,16 +140,12 @@ def compile_c(
 
     Parameters
     ----------
-    files : sequence of Path
-        C files.
     target : str
         Triple as `zig cc -target` takes it.
     path : Path
         The file to write; an older one is replaced only when the new one is whole.
     include : sequence of Path
         Folders of headers.
-    defines : sequence of str
-        Macros.
     what : str
         Name for messages.
     shared : bool

@@ -165,7 +165,7 @@ class BodyVocabulary(ModelCore):
         Parameters
         ----------
         reduced : ReducedBody
-            For instance of `mbs.flexible.craig_bampton.craig_bampton`.
+            For instance of `mbs.flexible.craig_bampton`.
         origin : array_like, shape (3,)
             Where the origin of the finite-element model is in the reference configuration, earth axes, m.
         axes : array_like, shape (3, 3), optional
@@ -230,7 +230,7 @@ class BodyVocabulary(ModelCore):
 
         What is left out follows from the joints: of all velocities that have the given part, the start takes the one
         with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
-        rest. What the joints do not allow of the given part is left away, as little of it as they ask for.
+        rest. Of the given part the joints take away what they do not allow, and no more.
 
         Parameters
         ----------

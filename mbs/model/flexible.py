@@ -15,8 +15,8 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, is_finite, shown, vector
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model_checks import check_turning_inertia
+from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
 from mbs.flexible.reduced_body import ReducedBody
-from mbs.flexible.shape_integrals import ShapeIntegrals, shape_integrals
 from mbs.model.body import Body
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.core import ModelCore

@@ -1,4 +1,4 @@
-"""What a model registers besides bodies, joints and elements: inputs, guides, parameters, switches, constants."""
+"""What a model registers beside bodies, joints and elements: inputs, guides, parameters, switches, constants."""
 
 from __future__ import annotations
 

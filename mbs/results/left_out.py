@@ -17,8 +17,6 @@ class LeftOut:
 
     Parameters
     ----------
-    names : sequence of str
-        Of the sensors.
     compute : callable or None
         Takes of how many samples one is wanted, and returns the columns by name; None where nothing can.
     reason : str

@@ -49,7 +49,7 @@ class Plane(_Road):
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> PlaneRoad:
-        """As the kernel takes it."""
+        """The road as the kernel takes it."""
         return PlaneRoad(self.height, self.grade_x, self.grade_y, self.friction)
 
 
@@ -64,7 +64,7 @@ class Kerb(_Road):
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> KerbRoad:
-        """As the kernel takes it."""
+        """The road as the kernel takes it."""
         return KerbRoad(self.position, self.step, self.lower_height, self.upper, self.friction)
 
 
@@ -82,7 +82,7 @@ class GridOfFiles(_Road):
     up: Literal["y", "z"] | None = None
 
     def road(self, folder: Path) -> GridRoad:
-        """As the kernel takes it."""
+        """The road as the kernel takes it."""
         frictions = folder / self.frictions if isinstance(self.frictions, str) else self.frictions
         mesh = {name: value for name in ("scale", "up") if (value := getattr(self, name)) is not None}
         return grid_road(
@@ -125,7 +125,7 @@ class Rough(_Road):
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> GridRoad:
-        """As the kernel takes it."""
+        """The road as the kernel takes it."""
         n = [math.ceil(side / self.spacing) + 1 for side in (self.length, self.width)]
         heights = rough_heights(n[0], n[1], self.spacing, ISO_8608[self.roughness], self.seed)
         x = self.spacing * np.arange(n[0])

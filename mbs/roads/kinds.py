@@ -3,7 +3,7 @@
 TABLES = (".csv", ".txt")
 PICTURE = ".png"
 GRIDS = (*TABLES, ".npy", ".npz", PICTURE)
-"""Of grids of numbers."""
+"""Endings of files that hold a grid of numbers."""
 CRG = ".crg"
 MESHES = (".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
 ROADS = (".road", ".toml", *GRIDS, CRG, *MESHES)

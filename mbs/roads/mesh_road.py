@@ -111,7 +111,7 @@ def mesh_road(
 
 
 def _seen_areas(corners: Values) -> Values:
-    """Of triangles from above, m2."""
+    """Areas of triangles seen from above, m2."""
     (ax, ay), (bx, by) = ((corners[:, k, :2] - corners[:, 0, :2]).T for k in (1, 2))
     return np.asarray(0.5 * np.abs(ax * by - bx * ay))
 

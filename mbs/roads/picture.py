@@ -22,8 +22,6 @@ def draw_road(road: PlaneRoad | KerbRoad | GridRoad, file: Path, name: str) -> N
     ----------
     file : Path
         A PNG, or what Matplotlib writes by the suffix.
-    name : str
-        Title.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure

@@ -82,7 +82,7 @@ class Header:
         return HEADER.size + self.tiles[0] * self.tiles[1] * self.tile_bytes
 
     def to_bytes(self) -> bytes:
-        """As it stands in the file."""
+        """The header as it stands in the file."""
         fields = (self.file_bytes, int(self.kind), self.contents, self.nx, self.ny)
         tile = (ROAD_TILE, self.maps) if self.kind == RoadType.GRID else (0, 0)
         data = bytearray(HEADER.pack(MAGIC, self.version, 0, *fields, *tile, *self.real, 0.0))

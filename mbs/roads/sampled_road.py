@@ -17,7 +17,7 @@ from mbs.roads.steep_faces import RoadWarning
 
 Values = NDArray[np.float64]
 MOST_POINTS = 2**24
-"""Of a grid: 134 MB of heights."""
+"""Largest number of points of a grid: 134 MB of heights."""
 TOLD = 0.01
 """m: a larger difference is warned about."""
 BETWEEN = 0.382, 0.618
@@ -66,7 +66,7 @@ def points_of_box(
     Raises
     ------
     RoadFileError
-        The grid has too many points, with a spacing that would do; `more` is said besides.
+        The grid has too many points, with a spacing that would do; `more` is added to the message.
     """
     sides = high - low
     counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 Values = NDArray[np.float64]
 _AT_ONCE = 2**21  # points in lines of triangles
+_UPRIGHT = 1e-12  # of a triangle's size: twice its area seen from above, up to which it is seen as a line
 _NEAR = 1e-9  # of a spacing: a point this near to an edge lies on it
 
 
@@ -36,7 +37,7 @@ def triangle_heights(corners: Values, x: Values, y: Values) -> tuple[Values, Val
     p = np.take_along_axis(p, np.argsort(p[:, :, 0], axis=1)[:, :, None], axis=1)
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (p[:, k].T for k in range(3))
     twice = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
-    seen = np.abs(twice) > 1e-12 * (1.0 + np.abs(p[..., :2]).max(axis=(1, 2)))
+    seen = np.abs(twice) > _UPRIGHT * (1.0 + np.abs(p[..., :2]).max(axis=(1, 2)))
     first = np.ceil(np.maximum(ax - _NEAR, 0.0)).astype(np.int64)
     lines = np.where(seen, np.floor(np.minimum(cx + _NEAR, len(x) - 1.0)).astype(np.int64) - first + 1, 0).clip(0)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from mbs.common.errors import ModelError
-from mbs.flexible.craig_bampton import craig_bampton
+from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fixed_interface import Interface
 from mbs.flexible.frame import Beam, Frame

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PPoly
 
 from mbs.common.checks import whole
-from mbs.flexible.craig_bampton import craig_bampton
+from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.fixed_interface import Interface
 from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.material import Material

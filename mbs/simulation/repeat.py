@@ -153,8 +153,6 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
 
     Parameters
     ----------
-    repeats : Repeats
-        Of the run.
     always : bool
         Whether a run that is plainly smooth is repeated too.
     """

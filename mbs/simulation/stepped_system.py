@@ -1,4 +1,4 @@
-"""A System in the kernel that steps: its counters besides."""
+"""A System in the kernel that steps, with its counters."""
 
 from __future__ import annotations
 

@@ -75,8 +75,6 @@ class AmplitudePlace:
 
     Parameters
     ----------
-    modes : sequence of str
-        Names of the modes.
     row : int
         The first amplitude; the others follow.
     columns : sequence of str
@@ -117,7 +115,7 @@ class Places:
         return self._pose(self.rows(q, body.row, _SIZES[body.kind]), body.kind)
 
     def poses(self, q: Array) -> list[Array]:
-        """Those of all bodies."""
+        """Poses of all bodies."""
         full = self.rows(q, 0, len(self.constant))
         return [self._pose(full[:, b.row : b.row + _SIZES[b.kind]], b.kind) for b in self.bodies]
 
@@ -137,7 +135,7 @@ class Places:
         return found
 
     def to_json(self) -> dict[str, Any]:
-        """For the System file."""
+        """The drawing as the System file has it."""
         m = self.matrix
         return {
             "shape": [int(n) for n in m.shape],

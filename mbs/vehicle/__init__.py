@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mbs.common.lazy_modules import lazy_modules
 
@@ -15,7 +14,6 @@ if TYPE_CHECKING:
     from mbs.vehicle.fidelity import Fidelity
     from mbs.vehicle.schema import json_schema
 
-_package = lazy_modules(__name__, ("kinematics",))
 # imported when they are first asked for: the help of the command needs no engine
 _LAZY = {
     "Car": "mbs.vehicle.car",
@@ -26,9 +24,6 @@ _LAZY = {
     "json_schema": "mbs.vehicle.schema",
     "load": "mbs.vehicle.car_file",
 }
+__getattr__ = lazy_modules(__name__, ("kinematics",), _LAZY)
 
 __all__ = ["Car", "CarFileError", "CarWarning", "Fidelity", "car_names", "json_schema", "load"]
-
-
-def __getattr__(name: str) -> Any:
-    return getattr(import_module(_LAZY[name]), name) if name in _LAZY else _package(name)

@@ -85,7 +85,7 @@ class CarContent(Section):
 
     @property
     def folder(self) -> Path:
-        """Of the file and its tables."""
+        """Folder of the file and its tables."""
         return self._folder
 
     @property

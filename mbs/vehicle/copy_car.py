@@ -20,7 +20,7 @@ def copy_car(name: str, folder: Path) -> list[Path]:
     name : str
         Of a car of the package.
     folder : Path
-        That is made.
+        The new folder.
 
     Returns
     -------

@@ -36,8 +36,6 @@ def off_line(
 
     Parameters
     ----------
-    name : str
-        The point.
     ends : (str, str)
         The two others.
     what : str

@@ -1,4 +1,4 @@
-"""What a car carries besides itself: named masses, each at its point of the chassis."""
+"""What a car carries: named masses, each at its point of the chassis."""
 
 from __future__ import annotations
 

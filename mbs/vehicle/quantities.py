@@ -26,7 +26,7 @@ class Quantity:
         a value in a unit 1000 times too large or too small is always outside; of inertias the radius of gyration and
         the two other moments tell it.
     zero : bool
-        Whether 0 is allowed besides; a parameter may then be anywhere between 0 and `high`.
+        Whether 0 is allowed too; a parameter may then be anywhere between 0 and `high`.
     change : {"tunable", "fixed"} or None
         Whether the FMU has it as a parameter that may change while driving, or before the start only.
     """

@@ -19,7 +19,7 @@ NULL = {"type": "null"}
 def json_schema() -> dict[str, Any]:
     """Schema of a car file, draft 7.
 
-    Numbers have the keyword `unit` besides; what holds between several numbers is not in it.
+    Numbers also have the keyword `unit`; what holds between several numbers is not in it.
 
     Returns
     -------

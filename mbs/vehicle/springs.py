@@ -112,7 +112,7 @@ class Spring(Section):
     """Factor on the force of the spring."""
 
     def faults(self) -> Iterator[str]:
-        """By a number or a table."""
+        """The force is given by a number or by a table, not by both."""
         yield from law_faults(self, "stiffness", self.stiffness, self.table, SPRING_TABLE)
 
     @property
@@ -135,7 +135,7 @@ class Damper(Section):
     """Factor on the force of the damper."""
 
     def faults(self) -> Iterator[str]:
-        """By a number or a table."""
+        """The force is given by a number or by a table, not by both."""
         yield from law_faults(self, "damping", self.damping, self.table, DAMPER_TABLE)
 
     @property
@@ -215,8 +215,6 @@ def spring_and_damper(
 
     Parameters
     ----------
-    name : str
-        Of the element.
     lower, upper : (Body, point)
         The ends as drawn, m.
 

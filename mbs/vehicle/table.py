@@ -76,8 +76,6 @@ def read_table(folder: Path, name: str, key: str, columns: Sequence[str]) -> lis
 
     Parameters
     ----------
-    name : str
-        Of the table.
     key : str
         Key path of the name in the car's file, for messages.
     columns : sequence of str

@@ -41,8 +41,6 @@ class TabledParts:
         Gets the tabled bodies; all that is no part or joint goes to it.
     base : Body
         The chassis.
-    grid : PoseGrid
-        Of the axle.
     compressions : mapping of str to Coordinate
         Of the springs, by wheel.
     rack : Coordinate or None

@@ -17,6 +17,9 @@ Float = NDArray[np.float64]
 STEP = 1.0
 """m, about: distance of the points of the spline."""
 ITERATIONS = 3
+"""Of Newton's method for the nearest station."""
+LEAST_SLOPE, LONGEST = 0.3, 5.0
+"""Of its derivative, which is 0 at the centre of curvature, and of one correction, m: guards where a place is far."""
 GAP = 0.05
 """m: by how much the ends of a closed course may miss each other."""
 
@@ -43,12 +46,12 @@ class CentreLine:
 
     @property
     def length(self) -> float:
-        """In m."""
+        """Length along the line, m."""
         return self.step * (len(self.points) - 1)
 
     @property
     def stations(self) -> Float:
-        """Of the points, m."""
+        """Stations of the points, m."""
         return np.asarray(self.step * np.arange(len(self.points)))
 
     def at(self, s: Float) -> tuple[Float, Float, Float]:
@@ -73,8 +76,8 @@ class CentreLine:
         for _ in range(ITERATIONS):
             p, first, second = self.at(s)
             away = p - np.stack([x, y])
-            slope = np.maximum((first * first).sum(axis=0) + (away * second).sum(axis=0), 0.3)
-            s = self._within(s - np.clip((away * first).sum(axis=0) / slope, -5.0, 5.0))
+            slope = np.maximum((first * first).sum(axis=0) + (away * second).sum(axis=0), LEAST_SLOPE)
+            s = self._within(s - np.clip((away * first).sum(axis=0) / slope, -LONGEST, LONGEST))
         p, first, _ = self.at(s)
         dx, dy = x - p[0], y - p[1]
         size = np.hypot(first[0], first[1])

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 PLAIN = 250.0
 """m: bounds of a world that is a plane or a kerb, to all sides."""
 MOST_POINTS = 1.2e9
-"""That wheels feel."""
+"""Largest number of points that wheels feel."""
 MOST_AREA = 1e8
 """m2. Where all is smooth, 64 m x 64 m of the drawing have 3 kB: 77 MB, and what reads it takes at most 100 MB."""
 
@@ -61,8 +61,6 @@ def make_world(
     ----------
     file : Path
         ``.toml`` of a world or of a road, or ``.road``.
-    name : str
-        Of the world.
     road : Path
         To write.
     tell : callable

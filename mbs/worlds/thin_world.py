@@ -32,7 +32,7 @@ class Off:
 
     @property
     def sentence(self) -> str:
-        """For people."""
+        """How far the heights are off, for people."""
         return (
             f"Thin ground: its heights are off by at most {1e3 * self.most:.3g} mm and by "
             f"{1e3 * self.nearly_all:.2g} mm in 99.9 % of {self.places} places."

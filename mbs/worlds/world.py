@@ -30,8 +30,6 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> in
     ----------
     given : str
         Name of the package, or a file.
-    out : Path
-        Folder.
     picture : Path, optional
         PNG file of its map.
     thin : bool

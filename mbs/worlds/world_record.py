@@ -14,7 +14,7 @@ from viewer.base64_numbers import encoded, encoded_octets
 
 FORMAT, VERSION = "ALi3 world", 1
 MOST_CELLS = 1_500_000
-"""Of the map of surfaces."""
+"""Largest number of cells of the map of surfaces."""
 FINEST_CELL = 0.25
 
 

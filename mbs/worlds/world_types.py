@@ -254,7 +254,7 @@ class Trees(_Table):
 
 
 class Place(_Table):
-    """Where a car may start."""
+    """A place where a car may start."""
 
     name: Annotated[str, Field(pattern=r"^[a-z0-9_]{1,40}$")]
     text: str = ""

@@ -36,7 +36,7 @@ from hosts.study.study_file import read_study_file
 from hosts.study.table_points import table_points
 from hosts.view.recorded import read_table as read_result
 from hosts.view.view_sources import _record as read_result_record
-from mbs.flexible.external_model import read_matrix, read_model
+from mbs.flexible.matrix_files import read_matrix, read_model
 from mbs.results.trajectory import Trajectory
 from mbs.roads.description import described_road
 from mbs.roads.grid_files import read_grid

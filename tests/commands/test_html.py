@@ -7,14 +7,16 @@ from pathlib import Path
 
 import html5lib
 
-from ali3 import html
+from ali3 import html_elements
+from ali3.html_elements import element, picture, table
 
 ROOT = Path(__file__).parents[2]
 FRAME = re.compile(r"<!doctype|<style|<body|\bfont-family:|max-width: \d+em", re.IGNORECASE)
 
 
 def test_a_table_has_its_texts() -> None:
-    page = html.report("<b>", html.table(("a", "<b>"), [("heading",), ("row", "<i>&")], 'x"'), ".own { color: red }")
+    made = table("", ("a", "<b>"), [("heading",), ("row", "<i>&"), ("other", element("td", "mine"))], 'x"')
+    page = html_elements.document("<b>", [made], ".own { color: red }")
     assert page.count("<style>") == 1
     assert ".own { color: red }</style>" in page
     tree = html5lib.parse(page, namespaceHTMLElements=False)
@@ -24,11 +26,18 @@ def test_a_table_has_its_texts() -> None:
         [("th", "col", "a"), ("th", "col", "<b>")],
         [("th", "colgroup", "heading")],
         [("th", "row", "row"), ("td", None, "<i>&")],
+        [("th", "row", "other"), ("td", None, "mine")],
     ]
 
 
+def test_a_table_with_a_caption_is_a_region_of_its_name() -> None:
+    tree = html5lib.parse(html_elements.document("", [table("a & b", ("c",), [])]), namespaceHTMLElements=False)
+    assert [caption.text for caption in tree.iter("caption")] == ["a & b"]
+    assert [part.get("aria-label") for part in tree.iter("div") if part.get("role") == "region"] == ["a & b"]
+
+
 def test_a_picture_is_in_the_page() -> None:
-    tree = html5lib.parse(html.report("", html.picture(b"\x89PNG", 'a "b"')), namespaceHTMLElements=False)
+    tree = html5lib.parse(html_elements.document("", [picture(b"\x89PNG", 'a "b"')]), namespaceHTMLElements=False)
     (image,) = tree.iter("img")
     assert (image.get("alt"), image.get("src")) == ('a "b"', "data:image/png;base64,iVBORw==")
 

@@ -16,7 +16,8 @@ import pytest
 
 from ali3.children import how_ended
 from ali3.errors import FileError, UserError
-from ali3.isolated import Isolated, Lost, done_by, shared_by
+from ali3.isolated import Isolated, Lost
+from ali3.shared_tasks import done_by, shared_by
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 Tell = Callable[[Any], None]

@@ -231,3 +231,15 @@ def frame(rng: np.random.Generator) -> Array:
     Q, R = np.linalg.qr(rng.normal(size=(3, 3)))
     Q = Q * np.sign(np.diag(R))
     return Q if np.linalg.det(Q) > 0.0 else -Q
+
+
+def axis_of(yaw: float, camber: float) -> Array:
+    """Spin axis (left) of a wheel with heading `yaw` and camber, rad."""
+    return np.array([-np.sin(yaw) * np.cos(camber), np.cos(yaw) * np.cos(camber), np.sin(camber)])
+
+
+def drive_signals(left: float, right: float, omega: Array | None = None, R: Array | None = None) -> tuple[Array, Array]:
+    """Signals of a drive and their rates: spins of two wheels, rad/s, and the frame, which turns with omega, rad/s."""
+    R = np.eye(3) if R is None else R
+    omega = np.zeros(3) if omega is None else omega
+    return np.r_[0.0, 0.0, R[:, 0], R[:, 1]], np.r_[left, right, np.cross(omega, R[:, 0]), np.cross(omega, R[:, 1])]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbs.elements import AutomaticDrive
-from tests.elements.harness import Element, Result, frame, tangent_by_differences, vectors
+from tests.elements.harness import Element, Result, drive_signals, frame, tangent_by_differences, vectors
 
 DRIVE = AutomaticDrive(max_torque=110.0, max_power=50e3)
 
@@ -19,19 +19,11 @@ def drive_element(drive: AutomaticDrive = DRIVE, gear: int = 1) -> Element:
     return Element(drive.record("drive", left[0], right[0], f, g, 0, gear))
 
 
-def signals_of(
-    left: float, right: float, omega: np.ndarray | None = None, R: np.ndarray | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    R = np.eye(3) if R is None else R
-    omega = np.zeros(3) if omega is None else omega
-    return np.r_[0.0, 0.0, R[:, 0], R[:, 1]], np.r_[left, right, np.cross(omega, R[:, 0]), np.cross(omega, R[:, 1])]
-
-
 def test_both_wheels_get_the_same_torque_and_the_frame_its_reaction() -> None:
     rng = np.random.default_rng(17)
     R, omega = frame(rng), rng.normal(size=3)
     axis = R[:, 2]
-    u, ud = signals_of(20.0, 35.0, omega, R)
+    u, ud = drive_signals(20.0, 35.0, omega, R)
     r = drive_element()(u, ud, inputs=[0.7])
     torque = r.out["wheel_torque"]
     assert torque > 0.0
@@ -45,7 +37,7 @@ def test_both_wheels_get_the_same_torque_and_the_frame_its_reaction() -> None:
 
 @pytest.mark.parametrize("direction", [1.0, -1.0])
 def test_a_locking_differential_takes_torque_from_the_faster_wheel_and_loses_power(direction: float) -> None:
-    u, ud = signals_of(30.0 + 0.4 * direction, 30.0 - 0.4 * direction)
+    u, ud = drive_signals(30.0 + 0.4 * direction, 30.0 - 0.4 * direction)
     plain, locked = (drive_element(replace(DRIVE, locking=share))(u, ud, inputs=[0.7]) for share in (0.0, 0.6))
     torque = plain.out["wheel_torque"]
     x = 0.8 / 0.5
@@ -56,13 +48,13 @@ def test_a_locking_differential_takes_torque_from_the_faster_wheel_and_loses_pow
     power = locked.out["left_power"] + locked.out["right_power"]
     assert power == pytest.approx(locked.f @ ud, rel=1e-12)
     assert power == pytest.approx(plain.f @ ud - 0.8 * abs(moved), rel=1e-12)
-    alike = drive_element(replace(DRIVE, locking=0.6))(*signals_of(30.0, 30.0), inputs=[0.7])
+    alike = drive_element(replace(DRIVE, locking=0.6))(*drive_signals(30.0, 30.0), inputs=[0.7])
     assert alike.f[0] == alike.f[1]
 
 
 def test_the_tangent_of_a_locking_differential_is_the_slope_of_its_torque() -> None:
     element = drive_element(replace(DRIVE, locking=0.6))
-    u, ud = signals_of(30.1, 29.9)
+    u, ud = drive_signals(30.1, 29.9)
     step = 1e-5 * np.array([1.0, -1.0, *6 * [0.0]])
     low, high = (element(u, ud + s * step, inputs=[0.7]).f for s in (-1.0, 1.0))
     slope = (high - low)[0] / 4e-5  # over the difference of the rates
@@ -74,17 +66,17 @@ def test_the_tangent_of_a_locking_differential_is_the_slope_of_its_torque() -> N
 
 def test_stall_torque_creep_and_top_speed() -> None:
     element = drive_element()
-    stall = element(*signals_of(0.0, 0.0), inputs=[1.0]).out
+    stall = element(*drive_signals(0.0, 0.0), inputs=[1.0]).out
     assert 2.0 * stall["wheel_torque"] == pytest.approx(110.0 * 10.5 * 0.85 * 1.9)
     assert stall["engine_speed"] == pytest.approx(DRIVE.stall_speed)
-    creep = element(*signals_of(0.0, 0.0)).out
+    creep = element(*drive_signals(0.0, 0.0)).out
     assert creep["wheel_torque"] == pytest.approx(60.0)
     assert creep["engine_speed"] == pytest.approx(DRIVE.idle_speed)
-    assert element(*signals_of(5.0, 5.0)).out["wheel_torque"] < 30.0
-    assert element(*signals_of(-3.0, -3.0)).out["wheel_torque"] == pytest.approx(60.0)
-    fast = element(*signals_of(30.0, 30.0)).out
+    assert element(*drive_signals(5.0, 5.0)).out["wheel_torque"] < 30.0
+    assert element(*drive_signals(-3.0, -3.0)).out["wheel_torque"] == pytest.approx(60.0)
+    fast = element(*drive_signals(30.0, 30.0)).out
     assert -60.0 < fast["wheel_torque"] < 0.0  # the engine drags mildly
-    limited = element(*signals_of(80.0, 80.0), inputs=[1.0]).out
+    limited = element(*drive_signals(80.0, 80.0), inputs=[1.0]).out
     assert limited["wheel_torque"] == 0.0
 
 
@@ -92,7 +84,7 @@ def test_power_at_the_wheels_is_never_more_than_the_engine_gives() -> None:
     for gear in (1, 2, 3):
         element = drive_element(gear=gear)
         for W in np.linspace(0.1, 140.0, 60):
-            out = element(*signals_of(W, W), inputs=[1.0]).out
+            out = element(*drive_signals(W, W), inputs=[1.0]).out
             assert 2.0 * out["wheel_torque"] * W <= out["engine_torque"] * out["engine_speed"] + 1e-9
             assert out["engine_torque"] * out["engine_speed"] <= 50e3 + 1e-6
 
@@ -105,7 +97,7 @@ def test_torque_falls_with_speed_and_the_tangent_is_its_derivative() -> None:
             element = drive_element(gear=gear)
             last = None
             for W in np.linspace(-5.0, 70.0, 76) + 0.013:
-                u, ud = signals_of(W, W + 1.0)
+                u, ud = drive_signals(W, W + 1.0)
                 r = element(u, ud, None, h, 0.5 * h, 0.0, [throttle])
                 assert last is None or r.out["wheel_torque"] <= last + 1e-9
                 last = r.out["wheel_torque"]
@@ -121,7 +113,7 @@ def course(
     y, gears, torques = np.array(element.element.states), [], []
     for i in range(round(t_end / h)):
         W = speed((i + 1) * h)  # type: ignore[operator]
-        r = element(*signals_of(W, W), y, h, inputs=[throttle], accept=True)
+        r = element(*drive_signals(W, W), y, h, inputs=[throttle], accept=True)
         y = r.y
         gears.append(r.out["gear"])
         torques.append(r.out["wheel_torque"])
@@ -160,7 +152,7 @@ def test_gears_do_not_hunt() -> None:
 
 def test_gear_changes_only_between_accepted_steps() -> None:
     element = drive_element()
-    u, ud = signals_of(80.0, 80.0)
+    u, ud = drive_signals(80.0, 80.0)
     assert element(u, ud, None, 0.01, inputs=[1.0]).y[0] == 1.0
     r = element(u, ud, None, 0.01, inputs=[1.0], accept=True)
     assert np.array_equal(r.y[:2], [2.0, 1.0])
@@ -170,7 +162,7 @@ def test_gear_changes_only_between_accepted_steps() -> None:
 
 def test_there_is_no_gear_above_the_highest() -> None:
     element, gears = drive_element(), len(DRIVE.ratios)
-    u, ud = signals_of(500.0, 500.0)
+    u, ud = drive_signals(500.0, 500.0)
     r = element(u, ud, [gears, gears, 1e3, 499.0], 0.01, inputs=[1.0], accept=True)
     assert r.y[0] == gears
     assert r.y[2] > 1e3 - 1.0  # and none was changed
@@ -182,7 +174,7 @@ def test_the_clock_of_a_shift_starts_where_the_shift_speed_was_crossed() -> None
     ratio, before, now = DRIVE.ratios[0], 30.0, 80.0
     limit = DRIVE.up_open / ratio
     assert before < limit < now
-    u, ud = signals_of(now, now)
+    u, ud = drive_signals(now, now)
     r = element(u, ud, [1.0, 1.0, 1e3, before], h, inputs=[1.0], accept=True)
     assert r.y[0] == 2.0
     assert r.y[2] == pytest.approx(h * (now - limit) / (now - before), rel=1e-12)
@@ -220,7 +212,7 @@ def selected(selector: float, speed: float, throttle: float, drive: AutomaticDri
     """A drive with a selector, started there."""
     left, right, f, g = vectors(1, 1, 3, 3)
     element = Element(drive.record("drive", left[0], right[0], f, g, 0, selector=1))
-    y = element(*signals_of(speed, speed), inputs=[throttle, selector], accept=True).y
+    y = element(*drive_signals(speed, speed), inputs=[throttle, selector], accept=True).y
     element.element = replace(element.element, states=tuple(y))
     return element
 
@@ -231,7 +223,7 @@ def test_in_drive_a_drive_with_a_selector_is_one_without_bit_by_bit() -> None:
     with_selector = selected(1.0, 0.0, 0.4)
     y, z = np.array(plain.element.states), np.array(with_selector.element.states)
     for _ in range(400):
-        u, ud = signals_of(*(30.0 + 30.0 * rng.normal(size=2)), rng.normal(size=3), frame(rng))
+        u, ud = drive_signals(*(30.0 + 30.0 * rng.normal(size=2)), rng.normal(size=3), frame(rng))
         throttle = rng.uniform()
         a = plain(u, ud, y, 0.01, 0.005, 0.0, [throttle], accept=True)
         b = with_selector(u, ud, z, 0.01, 0.005, 0.0, [throttle, 1.0], accept=True)
@@ -246,10 +238,10 @@ def test_reverse_is_a_first_gear_turned_round() -> None:
     drive = replace(DRIVE, reverse_ratio=DRIVE.ratios[0])
     for throttle in (0.0, 0.5, 1.0):
         for W in (-30.0, -2.0, 0.0, 5.0):
-            u, ud = signals_of(W, W)
+            u, ud = drive_signals(W, W)
             back = selected(-1.0, W, throttle, drive)(u, ud, None, 0.01, 0.005, 0.0, [throttle, -1.0])
             front = drive_element()(-u, -ud, None, 0.01, 0.005, 0.0, [throttle])
-            plain = drive_element()(*signals_of(-W, -W), None, 0.01, 0.005, 0.0, [throttle])
+            plain = drive_element()(*drive_signals(-W, -W), None, 0.01, 0.005, 0.0, [throttle])
             assert back.out["gear"] == -1.0
             assert back.out["wheel_torque"] == -plain.out["wheel_torque"]
             assert back.out["engine_speed"] == plain.out["engine_speed"]
@@ -257,13 +249,13 @@ def test_reverse_is_a_first_gear_turned_round() -> None:
             assert np.allclose(back.S, plain.S, rtol=1e-14)
             assert front.f[0] != 0.0 or throttle == 0.0
     other = selected(-1.0, 0.0, 1.0, replace(DRIVE, reverse_ratio=2.0 * DRIVE.ratios[0]))
-    stall = other(*signals_of(0.0, 0.0), None, 0.01, inputs=[1.0, -1.0]).out["wheel_torque"]
+    stall = other(*drive_signals(0.0, 0.0), None, 0.01, inputs=[1.0, -1.0]).out["wheel_torque"]
     assert stall == pytest.approx(-2.0 * 0.5 * 110.0 * 10.5 * 0.85 * 1.9)
 
 
 def test_in_neutral_the_engine_runs_up_and_the_wheels_get_nothing() -> None:
     for W in (-20.0, 0.0, 50.0):
-        r = selected(0.0, W, 1.0)(*signals_of(W, W), None, 0.01, 0.005, 0.0, [1.0, 0.0])
+        r = selected(0.0, W, 1.0)(*drive_signals(W, W), None, 0.01, 0.005, 0.0, [1.0, 0.0])
         assert not r.f.any()
         assert not r.S.any()
         assert r.out["gear"] == 0.0
@@ -277,7 +269,7 @@ def test_reverse_at_speed_waits_in_neutral_and_drive_comes_back_in_the_gear_that
     assert y[0] == 3.0
     for i in range(400):
         W = 120.0 if i < 200 else 119.0
-        r = element(*signals_of(W, W), y, h, inputs=[1.0, -1.0 if i < 200 else 1.0], accept=True)
+        r = element(*drive_signals(W, W), y, h, inputs=[1.0, -1.0 if i < 200 else 1.0], accept=True)
         y = r.y
         gears.append(r.out["gear"])
         torques.append(r.out["wheel_torque"])
@@ -294,9 +286,9 @@ def test_drive_engages_in_the_gear_that_fits_not_in_that_of_the_past() -> None:
     element, h = selected(1.0, 120.0, 0.0), 0.01
     y = np.array(element.element.states)
     for _ in range(100):
-        y = element(*signals_of(120.0, 120.0), y, h, inputs=[0.0, 0.0], accept=True).y
+        y = element(*drive_signals(120.0, 120.0), y, h, inputs=[0.0, 0.0], accept=True).y
     assert np.array_equal(y[[0, 4]], [3.0, 0.0])
-    y = element(*signals_of(5.0, 5.0), y, h, inputs=[0.0, 1.0], accept=True).y
+    y = element(*drive_signals(5.0, 5.0), y, h, inputs=[0.0, 1.0], accept=True).y
     assert np.array_equal(y[[0, 1, 4]], [1.0, 1.0, 1.0])
 
 
@@ -304,7 +296,7 @@ def test_moving_to_reverse_at_walking_speed_fades_through_zero() -> None:
     element, h = selected(1.0, 3.0, 0.2), 0.01
     y, torques = np.array(element.element.states), []
     for _ in range(100):
-        r = element(*signals_of(3.0, 3.0), y, h, inputs=[0.2, -1.0], accept=True)
+        r = element(*drive_signals(3.0, 3.0), y, h, inputs=[0.2, -1.0], accept=True)
         y = r.y
         torques.append(r.out["wheel_torque"])
     assert torques[0] > 0.0 > torques[-1]
@@ -327,7 +319,7 @@ def asked(gear: float, W: float, h: float, steps: int, y: np.ndarray) -> tuple[n
     element = Element(DRIVE.record("drive", left[0], right[0], f, g, 0, 1, 1, 2), n_inputs=3)
     torques = []
     for _ in range(steps):
-        r = element(*signals_of(W, W), y, h, inputs=[0.6, 1.0, gear], accept=True)
+        r = element(*drive_signals(W, W), y, h, inputs=[0.6, 1.0, gear], accept=True)
         y = r.y
         torques.append(r.out["wheel_torque"])
     return y, torques, r
@@ -335,7 +327,7 @@ def asked(gear: float, W: float, h: float, steps: int, y: np.ndarray) -> tuple[n
 
 def test_a_gear_that_is_asked_for_is_engaged_in_the_time_of_a_shift_whatever_the_step() -> None:
     begin, W = np.array([1.0, 1.0, 1e3, 0.0, 1.0, 1.0]), 12.0
-    third = drive_element(gear=3)(*signals_of(W, W), inputs=[0.6]).out["wheel_torque"]
+    third = drive_element(gear=3)(*drive_signals(W, W), inputs=[0.6]).out["wheel_torque"]
     middle = []
     for h in (0.02, 0.001):
         y, torques, r = asked(3.0, W, h, round(0.4 / h), begin)
@@ -362,7 +354,7 @@ def test_a_clutch_hands_on_the_lesser_of_its_torque_and_of_the_drive_s() -> None
             y[4] = direction
             for throttle in (0.0, 0.3, 1.0):
                 for W in (-3.0, 0.0, 4.0, 30.0):
-                    signals, inputs = signals_of(direction * W, direction * W), [throttle, direction]
+                    signals, inputs = drive_signals(direction * W, direction * W), [throttle, direction]
                     free = selected(direction, 0.0, throttle)(*signals, y, 0.0, 0.005, 0.0, inputs)
                     r = element(*signals, y, 0.0, 0.005, 0.0, [*inputs, pedal])
                     whole = 2.0 * free.out["wheel_torque"]
@@ -385,7 +377,7 @@ def test_a_clutch_hands_on_the_lesser_of_its_torque_and_of_the_drive_s() -> None
 def test_powers_on_the_wheels_are_torque_times_what_they_turn_in_the_frame() -> None:
     rng = np.random.default_rng(3)
     R, omega = frame(rng), rng.normal(size=3)
-    r = drive_element()(*(signals := signals_of(20.0, 35.0, omega, R)), inputs=[0.7])
+    r = drive_element()(*(signals := drive_signals(20.0, 35.0, omega, R)), inputs=[0.7])
     turned, torque = omega @ R[:, 2], r.out["wheel_torque"]
     assert r.out["left_power"] == pytest.approx(torque * (20.0 - turned), rel=1e-12)
     assert r.out["right_power"] == pytest.approx(torque * (35.0 - turned), rel=1e-12)

@@ -12,7 +12,7 @@ from mbs import Model, compile, simulate
 from mbs.analysis.linear_model import linearise
 from mbs.elements import ElectricDrive
 from mbs.simulation.stepping import Simulation
-from tests.elements.harness import Array, Element, Result, frame, tangent_by_differences, vectors
+from tests.elements.harness import Array, Element, Result, drive_signals, frame, tangent_by_differences, vectors
 
 DRIVE = ElectricDrive(
     max_torque=250.0, max_power=100e3, ratio=9.5, regeneration_torque=60.0, regeneration_power=20e3, limit_speed=1100.0
@@ -33,23 +33,17 @@ def drive_element(drive: ElectricDrive = DRIVE, selector: bool = False) -> Eleme
     return Element(drive.record("drive", left[0], right[0], f, g, 0, 1 if selector else None))
 
 
-def signals_of(left: float, right: float, omega: Array | None = None, R: Array | None = None) -> tuple[Array, Array]:
-    R = np.eye(3) if R is None else R
-    omega = np.zeros(3) if omega is None else omega
-    return np.r_[0.0, 0.0, R[:, 0], R[:, 1]], np.r_[left, right, np.cross(omega, R[:, 0]), np.cross(omega, R[:, 1])]
-
-
 def at(motor_speed: float, throttle: float, drive: ElectricDrive = DRIVE) -> dict[str, float]:
     """Outputs without a selector."""
     W = motor_speed / drive.ratio
-    return drive_element(drive)(*signals_of(W, W), inputs=[throttle]).out
+    return drive_element(drive)(*drive_signals(W, W), inputs=[throttle]).out
 
 
 def test_both_wheels_get_the_same_torque_and_the_frame_its_reaction() -> None:
     rng = np.random.default_rng(17)
     R, omega = frame(rng), rng.normal(size=3)
     axis = R[:, 2]
-    u, ud = signals_of(20.0, 35.0, omega, R)
+    u, ud = drive_signals(20.0, 35.0, omega, R)
     r = drive_element()(u, ud, inputs=[0.7])
     torque = r.out["wheel_torque"]
     assert torque > 0.0
@@ -109,7 +103,7 @@ def test_gears_and_motor_never_give_power() -> None:
 
 def settled(element: Element, W: float, throttle: float, selector: float) -> Array:
     """States after a start with the selector there."""
-    return element(*signals_of(W, W), inputs=[throttle, selector], accept=True).y
+    return element(*drive_signals(W, W), inputs=[throttle, selector], accept=True).y
 
 
 @pytest.mark.parametrize("selector", [None, 1.0, -1.0])
@@ -121,7 +115,7 @@ def test_the_tangent_is_the_derivative_where_torque_falls(selector: float | None
     fell = 0
     near = np.add.outer(np.concatenate([EDGES, -EDGES]) / DRIVE.ratio, np.linspace(-1.5, 1.5, 7)).ravel()
     for W in np.concatenate([np.linspace(-125.0, 125.0, 71), near]) + 0.0131:
-        u, ud = signals_of(W, W + 0.2)
+        u, ud = drive_signals(W, W + 0.2)
         r = element(u, ud, y, H, 0.5 * H, 0.0, inputs)
         wanted = tangent_by_differences(element, u, ud, y, H, 0.5 * H, 0.0, inputs)
         if wanted[0, 0] > 1e-6:
@@ -136,7 +130,7 @@ def course(element: Element, speed: float, selector: list[float], throttle: floa
     """Results while the selector moves through a list of positions, one per step; the first is that of the start."""
     y, results = settled(element, speed, throttle, selector[0]), []
     for position in selector:
-        r = element(*signals_of(speed, speed), y, h, inputs=[throttle, position], accept=True)
+        r = element(*drive_signals(speed, speed), y, h, inputs=[throttle, position], accept=True)
         y = r.y
         results.append(r)
     return results
@@ -147,9 +141,9 @@ def test_reverse_is_forwards_seen_from_behind_with_its_own_limits() -> None:
     element, plain = drive_element(drive, True), drive_element(drive)
     for W in (-60.0, -3.0, 0.0, 3.0, 7.0):
         y = settled(element, W, 0.6, -1.0)
-        back = element(*signals_of(W, W), y, H, inputs=[0.6, -1.0])
+        back = element(*drive_signals(W, W), y, H, inputs=[0.6, -1.0])
         assert back.out["gear"] == -1.0
-        assert np.allclose(back.f, -plain(*signals_of(-W, -W), inputs=[0.6]).f, rtol=1e-14)
+        assert np.allclose(back.f, -plain(*drive_signals(-W, -W), inputs=[0.6]).f, rtol=1e-14)
     half = drive_element(selector=True)
     slow = course(half, -10.0, [-1.0])[0].out
     assert slow["motor_torque"] == pytest.approx(-DRIVE.reverse_torque * DRIVE.max_torque)
@@ -195,7 +189,7 @@ def test_reverse_at_speed_is_neutral_until_the_car_is_slow() -> None:
     y = settled(element, 40.0, 1.0, 1.0)
     gears, torques, speeds = [], [], np.arange(40.0, 0.0, -0.1)
     for W in speeds:
-        r = element(*signals_of(W, W), y, H, inputs=[1.0, -1.0], accept=True)
+        r = element(*drive_signals(W, W), y, H, inputs=[1.0, -1.0], accept=True)
         y = r.y
         gears.append(r.out["gear"])
         torques.append(r.out["motor_torque"])

@@ -9,15 +9,10 @@ import numpy as np
 import pytest
 
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
-from tests.elements.harness import Array, contacts, library
+from tests.elements.harness import Array, axis_of, contacts, library
 
 RADIUS = 0.27
 ROUND_OFF = 1e-12
-
-
-def axis_of(yaw: float, camber: float) -> Array:
-    """Spin axis (left) of a wheel with heading `yaw` and camber, rad."""
-    return np.array([-np.sin(yaw) * np.cos(camber), np.cos(yaw) * np.cos(camber), np.sin(camber)])
 
 
 def rim(centre: Array, axis: Array, radius: float, count: int = 60001) -> Array:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
-from tests.elements.harness import Array
+from tests.elements.harness import Array, axis_of
 from tests.elements.tyre_data import TYRE, tyre_element
 
 R = TYRE.radius
@@ -19,10 +19,6 @@ def contact(road: object, centre: Array, axis: Array) -> tuple[Array, Array, flo
     out = tyre_element(TYRE, road)(u, np.zeros(7)).out  # type: ignore[arg-type]
     point, normal = (np.array([out[f"{name}_{c}"] for c in "xyz"]) for name in ("contact", "normal"))
     return point, normal, out["vertical_force"]
-
-
-def axis_of(toe: float, camber: float) -> Array:
-    return np.array([-np.sin(toe) * np.cos(camber), np.cos(toe) * np.cos(camber), np.sin(camber)])
 
 
 def foot(centre: Array, axis: Array, q: Array, n: Array) -> Array:

@@ -9,17 +9,17 @@ import pytest
 import scipy.sparse as sp
 
 from mbs.common.errors import ModelError
-from mbs.flexible.craig_bampton import craig_bampton
+from mbs.flexible.attachment_modes import inertia_relief
+from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
-from mbs.flexible.external_model import external_model, read_matrix
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.fe_model_checks import check_connected
 from mbs.flexible.fixed_interface import Interface
 from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.frequencies import natural_modes
-from mbs.flexible.inertia_relief import inertia_relief
 from mbs.flexible.lumping import lumped_masses
 from mbs.flexible.mass_points import nodal_mass_points
+from mbs.flexible.matrix_files import external_model, read_matrix
 from mbs.flexible.recovery import section_forces
 from mbs.model import Model
 from tests.flexible.structures import STEEL, TUBE, portal, straight

@@ -12,8 +12,8 @@ from scipy.sparse.linalg import spsolve
 
 from benchmarks.car import calculix
 from benchmarks.car.statics import interface_forces
+from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.frequencies import natural_modes
-from mbs.flexible.inertia_relief import inertia_relief
 from mbs.flexible.recovery import gauge_rows
 from mbs.vehicle import load
 

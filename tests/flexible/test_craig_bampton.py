@@ -9,13 +9,13 @@ from scipy.linalg import eigh
 from scipy.sparse.linalg import spsolve
 
 from mbs.common.errors import ModelError
-from mbs.flexible.craig_bampton import craig_bampton
+from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
-from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.fixed_interface import Interface
 from mbs.flexible.frequencies import natural_modes
-from mbs.flexible.load_path_modes import interface_loads, load_path_modes, reduced_eigenmodes
+from mbs.flexible.load_paths import interface_loads, load_path_modes, reduced_eigenmodes
+from mbs.flexible.matrix_files import external_model
 from mbs.flexible.mode_choice import modes_for_output
 from mbs.flexible.recovery import section_forces
 from mbs.flexible.reduced_body import ReducedBody

@@ -14,12 +14,12 @@ from scipy.linalg import eigh
 
 from mbs.common.errors import ModelError
 from mbs.flexible.bulk_data import grid_points
-from mbs.flexible.craig_bampton import craig_bampton
-from mbs.flexible.external_model import external_model, read_matrix, read_model
+from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.lumping import lumped_masses
+from mbs.flexible.matrix_files import external_model, read_matrix, read_model
+from mbs.flexible.nastran import read_nastran
 from mbs.flexible.output4 import read_output4
-from mbs.flexible.read_nastran import read_nastran
 from tests.flexible.structures import portal
 
 DATA = Path(__file__).parent.parent / "data" / "external"
@@ -203,7 +203,7 @@ def test_nastran_places_are_those_of_the_basic_system(tmp_path: Path) -> None:
 def test_a_calculix_model_is_read() -> None:
     """A free steel bar of 3 solid elements (C3D8I), with the frequencies of CalculiX 2.20 on the same deck."""
     pytest.importorskip("meshio", reason="extra 'fem'")
-    from mbs.flexible.read_calculix import calculix_matrices, read_calculix
+    from mbs.flexible.calculix import calculix_matrices, read_calculix
 
     K, M, positions, numbers = calculix_matrices(DATA / "bar.inp")
     assert numbers == list(range(101, 117))
@@ -224,7 +224,7 @@ def test_a_calculix_model_is_read() -> None:
 
 def test_a_calculix_model_with_supports_is_refused(tmp_path: Path) -> None:
     pytest.importorskip("meshio", reason="extra 'fem'")
-    from mbs.flexible.read_calculix import read_calculix
+    from mbs.flexible.calculix import read_calculix
 
     for suffix in (".inp", ".sti", ".mas", ".dof"):
         (tmp_path / f"bar{suffix}").write_text((DATA / f"bar{suffix}").read_text())
@@ -238,7 +238,7 @@ def test_a_calculix_model_with_supports_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize("kept", [0.0, 0.5, None])
 def test_a_damaged_calculix_file_is_refused(tmp_path: Path, suffix: str, kept: float | None) -> None:
     pytest.importorskip("meshio", reason="extra 'fem'")
-    from mbs.flexible.read_calculix import read_calculix
+    from mbs.flexible.calculix import read_calculix
 
     for file in DATA.iterdir():
         (tmp_path / file.name).write_bytes(file.read_bytes())
@@ -249,7 +249,7 @@ def test_a_damaged_calculix_file_is_refused(tmp_path: Path, suffix: str, kept: f
 
 
 def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    from mbs.flexible.read_calculix import read_calculix
+    from mbs.flexible.calculix import read_calculix
 
     monkeypatch.setitem(sys.modules, "meshio", None)
     with pytest.raises(ModelError, match=r'pip install "ali3\[fem\]"'):

@@ -9,13 +9,13 @@ from scipy.linalg import eigh
 from scipy.sparse.linalg import spsolve
 
 from benchmarks.car.statics import interface_forces
-from mbs.flexible.craig_bampton import craig_bampton
+from mbs.flexible.attachment_modes import inertia_relief
+from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.frequencies import natural_modes
-from mbs.flexible.inertia_relief import inertia_relief
-from mbs.flexible.load_path_modes import interface_loads, load_path_modes
+from mbs.flexible.inertia_integrals import shape_integrals
+from mbs.flexible.load_paths import interface_loads, load_path_modes
 from mbs.flexible.recovery import gauge_rows, peak_tube_stress, section_force_field
-from mbs.flexible.shape_integrals import shape_integrals
 from mbs.vehicle import load
 
 CAR = load("prototype")

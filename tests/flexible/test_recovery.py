@@ -7,9 +7,9 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
-from mbs.flexible.craig_bampton import craig_bampton
+from mbs.flexible.attachment_modes import inertia_relief
+from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.frame import Beam, Frame
-from mbs.flexible.inertia_relief import inertia_relief
 from mbs.flexible.recovery import (
     StrainGauge,
     end_forces,

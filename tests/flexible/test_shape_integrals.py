@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from mbs.flexible.craig_bampton import craig_bampton
+from mbs.flexible.component_modes import craig_bampton
+from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
 from mbs.flexible.reduced_body import ReducedBody
-from mbs.flexible.shape_integrals import ShapeIntegrals, shape_integrals
 from tests.flexible.structures import portal
 
 ROUND_OFF = 1e-12

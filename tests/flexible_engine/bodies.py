@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbs.flexible.craig_bampton import craig_bampton
+from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fixed_interface import Interface
 from mbs.flexible.frame import Beam, Frame

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import math
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
+from hosts.driving.co_simulation import run
 from hosts.driving.course_scenery import things_of, with_marks
 from hosts.driving.courses import course_of
 from hosts.driving.ground_marks import lanes, marks_of_inputs
+from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.course_from_here import CourseFromHere
 from hosts.driving.pilots.fixed_steering import FixedSteering
 from hosts.driving.result import Result
+from hosts.driving.run_with_bar import run_with_bar
+from hosts.fmu.fmu import Fmu
 from hosts.view.view_sources import _with_marks
 
 TIME = np.arange(0.0, 15.01, 0.01)
@@ -51,6 +56,20 @@ def test_steering_that_stays_brings_the_circle_it_begins_with(radius: float) -> 
     (found,) = marks_of_inputs(on_circle(radius, 8.0, -0.05))
     assert found["centre"] == pytest.approx([3.0, -4.0], abs=1e-9)
     assert found["radius"] == pytest.approx(abs(radius))
+
+
+def test_runs_that_are_looked_at_have_their_marks(prototype_fmu: Path) -> None:
+    """Those of commands with a bar and of the catalogue, with a pilot and without; a run that nobody sees has none."""
+    table = np.array([0.0, 1.0, 11.5])
+    turn = Manoeuvre("turn", table, {"steering": np.array([0.0, 0.1, 0.1])}, 11.5, {"initial.speed": 8.0})
+    pilot = CircleFollower(30.0, 8.0, 2.0, 6.0)
+    with Fmu(prototype_fmu) as fmu:
+        shown = run_with_bar(fmu, turn, 0.01)
+        fmu.reset()
+        assert run(fmu, replace(turn, stop_time=0.1), 0.01).marks == []
+    assert [mark["kind"] for mark in shown.marks] == ["circle"]
+    tested = TestedCar("prototype", prototype_fmu, step=0.01).drive(replace(turn, stop_time=0.1), pilot)
+    assert tested.marks == pilot.marks != []
 
 
 def test_a_straight_run_brings_the_line_where_it_begins_to_stop() -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from ali3 import html
+from ali3.html_elements import document, element, table
 from hosts.catalogue.report import write_report
 from hosts.study.analysis.report import report_of
 from tests.hosts.catalogue.synthetic_records import synthetic
@@ -26,8 +26,8 @@ def written(folder: Path) -> list[Path]:
         x, {"peak": [1.0, 4.0, 2.0, 5.0, 3.0, 6.0], "rest": [3.0, 1.0, 2.0, 6.0, 5.0, 4.0]}, {"mass": "kg"}
     )
     study, *_ = report_of(frame, folder, lambda index: [f"ali3 run {index}"])
-    table = html.table(["", "front", "rear"], [["Axles"], ["toe", "1", "2"]])
-    tables.write_text(html.report("Axles", f"<h1>Axles</h1>{table}"), encoding="utf-8")
+    body = [element("h1", "Axles"), table("", ["", "front", "rear"], [["Axles"], ["toe", "1", "2"]])]
+    tables.write_text(document("Axles", body), encoding="utf-8")
     return [catalogue, study, tables]
 
 

@@ -85,7 +85,7 @@ def test_what_is_set_wins_over_the_start_by_chance(car: Path, ground: Ground, tm
     assert counts.farthest == pytest.approx(5e4, rel=1e-3)
     assert counts.jumps >= 1
     assert 0.3 < counts.longest_jump < 0.46
-    # Over a ramp of 1 m, as the driver by chance meets it.
+    # Over a ramp of 1 m, as the random driver meets it.
     ramp = next(target for target in ground.targets if target.yaw > 4.0)
     start = {"initial.x": ramp.x, "initial.y": ramp.y + 10.0, "initial.yaw": ramp.yaw, "initial.speed": 16.0}
     made = drive(task(car, tmp_path, seconds=2.5, start=start | {"initial.z": 0.0}, grounds=[ground.record]))

@@ -24,7 +24,12 @@ CASES = {  # table, what is replaced by what, words of the sentence
         "joint is 'F2R'; its name must end in L (left)",
     ),
     "a name without side": ("joints.csv", "F2L,", "F2,", "joint is 'F2'; its name must end in L"),
-    "left on the right": ("joints.csv", "F2L,0.45,0.28", "F2L,0.45,-0.28", "y must be positive on the left"),
+    "left on the right": (
+        "joints.csv",
+        "F2L,0.45,0.28",
+        "F2L,0.45,-0.28",
+        "F2L has y = -0.28 m; y must be positive on the left",
+    ),
     "a joint twice": ("joints.csv", "F2L,", "F1L,", "joint F1L is there twice"),
     "an interface elsewhere": ("joints.csv", "UFL,0.13,", "UFL,0.18,", "the frame has no joint; the nearest is UFL"),
     "too many fields": (
@@ -35,10 +40,15 @@ CASES = {  # table, what is replaced by what, words of the sentence
     ),
     "unknown joint": ("tubes.csv", TUBE, "F1L,XXL,M,2", "joint 'XXL' is not in chassis.frame.joints"),
     "unknown section": ("tubes.csv", TUBE, "F1L,LFL,Q,2", "section 'Q' is not in chassis.frame.sections"),
-    "no elements": ("tubes.csv", TUBE, "F1L,LFL,M,0", "elements is '0'; it must be a whole number"),
+    "no elements": ("tubes.csv", TUBE, "F1L,LFL,M,0", "elements is '0'; it must be a whole number between 1 and 50"),
     "half an element": ("tubes.csv", TUBE, "F1L,LFL,M,1.5", "elements is '1.5'; it must be a whole number"),
     "a tube twice": ("tubes.csv", "F2L,UFL,S,2", "F1L,LFL,S,2", "the tube from F1L to LFL is there twice"),
-    "a tube of both halves": ("tubes.csv", "F2L,UFL,S,2", "F1R,LFR,S,2", "the tube from F1R to LFR is there twice"),
+    "a tube of both halves": (
+        "tubes.csv",
+        "F2L,UFL,S,2",
+        "F1R,LFR,S,2",
+        "from F1R to LFR is there twice: images are added",
+    ),
     "a tube of no length": ("tubes.csv", TUBE, "F1L,F1L,M,2", "has one joint at both ends"),
     "a tube of a gauge": ("tubes.csv", "LRL,D1L,M", "D1L,LRL,M", "the tube runs from D1L to LRL"),
     "mass on no joint": ("masses.csv", MASS, "powertrain,EMX,32", "joint 'EMX' is not in chassis.frame.joints"),
@@ -48,7 +58,7 @@ CASES = {  # table, what is replaced by what, words of the sentence
         "loads.csv",
         "LFL,x,",
         "LFX,x,",
-        "line 5: LFX x is no axis of a joint of the suspension",
+        "line 5: LFX x is no axis of a joint of the suspension; these are LFL, LFR",
     ),
     "no CSV": ("tubes.csv", TUBE, 'F1L,"LFL,M,2', "tubes.csv"),
 }
@@ -110,9 +120,12 @@ def test_a_table_that_is_a_link_elsewhere_is_refused(copied, tmp_path):
         ({"chassis.frame.reference": "XXc"}, "chassis.frame.reference names 'XXc'; the frame has no such joint."),
         ({"chassis.reference": [-1.0, 0.0, 0.16]}, "where the frame has no joint; the nearest is S1c, 0.1 m away."),
         ({"chassis.frame.gauges.SG1.tube": ["A", "B"]}, "which is no tube of the frame: no tube ends at A."),
-        ({"chassis.frame.sections.M.wall": 0.03}, "a tube of 0.04 m has at most half of that."),
+        ({"chassis.frame.sections.M.wall": 0.03}, "M.wall is 0.03 m; a tube of 0.04 m has at most half of that."),
         ({"chassis.frame.gauges.SG1.place": 1.5}, "it must be 0 or between 0.002 and 1."),
-        ({"chassis.mass": 400.0, "vehicle.mass": 521.0}, "but the frame with the masses it carries has 476 kg."),
+        (
+            {"chassis.mass": 400.0, "vehicle.mass": 521.0},
+            "chassis.mass is 400 kg, but the frame with the masses it carries has 476 kg.",
+        ),
     ],
 )
 def test_a_frame_that_names_what_is_not_there(changes, words):

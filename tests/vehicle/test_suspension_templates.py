@@ -9,7 +9,8 @@ import pytest
 
 from benchmarks.car.rig import kinematics
 from mbs import compile
-from mbs.vehicle import CarFileError, load
+from mbs.compiler.overconstrained import corrected_joints
+from mbs.vehicle import CarFileError, car_names, load
 from tests.vehicle import instant
 
 
@@ -37,6 +38,13 @@ def stiffer_by(axle, rate, more):
     on_tyres = 0.5 * axle.tyre.stiffness * axle.track**2
     name = "front" if axle is hatchback().front else "rear"
     return more * (2.0 * rate) ** 2 / (1.0 - load * measured()[f"{name}.roll_centre_height"] / on_tyres)
+
+
+def test_the_loops_of_a_car_move_as_drawn():
+    """So a car that only stands is compiled without the search for overconstrained loops."""
+    found = {name: corrected_joints(load(name).model()) for name in car_names()}
+    assert len(found) > 5
+    assert not any(found.values()), found
 
 
 def test_macpherson_in_bump():

@@ -10,7 +10,7 @@ from hosts.common.numbers import is_round_off
 _SMALL = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _POWER = re.compile(r"(?<=[a-zA-Z])(-?\d+)(\.\d+)?")
 NONE = "–"
-"""Where there is no number."""
+"""Shown in place of a number that there is not."""
 
 
 def shown(value: float) -> str:

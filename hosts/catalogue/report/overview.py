@@ -8,9 +8,9 @@ from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
+from ali3.html_elements import Content, element, table
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
-from hosts.catalogue.report.elements import Content, element, table
 from hosts.catalogue.report.numbers import NONE, bounds, difference, unit_shown, with_unit
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -115,18 +115,17 @@ def overview(
         for test in tests
     ]
     rows: list[list[Content]] = []
-    groups = {}
     for test in tests:
         found = [_measures(records.get(test.name, {}).get(label)) for label in labels]
         names = list(dict.fromkeys(name for measures in found for name in measures))
         if names:
-            groups[len(rows)] = test.title
+            rows.append([test.title])
         for name in names:
             rows.append(_row(name, [measures.get(name) for measures in found]))
     parts = [table("Tests", ["test", *labels], done)]
     if rows:
         more = f"; differences to {labels[0]}" if len(labels) > 1 else ""
-        parts.append(table(f"Measures{more}", ["measure", *labels, "limit"], rows, groups))
+        parts.append(table(f"Measures{more}", ["measure", *labels, "limit"], rows))
     return parts
 
 

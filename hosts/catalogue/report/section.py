@@ -6,8 +6,8 @@ import shlex
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from ali3.html_elements import Content, element, table
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
-from hosts.catalogue.report.elements import Content, element, table
 from hosts.catalogue.report.numbers import NONE, bounds, unit_shown, with_unit
 from hosts.catalogue.report.pictures import Picture
 from hosts.measures.measure import Measure
@@ -36,8 +36,6 @@ def section(
         Those used.
     command : sequence of str
         That makes the whole report; empty where nobody knows it.
-    pictures : sequence of Picture
-        Of the test.
     """
     done = {label: r for label, r in records.items() if isinstance(r, TestRecord)}
     parts: list[Content] = [element("h2", test.title), *(_standard(s) for s in test.standards)]

@@ -36,10 +36,6 @@ def write_summary(
 
     Parameters
     ----------
-    stem : Path
-        Of its files.
-    labels : sequence of str
-        Of the cars.
     records : mapping of str to mapping of str to TestRecord or str
         By name of the test and label of the car.
     """

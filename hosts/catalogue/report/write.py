@@ -7,10 +7,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ali3.files import make_folder, write_text
+from ali3.html_elements import document, element
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
-from hosts.catalogue.report.document import document
-from hosts.catalogue.report.elements import element
 from hosts.catalogue.report.overview import head, overview
 from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import section
@@ -59,15 +58,14 @@ def write_report(
         name: pictures_of({n: r.plots for n, r in found.items() if isinstance(r, TestRecord)})
         for name, found in by_car.items()
     }
-    body = element(
-        "main",
+    body = [
         element("h1", title),
         *head(cars),
         element("nav", element("ul", *links), aria_label="Tests"),
         element("h2", "Overview"),
         *overview(tests, labels, records),
         *(section(t, by_car[t.name], settings.get(t.name, {}), command, drawn[t.name]) for t in tests),
-    )
+    ]
     write_text(file, document(title, body))
     write_summary(file.with_name("summary"), title, tests, labels, by_car)
     folder = make_folder(file.parent / "plots")

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.preparation import early_end, held, with_step_up_to
 from hosts.catalogue.record import Line, Plot, Setting, Standard, TestRecord
+from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 from hosts.measures.impact import fall_time, first_contact, rebound, settling_time, weight_from_momentum
 from hosts.measures.measure import Limit, Measure
-from hosts.measures.wheels import WHEELS, at_wheels, duration, lifted_wheels
+from hosts.measures.wheels import at_wheels, duration, lifted_wheels
 
 STEP = 0.002  # s; a peak of the load lasts some 10 ms
 BALANCE = Limit("balance of forces at rest", -1e-3, 1e-3)

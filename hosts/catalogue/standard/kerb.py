@@ -12,10 +12,11 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.preparation import early_end, held, with_step_up_to
 from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
 from hosts.common.numbers import Value
+from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 from hosts.measures.measure import Measure
 from hosts.measures.vibration import LONGEST_STEP, largest_running_rms, vibration_dose, weighted
-from hosts.measures.wheels import WHEELS, at_wheels, duration, lifted_wheels
+from hosts.measures.wheels import at_wheels, duration, lifted_wheels
 
 STEP = 0.002  # s; a wheel passes the edge within some 10 ms
 AFTER = 3.0  # s, beyond the edge
@@ -99,8 +100,6 @@ def measures_of(result: Result, prefix: str) -> list[Measure]:
     ----------
     result : Result
         From rolling at rest to rolling at rest again.
-    prefix : str
-        Of the names.
     """
     loads = at_wheels(result, "Fz")
     assert loads is not None  # one of the needs

@@ -10,13 +10,13 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.ends import Ends
 from hosts.catalogue.preparation import early_end, held, with_step_up_to
 from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
+from hosts.common.wheels import WHEELS
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import ConstantSteering
 from hosts.driving.pilots.together import Together
 from hosts.driving.result import Result
 from hosts.measures.measure import Measure
-from hosts.measures.wheels import WHEELS
 
 STEP = 0.005  # s; the pedal rises in a multiple of it
 SETTLED = 1.0  # s, of driving straight before the pedal is pressed

@@ -37,7 +37,7 @@ class FixedSteering:
 
     @property
     def marks(self) -> list[Mark]:
-        """Of the other pilot."""
+        """Marks of the other pilot."""
         return marks_of(self.pilot)
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:

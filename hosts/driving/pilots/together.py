@@ -22,7 +22,7 @@ class Together:
 
     @property
     def marks(self) -> list[Mark]:
-        """Of all of them."""
+        """Marks of all pilots."""
         return [mark for pilot in self.pilots for mark in marks_of(pilot)]
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:

@@ -10,19 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
-from hosts.fmu.aliases.derivation import Derivation
 from hosts.fmu.aliases.derived import Derived
 
 
 @dataclass(frozen=True)
 class Alias:
-    """One variable: value of the FMU = factor * ours + offset.
-
-    Parameters
-    ----------
-    ours, theirs : str
-        Names.
-    """
+    """One variable: value of the FMU = factor * ours + offset."""
 
     ours: str
     theirs: str
@@ -67,10 +60,6 @@ class Aliases:
     def why_missing(self, name: str) -> str:
         """Why this FMU does not have one of our names, in a sentence; empty where the file does not know it."""
         return self.missing.get(name, "")
-
-    def derivation(self, ours: Sequence[str]) -> Derivation:
-        """What computes the derived variables from recorded ones by our names; see `Derivation`."""
-        return Derivation(self.derived, ours)
 
     def scales(self, theirs: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Factors and offsets of variables.

@@ -16,8 +16,6 @@ class Derived:
 
     Parameters
     ----------
-    ours : str
-        Name.
     formula : str
         Of `FORMULAS`.
     arguments : tuple of str or float
@@ -37,7 +35,7 @@ class Derived:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Those arguments that are names."""
+        """Arguments that are names."""
         return tuple(a for a in self.arguments if isinstance(a, str))
 
 

@@ -26,8 +26,6 @@ def find_aliases(name: str | Path, variables: Variables) -> Aliases:
     ----------
     name : str or Path
         Such as ``chrono``; a file of that name here comes first.
-    variables : Variables
-        Of the FMU.
 
     Raises
     ------

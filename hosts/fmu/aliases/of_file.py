@@ -15,8 +15,6 @@ def aliases_of(file: str | Path | None, variables: Variables) -> Aliases:
     ----------
     file : str or Path, optional
         As `hosts.fmu.aliases.file.find_aliases` takes it.
-    variables : Variables
-        Of the FMU.
 
     Raises
     ------

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from hosts.catalogue.report.elements import element
+from ali3.html_elements import element, table
 from hosts.study.analysis.data import Parameter, Response, StudyData
 from hosts.study.analysis.effect_plots import MOST_POINTS, plot_main_effects, plot_scatter
 from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
 from hosts.study.analysis.main_effects import MainEffect, main_effect
-from hosts.study.analysis.page import commands_cell, paragraph, table
+from hosts.study.analysis.page import commands_cell, paragraph
 from hosts.study.analysis.parallel_plots import MOST_LINES, plot_parallel
 from hosts.study.analysis.pictures import Pictures
 from hosts.study.analysis.study_section import Commands

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import base64
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from hosts.catalogue.report import document as shell
-from hosts.catalogue.report import elements
-from hosts.catalogue.report.elements import Content, element
+from ali3 import html_elements
+from ali3.html_elements import element
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -21,7 +19,7 @@ table.small, .wide table { font-size: 0.85rem; } td { min-width: 0; }
 
 def document(title: str, body: Iterable[HtmlElement]) -> str:
     """The whole file."""
-    return shell.document(title, element("main", *body), _STYLE)
+    return html_elements.document(title, body, _STYLE)
 
 
 def paragraph(text: str, kind: str = "") -> HtmlElement:
@@ -29,17 +27,6 @@ def paragraph(text: str, kind: str = "") -> HtmlElement:
     return element("p", text, class_=kind) if kind else element("p", text)
 
 
-def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[Content]]) -> HtmlElement:
-    """A table that can be scrolled sideways."""
-    return elements.table(caption, list(head), [list(row) for row in rows])
-
-
 def commands_cell(lines: Iterable[str]) -> HtmlElement:
     """A cell with commands to be copied."""
     return element("td", *([element("code", line) for line in lines] or ["–"]))
-
-
-def picture(png: bytes, what: str) -> HtmlElement:
-    """An image within the file."""
-    source = f"data:image/png;base64,{base64.b64encode(png).decode()}"
-    return element("figure", element("img", alt=what, src=source), class_="plot")

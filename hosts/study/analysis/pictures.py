@@ -11,7 +11,7 @@ from PIL import Image
 
 from ali3.charts import save_pictures
 from ali3.files import whole_file
-from hosts.study.analysis.page import picture
+from ali3.html_elements import picture
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement

@@ -11,7 +11,7 @@ from matplotlib import pyplot as plt
 
 from ali3.chart_style import STYLE
 from ali3.files import make_folder, whole_file, write_text
-from hosts.catalogue.report.elements import element
+from ali3.html_elements import element
 from hosts.common.errors import HostError
 from hosts.study.analysis.data import study_data
 from hosts.study.analysis.measure_section import indices_of, measure_section

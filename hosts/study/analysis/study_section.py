@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, TypeAlias
 from matplotlib import pyplot as plt
 
 from ali3.chart_style import STYLE
-from hosts.catalogue.report.elements import Content, element
+from ali3.html_elements import Content, element, table
 from hosts.study.analysis.data import FAILED, StudyData
 from hosts.study.analysis.effect_plots import plot_failed
-from hosts.study.analysis.page import commands_cell, paragraph, table
+from hosts.study.analysis.page import commands_cell, paragraph
 from hosts.study.analysis.pictures import Pictures
 from hosts.study.analysis.tables import reasons, said, statistics
 from hosts.study.limits import share_notes, share_rows, shares

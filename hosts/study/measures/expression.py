@@ -56,7 +56,7 @@ class Expression:
 
     @property
     def digest(self) -> str:
-        """Of its text."""
+        """Hash of the text."""
         return hashlib.sha256(ast.unparse(_parse(self.text)).encode()).hexdigest()
 
     def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:

@@ -21,8 +21,6 @@ def unit_of(node: Node, units: Mapping[str, str], text: str) -> str:
     ----------
     node : ast.expr
         Of a right form.
-    units : mapping of str to str
-        Of its signals.
     text : str
         Of the whole measure, for messages.
 

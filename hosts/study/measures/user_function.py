@@ -33,8 +33,6 @@ class UserFunction:
     ----------
     name : str
         Of its column, or what its columns begin with.
-    source : str
-        Of the file.
     """
 
     name: str
@@ -54,7 +52,7 @@ class UserFunction:
 
     @property
     def digest(self) -> str:
-        """Of the source."""
+        """Hash of the source."""
         return hashlib.sha256(f"{self.function}\n{self.source}".encode()).hexdigest()
 
     def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
@@ -166,7 +164,7 @@ def _load(wanted: UserFunction) -> Callable[..., Any]:
 
 
 def _takes_parameters(function: Callable[..., Any], text: str = "") -> bool:
-    """Whether it takes the parameters of the run besides the result."""
+    """Whether it takes the parameters of the run as well as the result."""
     try:
         signature = inspect.signature(function)
     except (TypeError, ValueError):  # of a function in C

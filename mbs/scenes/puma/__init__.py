@@ -107,8 +107,6 @@ def replay(
         Of `build`.
     h : float or tuple of float
         s; one step, or one for each stage.
-    settings : Settings, optional
-        Of the solver.
     estimate_error : bool, optional
         As of `Simulation.run`.
 

@@ -9,16 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from mbs.common.errors import ModelError
-from mbs.flexible import (
-    FiniteElementModel,
-    InertiaRelief,
-    RayleighDamping,
-    ReducedBody,
-    craig_bampton,
-    inertia_relief,
-    load_path_modes,
-)
-from mbs.flexible.load_path_modes import load_path_deformations
+from mbs.flexible.attachment_modes import InertiaRelief, inertia_relief
+from mbs.flexible.component_modes import craig_bampton
+from mbs.flexible.damping import RayleighDamping
+from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.load_paths import load_path_deformations, load_path_modes
+from mbs.flexible.reduced_body import ReducedBody
 from mbs.vehicle.chassis.frame_joints import FrameJoints
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.fidelity import Fidelity

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbs.common.errors import ModelError
-from mbs.flexible import FiniteElementModel
+from mbs.flexible.fe_model import FiniteElementModel
 from mbs.vehicle.chassis.section import Chassis
 
 MASS, INERTIA = 0.005, 0.02  # of the mass, of the largest moment of inertia

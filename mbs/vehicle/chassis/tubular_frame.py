@@ -10,7 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from mbs.common.errors import ModelError
-from mbs.flexible import Beam, Frame, Material, Section, StrainGauge, tube
+from mbs.flexible.frame import Beam, Frame
+from mbs.flexible.material import Material
+from mbs.flexible.recovery import StrainGauge
+from mbs.flexible.section import Section, tube
 from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
 from mbs.vehicle.chassis.tube_tables import TubeTables
 from mbs.vehicle.table import Row, read_table
@@ -46,7 +49,7 @@ class TubularFrame:
 
     @property
     def material(self) -> Material:
-        """Of all tubes."""
+        """Material of all tubes."""
         given = self.section.material
         return Material(given.E, given.nu, given.rho, given.yield_strength)
 

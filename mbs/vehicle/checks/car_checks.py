@@ -48,8 +48,6 @@ def car_oddities(car: CarContent, rest: Rest) -> list[str]:
     ----------
     car : CarContent
         Without faults.
-    rest : Rest
-        The car at rest.
     """
     return [
         *rest.oddities(car),

@@ -25,8 +25,6 @@ def rate_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
     ----------
     car : CarContent
         Without faults.
-    rest : Rest
-        The car at rest.
     """
     for name, axle in (("front", car.front), ("rear", car.rear)):
         unsprung = axle.wheel.mass + sum(part.mass for part in parts_of(axle))

@@ -35,8 +35,6 @@ def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
     ----------
     car : CarContent
         Without faults.
-    rest : Rest
-        The car at rest.
     """
     for axle, wheels in ((car.front, "front"), (car.rear, "rear")):
         if isinstance(axle.tyre, MagicFormula):

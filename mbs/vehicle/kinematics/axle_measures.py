@@ -96,7 +96,7 @@ def travel_measures(linkage: Linkage, at: Position, direction: Array) -> dict[st
 
 
 def roll_measures(linkage: Linkage, at: Position) -> dict[str, float]:
-    """Columns of opposite travel besides: what the chassis does as it rolls."""
+    """More columns for opposite travel: what the chassis does as it rolls."""
     left, right = (wheel_motion(linkage, at, k) for k in range(2))
     track, per_angle = linkage.data.track, -2.0 / linkage.data.track  # travel of the right wheel less the left's
     steer = 0.5 * float((left.steer_rate + right.steer_rate) @ ROLL)

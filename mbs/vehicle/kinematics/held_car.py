@@ -137,7 +137,7 @@ class HeldCar(StandingModel):
         Parameters
         ----------
         held : ndarray, shape (k, nq)
-            Rows that are held besides.
+            Further rows that are held.
 
         Returns
         -------

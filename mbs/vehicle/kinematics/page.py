@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import io
-from html import escape
 from typing import TYPE_CHECKING
 
-from ali3 import html
+from ali3.html_elements import document, element, picture, table
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
 from mbs.vehicle.kinematics.compliance import Compliance
 from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
@@ -26,18 +25,19 @@ def page(found: Kinematics, gives: Compliance) -> str:
         Of the same car.
     """
     title = f"Kinematics of the car '{found.car}'"
-    lines = [
-        f"<h1>{escape(title)}</h1>",
-        "<p>The chassis is held, rigid; the wheel centres move. Terms of ISO 8855: x forward, y left, z up.</p>",
-        *(f"<p>{escape(text)}</p>" for text in (*found.notes, gives.sentence) if text),
-        html.table(
+    parts = [
+        element("h1", title),
+        element("p", "The chassis is held, rigid; the wheel centres move. Terms of ISO 8855: x forward, y left, z up."),
+        *(element("p", text) for text in (*found.notes, gives.sentence) if text),
+        table(
+            "",
             ("", "front", "rear", "unit", ""),
             (line if any(line[1:]) else line[:1] for line in (*rows(found), *compliance_rows(gives))),
         ),
     ]
     for figure in (travel_figure(found, "front"), travel_figure(found, "rear"), steer_figure(found)):
-        lines.append(html.picture(_png(figure), figure.get_suptitle()))
-    return html.report(title, "\n".join(lines))
+        parts.append(picture(_png(figure), figure.get_suptitle()))
+    return document(title, parts)
 
 
 def _png(figure: Figure) -> bytes:

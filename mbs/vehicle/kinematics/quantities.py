@@ -95,7 +95,7 @@ WHEEL = (
     _quantity("spring_length", "size", "spring length", "between the points of the spring"),
     _quantity("damper_length", "size", "damper length", "between the points of the damper"),
 )
-"""Of each wheel on every curve."""
+"""Quantities of each wheel on every curve."""
 
 WHEEL_TRAVEL = (
     _quantity("toe_gradient", "angle per travel", "bump steer", "toe-in per travel of this wheel"),
@@ -112,7 +112,7 @@ AXLE = (
     _quantity("track_change", "length", "track change", "of the contact centres, from the drawing"),
     _quantity("wheelbase_change", "length", "wheelbase change", "of the contact centres, mean of both sides"),
 )
-"""Of the axle on every curve."""
+"""Quantities of the axle on every curve."""
 
 AXLE_TRAVEL = (
     _quantity("roll_centre_height", "length", "roll centre height", "over the ground between the contact centres"),
@@ -127,7 +127,7 @@ AXLE_TRAVEL = (
     _quantity("anti_squat", "percent", "anti-squat", "driving: the same behind"),
     _quantity("anti_lift_in_drive", "percent", "anti-lift in drive", "driving: the same in front"),
 )
-"""Of the axle on curves of wheel travel."""
+"""Further ones of the axle on curves of wheel travel."""
 
 ROLL = (
     _quantity("suspension_roll_angle", "angle", "suspension roll angle", "of the chassis, left side up positive"),
@@ -135,7 +135,7 @@ ROLL = (
     _quantity("roll_camber", "per roll", "roll camber", "mean inclination against the ground per roll angle"),
     _quantity("roll_stiffness", "roll stiffness", "suspension roll stiffness", "moment per suspension roll angle"),
 )
-"""Of the axle on curves of opposite travel besides."""
+"""Further ones of the axle on curves of opposite travel."""
 
 STEER = (
     _quantity("steering_wheel_angle", "angle", "steering-wheel angle", "positive to the left"),
@@ -150,7 +150,7 @@ STEER = (
         "turning_circle", "size", "turning circle", "diameter of the way of the outer front contact centre without slip"
     ),
 )
-"""Of the axle on curves of steering besides."""
+"""Further ones of the axle on curves of steering."""
 
 BY_NAME = {q.name: q for group in (WHEEL, WHEEL_TRAVEL, AXLE, AXLE_TRAVEL, ROLL, STEER) for q in group}
 """All of them by name."""

@@ -1,7 +1,7 @@
 """Loads of springs, stops and bars at the contact centres, and their slopes, by virtual work.
 
 With g_j = -Q . dq/dz_j the load on wheel centre j, and dz_i/dz_j the rise of contact centre i, vertical loads F at the
-contact centres satisfy sum_i F_i dz_i/dz_j = g_j. As a wheel leans its contact centre rises besides its centre; the
+contact centres satisfy sum_i F_i dz_i/dz_j = g_j. As a wheel leans its contact centre rises relative to its centre; the
 load on the lever of that is part of the wheel rate.
 """
 

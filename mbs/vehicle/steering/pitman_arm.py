@@ -153,7 +153,7 @@ class PitmanArm(SteeringSection):
 
     @property
     def wheel_angle_max(self) -> float:
-        """By the ratio of the box."""
+        """See the base class; the ratio of the steering box gives it."""
         return self.ratio * self.arm_angle_max
 
     @property
@@ -163,12 +163,12 @@ class PitmanArm(SteeringSection):
 
     @property
     def lateral_travel(self) -> tuple[str, float]:
-        """By the arm."""
+        """Name and size, m, of the lateral travel at the end of the arm."""
         lever = self.four_bar.joint - self.four_bar.pivot
         return self.key("arm_angle_max"), abs(lever.real) * math.sin(self.arm_angle_max)
 
     def wheel_at(self, motion: float) -> tuple[float, float]:
-        """By the ratio of the box."""
+        """See the base class; the ratio of the steering box gives it."""
         return self.ratio * motion, self.ratio
 
     def signed(self, way: float) -> float:
@@ -255,7 +255,7 @@ class PitmanArm(SteeringSection):
         return Steered(self.ends(b, arm, way), outputs, torque_outputs)
 
     def _link_outputs(self, m: Model, arm: Guide, way: float) -> None:
-        """Where the centre link is."""
+        """Outputs for the place of the centre link."""
         turn, angles = self.turn(way), self._angles
         _, turned, rate = self.four_bar.turned(turn * angles)
         turned = np.column_stack([angles, turned])

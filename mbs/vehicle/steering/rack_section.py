@@ -42,7 +42,7 @@ class RackSection(SteeringSection):
         return self.key("rack_travel"), self.rack_travel
 
     def wheel_at(self, motion: float) -> tuple[float, float]:
-        """By the travel per turn."""
+        """See the base class; the travel per turn gives it."""
         rate = 2.0 * math.pi / self.rack_per_turn
         return rate * motion, rate
 

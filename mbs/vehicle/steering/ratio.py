@@ -21,10 +21,6 @@ def tie_ratio(b: CarBuilder, data: SteeringSection, name: str, held: Guide, turn
     ----------
     b : CarBuilder
         With the outputs of the steering.
-    data : SteeringSection
-        Of the file.
-    name : str
-        Of the ratio in it.
     held : Guide
         Of the travel of the rack, of the angle in the table, or of the angle of the arm.
     turn : float

@@ -44,8 +44,6 @@ def tie_rods(m: Model, guide: Guide) -> list[Joint]:
     ----------
     m : Model
         With the suspension.
-    guide : Guide
-        Of the rack.
     """
     return [
         joint

@@ -103,8 +103,6 @@ def read_curves(folder: Path, name: str, key: str) -> CurveTable:
     ----------
     folder : Path
         Of the car.
-    name : str
-        Of the file.
     key : str
         Key path of the name, for messages.
 

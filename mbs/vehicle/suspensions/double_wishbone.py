@@ -72,7 +72,7 @@ class SteeringStop(Section):
     length: Length
     """Distance of the two points below which it acts."""
     stiffness: StopStiffness
-    """Where it begins."""
+    """Stiffness where the contact begins."""
     travel: SmallLength
     """Compression at which metal meets metal."""
     metal_stiffness: MetalStiffness

@@ -6,7 +6,6 @@ import platform
 import shutil
 import subprocess
 import sys
-import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -15,6 +14,7 @@ import pytest
 
 from hosts.fmu.built_fmu import build_fmu, fmu_of_car
 from hosts.plant import Car
+from tests.fmu.native import unpack
 
 HERE = Path(__file__).parents[3] / "hosts" / "c"
 HEADERS = Path(fmpy.__file__).parent / "c-code"
@@ -34,12 +34,6 @@ def compiled(compiler: Sequence[str], source: Path, folder: Path) -> Path:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return program
-
-
-def unpacked(fmu: Path, folder: Path) -> Path:
-    with zipfile.ZipFile(fmu) as archive:
-        archive.extractall(folder)
-    return folder
 
 
 def driven() -> list[float]:
@@ -66,7 +60,7 @@ def check(command: Sequence[str]) -> None:
 @pytest.fixture
 def prototype(tmp_path: Path) -> Path:
     """A folder with a blank in its name."""
-    return unpacked(fmu_of_car("prototype", lambda line: None), tmp_path / "the car")
+    return unpack(fmu_of_car("prototype", lambda line: None), tmp_path / "the car")
 
 
 @pytest.mark.slow
@@ -113,6 +107,6 @@ def test_other_platforms_get_the_same_bits(runner: str, tmp_path: Path) -> None:
         pytest.skip(f"{runner} is not there")
     name, target, command = PLATFORMS[runner]
     build_fmu("the car prototype", ("--car", "prototype", "--platforms", name), tmp_path)
-    folder = unpacked(next(tmp_path.glob("*.fmu")), tmp_path / "car")
+    folder = unpack(next(tmp_path.glob("*.fmu")), tmp_path / "car")
     compiler = [sys.executable, "-m", "ziglang", "c++", "-target", target]
     check([*command, str(compiled(compiler, HERE / "drive.cpp", tmp_path)), str(folder)])

@@ -15,12 +15,9 @@ from hosts.catalogue.standard import braking_in_a_turn
 from hosts.catalogue.turn_braking_measures import Stop, measures_of
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
+from tests.hosts.catalogue.measured import values
 
 FEW = {"levels": 2.0, "pedal": 0.3, "deceleration": 4.0}
-
-
-def values(record: TestRecord) -> dict[str, float]:
-    return {m.name: m.value for m in record.measures}
 
 
 def turn(deceleration: float, factor: float, radius: float, drift: float) -> Stop:

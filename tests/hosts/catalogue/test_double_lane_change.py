@@ -18,13 +18,10 @@ from hosts.catalogue.standard.double_lane_change import _LAYOUTS, DRIVERS, limit
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 from hosts.driving.result import Result
+from tests.hosts.catalogue.measured import values
 
 OBSTACLE = {"course": 2.0, "lowest": 60.0, "highest": 80.0, "increment": 10.0, "resolution": 5.0}
 LANE = Course("lane", (Gate(10.0, 30.0, -1.5, 1.5),))
-
-
-def values(record: TestRecord) -> dict[str, float]:
-    return {m.name: m.value for m in record.measures}
 
 
 def passage(speed: float, aside: float, until: float = 50.0, driver: str = "centre line") -> Passage:

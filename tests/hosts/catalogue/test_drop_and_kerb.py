@@ -12,10 +12,7 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.standard import drop, kerb
-
-
-def values(record: TestRecord) -> dict[str, float]:
-    return {m.name: m.value for m in record.measures}
+from tests.hosts.catalogue.measured import values
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,8 @@ from pathlib import Path
 import psutil
 import pytest
 
-from ali3.isolated import Lost, done_by
+from ali3.isolated import Lost
+from ali3.shared_tasks import done_by
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.task import Task, do

@@ -19,13 +19,10 @@ from hosts.catalogue.two_sides import asymmetry
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from tests.hosts.catalogue.bicycle import ROLL_PER_ACCELERATION, BicycleCar, bicycle, gains, mode
+from tests.hosts.catalogue.measured import values
 
 SPEED = 100.0 / 3.6
 LOCK = {"vehicle.steering_wheel_angle_max": 8.0}
-
-
-def values(record: TestRecord) -> dict[str, float]:
-    return {m.name: m.value for m in record.measures}
 
 
 @pytest.fixture(scope="module")

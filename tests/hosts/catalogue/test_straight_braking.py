@@ -14,12 +14,9 @@ from hosts.catalogue.perform import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.standard import straight_braking
 from hosts.driving.result import Result
+from tests.hosts.catalogue.measured import values
 
 G = 9.81
-
-
-def values(record: TestRecord) -> dict[str, float]:
-    return {m.name: m.value for m in record.measures}
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Literal
 
-from mbs.flexible import FiniteElementModel, read_calculix
+from mbs.flexible.calculix import read_calculix
+from mbs.flexible.fe_model import FiniteElementModel
 from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
 from mbs.vehicle.files import beside
 

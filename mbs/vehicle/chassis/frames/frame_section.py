@@ -11,7 +11,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Discriminator, Field, Tag
 
-from mbs.flexible import FiniteElementModel
+from mbs.flexible.fe_model import FiniteElementModel
 from mbs.vehicle.chassis.gauges.reading import Reading
 from mbs.vehicle.quantities import Fraction, Frequency
 from mbs.vehicle.section import Section

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pydantic import Field
 
-from mbs.flexible import FiniteElementModel
+from mbs.flexible.fe_model import FiniteElementModel
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.chassis.gauges import MatrixGauge
 from mbs.vehicle.chassis.gauges.reading import in_order

@@ -6,7 +6,7 @@ import pickle
 from functools import lru_cache
 from pathlib import Path
 
-from mbs.flexible import FiniteElementModel
+from mbs.flexible.fe_model import FiniteElementModel
 from mbs.vehicle.chassis.frames.frame_section import Structure
 from mbs.vehicle.chassis.gauges.reading import in_order
 from mbs.vehicle.chassis.tube_tables import TubeTables

@@ -20,8 +20,6 @@ class Reading:
         First part of the output's name, as "stress".
     gauge : str
         Second part.
-    unit, description : str
-        Of the output.
     row : ndarray, shape (n_dof,)
         Per nodal displacement, m and rad.
     """
@@ -34,7 +32,7 @@ class Reading:
 
     @property
     def name(self) -> str:
-        """Of the output."""
+        """Name of the output."""
         return f"{self.quantity}.{self.gauge}"
 
 

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from mbs.common.errors import ModelError
-from mbs.flexible import FiniteElementModel
+from mbs.flexible.fe_model import FiniteElementModel
 from mbs.vehicle.chassis.gauges.reading import STRESS, Reading
 from mbs.vehicle.section import Section
 from mbs.vehicle.table import Row, read_table

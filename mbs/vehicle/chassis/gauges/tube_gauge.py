@@ -10,8 +10,9 @@ import numpy as np
 from pydantic import Discriminator, Tag
 
 from mbs.common.errors import ModelError
-from mbs.flexible import Frame, StrainGauge
 from mbs.flexible.beam_axes import beam_axes
+from mbs.flexible.frame import Frame
+from mbs.flexible.recovery import StrainGauge
 from mbs.vehicle.chassis.gauges.reading import STRESS, Reading
 from mbs.vehicle.quantities import Fraction, Quantity
 from mbs.vehicle.section import Section
@@ -42,14 +43,14 @@ class TubeGauge(Section):
     """Place along it from the first joint."""
     bridge: Literal["half", "quarter", "axial", "torsion"] = "half"
     """half: a gauge on the fibre minus one on the opposite fibre, for bending; quarter: the gauge on the fibre alone;
-    axial: all round, for pull; torsion: under 45 degrees all round, for twist."""
+    axial: around the whole tube, for tension; torsion: at 45 degrees around it, for twist."""
     fibre: Fibre = "top"
     """Fibre of the gauge: the one farthest up, down, to the left, right, front or rear of the car as drawn; or its
     angle in degrees from the highest fibre (of a tube steeper than 18 degrees from upright: the foremost),
     right-handed about the tube from its first to its last joint."""
 
     def faults(self) -> Iterator[str]:
-        """A bridge all round the tube has no fibre."""
+        """A bridge around the whole tube has no fibre."""
         if self.bridge in ("axial", "torsion") and "fibre" in self.model_fields_set:
             yield f"{self.key('fibre')} is {self.fibre!r}; a bridge of kind '{self.bridge}' has no fibre, leave it out."
 

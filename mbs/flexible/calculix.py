@@ -12,20 +12,15 @@ from scipy.sparse.linalg import spsolve
 from ali3.extras import missing_module
 from ali3.reading import no_file
 from mbs.common.errors import ModelError
-from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.foreign_file import read_foreign
+from mbs.flexible.matrix_files import external_model
 
 
 def read_calculix(deck: str | Path) -> FiniteElementModel:
     """Model of solid elements from ``name.inp`` and the files ``name.sti``, ``.mas`` and ``.dof`` beside it.
 
     The deck must have no supports and SI units; nodes keep their numbers as names and have three translations.
-
-    Parameters
-    ----------
-    deck : str or Path
-        Input deck.
 
     Returns
     -------

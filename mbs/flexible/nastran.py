@@ -10,9 +10,9 @@ import scipy.sparse as sp
 from ali3.reading import no_file
 from mbs.common.errors import ModelError
 from mbs.flexible.bulk_data import grid_points
-from mbs.flexible.external_model import external_model
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.foreign_file import read_foreign
+from mbs.flexible.matrix_files import external_model
 from mbs.flexible.output4 import read_output4
 from mbs.flexible.sparse import Sparse
 

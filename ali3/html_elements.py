@@ -1,0 +1,97 @@
+"""Reports of HTML elements; text in them is escaped because it is text."""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import lxml.html
+from lxml.html import builder
+
+from ali3 import html
+
+if TYPE_CHECKING:
+    from lxml.html import HtmlElement
+
+Content: TypeAlias = "HtmlElement | str"
+_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
+"""What no text of a document can have."""
+
+
+def element(tag: str, /, *content: Content, **attributes: Any) -> HtmlElement:
+    """One element.
+
+    Parameters
+    ----------
+    **attributes : object
+        A trailing underscore is left out, others become hyphens.
+    """
+    made = getattr(builder, tag.upper(), None)
+    node = made() if made is not None else builder.E(tag)
+    for key, value in attributes.items():
+        node.set(key.rstrip("_").replace("_", "-"), clean(str(value)))
+    for part in content:
+        if not isinstance(part, str):
+            node.append(part)
+        elif len(node):
+            node[-1].tail = (node[-1].tail or "") + clean(part)
+        else:
+            node.text = (node.text or "") + clean(part)
+    return node
+
+
+def clean(text: str) -> str:
+    """Text without characters that a document cannot have."""
+    return _FORBIDDEN.sub("\ufffd", text)
+
+
+def table(
+    caption: str, head: Sequence[Content], rows: Iterable[Sequence[Content]], kind: str | None = None
+) -> HtmlElement:
+    """A table that can be scrolled sideways; the first cell of a row is its header.
+
+    Parameters
+    ----------
+    caption : str
+        Above the table; without one a heading over it says what it is.
+    rows : iterable of sequence of HtmlElement or str
+        A row of one cell is a heading over the next ones; a cell that is itself a ``td`` is taken as it is.
+    kind : str, optional
+        Class of the table.
+    """
+    body = []
+    for first, *others in rows:
+        if others:
+            cells = [c if not isinstance(c, str) and c.tag == "td" else element("td", c) for c in others]
+            body.append(element("tr", element("th", first, scope="row"), *cells))
+        else:
+            body.append(element("tr", element("th", first, colspan=len(head), scope="colgroup", class_="group")))
+    heads = [element("th", cell, scope="col") if cell else element("td") for cell in head]
+    above, named = ([element("caption", caption)], {"role": "region", "aria_label": caption}) if caption else ([], {})
+    parts = [*above, element("thead", element("tr", *heads)), element("tbody", *body)]
+    made = element("table", *parts) if kind is None else element("table", *parts, class_=kind)
+    return element("div", made, class_="wide", tabindex=0, **named)
+
+
+def picture(png: bytes, what: str) -> HtmlElement:
+    """An image within the page, with what it shows in words."""
+    source = f"data:image/png;base64,{base64.b64encode(png).decode('ascii')}"
+    return element("figure", element("img", alt=what, src=source), class_="plot")
+
+
+def document(title: str, body: Iterable[HtmlElement], style: str = "") -> str:
+    """One HTML file that needs nothing else, in the style of all reports.
+
+    Parameters
+    ----------
+    style : str
+        CSS beside that of all reports.
+    """
+    return html.report(clean(title), markup(body), style)
+
+
+def markup(parts: Iterable[HtmlElement]) -> str:
+    """Elements as text."""
+    return "\n".join(str(lxml.html.tostring(part, encoding="unicode", method="html")) for part in parts)

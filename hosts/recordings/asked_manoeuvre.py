@@ -1,0 +1,31 @@
+"""What an FMU is run through where a manoeuvre may be given, and where none is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.simulated_fmu import SimulatedFmu
+
+
+def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) -> Manoeuvre:
+    """What an FMU is run through.
+
+    Parameters
+    ----------
+    given : str, optional
+        See `hosts.recordings.load_manoeuvre.load_manoeuvre`; without it inputs keep their start values.
+    stop_time : float, optional
+        s; by default that of the manoeuvre, else that of the FMU's default experiment, else 10 s.
+    """
+    if given is not None:
+        from hosts.recordings.load_manoeuvre import load_manoeuvre
+
+        manoeuvre = load_manoeuvre(given)
+        return manoeuvre if stop_time is None else replace(manoeuvre, stop_time=stop_time)
+    if stop_time is None:
+        experiment = fmu.description.defaultExperiment
+        stop_time = float(experiment.stopTime) if experiment is not None and experiment.stopTime else 10.0
+    return Manoeuvre("run", np.zeros(0), {}, stop_time)

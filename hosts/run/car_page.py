@@ -1,0 +1,140 @@
+"""The page of plots of a car: its path from above, and what is usually looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from ali3.chart_style import BLUE, GREEN, ORANGE, RED, SKY
+from hosts.common.wheels import WHEELS
+from hosts.driving.result import Result
+from hosts.run.plot_panels import draw_lines, table_of
+
+_STANDING = 0.5
+
+
+@dataclass(frozen=True)
+class _Panel:
+    """A plot over time: what, in which unit, which lines (label, variable, colour) and how high it is at least."""
+
+    title: str
+    unit: str
+    lines: tuple[tuple[str, str, str], ...]
+    factor: float = 1.0
+    least: float = 0.0
+
+
+def _wheels(quantity: str) -> tuple[tuple[str, str, str], ...]:
+    colours = (BLUE, SKY, RED, ORANGE)
+    return tuple((w, f"wheel_{w}.{quantity}", c) for w, c in zip(WHEELS, colours, strict=True))
+
+
+def _gauges(quantity: str) -> tuple[tuple[str, str, str], ...]:
+    return tuple((f"SG{k}", f"{quantity}.SG{k}", c) for k, c in enumerate((BLUE, SKY, RED, ORANGE), start=1))
+
+
+_DEGREES = 180.0 / np.pi
+_CAR_PANELS = (
+    _Panel("Speed", "km/h", (("speed", "speed", BLUE),), 3.6),
+    _Panel("Acceleration", "m/s²", (("longitudinal", "chassis.ax", BLUE), ("lateral", "chassis.ay", RED)), 1.0, 0.5),
+    _Panel("Vertical acceleration", "m/s²", (("vertical", "chassis.az", GREEN),), 1.0, 0.5),
+    _Panel("Wheel loads", "kN", _wheels("Fz"), 1e-3),
+    _Panel("Longitudinal forces", "kN", _wheels("Fx"), 1e-3, 0.2),
+    _Panel("Lateral forces", "kN", _wheels("Fy"), 1e-3, 0.2),
+    _Panel(
+        "Inputs",
+        "1",
+        (("steering", "steering", BLUE), ("throttle", "throttle", GREEN), ("brake", "brake", RED)),
+        1.0,
+        0.5,
+    ),
+    _Panel("Wheel travel", "mm", _wheels("travel"), 1e3, 5.0),
+    _Panel("Roll and pitch", "deg", (("roll", "chassis.roll", BLUE), ("pitch", "chassis.pitch", RED)), _DEGREES, 1.0),
+    _Panel("Yaw rate", "deg/s", (("yaw rate", "chassis.wz", BLUE),), _DEGREES, 2.0),
+    _Panel("Sideslip", "deg", (("sideslip", "sideslip", BLUE),), _DEGREES, 1.0),
+    _Panel("Bending moments", "N m", _gauges("bending_moment"), 1.0, 1.0),
+    _Panel("Gauge stresses", "MPa", _gauges("stress"), 1e-6, 1.0),
+)
+
+
+def car_page(result: Result, rows: Sequence[tuple[str, str]], gates: NDArray[np.float64] | None) -> Figure:
+    """Path, summary and panels of a car, on a figure; gates as `hosts.run.result_plots.plot_page` takes them."""
+    hidden = () if _has_stresses(result) else ("bending_moment.", "stress.")
+    panels = [p for p in _CAR_PANELS if any(n in result and not n.startswith(hidden) for _, n, _ in p.lines)]
+    lines = -(-len(panels) // 3)
+    height = 4.0 + 2.6 * lines
+    figure = plt.figure(figsize=(16, height), layout="constrained")
+    engine: Any = figure.get_layout_engine()
+    engine.set(rect=(0.005, 0.005, 0.99, 1.0 - 0.6 / height), w_pad=0.1, h_pad=0.1)
+    grid = figure.add_gridspec(lines + 1, 3, height_ratios=(1.2, *[1.0] * lines))
+    _path(figure.add_subplot(grid[0, :2]), result, np.zeros((0, 4)) if gates is None else gates)
+    table_of(figure.add_subplot(grid[0, 2]), rows)
+    first: Axes | None = None
+    for k, panel in enumerate(panels):
+        axes = figure.add_subplot(grid[1 + k // 3, k % 3], sharex=first)
+        first = first or axes
+        series = [(label, panel.factor * _shown(result, name), c) for label, name, c in panel.lines if name in result]
+        draw_lines(axes, result.time, series, panel.title, panel.unit, steps=panel.title == "Inputs")
+        if k >= len(panels) - 3:
+            axes.set_xlabel("time, s")
+        low, high = axes.get_ylim()
+        if high - low < panel.least:
+            middle = 0.5 * (low + high)
+            axes.set_ylim(middle - 0.5 * panel.least, middle + 0.5 * panel.least)
+        if panel.title == "Speed":
+            axes.set_ylim(min(0.0, low), 1.05 * high)
+    return figure
+
+
+def _has_stresses(result: Result) -> bool:
+    """Whether moments and stresses were computed, not only reported as zero."""
+    return "stress.computed" in result and bool(result["stress.computed"][0])
+
+
+def _shown(result: Result, name: str) -> np.ndarray:
+    """Values to be drawn: a car that stands has no direction of travel."""
+    values = result[name]
+    if name != "sideslip" or "chassis.vx" not in result:
+        return values
+    return np.where(np.abs(result["chassis.vx"]) < _STANDING, np.nan, values)
+
+
+def _path(axes: Axes, result: Result, gates: NDArray[np.float64]) -> None:
+    x, y = result["chassis.x"], result["chassis.y"]
+    for first, last, right, left in gates:
+        axes.add_patch(Rectangle((first, right), last - first, left - right, facecolor="#f6e7c1", edgecolor="none"))
+        cones = np.linspace(first, last, 6)
+        for edge in (right, left):
+            axes.plot(cones, np.full(6, edge), "^", color=ORANGE, markersize=5, zorder=3)
+    axes.plot(x, y, color=BLUE, linewidth=2.2, zorder=4)
+    seconds = np.arange(0.0, result.time[-1] + 1e-9, max(1.0, np.ceil(result.time[-1] / 20.0)))
+    marks = np.clip(np.searchsorted(result.time, seconds), 0, len(x) - 1)
+    axes.plot(x[marks], y[marks], "o", color=BLUE, markersize=4, zorder=5)
+    axes.annotate("start", (x[0], y[0]), textcoords="offset points", xytext=(0, 8), ha="center", color=BLUE)
+    # A long course with small turns would be a needle on equal scales.
+    width, height = max(float(np.ptp(x)), 4.0), float(np.ptp(y))
+    reached = np.append(gates[:, 2:], y)
+    low, high = float(reached.min()), float(reached.max())
+    stretched = height > 0.02 * width and high - low < 0.12 * width
+    middle = 0.5 * float(x.min() + x.max())
+    if not stretched:
+        across = 0.5 * float(y.min() + y.max())  # a car that stands still or straight has no height
+        axes.update_datalim([(middle + s * width, across + 0.1 * s * width) for s in (-0.5, 0.5)])
+        axes.autoscale_view()
+        axes.set_aspect("equal", adjustable="datalim")
+    else:
+        pad = 0.25 * (high - low)
+        axes.set_ylim(low - pad, high + pad)
+    note = "y stretched" if stretched else "same scale on both axes"
+    interval = seconds[1] - seconds[0] if len(seconds) > 1 else 1.0
+    axes.set_title(f"Path seen from above ({note}; a dot every {interval:g} s)")
+    axes.set_xlabel("x, m")
+    axes.set_ylabel("y, m")

@@ -1,0 +1,49 @@
+"""What pages of plots are put together from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ali3.chart_style import BLACK
+
+
+def table_of(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
+    """The summary, in axes of its own."""
+    axes.axis("off")
+    axes.set_title("Summary")
+    n = max(len(rows), 10)
+    for k, (what, value) in enumerate(rows):
+        y = 1.0 - (k + 0.5) / n
+        axes.text(0.0, y, what, transform=axes.transAxes, va="center", fontsize=9, color="#555555")
+        axes.text(0.45, y, value, transform=axes.transAxes, va="center", fontsize=9, color=BLACK)
+
+
+def draw_lines(
+    axes: Axes,
+    t: np.ndarray,
+    series: Sequence[tuple[str, np.ndarray, str]],
+    title: str,
+    unit: str,
+    steps: bool = False,
+) -> None:
+    """Curves of one unit over time t, s, each by label, values and colour; `steps` where each value ends a step."""
+    for label, values, colour in series:
+        # The right wheels are dashed, so that the left ones show through where they do the same.
+        style = (0, (4, 3)) if label in ("FR", "RR") else "-"
+        axes.plot(t, values, color=colour, label=label, linestyle=style, drawstyle="steps-pre" if steps else "default")
+    axes.set_title(title)
+    axes.set_ylabel(unit if unit != "1" else "")
+    axes.margins(x=0)
+    if len(series) > 1:
+        axes.legend(
+            ncols=len(series),
+            loc="lower right",
+            bbox_to_anchor=(1.01, 0.985),
+            borderaxespad=0.1,
+            handlelength=1.1,
+            columnspacing=0.7,
+            handletextpad=0.4,
+        )

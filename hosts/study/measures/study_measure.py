@@ -1,0 +1,55 @@
+"""What every measure of a study can do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+from hosts.common.numbers import Value
+from hosts.driving.result import Result
+from hosts.measures.measure import Measure
+
+
+class StudyMeasure(Protocol):
+    """What is measured of every run; it can be pickled."""
+
+    @property
+    def name(self) -> str:
+        """Of its column, or what its columns begin with."""
+
+    @property
+    def text(self) -> str:
+        """As the user wrote it."""
+
+    @property
+    def signals(self) -> frozenset[str]:
+        """What it reads of a run; empty: all, maybe."""
+
+    @property
+    def digest(self) -> str:
+        """Another one where it would measure something else, hexadecimal."""
+
+    def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
+        """Names and units of its numbers.
+
+        Parameters
+        ----------
+        units : mapping of str to str
+            Of the signals of a run.
+        stop_time : float, optional
+            Of every run, s.
+
+        Raises
+        ------
+        HostError
+            No run can yield it: an unknown signal, a sum of different units, a time after the end.
+        """
+
+    def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
+        """Its numbers of a run in the order of `columns`, NaN with a note where the run does not yield them.
+
+        Parameters
+        ----------
+        parameters : mapping of str to float, int, bool or str, optional
+            What was set before the start.
+        """
