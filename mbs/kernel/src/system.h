@@ -153,6 +153,9 @@ struct ali3_system {
   double *mass_floor_inverse; /* nq */
   double *mass_missing; /* nq: mass_floor - M_ii where M_ii is zero, else 0 */
   int32_t *mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns */
+  /* 1: this one and the next two are components of a point or a direction: entry by entry of the first the columns of
+   * the others are one and two further. nq: rows of mass_ptr; n_active: active_signal; as el_sig: signals */
+  unsigned char *mass_triple, *active_triple, *el_triple;
   int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;

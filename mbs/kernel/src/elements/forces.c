@@ -105,12 +105,8 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     double *f = in->element_force + S->el_sig_ptr[e];
     local(in, e, u, ud);
     in->idle[e] = ali3_element_forces(in, call, e, u, ud, f, tangent) ? 1 : 0;
-    if (in->idle[e]) continue;
-    for (int32_t i = 0; i < S->el_sig_ptr[e + 1] - S->el_sig_ptr[e]; i++) {
-      const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
-      for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) Q[S->sig_col[k]] += S->sig_val[k] * f[i];
-    }
   }
+  ali3_add_forces(in, in->element_force, Q);
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
 }
 

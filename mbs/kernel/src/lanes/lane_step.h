@@ -71,24 +71,9 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
   }
   ali3_active_signals(in, q, qd);
   elements(in, lanes, tangent);
-  const int32_t *ptr = S->sig_ptr, *col = S->sig_col, *el_sig = S->el_sig;
-  const double *val = S->sig_val;
   real *Q = S->n_tabled > 0 ? in->extended_force : in->Q; /* with those on dependents behind */
-  const real *f = in->f;
   memcpy(Q, in->gravity_force, (size_t)nq * sizeof *Q);
-  for (int32_t e = 0; e < S->size.ne; e++) {
-    const truth idle = in->idle[e];
-    const bool some = ali3_any(idle);
-    if (some && !ali3_any(ali3_not(idle))) continue;
-    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
-      const int32_t signal = el_sig[i];
-      const real force = f[i];
-      for (int32_t k = ptr[signal]; k < ptr[signal + 1]; k++) {
-        const real sum = Q[col[k]] + val[k] * force;
-        Q[col[k]] = some ? ali3_where(idle, Q[col[k]], sum) : sum;
-      }
-    }
-  }
+  ali3_add_forces(in, in->f, Q);
   if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->Q);
 }
 

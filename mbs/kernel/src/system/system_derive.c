@@ -44,6 +44,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->mass_floor_inverse = ali3_pool_items(p, nq, sizeof(double));
   s->mass_missing = ali3_pool_items(p, nq, sizeof(double));
   s->mass_alike = ali3_pool_items(p, nq, sizeof(int32_t));
+  s->mass_triple = ali3_pool_items(p, nq, 1);
   s->mass_mirror = ali3_pool_items(p, (size_t)s->n_mass_col, sizeof(int32_t));
   s->diagonal_pos = ali3_pool_items(p, nq, sizeof(int32_t));
   s->el_kind = ali3_pool_items(p, ne, sizeof *s->el_kind);
@@ -58,6 +59,8 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_coordinate_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->el_coordinate_loc = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->active_signal = ali3_pool_items(p, (size_t)s->size.nsig, sizeof(int32_t));
+  s->active_triple = ali3_pool_items(p, (size_t)s->size.nsig, 1);
+  s->el_triple = ali3_pool_items(p, (size_t)s->n_el_sig, 1);
   s->flex_square = ali3_pool_items(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
   ali3_tabled_place(s, p, n_entry);
   s->tree = s->n_tree_parent > 0 ? ali3_pool_items(p, 1, sizeof *s->tree) : NULL;
@@ -117,6 +120,25 @@ static void derive_rows(ali3_system *s) {
                                     .hs = s->angle_hs[t]};
       s->angle[t] = term;
     }
+  }
+}
+
+/* Whether rows i to i + 2 of a sparse matrix have the same columns, one further from row to row, and none twice. */
+static bool is_triple(const int32_t *ptr, const int32_t *col, int32_t i) {
+  const int32_t n = ptr[i + 1] - ptr[i];
+  const int32_t *a = col + ptr[i], *b = col + ptr[i + 1], *c = col + ptr[i + 2];
+  if (n == 0 || ptr[i + 2] - ptr[i + 1] != n || ptr[i + 3] - ptr[i + 2] != n) return false;
+  for (int32_t k = 0; k < n; k++)
+    if (b[k] != a[k] + 1 || c[k] != a[k] + 2 || (k > 0 && a[k] < a[k - 1] + TRIPLE)) return false;
+  return true;
+}
+
+/* Triples of n rows in the order in which they are gone through. */
+static void derive_triples(const int32_t *ptr, const int32_t *col, const int32_t *row, int32_t n,
+                           unsigned char *triple) {
+  for (int32_t a = 0; a < n; a++) {
+    triple[a] = a + 2 < n && row[a + 1] == row[a] + 1 && row[a + 2] == row[a] + 2 && is_triple(ptr, col, row[a]);
+    if (triple[a]) triple[a + 1] = triple[a + 2] = 0, a += 2;
   }
 }
 
@@ -272,6 +294,7 @@ static void derive_mass_rows(ali3_system *s) {
     const bool alike = i + 1 < s->size.nq && ptr[i + 2] - ptr[i + 1] == n &&
                        memcmp(col + ptr[i], col + ptr[i + 1], (size_t)n * sizeof *col) == 0;
     s->mass_alike[i] = alike ? s->mass_alike[i + 1] + 1 : 1;
+    s->mass_triple[i] = i + 2 < s->size.nq && is_triple(ptr, col, i);
     for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
       const int32_t j = col[k];
       s->mass_mirror[k] = ptr[j] + ali3_find(col + ptr[j], ptr[j + 1] - ptr[j], i);
@@ -346,6 +369,11 @@ static void derive_elements(ali3_system *s) {
   for (int64_t i = 0; i < s->n_el_sig; i++) s->active_signal[s->el_sig[i]] = 1;
   for (int32_t i = 0; i < s->size.nsig; i++)
     if (s->active_signal[i]) s->active_signal[s->n_active++] = i;
+  derive_triples(s->sig_ptr, s->sig_col, s->active_signal, s->n_active, s->active_triple);
+  for (int32_t e = 0; e < ne; e++) {
+    const int32_t first = s->el_sig_ptr[e];
+    derive_triples(s->sig_ptr, s->sig_col, s->el_sig + first, s->el_sig_ptr[e + 1] - first, s->el_triple + first);
+  }
 }
 
 /* Elements that sensors of work name, in their own order. */
