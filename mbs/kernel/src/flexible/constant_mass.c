@@ -38,7 +38,7 @@ ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, re
   for (int32_t i = 0; i < S->size.nq; i++) {
     const int32_t alike = S->mass_alike[i];
     real sum = {0};
-    if (S->mass_triple[i]) {
+    if (alike == 0) {
       three_rows(val + ptr[i], col + ptr[i], ptr[i + 1] - ptr[i], x, out + i);
       i += 2;
       continue;

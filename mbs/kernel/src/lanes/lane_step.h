@@ -20,15 +20,16 @@ static truth all_finite(const real *v, int32_t n) {
 static void law(ali3_lane_group *g, int32_t e, bool tangent) {
   const ali3_system *S = g->system;
   const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
-  real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
-  for (int32_t i = 0; i < n; i++) u[i] = g->u[signal[i]], ud[i] = g->ud[signal[i]];
+  const int32_t beside = S->el_beside[e];
+  real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
+  for (int32_t i = 0; beside < 0 && i < n; i++) u[i] = g->u[signal[i]], ud[i] = g->ud[signal[i]];
   ali3_element_args a = {.nsig = n,
                          .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
                          .nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e],
                          .nstate = S->el_state_ptr[e + 1] - S->el_state_ptr[e],
                          .nout = S->el_out_ptr[e + 1] - S->el_out_ptr[e],
-                         .u = u,
-                         .ud = ud,
+                         .u = beside < 0 ? u : g->u + beside,
+                         .ud = beside < 0 ? ud : g->ud + beside,
                          .y_old = g->now.y + S->el_state_ptr[e],
                          .y_new = g->next.y + S->el_state_ptr[e],
                          .h = g->h,
