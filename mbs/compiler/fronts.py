@@ -118,7 +118,9 @@ def _merge(structure: list[set[int]], parent: list[int]) -> tuple[dict[int, list
 
 
 def _number(order: Index, structure: list[set[int]], groups: dict[int, list[int]], above: dict[int, int]) -> Fronts:
-    """Number fronts in postorder and make their pivots contiguous."""
+    """Number fronts in postorder and make their pivots contiguous, in the order of the model: a front is dense, and
+    components of a point that follow each other are cheaper.
+    """
     children: dict[int, list[int]] = {k: [] for k in groups}
     roots = []
     for k in sorted(groups):
@@ -134,7 +136,7 @@ def _number(order: Index, structure: list[set[int]], groups: dict[int, list[int]
         stack.extend(children[k])
     post.reverse()
     front_of = {k: s for s, k in enumerate(post)}
-    sequence = [c for k in post for c in sorted(groups[k])]
+    sequence = [c for k in post for c in sorted(groups[k], key=order.__getitem__)]
     new = np.empty(len(order), dtype=np.int64)
     new[sequence] = np.arange(len(order))
     col = np.concatenate([[0], np.cumsum([len(groups[k]) for k in post])]).astype(np.int64)

@@ -79,11 +79,11 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias));
 typedef int64_t ali3_four_bits __attribute__((vector_size(32), aligned(8)));
 
-/* The larger one of the size of x and `most`. */
-static inline ali3_four ali3_larger(ali3_four x, ali3_four most) {
-  const ali3_four size = (ali3_four)((ali3_four_bits)x & INT64_MAX);
-  const ali3_four_bits larger = (ali3_four_bits)(size > most);
-  return (ali3_four)((larger & (ali3_four_bits)size) | (~larger & (ali3_four_bits)most));
+/* The larger ones of the sizes of x and of `most` go to *most. */
+static inline void ali3_take_larger(ali3_four *most, const ali3_four *x) {
+  const ali3_four size = (ali3_four)((ali3_four_bits)*x & INT64_MAX);
+  const ali3_four_bits larger = (ali3_four_bits)(size > *most);
+  *most = (ali3_four)((larger & (ali3_four_bits)size) | (~larger & (ali3_four_bits)*most));
 }
 
 /* x y in four sums from the far end on: what is nearest, which a back substitution has found last, is waited for by the
@@ -183,8 +183,10 @@ static inline real ali3_largest_product(const real *x, const double *factor, int
 #ifndef ALI3_WIDTH
   ali3_four largest = {0};
   ALI3_SHORT
-  for (; i + 3 < n; i += 4)
-    largest = ali3_larger(*(const ali3_four *)(x + i) * *(const ali3_four *)(factor + i), largest);
+  for (; i + 3 < n; i += 4) {
+    const ali3_four product = *(const ali3_four *)(x + i) * *(const ali3_four *)(factor + i);
+    ali3_take_larger(&largest, &product);
+  }
   for (int k = 0; k < 4; k++) most = largest[k] > most ? largest[k] : most;
 #endif
   ALI3_SHORT
@@ -202,7 +204,7 @@ static inline real ali3_largest(const real *x, int64_t n) {
 #ifndef ALI3_WIDTH
   ali3_four largest = {0};
   ALI3_SHORT
-  for (; i + 3 < n; i += 4) largest = ali3_larger(*(const ali3_four *)(x + i), largest);
+  for (; i + 3 < n; i += 4) ali3_take_larger(&largest, (const ali3_four *)(x + i));
   for (int k = 0; k < 4; k++) most = largest[k] > most ? largest[k] : most;
 #endif
   ALI3_SHORT
