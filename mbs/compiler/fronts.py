@@ -50,11 +50,7 @@ def _trapezoid(pivots: int, size: int) -> int:
 
 
 def build_fronts(pattern: sparse.csc_matrix, order: Index, as_drawn: bool = True) -> Fronts:
-    """Fronts of a symmetric pattern for an elimination order.
-
-    The pivots of a front, which is dense, are `as_drawn` in the order of the model, where components of a point follow
-    each other; else in the elimination order, which has the modes of flexible bodies last.
-    """
+    """Fronts of a symmetric pattern for an elimination order; `as_drawn`: their pivots in the order of the model."""
     n = pattern.shape[0]
     if n == 0:
         return Fronts(np.zeros(0, int), np.zeros(1, int), [], np.zeros(0, int))
@@ -62,8 +58,9 @@ def build_fronts(pattern: sparse.csc_matrix, order: Index, as_drawn: bool = True
         return Fronts(np.asarray(order), np.array([0, n]), [np.arange(n)], np.array([-1]))
     structure = _columns(pattern, order)
     parent = [min(s) if s else -1 for s in structure]
-    groups, above = _merge(structure, parent)
-    return _number(np.asarray(order), structure, groups, above, as_drawn)
+    pivots, above = _merge(structure, parent)
+    groups = {k: sorted(front, key=order.__getitem__ if as_drawn else None) for k, front in pivots.items()}
+    return _number(np.asarray(order), structure, groups, above)
 
 
 def _columns(pattern: sparse.csc_matrix, order: Index) -> list[set[int]]:
@@ -121,9 +118,7 @@ def _merge(structure: list[set[int]], parent: list[int]) -> tuple[dict[int, list
     return pivots, {k: (find(parent[k]) if parent[k] >= 0 else -1) for k in pivots}
 
 
-def _number(
-    order: Index, structure: list[set[int]], groups: dict[int, list[int]], above: dict[int, int], as_drawn: bool
-) -> Fronts:
+def _number(order: Index, structure: list[set[int]], groups: dict[int, list[int]], above: dict[int, int]) -> Fronts:
     """Number fronts in postorder and make their pivots contiguous."""
     children: dict[int, list[int]] = {k: [] for k in groups}
     roots = []
@@ -140,7 +135,7 @@ def _number(
         stack.extend(children[k])
     post.reverse()
     front_of = {k: s for s, k in enumerate(post)}
-    sequence = [c for k in post for c in sorted(groups[k], key=order.__getitem__ if as_drawn else None)]
+    sequence = [c for k in post for c in groups[k]]
     new = np.empty(len(order), dtype=np.int64)
     new[sequence] = np.arange(len(order))
     col = np.concatenate([[0], np.cumsum([len(groups[k]) for k in post])]).astype(np.int64)
