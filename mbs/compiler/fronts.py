@@ -51,8 +51,12 @@ def _trapezoid(pivots: int, size: int) -> int:
     return pivots * size - pivots * (pivots - 1) // 2
 
 
-def build_fronts(pattern: sparse.csc_matrix, order: Index, late: Mapping[int, int] = MappingProxyType({})) -> Fronts:
-    """Fronts of a symmetric pattern for an elimination order; pivots in `late` come last, by its numbers."""
+def build_fronts(
+    pattern: sparse.csc_matrix, order: Index, late: Mapping[int, int] = MappingProxyType({}), as_drawn: bool = True
+) -> Fronts:
+    """Fronts of a symmetric pattern for an elimination order; `as_drawn`: their pivots in the order of the model, else
+    in that order. Pivots in `late` come last in their front, by its numbers.
+    """
     n = pattern.shape[0]
     if n == 0:
         return Fronts(np.zeros(0, int), np.zeros(1, int), [], np.zeros(0, int))
@@ -60,9 +64,10 @@ def build_fronts(pattern: sparse.csc_matrix, order: Index, late: Mapping[int, in
         return Fronts(np.asarray(order), np.array([0, n]), [np.arange(n)], np.array([-1]))
     structure = _columns(pattern, order)
     parent = [min(s) if s else -1 for s in structure]
-    groups, above = _merge(structure, parent)
+    pivots, above = _merge(structure, parent)
     ranks = {k: (late[c], c) for k, c in enumerate(map(int, order)) if c in late}
-    groups = {k: sorted(p, key=lambda c: ranks.get(c, (0, c))) for k, p in groups.items()}
+    drawn = {k: (0, int(c)) if as_drawn else (0, k) for k, c in enumerate(order)} | ranks
+    groups = {k: sorted(front, key=drawn.__getitem__) for k, front in pivots.items()}
     return _number(np.asarray(order), structure, groups, above)
 
 

@@ -274,16 +274,17 @@ def _symbolic(
     cliques: list[list[int]] = [[int(i), int(j)] for i, j in zip(entries.row, entries.col, strict=True) if i > j]
     cliques += [row.columns() for row in rows]
     behind, nz = columns_of(model, known.seen), mass.shape[0]
-    cliques += flexible_cliques(model, full) + payload_cliques(model, full) + inertia_cliques(model, full)
+    modes = flexible_cliques(model, full)
+    cliques += modes + payload_cliques(model, full) + inertia_cliques(model, full)
     cliques += tabled_cliques(model, known.seen)
 
     def pattern_with(room: Mapping[int, frozenset[int]]) -> sparse.csc_matrix:
         return clique_pattern(nz, cliques + [spread(c, behind, nz) for c in element_cliques(model, known.seen, room)])
 
     drawn = pattern_with({})  # columns of modes lie side by side:
-    late = {c: k for k, places in enumerate(flexible_cliques(model, full), 1) for c in places[12:]}
+    late = {c: k for k, places in enumerate(modes, 1) for c in places[12:]}
     if not model.written_axes:
-        return build_fronts(drawn, fill_reducing_order(drawn), late), (drawn.nnz + nz) // 2
+        return build_fronts(drawn, fill_reducing_order(drawn), late, not modes), (drawn.nnz + nz) // 2
     cliques += axis_cliques(model, full)  # what turns the axes of wheels has room; the order is that without
     room = pattern_with(axis_room(model, known.seen))
-    return build_fronts(room, fill_reducing_order(drawn), late), (drawn.nnz + nz) // 2
+    return build_fronts(room, fill_reducing_order(drawn), late, not modes), (drawn.nnz + nz) // 2

@@ -47,6 +47,16 @@ def test_the_numeric_factor_fits_into_the_fronts(seed, n):
             assert set(rest) <= set(fronts.index[parent])
 
 
+@pytest.mark.parametrize("n", [60, 150])
+def test_pivots_of_a_front_are_in_the_order_of_the_model(n):
+    rng = np.random.default_rng(n)
+    pattern = clique_pattern(n, [rng.choice(n, size=4, replace=False) for _ in range(n)])
+    fronts = build_fronts(pattern, fill_reducing_order(pattern))
+    pivots = [fronts.order[first:end] for first, end in zip(fronts.col, fronts.col[1:], strict=False)]
+    assert max(map(len, pivots)) > 5
+    assert all(np.all(np.diff(p) > 0) for p in pivots)
+
+
 @pytest.mark.parametrize("name", MODELS)
 def test_rows_and_mass_point_into_their_fronts(name):
     a = compile(MODELS[name]()).arrays

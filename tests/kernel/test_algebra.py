@@ -209,6 +209,60 @@ def test_fronts_solve_as_one_dense_front_does(
     assert np.linalg.eigvalsh(tangent).min() > 0
 
 
+def net(order: np.ndarray, groups: list[int]) -> SystemBuilder:
+    """Six points in space that hang in springs on combinations of them, and a coordinate beside; in any order."""
+    n = 19
+    place = np.argsort(order)
+    rng = np.random.default_rng(SEED + 7)
+    of_points = rng.normal(size=(6, 6)) / 4
+    mass = np.zeros((n, n))
+    mass[:18, :18] = np.kron(of_points @ of_points.T + np.eye(6), np.eye(3))
+    mass[18, 18] = mass[0, 18] = mass[18, 0] = 0.7
+    q0 = np.append(rng.normal(size=18), 0.3)
+    points = [tuple(int(place[3 * k + i]) for i in range(3)) for k in range(6)]
+    rows = [
+        distance_row(
+            points[k], points[k + 1], float(np.linalg.norm(q0[3 * k + 3 : 3 * k + 6] - q0[3 * k : 3 * k + 3])), False
+        )
+        for k in (0, 2, 4)
+    ]  # type: ignore[arg-type]
+    b = SystemBuilder(
+        mass[np.ix_(order, order)], q0[order], None, -9.81 * np.tile([0, 0, 1.0], 7)[:n][order], rows, groups
+    )
+    for share in rng.normal(size=(5, 6)) * (rng.random((5, 6)) < 0.6) + np.eye(5, 6):
+        signals = [
+            b.signal({p[i]: s for p, s in zip(points, share, strict=True) if s != 0.0}, 0.2 * i) for i in range(3)
+        ]
+        b.elements.append(Element(1, signals, [300.0, 8.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4))
+    b.elements.append(
+        Element(
+            1,
+            [b.signal({int(place[18]): 1.0, points[5][2]: 0.5}), b.signal({points[0][0]: 1.0}, 0.4)],
+            [90.0, 3.0, 0.1, 0.0, 0.0, 1e9, 0.0],
+            outputs=4,
+        )
+    )
+    return b
+
+
+@pytest.mark.parametrize("groups", [[19], [9, 10], [3, 3, 13]], ids=str)
+def test_components_of_points_in_turn_give_what_they_give_in_any_order(groups: list[int]) -> None:
+    """Mass matrix, signals, forces, their tangent and rows take x, y and z together where they follow each other."""
+    turned = np.array([18, *(np.arange(18).reshape(6, 3)[:, ::-1].T.ravel())])
+    ends, tangents = [], []
+    for order in (np.arange(19), turned):
+        b = net(order, groups)
+        instance = initialised(b)
+        instance.set_settings(tolerance_r=1e-13, tolerance_phi=1e-12)
+        tangents.append(np.reshape(instance.tangent(0.01), (19, 19))[np.ix_(np.argsort(order), np.argsort(order))])
+        for _ in range(30):
+            instance.step(0.01)
+        ends.append(np.array(instance.get_state()[0])[np.argsort(order)])
+    assert np.abs(ends[0] - net(np.arange(19), groups).q0).max() > 0.05
+    np.testing.assert_allclose(ends[0], ends[1], atol=1e-10)
+    np.testing.assert_allclose(tangents[0], tangents[1], rtol=1e-9, atol=1e-9 * np.abs(tangents[0]).max())
+
+
 @pytest.mark.parametrize("method", ["energy_momentum", "radau_5"])
 @pytest.mark.parametrize("groups", [[4, 4, 4], [2] * 6, [3, 1, 5, 3]], ids=str)
 def test_fronts_without_symmetry_solve_as_one_dense_front_does(groups: list[int], method: str) -> None:

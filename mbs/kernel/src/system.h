@@ -71,6 +71,8 @@
 enum { ALI3_INERTIA_REALS = 10, ALI3_INERTIA_SIGNALS = 12 }; /* of a body whose inertia parameters write */
 enum { ALI3_AXIS_REALS = 2, ALI3_AXIS_SIGNALS = 9 }; /* of a wheel whose axis parameters write */
 
+enum { ALI3_TRIPLES = 1, ALI3_POINTS }; /* row_triples: the latter where the second factors of terms are so too */
+
 enum { /* par_target: what a parameter writes to */
        ALI3_TARGET_ELEMENT = 0,
        ALI3_TARGET_GUIDE,
@@ -135,13 +137,15 @@ struct ali3_system {
   double *hess_val;
   double *row_round; /* round-off of the violation at the reference position, m */
   unsigned char *row_wide; /* 1: the row fills most of its front */
-  unsigned char *row_triples; /* 1: its coordinates are points and directions, three neighbours each */
+  unsigned char *row_triples; /* not 0: its coordinates are points and directions, three neighbours each */
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
                            with the same ones, those of modes; they stand by columns. Else the end of the row */
   int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which on the coordinates lie side by
                         side; else the end of its terms */
   int32_t *row_alike; /* nc: rows from this one on with the same stretch in the same front; 0: no stretch */
   ali3_term *quad; /* as quad_*; of a row the terms with entries of its stretch stand last */
+  int32_t *quad_pos; /* as quad: its place in front storage */
+  double *quad_second; /* as quad: the second derivative of the term, h or, of a square, 2 h */
   int32_t *quad_end; /* nc: where these begin */
   int32_t *stretch_pos; /* as hess_col: of the first entry of a stretch, front storage of the term; they are a column */
   ali3_angle_term *angle; /* as angle_a */
@@ -154,8 +158,15 @@ struct ali3_system {
   double *mass_missing; /* nq: mass_floor - M_ii where M_ii is zero, else 0 */
   int32_t
       *mass_stretch; /* nq: entries of mass_ptr between which the columns of a row are neighbours, or twice its end */
-  int32_t *mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns */
+  /* A triple are three signals or rows of mass_ptr that are components of a point or a direction: entry by entry of the
+   * first the columns of the others are one and two further. */
+  int32_t *
+      mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns; 0: it is the first of a triple */
+  int32_t *el_beside; /* ne: the first signal of an element whose signals follow each other, else -1 */
+  unsigned char *active_triple,
+      *el_triple; /* n_active, as el_sig: 1: it is the first of a triple that follows in turn */
   int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
+  int32_t *front_side; /* nf: entry of a front, behind its pivots, from which on its coordinates lie side by side */
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;
   int32_t *el_S_off; /* ne+1: offsets of the elements' signal tangents */

@@ -35,7 +35,9 @@ static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate
 ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_t n_pivot, int32_t n) {
   int64_t p = 0;
   for (; n >= ALI3_LARGE && p + 3 < n_pivot; p += 4) {
-    const real *restrict a = block + p * n, *restrict b = a + n, *restrict c = b + n, *restrict d = c + n;
+    const real *a = block + p * n;
+    ALI3_OPAQUE(a);
+    const real *restrict b = a + n, *restrict c = b + n, *restrict d = c + n;
     const real first = x[p], second = x[p + 1] - a[p + 1] * first;
     const real third = x[p + 2] - (a[p + 2] * first + b[p + 2] * second);
     const real fourth = (x[p + 3] - (a[p + 3] * first + b[p + 3] * second)) - c[p + 3] * third;
@@ -44,7 +46,9 @@ ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_
     for (int64_t i = p + 4; i < n; i++) x[i] = (x[i] - (a[i] * first + b[i] * second)) - (c[i] * third + d[i] * fourth);
   }
   for (; p + 1 < n_pivot; p += 2) {
-    const real *restrict a = block + p * n, *restrict b = a + n;
+    const real *a = block + p * n;
+    ALI3_OPAQUE(a);
+    const real *restrict b = a + n;
     const real first = x[p], second = x[p + 1] - a[p + 1] * first;
     x[p + 1] = second;
     ali3_take_two(x + p + 2, a + p + 2, first, b + p + 2, second, n - p - 2);

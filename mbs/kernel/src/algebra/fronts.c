@@ -5,6 +5,8 @@
 #include "front_block.h"
 #include "processor.h"
 
+enum { FOUR_SUMS = 16 }; /* coordinates of a front from which on back substitution makes four sums */
+
 /* The next column, whose address is kept and not found again from that of the first. */
 ALI3_INLINED const real *next_column(const real *column, int64_t n) {
   column += n;
@@ -182,84 +184,80 @@ ALI3_INLINED ali3_status factorise(ali3_instance *in, real *F) {
   return ALI3_OK;
 }
 
-/* Those of a front: its pivots, which lie side by side in b, then the rest. */
-ALI3_INLINED void unknowns(const real *b, int32_t first, int32_t n_pivot, const int32_t *idx, int32_t n,
-                           real *restrict x) {
-  ali3_copy(x, b + first, n_pivot);
-  for (int32_t i = n_pivot; i < n; i++) x[i] = b[idx[i]];
-}
-
-/* x becomes L^-1' x front by front. */
-ALI3_INLINED void substitute_back(ali3_instance *in, const real *F, real *b) {
+/* Those of a front: its pivots, which lie side by side in b, then the rest, of which the last do so too. Without a rest
+ * they are worked on in b. */
+ALI3_INLINED real *unknowns(ali3_instance *in, int32_t f, real *b) {
   const ali3_system *S = in->system;
+  const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
+  const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
   real *restrict x = in->local;
-  for (int32_t f = S->size.nf - 1; f >= 0; f--) {
-    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
-    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-    for (int32_t i = n_pivot; i < n; i++) x[i] = b[idx[i]];
-    const real *block = F + S->front_off[f];
-    for (int64_t p = n_pivot - 1; p >= 0; p--) {
-      const real *after = block + p * n + p + 1;
-      x[p] = b[first + p] * after[-1] - ali3_product_in_two(after, x + p + 1, n - p - 1);
-      b[first + p] = x[p];
-    }
-  }
+  if (n == n_pivot) return b + first;
+  ali3_copy(x, b + first, n_pivot);
+  for (int32_t i = n_pivot; i < side; i++) x[i] = b[idx[i]];
+  ali3_copy(x + side, b + idx[side], n - side);
+  return x;
 }
 
-#ifndef ALI3_WIDTH
-/* The pivots of a front with sums from the far end, four columns at a time where the fours begin at one entry for all:
- * what is nearest, the columns among themselves, comes last. */
-ALI3_INLINED void back_by_fours(const double *block, double *restrict x, int64_t n_pivot, int64_t n) {
+/* They go back to b, the pivots or all. */
+ALI3_INLINED void put_back(const ali3_instance *in, int32_t f, const real *x, bool all, real *restrict b) {
+  const ali3_system *S = in->system;
+  const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
+  const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
+  if (n == n_pivot) return;
+  ali3_copy(b + first, x, n_pivot);
+  for (int32_t i = n_pivot; all && i < side; i++) b[idx[i]] = x[i];
+  if (all) ali3_copy(b + idx[side], x + side, n - side);
+}
+
+/* The pivots of a front with sums from the far end, of one instance four columns at a time where the fours begin at one
+ * entry for all: what is nearest, the columns among themselves, comes last. */
+ALI3_INLINED void pivots_back(const real *block, real *restrict x, int64_t n_pivot, int64_t n) {
   for (int64_t p = n_pivot - 1; p >= 0;) {
-    const double *column = block + p * n;
-    if (((n - p - 1) & 3) != 0 || p < 3) {
-      x[p] = x[p] * column[p] - ali3_product_from_far(column + p + 1, x + p + 1, n - p - 1);
-      p--;
+    const real *column = block + p * n;
+    ALI3_OPAQUE(column);
+#ifndef ALI3_WIDTH
+    if (((n - p - 1) & 3) == 0 && p >= 3) {
+      double sum[4];
+      ali3_products_from_far(column, -n, x, p + 1, n, sum);
+      for (int k = 0; k < 4; k++, p--, column -= n) {
+        for (int64_t i = p + k; i > p; i--) sum[k] += column[i] * x[i];
+        x[p] = x[p] * column[p] - sum[k];
+      }
       continue;
     }
-    double sum[4];
-    ali3_products_from_far(column, -n, x, p + 1, n, sum);
-    for (int k = 0; k < 4; k++, p--, column -= n) {
-      for (int64_t i = p + k; i > p; i--) sum[k] += column[i] * x[i];
-      x[p] = x[p] * column[p] - sum[k];
-    }
+#endif
+    x[p] = x[p] * column[p] - ali3_product_from_far(column + p + 1, x + p + 1, n - p - 1);
+    p--;
   }
 }
 
-/* The same for large fronts. */
-ALI3_INLINED void substitute_from_far(ali3_instance *in, const double *F, double *b) {
-  const ali3_system *S = in->system;
-  double *restrict x = in->local;
-  for (int32_t f = S->size.nf - 1; f >= 0; f--) {
-    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
-    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
-    unknowns(b, first, n_pivot, S->front_idx + S->front_ptr[f], n, x);
-    back_by_fours(F + S->front_off[f], x, n_pivot, n);
-    ali3_copy(b + first, x, n_pivot);
+/* Those of a small front, where four sums do not pay. */
+ALI3_INLINED void few_pivots_back(const real *block, real *restrict x, int64_t n_pivot, int64_t n) {
+  for (int64_t p = n_pivot - 1; p >= 0; p--) {
+    const real *after = block + p * n + p + 1;
+    x[p] = x[p] * after[-1] - ali3_product_in_two(after, x + p + 1, n - p - 1);
   }
 }
-#endif
 
 /* b becomes the solution. */
 ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
-  real *restrict x = in->local;
   ALI3_COUNT(in, solves);
   for (int32_t f = 0; f < S->size.nf; f++) {
-    const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
-    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-    unknowns(b, first, n_pivot, idx, n, x);
-    ali3_front_forward(F + S->front_off[f], x, n_pivot, n);
-    ali3_copy(b + first, x, n_pivot);
-    for (int32_t i = n_pivot; i < n; i++) b[idx[i]] = x[i];
+    real *x = unknowns(in, f, b);
+    ali3_front_forward(F + S->front_off[f], x, S->front_col[f + 1] - S->front_col[f],
+                       S->front_ptr[f + 1] - S->front_ptr[f]);
+    put_back(in, f, x, true, b);
   }
-#ifndef ALI3_WIDTH
-  if (S->n_flexible > 0) {
-    substitute_from_far(in, F, b);
-    return;
+  for (int32_t f = S->size.nf - 1; f >= 0; f--) {
+    const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
+    real *x = unknowns(in, f, b);
+    if (n < FOUR_SUMS)
+      few_pivots_back(F + S->front_off[f], x, n_pivot, n);
+    else
+      pivots_back(F + S->front_off[f], x, n_pivot, n);
+    put_back(in, f, x, false, b);
   }
-#endif
-  substitute_back(in, F, b);
 }
 
 ALI3_BY_PROCESSOR(in->system, ali3_status, factorise, (ali3_instance * in, real *F), (in, F))

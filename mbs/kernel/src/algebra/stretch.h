@@ -87,9 +87,17 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 
 #ifndef ALI3_WIDTH
 typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef int64_t ali3_four_bits __attribute__((vector_size(32), aligned(8)));
+
+/* The larger ones of the sizes of x and of `most` go to *most. */
+static inline void ali3_take_larger(ali3_four *most, const ali3_four *x) {
+  const ali3_four size = (ali3_four)((ali3_four_bits)*x & INT64_MAX);
+  const ali3_four_bits larger = (ali3_four_bits)(size > *most);
+  *most = (ali3_four)((larger & (ali3_four_bits)size) | (~larger & (ali3_four_bits)*most));
+}
 
 /* x y in four sums from the far end on: what is nearest, which a back substitution has found last, is waited for by the
- * last additions only. For flexible Systems, which are not stepped in lanes. */
+ * last additions only. */
 static inline double ali3_product_from_far(const double *restrict x, const double *restrict y, int64_t n) {
   ali3_four sum = {0};
   int64_t i = n;
@@ -136,7 +144,20 @@ static inline void ali3_products_from_far(const double *restrict column, int64_t
   sum[3] = (d[0] + d[1]) + (d[2] + d[3]);
 }
 #else
-#define ali3_product_from_far ali3_product_in_two
+/* x y in the order of the sums of one instance */
+static inline real ali3_product_from_far(const real *restrict x, const real *restrict y, int64_t n) {
+  real sum = {0}, second = {0}, third = {0}, fourth = {0};
+  int64_t i = n;
+  for (; i >= 4; i -= 4) {
+    sum += x[i - 4] * y[i - 4];
+    second += x[i - 3] * y[i - 3];
+    third += x[i - 2] * y[i - 2];
+    fourth += x[i - 1] * y[i - 1];
+  }
+  sum = (sum + second) + (third + fourth);
+  while (i-- > 0) sum += x[i] * y[i];
+  return sum;
+}
 
 static inline real ali3_numbers_from_far(const double *restrict x, const real *restrict y, int64_t n) {
   real sum = {0};
@@ -151,6 +172,55 @@ static inline real ali3_sum_product_from_far(const real *restrict x, const doubl
   return sum;
 }
 #endif
+
+/* Sums of three rows of n numbers each with x at columns that are one further from row to row. */
+static inline void ali3_three_rows(const double *val, const int32_t *col, int32_t n, const real *x, real *out) {
+  real first = {0}, second = {0}, third = {0};
+  ALI3_SHORT
+  for (int32_t k = 0; k < n; k++) {
+    const real *at = x + col[k];
+    first += val[k] * at[0];
+    second += val[n + k] * at[1];
+    third += val[2 * n + k] * at[2];
+  }
+  out[0] = first, out[1] = second, out[2] = third;
+}
+
+/* The largest size of n numbers with these factors; NaN count as nothing. */
+static inline real ali3_largest_product(const real *x, const double *factor, int64_t n) {
+  real most = {0};
+  int64_t i = 0;
+#ifndef ALI3_WIDTH
+  ali3_four largest = {0};
+  ALI3_SHORT
+  for (; i + 3 < n; i += 4) {
+    const ali3_four product = *(const ali3_four *)(x + i) * *(const ali3_four *)(factor + i);
+    ali3_take_larger(&largest, &product);
+  }
+  for (int k = 0; k < 4; k++) most = largest[k] > most ? largest[k] : most;
+#endif
+  ALI3_SHORT
+  for (; i < n; i++) {
+    const real size = ali3_abs(x[i] * factor[i]);
+    most = ali3_where(size > most, size, most);
+  }
+  return most;
+}
+
+/* The largest size of n numbers. */
+static inline real ali3_largest(const real *x, int64_t n) {
+  real most = {0};
+  int64_t i = 0;
+#ifndef ALI3_WIDTH
+  ali3_four largest = {0};
+  ALI3_SHORT
+  for (; i + 3 < n; i += 4) ali3_take_larger(&largest, (const ali3_four *)(x + i));
+  for (int k = 0; k < 4; k++) most = largest[k] > most ? largest[k] : most;
+#endif
+  ALI3_SHORT
+  for (; i < n; i++) most = ali3_where(ali3_abs(x[i]) > most, ali3_abs(x[i]), most);
+  return most;
+}
 
 /* Three numbers, the components of a point or a direction. */
 static inline real ali3_triple_sum(real sum, const real *x, const real *y) {

@@ -85,7 +85,7 @@ static void look(ali3_instance *in, const double *q, const double *qd) {
 
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
-  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
+  double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
   double *Q = S->n_tabled > 0 ? in->extended_force : call->Q; /* with those on dependents behind */
   look(in, call->q, call->qd);
   memcpy(Q, in->gravity_force, (size_t)S->size.nq * sizeof(double));
@@ -103,14 +103,12 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   for (int32_t e = 0; e < S->size.ne; e++) {
     double *tangent = call->tangent && S->el_front[e] >= 0 ? in->S + S->el_S_off[e] : NULL;
     double *f = in->element_force + S->el_sig_ptr[e];
-    local(in, e, u, ud);
-    in->idle[e] = ali3_element_forces(in, call, e, u, ud, f, tangent) ? 1 : 0;
-    if (in->idle[e]) continue;
-    for (int32_t i = 0; i < S->el_sig_ptr[e + 1] - S->el_sig_ptr[e]; i++) {
-      const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
-      for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) Q[S->sig_col[k]] += S->sig_val[k] * f[i];
-    }
+    const int32_t beside = S->el_beside[e];
+    if (beside < 0) local(in, e, u, ud);
+    in->idle[e] = ali3_element_forces(in, call, e, beside < 0 ? u : in->u + beside, beside < 0 ? ud : in->ud + beside,
+                                      f, tangent);
   }
+  ali3_add_forces(in, in->element_force, Q);
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
 }
 

@@ -6,13 +6,34 @@
 #include "../instance.h"
 #include "signals.h"
 
+/* Signals i to i + 2, the components of a point, and their rates. */
+ALI3_INLINED void three_signals(const ali3_system *S, int32_t i, const real *q, const real *qd, real *u, real *ud) {
+  const int32_t n = S->sig_ptr[i + 1] - S->sig_ptr[i], *col = S->sig_col + S->sig_ptr[i];
+  const double *val = S->sig_val + S->sig_ptr[i], *start = S->sig_const + i;
+  real x = ali3_same(start[0]), y = ali3_same(start[1]), z = ali3_same(start[2]), xd = {0}, yd = {0}, zd = {0};
+  ALI3_SHORT
+  for (int32_t k = 0; k < n; k++) {
+    const real *at = q + col[k], *rate = qd + col[k];
+    x += val[k] * at[0], xd += val[k] * rate[0];
+    y += val[n + k] * at[1], yd += val[n + k] * rate[1];
+    z += val[2 * n + k] * at[2], zd += val[2 * n + k] * rate[2];
+  }
+  u[0] = x, u[1] = y, u[2] = z;
+  ud[0] = xd, ud[1] = yd, ud[2] = zd;
+}
+
 /* in->u, in->ud of the signals that elements use. */
-void ali3_active_signals(ali3_instance *in, const real *q, const real *qd) {
+ALI3_INLINED void active_signals(ali3_instance *in, const real *q, const real *qd) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->sig_ptr, *col = S->sig_col;
   const double *val = S->sig_val;
   for (int32_t a = 0; a < S->n_active; a++) {
     const int32_t i = S->active_signal[a];
+    if (S->active_triple[a]) {
+      three_signals(S, i, q, qd, in->u + i, in->ud + i);
+      a += 2;
+      continue;
+    }
     real u = ali3_same(S->sig_const[i]), ud = {0};
     for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
       const double v = val[k];
@@ -23,6 +44,47 @@ void ali3_active_signals(ali3_instance *in, const real *q, const real *qd) {
     in->ud[i] = ud;
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, active_signals, (ali3_instance * in, const real *q, const real *qd), (in, q, qd))
+
+/* Forces f on signals i to i + 2, the components of a point, go to its coordinates. */
+ALI3_INLINED void add_three(const ali3_system *S, int32_t i, const real *f, real *restrict Q) {
+  const int32_t n = S->sig_ptr[i + 1] - S->sig_ptr[i], *col = S->sig_col + S->sig_ptr[i];
+  const double *val = S->sig_val + S->sig_ptr[i];
+  const real x = f[0], y = f[1], z = f[2];
+  ALI3_SHORT
+  for (int32_t k = 0; k < n; k++) {
+    real *at = Q + col[k];
+    at[0] += val[k] * x;
+    at[1] += val[n + k] * y;
+    at[2] += val[2 * n + k] * z;
+  }
+}
+
+/* Q += the forces f of all elements on their signals, but for idle ones. */
+ALI3_INLINED void add_forces(const ali3_instance *in, const real *f, real *Q) {
+  const ali3_system *S = in->system;
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    const truth idle = in->idle[e];
+    const bool some = ali3_any(idle);
+    if (some && !ali3_any(ali3_not(idle))) continue;
+    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
+      const int32_t signal = S->el_sig[i];
+      if (S->el_triple[i] && !some) {
+        add_three(S, signal, f + i, Q);
+        i += 2;
+        continue;
+      }
+      for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) {
+        real *at = Q + S->sig_col[k];
+        const real sum = *at + S->sig_val[k] * f[i];
+        *at = some ? ali3_where(idle, *at, sum) : sum;
+      }
+    }
+  }
+}
+
+ALI3_BY_PROCESSOR(in->system, void, add_forces, (const ali3_instance *in, const real *f, real *Q), (in, f, Q))
 
 /* y += a x but for the idle lanes */
 ALI3_INLINED void add_row(real *restrict y, const real *restrict x, double a, truth idle, int64_t n) {
@@ -36,41 +98,115 @@ ALI3_INLINED void add_row(real *restrict y, const real *restrict x, double a, tr
   ali3_add_multiple(y, x, ali3_same(a), n);
 }
 
+/* An element in its front: its n signals, m coordinates with their places, and from `apart` on these are neighbours. */
+typedef struct {
+  int32_t n, m, apart, size;
+  const int32_t *loc;
+  real *block;
+} place;
+
+static inline place place_of(const ali3_system *S, int32_t e, real *F) {
+  const int32_t front = S->el_front[e], first = S->el_coordinate_ptr[e];
+  place p = {.n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e],
+             .m = S->el_coordinate_ptr[e + 1] - first,
+             .size = S->front_ptr[front + 1] - S->front_ptr[front],
+             .loc = S->el_coordinate_loc + first,
+             .block = F + S->front_off[front]};
+  p.apart = p.m - 1;
+  while (p.apart > 0 && p.loc[p.apart - 1] == p.loc[p.apart] - 1) p.apart--;
+  return p;
+}
+
+/* A coordinate's column of B' S B gets its multiple of a row of S B, from the diagonal on. */
+ALI3_INLINED void add_column(const place *p, int32_t j, const real *row, double value, truth idle) {
+  real *restrict column = p->block + (int64_t)p->loc[j] * p->size;
+  int32_t i = j;
+  for (; i < p->apart; i++) column[p->loc[i]] = ali3_add_unless(idle, column[p->loc[i]], value * row[i]);
+  add_row(column + p->loc[p->m - 1] - (p->m - 1) + i, row + i, value, idle, p->m - i);
+}
+
+/* The same of the three coordinates of a point with three rows: while an index is in hand, from the diagonal of the first
+ * on or some entries above, which nobody reads. */
+ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *row, const double *value, int32_t apart) {
+  const int32_t from = j > p->apart ? p->apart + ali3_by_fours(j - p->apart, p->m - p->apart) : p->apart;
+  real *restrict a = p->block + (int64_t)p->loc[j] * p->size, *restrict b = a + p->size, *restrict c = b + p->size;
+  const real *restrict x = row, *restrict y = x + p->m, *restrict z = y + p->m;
+  const double first = value[0], second = value[apart], third = value[2 * apart];
+  for (int32_t i = j; i < p->apart; i++) {
+    const int32_t at = p->loc[i];
+    a[at] += first * x[i];
+    b[at] += second * y[i];
+    c[at] += third * z[i];
+  }
+  const int64_t shift = p->loc[p->m - 1] - (p->m - 1);
+  int64_t i = from;
+  a += shift, b += shift, c += shift;
+#ifndef ALI3_WIDTH
+  ALI3_SHORT
+  for (; i + 3 < p->m; i += 4) {
+    *(ali3_four *)(a + i) += first * *(const ali3_four *)(x + i);
+    *(ali3_four *)(b + i) += second * *(const ali3_four *)(y + i);
+    *(ali3_four *)(c + i) += third * *(const ali3_four *)(z + i);
+  }
+#endif
+  ALI3_SHORT
+  for (; i < p->m; i++) {
+    a[i] += first * x[i];
+    b[i] += second * y[i];
+    c[i] += third * z[i];
+  }
+}
+
+/* SB = S B of element e: a row per signal, a column per coordinate. */
+ALI3_INLINED void tangent_times(const ali3_system *S, int32_t e, const place *p, const real *T, real *restrict SB) {
+  const int32_t n = p->n, m = p->m, first = S->el_sig_ptr[e];
+  const double *value = S->el_entry_value;
+  memset(SB, 0, (size_t)(n * m) * sizeof *SB);
+  for (int32_t s = 0, k = S->el_entry_ptr[e]; s < n; s++) {
+    const int32_t signal = S->el_sig[first + s], count = S->sig_ptr[signal + 1] - S->sig_ptr[signal], end = k + count;
+    const bool triple = S->el_triple[first + s];
+    for (; k < end; k++) {
+      real *restrict to = SB + S->el_entry_local[k];
+      const double v = value[k];
+      for (int32_t i = 0; !triple && i < n; i++) to[i * m] += T[i * n + s] * v;
+      if (!triple) continue;
+      const double w = value[k + count], u = value[k + 2 * count];
+      const real *row = T + s;
+      ALI3_SHORT
+      for (int32_t i = 0; i < n; i++, row += n, to += m) {
+        to[0] += row[0] * v;
+        to[1] += row[1] * w;
+        to[2] += row[2] * u;
+      }
+    }
+    if (triple) k += 2 * count, s += 2;
+  }
+}
+
 /* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a
  * tangent. */
 ALI3_INLINED void elements_tangent(ali3_instance *in, real *F) {
   const ali3_system *S = in->system;
-  const int32_t *signal = S->el_entry_signal, *local = S->el_entry_local;
-  const double *entry = S->el_entry_value;
-  real *restrict SB = in->SB; /* a row per signal, a column per coordinate of the element */
+  const int32_t *local = S->el_entry_local;
+  const double *value = S->el_entry_value;
+  real *SB = in->SB;
   for (int32_t e = 0; e < S->size.ne; e++) {
-    const int32_t front = S->el_front[e];
     const truth idle = in->idle[e];
-    if (front < 0 || !ali3_any(ali3_not(idle))) continue;
-    const int32_t n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
-    const int32_t m = S->el_coordinate_ptr[e + 1] - S->el_coordinate_ptr[e];
-    const int32_t first = S->el_entry_ptr[e], end = S->el_entry_ptr[e + 1];
-    if (m == 0) continue; /* on a tabled body */
-    const int32_t *loc = S->el_coordinate_loc + S->el_coordinate_ptr[e];
-    const int32_t size = S->front_ptr[front + 1] - S->front_ptr[front];
-    int32_t apart = m - 1; /* coordinates before those that lie side by side up to the last */
-    while (apart > 0 && loc[apart - 1] == loc[apart] - 1) apart--;
-    real *block = F + S->front_off[front];
-    memset(SB, 0, (size_t)(n * m) * sizeof *SB);
-    for (int32_t k = first; k < end; k++) {
-      const real *row = in->S + S->el_S_off[e] + signal[k] * n;
-      const double value = entry[k];
-      real *restrict to = SB + local[k];
-      for (int32_t i = 0; i < n; i++) to[i * m] += row[i] * value;
-    }
-    for (int32_t k = first; k < end; k++) {
-      const real *row = SB + signal[k] * m;
-      const double value = entry[k];
-      const int32_t j = local[k];
-      real *restrict column = block + (int64_t)loc[j] * size;
-      int32_t i = j;
-      for (; i < apart; i++) column[loc[i]] = ali3_add_unless(idle, column[loc[i]], value * row[i]);
-      add_row(column + loc[m - 1] - (m - 1) + i, row + i, value, idle, m - i);
+    if (S->el_front[e] < 0 || !ali3_any(ali3_not(idle))) continue;
+    const place p = place_of(S, e, F);
+    if (p.m == 0) continue; /* on a tabled body */
+    tangent_times(S, e, &p, in->S + S->el_S_off[e], SB);
+    for (int32_t s = 0, k = S->el_entry_ptr[e]; s < p.n; s++) {
+      const int32_t at = S->el_sig_ptr[e] + s, signal = S->el_sig[at];
+      const int32_t count = S->sig_ptr[signal + 1] - S->sig_ptr[signal], end = k + count;
+      const bool triple = S->el_triple[at] && !ali3_any(idle);
+      for (; k < end; k++) {
+        if (triple)
+          add_columns_of_point(&p, local[k], SB + s * p.m, value + k, count);
+        else
+          add_column(&p, local[k], SB + s * p.m, value[k], idle);
+      }
+      if (triple) k += 2 * count, s += 2;
     }
   }
 }

@@ -5,5 +5,6 @@
 #include "../instance.h"
 
 void ali3_active_signals(ali3_instance *in, const real *q, const real *qd);
+void ali3_add_forces(const ali3_instance *in, const real *f, real *Q);
 void ali3_elements_tangent(ali3_instance *in, real *F);
 #endif

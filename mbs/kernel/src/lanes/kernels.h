@@ -48,6 +48,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_velocity_middle ALI3_LANED(velocity_middle)
 #define ali3_velocity_release ALI3_LANED(velocity_release)
 #define ali3_active_signals ALI3_LANED(active_signals)
+#define ali3_add_forces ALI3_LANED(add_forces)
 #define ali3_elements_tangent ALI3_LANED(elements_tangent)
 #define ali3_accelerate ALI3_LANED(accelerate)
 #define ali3_rates_closed ALI3_LANED(rates_closed)

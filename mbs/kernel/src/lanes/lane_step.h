@@ -20,15 +20,16 @@ static truth all_finite(const real *v, int32_t n) {
 static void law(ali3_lane_group *g, int32_t e, bool tangent) {
   const ali3_system *S = g->system;
   const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
-  real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
-  for (int32_t i = 0; i < n; i++) u[i] = g->u[signal[i]], ud[i] = g->ud[signal[i]];
+  const int32_t beside = S->el_beside[e];
+  real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
+  for (int32_t i = 0; beside < 0 && i < n; i++) u[i] = g->u[signal[i]], ud[i] = g->ud[signal[i]];
   ali3_element_args a = {.nsig = n,
                          .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
                          .nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e],
                          .nstate = S->el_state_ptr[e + 1] - S->el_state_ptr[e],
                          .nout = S->el_out_ptr[e + 1] - S->el_out_ptr[e],
-                         .u = u,
-                         .ud = ud,
+                         .u = beside < 0 ? u : g->u + beside,
+                         .ud = beside < 0 ? ud : g->ud + beside,
                          .y_old = g->now.y + S->el_state_ptr[e],
                          .y_new = g->next.y + S->el_state_ptr[e],
                          .h = g->h,
@@ -71,24 +72,9 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
   }
   ali3_active_signals(in, q, qd);
   elements(in, lanes, tangent);
-  const int32_t *ptr = S->sig_ptr, *col = S->sig_col, *el_sig = S->el_sig;
-  const double *val = S->sig_val;
   real *Q = S->n_tabled > 0 ? in->extended_force : in->Q; /* with those on dependents behind */
-  const real *f = in->f;
   memcpy(Q, in->gravity_force, (size_t)nq * sizeof *Q);
-  for (int32_t e = 0; e < S->size.ne; e++) {
-    const truth idle = in->idle[e];
-    const bool some = ali3_any(idle);
-    if (some && !ali3_any(ali3_not(idle))) continue;
-    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
-      const int32_t signal = el_sig[i];
-      const real force = f[i];
-      for (int32_t k = ptr[signal]; k < ptr[signal + 1]; k++) {
-        const real sum = Q[col[k]] + val[k] * force;
-        Q[col[k]] = some ? ali3_where(idle, Q[col[k]], sum) : sum;
-      }
-    }
-  }
+  ali3_add_forces(in, in->f, Q);
   if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->Q);
 }
 

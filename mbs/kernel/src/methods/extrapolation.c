@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "../algebra/stretch.h"
+
 static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
 static const double FAR = 2.0;     /* times the last step that the next may be long */
 static const double CONTROLLED_FAR = 4.5; /* of a controlled one: the last was a half, and steps grow */
@@ -24,16 +26,17 @@ void ali3_lagrange(const real *time, int32_t n, real t, real *weight) {
 truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
   const int32_t nq = in->system->size.nq;
   const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a;
+  real *miss = in->w; /* by the steps before */
   real weight[ALI3_PAST], error = {0}, change = {0};
   const truth near =
       (history[ALI3_HISTORY_COUNT] > (double)n) & ((in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1]) > h);
   if (!ali3_any(near)) return near;
   ali3_lagrange(time + 1, n, time[0], weight);
+  ali3_copy(miss, a, nq);
+  for (int32_t k = 0; k < n; k++) ali3_add_multiple(miss, a + (int64_t)(k + 1) * nq, -weight[k], nq);
   for (int32_t i = 0; i < nq; i++) {
     const real m = in->mass_floor[i], one = a[i] - a[nq + i];
-    real all = a[i];
-    for (int32_t k = 0; k < n; k++) all -= weight[k] * a[(int64_t)(k + 1) * nq + i];
-    error += m * all * all;
+    error += m * miss[i] * miss[i];
     change += m * one * one;
   }
   return near & (error < SMOOTH * SMOOTH * change);

@@ -1,22 +1,17 @@
 /* Projections (24), (25) of velocities and accelerations with the factorised tangent. */
 #include "projection.h"
 #include "../algebra/fronts.h"
+#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
 
 /* Whether Phi_q v + b, which stays in in->mu, is below the tolerance times the largest of v; its size in *violation. */
 truth ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, real *violation) {
   const ali3_system *S = in->system;
-  real largest = {0}, scale = {0};
   ali3_rows_times(S, in->J, v, in->mu);
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    in->mu[k] += b[k];
-    const real size = ali3_abs(in->mu[k]) * S->row_measure[k];
-    largest = ali3_where(size > largest, size, largest);
-  }
-  for (int32_t i = 0; i < S->size.nq; i++) scale = ali3_where(ali3_abs(v[i]) > scale, ali3_abs(v[i]), scale);
-  *violation = largest;
-  return largest <= tolerance * scale;
+  ali3_add(in->mu, b, S->size.nc);
+  *violation = ali3_largest_product(in->mu, S->row_measure, S->size.nc);
+  return *violation <= tolerance * ali3_largest(v, S->size.nq);
 }
 
 /* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q'

@@ -37,11 +37,18 @@ static inline real rate_of(const real *qd, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
 }
 
-/* Adds the terms of three neighbouring entries of Phi_q to them. */
-static inline void add_terms(const ali3_system *S, int32_t i, const real *q, real entry[3]) {
+/* Adds the terms of three neighbouring entries of Phi_q to them; of points: with three neighbours each. */
+static inline void add_terms(const ali3_system *S, int32_t i, const real *q, bool points, real entry[3]) {
   const int32_t *col = S->hess_col + S->hess_ptr[i], *end = S->hess_col + S->hess_ptr[i + 3];
   const double *hess = S->hess_val + S->hess_ptr[i];
   real x = entry[0], y = entry[1], z = entry[2];
+  ALI3_SHORT
+  for (; points && col < end; col += 3, hess += 3) {
+    const real *at = q + col[0];
+    x += hess[0] * at[0];
+    y += hess[1] * at[1];
+    z += hess[2] * at[2];
+  }
   ALI3_SHORT
   for (; col < end; col += 3, hess += 3) {
     x += hess[0] * q[col[0]];
@@ -106,7 +113,7 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
       const double *lin = row_lin + i;
       const real *v = q + col[i];
       real entry[3] = {ali3_same(lin[0]), ali3_same(lin[1]), ali3_same(lin[2])};
-      add_terms(S, i, q, entry);
+      add_terms(S, i, q, S->row_triples[k] == ALI3_POINTS, entry);
       for (int d = 0; d < 3; d++) J[i + d] = entry[d];
       const real both[3] = {entry[0] + lin[0], entry[1] + lin[1], entry[2] + lin[2]};
       value = ali3_triple_sum(value, both, v);
@@ -178,7 +185,7 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
     int32_t i = ptr[k];
     for (; S->row_triples[k] && i < ptr[k + 1]; i += 3) {
       real entry[3] = {ali3_same(0.0), ali3_same(0.0), ali3_same(0.0)};
-      add_terms(S, i, qd, entry);
+      add_terms(S, i, qd, S->row_triples[k] == ALI3_POINTS, entry);
       value = ali3_triple_sum(value, entry, qd + col[i]);
     }
     for (; i < S->row_stretch[k]; i++) value += add_run(S, i, qd, ali3_same(0.0)) * qd[col[i]];
@@ -229,17 +236,13 @@ static inline void stretch_geometric(const ali3_system *S, int32_t k, real facto
 /* F += weight * sum_k lam_k d2(Phi_k)/dq2, lower triangles. */
 void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight, real *F) {
   const ali3_system *S = in->system;
-  const int32_t *ptr = S->quad_ptr;
-  const ali3_term *quad = S->quad;
+  const int32_t *ptr = S->quad_ptr, *pos = S->quad_pos;
+  const double *second = S->quad_second;
   q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     const real factor = weight * lam[k];
     if (S->quad_end[k] < ptr[k + 1]) stretch_geometric(S, k, factor, F);
-    for (int32_t t = ptr[k]; t < S->quad_end[k]; t++) {
-      const ali3_term *x = &quad[t];
-      const real value = factor * x->h;
-      F[x->pos] += x->a == x->b ? 2.0 * value : value;
-    }
+    for (int32_t t = ptr[k]; t < S->quad_end[k]; t++) F[pos[t]] += factor * second[t];
   }
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
     const ali3_guide_term *g = &S->gterm[t];

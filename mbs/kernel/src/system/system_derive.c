@@ -33,6 +33,8 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->quad_end = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->stretch_pos = ali3_pool_items(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
   s->quad = ali3_pool_items(p, (size_t)s->n_quad_a, sizeof *s->quad);
+  s->quad_pos = ali3_pool_items(p, (size_t)s->n_quad_a, sizeof(int32_t));
+  s->quad_second = ali3_pool_items(p, (size_t)s->n_quad_a, sizeof(double));
   s->angle = ali3_pool_items(p, (size_t)s->n_angle_a, sizeof *s->angle);
   s->angle_theta_col = ali3_pool_items(p, na, sizeof(int32_t));
   s->angle_theta_j = ali3_pool_items(p, na, sizeof(int32_t));
@@ -46,6 +48,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->mass_alike = ali3_pool_items(p, nq, sizeof(int32_t));
   s->mass_stretch = ali3_pool_items(p, nq, 2 * sizeof(int32_t));
   s->mass_mirror = ali3_pool_items(p, (size_t)s->n_mass_col, sizeof(int32_t));
+  s->front_side = ali3_pool_items(p, (size_t)s->size.nf, sizeof(int32_t));
   s->diagonal_pos = ali3_pool_items(p, nq, sizeof(int32_t));
   s->el_kind = ali3_pool_items(p, ne, sizeof *s->el_kind);
   s->el_S_off = ali3_pool_items(p, ne + 1, sizeof(int32_t));
@@ -59,6 +62,9 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_coordinate_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->el_coordinate_loc = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->active_signal = ali3_pool_items(p, (size_t)s->size.nsig, sizeof(int32_t));
+  s->active_triple = ali3_pool_items(p, (size_t)s->size.nsig, 1);
+  s->el_triple = ali3_pool_items(p, (size_t)s->n_el_sig, 1);
+  s->el_beside = ali3_pool_items(p, ne, sizeof(int32_t));
   s->flex_square = ali3_pool_items(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
   ali3_tabled_place(s, p, n_entry);
   s->tree = s->n_tree_parent > 0 ? ali3_pool_items(p, 1, sizeof *s->tree) : NULL;
@@ -121,6 +127,25 @@ static void derive_rows(ali3_system *s) {
   }
 }
 
+/* Whether rows i to i + 2 of a sparse matrix have the same columns, one further from row to row, and none twice. */
+static bool is_triple(const int32_t *ptr, const int32_t *col, int32_t i) {
+  const int32_t n = ptr[i + 1] - ptr[i];
+  const int32_t *a = col + ptr[i], *b = col + ptr[i + 1], *c = col + ptr[i + 2];
+  if (n == 0 || ptr[i + 2] - ptr[i + 1] != n || ptr[i + 3] - ptr[i + 2] != n) return false;
+  for (int32_t k = 0; k < n; k++)
+    if (b[k] != a[k] + 1 || c[k] != a[k] + 2 || (k > 0 && a[k] < a[k - 1] + TRIPLE)) return false;
+  return true;
+}
+
+/* Triples of n rows in the order in which they are gone through. */
+static void derive_triples(const int32_t *ptr, const int32_t *col, const int32_t *row, int32_t n,
+                           unsigned char *triple) {
+  for (int32_t a = 0; a < n; a++) {
+    triple[a] = a + 2 < n && row[a + 1] == row[a] + 1 && row[a + 2] == row[a] + 2 && is_triple(ptr, col, row[a]);
+    if (triple[a]) triple[a + 1] = triple[a + 2] = 0, a += 2;
+  }
+}
+
 /* What the sum of a row's terms cannot resolve, however well a step converges: squares of coordinates far away. */
 static void derive_round(ali3_system *s) {
   for (int32_t k = 0; k < s->size.nc; k++) {
@@ -142,6 +167,14 @@ static bool in_triples(const ali3_system *s, int32_t k) {
     if (terms > MOST_TERMS || ptr[i + 2] - ptr[i + 1] != terms || ptr[i + 3] - ptr[i + 2] != terms) return false;
     if (col[i + 1] != col[i] + 1 || col[i + 2] != col[i] + 2) return false;
   }
+  return true;
+}
+
+/* Whether the second factors of the terms of a row of triples are three neighbours each too. */
+static bool of_points(const ali3_system *s, int32_t k) {
+  const int32_t *col = s->hess_col, end = s->hess_ptr[s->row_ptr[k + 1]];
+  for (int32_t t = s->hess_ptr[s->row_ptr[k]]; t < end; t += TRIPLE)
+    if (col[t + 1] != col[t] + 1 || col[t + 2] != col[t] + 2) return false;
   return true;
 }
 
@@ -198,6 +231,7 @@ static void derive_hessian(ali3_system *s) {
     s->row_triples[k] = in_triples(s, k);
     for (int32_t i = s->row_ptr[k]; s->row_triples[k] && i < s->row_ptr[k + 1]; i += TRIPLE)
       interleave(s, s->hess_ptr[i], TRIPLE, s->hess_ptr[i + 1] - s->hess_ptr[i]);
+    if (s->row_triples[k] && of_points(s, k)) s->row_triples[k] = ALI3_POINTS;
     const int32_t first = s->row_triples[k] ? s->row_ptr[k + 1] : stretch_of(s, k);
     s->row_stretch[k] = first;
     if (first < s->row_ptr[k + 1])
@@ -264,6 +298,11 @@ static void derive_stretches(ali3_system *s) {
     s->row_alike[k] = rows_alike(s, k);
     derive_stretch_terms(s, k);
   }
+  for (int64_t t = 0; t < s->n_quad_a; t++) {
+    const ali3_term *x = &s->quad[t];
+    s->quad_pos[t] = x->pos;
+    s->quad_second[t] = x->a == x->b ? 2.0 * x->h : x->h;
+  }
 }
 
 /* The longest stretch of a row whose columns are neighbours, its first entry and its end; none where it is short. */
@@ -283,10 +322,21 @@ static void derive_mass_rows(ali3_system *s) {
                        memcmp(col + ptr[i], col + ptr[i + 1], (size_t)n * sizeof *col) == 0;
     s->mass_alike[i] = alike ? s->mass_alike[i + 1] + 1 : 1;
     longest_stretch(col, ptr[i], ptr[i + 1], s->mass_stretch + 2 * (int64_t)i);
+    if (i + 2 < s->size.nq && is_triple(ptr, col, i)) s->mass_alike[i] = 0;
     for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
       const int32_t j = col[k];
       s->mass_mirror[k] = ptr[j] + ali3_find(col + ptr[j], ptr[j + 1] - ptr[j], i);
     }
+  }
+}
+
+static void derive_fronts(ali3_system *s) {
+  for (int32_t f = 0; f < s->size.nf; f++) {
+    const int32_t n = s->front_ptr[f + 1] - s->front_ptr[f], n_pivot = s->front_col[f + 1] - s->front_col[f];
+    const int32_t *idx = s->front_idx + s->front_ptr[f];
+    int32_t side = n > n_pivot ? n - 1 : n;
+    while (side > n_pivot && idx[side - 1] == idx[side] - 1) side--;
+    s->front_side[f] = side;
   }
 }
 
@@ -357,6 +407,14 @@ static void derive_elements(ali3_system *s) {
   for (int64_t i = 0; i < s->n_el_sig; i++) s->active_signal[s->el_sig[i]] = 1;
   for (int32_t i = 0; i < s->size.nsig; i++)
     if (s->active_signal[i]) s->active_signal[s->n_active++] = i;
+  derive_triples(s->sig_ptr, s->sig_col, s->active_signal, s->n_active, s->active_triple);
+  for (int32_t e = 0; e < ne; e++) {
+    const int32_t first = s->el_sig_ptr[e], n = s->el_sig_ptr[e + 1] - first;
+    derive_triples(s->sig_ptr, s->sig_col, s->el_sig + first, n, s->el_triple + first);
+    s->el_beside[e] = n > 0 ? s->el_sig[first] : -1;
+    for (int32_t i = 1; i < n; i++)
+      if (s->el_sig[first + i] != s->el_sig[first] + i) s->el_beside[e] = -1;
+  }
 }
 
 /* Elements that sensors of work name, in their own order. */
@@ -407,6 +465,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_round(s);
   derive_hessian(s);
   derive_stretches(s);
+  derive_fronts(s);
   derive_mass(s);
   derive_elements(s);
   derive_flexible(s);
