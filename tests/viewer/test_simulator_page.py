@@ -377,9 +377,12 @@ class TestOnePage:
           const map = player.cockpit._inset;
           const { plan } = map;
           const { scenery } = plan;
-          plan.scenery = Array.from({ length: 12 }, (_, k) => ({ kind: "line", points: [[60 * k - 300, -300], [50 * k - 200, 300]], width: 20 }));
+          plan.scenery = Array.from({ length: 12 }, (_, k) => {
+            return { kind: "line", points: [[60 * k - 300, -300], [50 * k - 200, 300]], width: 20 };
+          });
           let made = 0;
-          plan.drawGround = function (...given) { made++; return Object.getPrototypeOf(plan).drawGround.apply(plan, given); };
+          const { drawGround } = plan;
+          plan.drawGround = (...given) => { made++; drawGround.apply(plan, given); };
           const { width, height } = map._canvas;
           const pictures = (anew) => Array.from({ length: 31 }, (_, k) => {
             if (anew) map._ground.canvas.width = 1;
