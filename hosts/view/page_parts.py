@@ -73,12 +73,12 @@ class FmuParts:
         """The FMU as JSON of the page; `wasm` must be there."""
         assert self.wasm is not None
         scene, own = self.scene, dict[str, Any]()
-        if self.own_road is not None:  # its drawing is long: it stands among the roads, once and packed
+        if self.own_road is not None:  # its drawing is long: it stands among the roads, once
             world = {"road": self.own_road.name, "scenery": scene.get("scenery", [])}
             scene, own = scene | {"roads": [], "scenery": []}, {"world": packed(json.dumps(world).encode())}
         return {
             "title": title,
-            "scene": scene,
+            "scene": packed(json.dumps(scene).encode()),
             **own,
             "roads": packed(json.dumps(self.roads()).encode()),
             "description": description_record(self.description, self.variables),

@@ -76,7 +76,7 @@ def make_world(
     if file.suffix.lower() == ".toml" and read_toml(file, RoadFileError).get("kind") == "world":
         from mbs.worlds.road_of_world import write_world_road
         from mbs.worlds.terrain import Terrain
-        from mbs.worlds.thin_world import off_by, thinner
+        from mbs.worlds.thin_world import STEP, off_by, thinner
         from mbs.worlds.world_record import world_record
 
         world = read_world(file)
@@ -86,7 +86,7 @@ def make_world(
         tell("ground and courses", 0.0)
         try:
             terrain = Terrain(world, file.parent)
-            record = world_record(terrain, lambda part: tell("drawing", part))
+            record = world_record(terrain, lambda part: tell("drawing", part), STEP if thin else 0.0)
         except RoadFileError as error:
             raise RoadFileError(str(error) if str(file) in str(error) else f"{file}: {error}") from None
         write_world_road(terrain, road, lambda part: tell("road", part), thin)

@@ -17,7 +17,7 @@ SPACING = (0.1, 0.2)
 TOLERANCE = 5e-4
 """m: heights of a tile that are nearer to a polynomial are stored as it."""
 STEP = 2.0**-12
-"""m: heights are whole multiples of it."""
+"""m: heights, felt and drawn, are whole multiples of it."""
 LOOKED_AT = 16
 """Cells of a tile in whose middle the heights are compared."""
 

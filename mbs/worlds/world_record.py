@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from mbs.worlds.patches import BOUND, DrawnPatch, patches_of
 from mbs.worlds.profiles import spaced
 from mbs.worlds.scenery import scenery_of
@@ -18,19 +20,23 @@ MOST_CELLS = 1_500_000
 FINEST_CELL = 0.25
 
 
-def world_record(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> dict[str, Any]:
+def world_record(
+    terrain: Terrain, tell: Callable[[float], None] = lambda part: None, step: float = 0.0
+) -> dict[str, Any]:
     """What the JSON file of a world says.
 
     Parameters
     ----------
     tell : callable
         Called with the part that is done, 0 to 1.
+    step : float
+        m: the heights that are drawn are whole multiples of it; 0: as they are.
     """
     world = terrain.world
     patches = patches_of(terrain, lambda part: tell(0.9 * part))
     road = {
         "kind": "terrain",
-        "patches": [_patch(patch) for patch in patches],
+        "patches": [_patch(patch, step) for patch in patches],
         "surface": _surface(terrain),
         "note": f"Drawn within {1e3 * BOUND:g} mm of what the wheels feel; scenery is only seen.",
     }
@@ -71,12 +77,13 @@ def _pose(at: tuple[float, float, float]) -> dict[str, float]:
     return {"x": at[0], "y": at[1], "yaw": math.radians(at[2])}
 
 
-def _patch(patch: DrawnPatch) -> dict[str, Any]:
+def _patch(patch: DrawnPatch, step: float) -> dict[str, Any]:
+    heights = patch.heights if step == 0.0 else step * np.round(patch.heights / step)
     return {
         "origin": [patch.x, patch.y],
         "spacing": [patch.dx, patch.dy],
         "shape": list(patch.heights.shape),
-        "heights": encoded(patch.heights),
+        "heights": encoded(heights),
     }
 
 

@@ -136,6 +136,22 @@ def test_the_fixed_camera_sees_the_whole_way_and_does_not_move(seen: Opened) -> 
     assert all(0 <= x < 640 and 0 <= y < 360 for x, y in places[0])
 
 
+def test_the_path_has_no_gaps_however_far_the_eye_is(opened: Callable[..., Opened]) -> None:
+    """300 m in a picture of 640 pixels: 4.5 cm are a tenth of a pixel."""
+    far = run("far", 10.0 * T)
+    values = {"x": 75.0 * T, "y": 4.0 * np.sin(0.7 * T), "z": np.full_like(T, 0.5)}
+    far.columns |= {f"body.{name}": column for name, column in values.items()}
+    page = opened(far, camera="fixed")
+    page.seek(40.0)
+    picture = page.picture().astype(float)
+    for k in range(5, len(T) - 5, 3):
+        x, y = page.place([values["x"][k], values["y"][k], 0.0])
+        red, _, blue = np.moveaxis(picture[y - 1 : y + 2, x - 1 : x + 2], 2, 0)
+        assert (red - blue).max() > 60, (k, x, y)
+    below = picture[y + 4 : y + 9, x - 1 : x + 2]
+    assert (below[..., 0] - below[..., 2]).max() < 30  # the ground is grey
+
+
 def test_the_camera_beside_the_track_looks_at_what_moves_past(seen: Opened) -> None:
     seen("() => window.player.camera('trackside')")
     eyes = []

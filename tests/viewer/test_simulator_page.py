@@ -371,6 +371,37 @@ class TestOnePage:
         assert {"type": "place", "name": "hill_20"} in shared.heard
         shared.page.keyboard.press("1")
 
+    def test_maps_draw_their_ground_once_for_many_pictures_and_it_goes_along(self, shared: Program) -> None:
+        """Pictures of the small map while the car goes 127 m, against those whose ground is drawn for each."""
+        made, apart = shared.ask("""(() => {
+          const map = player.cockpit._inset;
+          const { plan } = map;
+          const { scenery } = plan;
+          plan.scenery = Array.from({ length: 12 }, (_, k) => {
+            return { kind: "line", points: [[60 * k - 300, -300], [50 * k - 200, 300]], width: 20 };
+          });
+          let made = 0;
+          const { drawGround } = plan;
+          plan.drawGround = (...given) => { made++; drawGround.apply(plan, given); };
+          const { width, height } = map._canvas;
+          const pictures = (anew) => Array.from({ length: 31 }, (_, k) => {
+            if (anew || k === 0) map._ground.canvas.width = 1; // what another test has drawn
+            map.show({ x: 4 * k, y: 1.4 * k, yaw: 0.3 });
+            return map._canvas.getContext("2d").getImageData(0, 0, width, height).data;
+          });
+          const kept = pictures(false);
+          const once = made;
+          const fresh = pictures(true);
+          delete plan.drawGround;
+          plan.scenery = scenery;
+          map._ground.canvas.width = 1;
+          const share = (a, b) => a.filter((value, i) => Math.abs(value - b[i]) > 100).length / a.length;
+          return [[once, made - once], Math.max(...kept.map((picture, k) => share(picture, fresh[k])))];
+        })()""")
+        assert made[0] <= 3
+        assert made[1] == 31
+        assert apart < 0.01
+
     def test_a_rewind_is_not_driven_through(self, shared: Program, lane_change: Recording) -> None:
         shared.drive(4.0, 5.0, 0.05)
         shared.epoch += 1

@@ -8,21 +8,22 @@ const UP = [0, 0, 1];
 
 test("the edges of a ribbon lie half its width to both sides of a circle, a little above it", () => {
   const points = Array.from({ length: 200 }, (_, k) => [1e5 + 10 * Math.cos(0.01 * k), 10 * Math.sin(0.01 * k), 2]);
-  const edges = ribbonEdges(points, 0.25, UP);
+  const { edges, asides } = ribbonEdges(points, 0.25, UP);
   for (let k = 1; k < points.length - 1; k++) {
     [0.25, -0.25].forEach((out, way) => {
       const [x, y, z] = edges.subarray(6 * k + 3 * way, 6 * k + 3 * way + 3);
       const radius = Math.hypot(x + points[0][0] - 1e5, y + points[0][1]);
       assert.ok(Math.abs(radius - (10 + out)) < 1e-3, `${radius}`); // right of a turn to the left is outside
       assert.ok(Math.abs(z - LIFT) < 1e-6);
+      assert.ok(Math.abs(Math.hypot(...asides.subarray(6 * k + 3 * way, 6 * k + 3 * way + 3)) - 0.25) < 1e-6);
     });
   }
 });
 
 test("a ribbon keeps its direction where nothing moves, and where nothing ever moves it has one", () => {
-  const edges = ribbonEdges([[0, 0, 0], [1, 0, 0], [1, 0, 0], [1, 0, 0]], 0.5, UP); // prettier-ignore
+  const { edges } = ribbonEdges([[0, 0, 0], [1, 0, 0], [1, 0, 0], [1, 0, 0]], 0.5, UP); // prettier-ignore
   assert.deepEqual([...edges.subarray(18, 21)].map((v) => Math.round(1e3 * v) / 1e3), [1, -0.5, LIFT]);
-  assert.ok(ribbonEdges([[0, 0, 0], [0, 0, 0]], 0.5, UP).every(Number.isFinite)); // prettier-ignore
+  assert.ok(ribbonEdges([[0, 0, 0], [0, 0, 0]], 0.5, UP).edges.every(Number.isFinite)); // prettier-ignore
 });
 
 test("instants at which a point is not known are left out of its path", () => {

@@ -1,7 +1,7 @@
 // The terrain and the paint on it, against heights in closed form.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { apronQuads, borderStations } from "../src/looks/apron.js";
+import { apronQuads, borderStations, straightened } from "../src/looks/apron.js";
 import { HeightField, SurfaceRaster, surfaceOf } from "../src/looks/heights.js";
 import { arrowStrips, dashes, edges } from "../src/looks/scenery/ribbon.js";
 import { squares } from "../src/looks/scenery/index.js";
@@ -113,6 +113,22 @@ test("beyond the border its heights go on, around the focus and far away", () =>
       assert.ok(Math.abs(drawn - field.at(at[0], at[1])) < 1e-5);
     }
   } // prettier-ignore
+});
+
+test("a border keeps the places at which it bends", () => {
+  const places = Array.from({ length: 101 }, (_, k) => k);
+  const bend = (/** @type {number} */ x) => Math.max(0, x - 40) * 0.1 - Math.max(0, x - 70) * 0.1;
+  assert.deepEqual(straightened(places, bend, 1e-6), [0, 40, 70, 100]);
+  const kept = straightened(places, (x) => Math.sin(0.1 * x), 0.01);
+  assert.ok(kept.length < 40);
+  kept.slice(1).forEach((b, k) => {
+    const a = kept[k];
+    for (let x = a; x < b; x++) {
+      const line = Math.sin(0.1 * a) + ((x - a) / (b - a)) * (Math.sin(0.1 * b) - Math.sin(0.1 * a));
+      assert.ok(Math.abs(Math.sin(0.1 * x) - line) <= 0.01);
+    }
+  });
+  assert.deepEqual(straightened([0, 1], bend, 0), [0, 1]);
 });
 
 test("a surface has the name of its nearest cell, and its border goes on", () => {

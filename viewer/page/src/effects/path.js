@@ -1,23 +1,28 @@
 // The path of a point over the ground: a ribbon up to the instant that is shown.
 import * as THREE from "three";
-import { lift, LIFT, MARKS } from "../looks/lifted.js";
-import { cross, subtract, unit } from "../scene/math.js";
+import { lift, LIFT, MARKS, widen } from "../looks/lifted.js";
+import { cross, scale, subtract, unit } from "../scene/math.js";
 
 /**
- * Both edges of a ribbon, relative to its first point.
+ * Both edges of a ribbon, relative to its first point, and the ways to them from its middle.
  * @param {number[][]} points earth @param {number} half of its width, m @param {number[]} up unit vector
- * @returns {Float32Array} right and left of each point in turn; where nothing moves the ribbon keeps its direction
+ * @returns {{edges: Float32Array, asides: Float32Array}} right and left of each point in turn; where nothing moves the
+ *   ribbon keeps its direction
  */
 export function ribbonEdges(points, half, up) {
-  const edges = new Float32Array(6 * points.length);
+  const [edges, asides] = [new Float32Array(6 * points.length), new Float32Array(6 * points.length)];
   const sides = points.map((_, k) => unit(cross(up, subtract(points[Math.min(k + 1, points.length - 1)], points[Math.max(k - 1, 0)]))));
   let side = sides.find((found) => found !== null) ?? [0, 1, 0];
   points.forEach((point, k) => {
     side = sides[k] ?? side;
     const from = subtract(point, points[0]);
-    for (const way of [0, 1]) edges.set(from.map((value, axis) => value + (2 * way - 1) * half * side[axis] + LIFT * up[axis]), 6 * k + 3 * way);
+    for (const way of [0, 1]) {
+      const aside = scale(side, (2 * way - 1) * half);
+      edges.set(from.map((value, axis) => value + aside[axis] + LIFT * up[axis]), 6 * k + 3 * way);
+      asides.set(aside, 6 * k + 3 * way);
+    }
   });
-  return edges;
+  return { edges, asides };
 }
 
 /** A path that is known before it is driven, drawn up to an instant. */
@@ -25,18 +30,26 @@ export class Path {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
    * @param {{times: ArrayLike<number>, points: number[][]}} way not decreasing times, and earth positions
-   * @param {{colour: string, width: number, opacity: number}} look width: m
+   * @param {{colour: string, width: number, opacity: number, least?: number}} look width: m; least: pixels that it is wide,
+   *   however far it is; without it, it becomes fainter there
    */
-  constructor(view, { times, points }, { colour, width, opacity }) {
+  constructor(view, { times, points }, { colour, width, opacity, least }) {
     this.times = times;
     this.start = points[0];
     this.geometry = new THREE.BufferGeometry();
-    this.geometry.setAttribute("position", new THREE.BufferAttribute(ribbonEdges(points, width / 2, view.up), 3));
+    const { edges, asides } = ribbonEdges(points, width / 2, view.up);
+    this.geometry.setAttribute("position", new THREE.BufferAttribute(edges, 3));
+    this.geometry.setAttribute("aside", new THREE.BufferAttribute(asides, 3));
     this.geometry.setIndex(points.slice(1).flatMap((_, k) => [2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 1, 2 * k + 2, 2 * k + 3]));
     const material = new THREE.MeshBasicMaterial({ color: colour, transparent: true, opacity, depthWrite: false, side: THREE.DoubleSide, toneMapped: false });
-    material.onBeforeCompile = (shader) => lift(shader, MARKS);
-    material.customProgramCacheKey = () => "ali3-path";
+    const viewport = { value: new THREE.Vector2(1, 1) };
+    material.onBeforeCompile = (shader) => {
+      widen(shader, viewport, { up: view.up, least, fainter: least === undefined });
+      lift(shader, MARKS);
+    };
+    material.customProgramCacheKey = () => `ali3-path-${view.up}-${least}`;
     this.mesh = new THREE.Mesh(this.geometry, material);
+    this.mesh.onBeforeRender = (renderer) => renderer.getDrawingBufferSize(viewport.value);
     this.mesh.frustumCulled = false; // its box would be that of the whole path
     this.mesh.renderOrder = 1;
     view.world.add(this.mesh);

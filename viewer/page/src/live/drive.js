@@ -185,7 +185,7 @@ class Drive {
     for (const part of parts) {
       const resources = {};
       for (const [path, packed] of Object.entries(part.resources ?? {})) resources[path] = await unpack(packed);
-      fmus.push({ ...part, wasm: await unpack(part.wasm), resources });
+      fmus.push({ ...part, scene: await unpackedJson(part.scene), wasm: await unpack(part.wasm), resources });
     }
     this.session = new Session(fmus, { ...this.options, script: table }, {
       started: () => this._started(),

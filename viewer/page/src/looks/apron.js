@@ -26,6 +26,21 @@ export function borderStations({ patches, low, high }) {
   });
 }
 
+/**
+ * Places along a border without those whose heights lie on the line between others.
+ * @param {number[]} places rising @param {(place: number) => number} height @param {number} off m that the line may be off
+ */
+export function straightened(places, height, off) {
+  const kept = [places[0]];
+  for (let to = 2, from = 0; to <= places.length; to++) {
+    const [a, b] = [places[from], places[Math.min(to, places.length - 1)]];
+    const line = (/** @type {number} */ place) => height(a) + ((place - a) / (b - a)) * (height(b) - height(a));
+    const fits = to < places.length && places.slice(from + 1, to).every((place) => Math.abs(height(place) - line(place)) <= off);
+    if (!fits) kept.push(places[(from = to - 1)]);
+  }
+  return kept;
+}
+
 /** Four sides and four corners, as corner points x, y, z of rectangles. @param {number[]} centre x and y of the focus */
 export function apronQuads(field, stations, centre) {
   const { low, high } = field;
@@ -57,9 +72,11 @@ export function apronQuads(field, stations, centre) {
   return quads;
 }
 
-/** @param {import("./heights.js").HeightField} field @param {THREE.Material} material */
-export function apron(field, material) {
-  const stations = borderStations(field);
+/** @param {import("./heights.js").HeightField} field @param {THREE.Material} material @param {number} [off] m that its heights may be off */
+export function apron(field, material, off = 0) {
+  const heights = [0, 1].map((k) => [field.low[k], field.high[k]].map((side) => (/** @type {number} */ place) => (k === 0 ? field.at(side, place) : field.at(place, side))));
+  const all = borderStations(field);
+  const stations = off > 0 ? all.map((sides, k) => sides.map((places, end) => straightened(places, heights[k][end], off))) : all;
   const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
   mesh.receiveShadow = true;
   let built = null;

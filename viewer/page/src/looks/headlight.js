@@ -5,9 +5,22 @@ const VERTEX = /* glsl */ `
 attribute float level;
 varying vec3 vNormal, vEye;
 varying float vLevel;
+#ifdef USE_INSTANCING_COLOR
+varying vec3 vColour;
+#endif
 void main() {
-  vec4 seen = modelViewMatrix * vec4(position, 1.0);
-  vNormal = normalMatrix * normal;
+  vec4 at = vec4(position, 1.0);
+  vec3 outward = normal;
+  #ifdef USE_INSTANCING
+  mat3 turn = mat3(instanceMatrix);
+  outward = turn * (outward / vec3(dot(turn[0], turn[0]), dot(turn[1], turn[1]), dot(turn[2], turn[2])));
+  at = instanceMatrix * at;
+  #endif
+  #ifdef USE_INSTANCING_COLOR
+  vColour = instanceColor;
+  #endif
+  vec4 seen = modelViewMatrix * at;
+  vNormal = normalMatrix * outward;
   vEye = isOrthographic ? vec3(0.0, 0.0, 1.0) : -seen.xyz;
   vLevel = level;
   gl_Position = projectionMatrix * seen;
@@ -16,10 +29,16 @@ void main() {
 const FRAGMENT = /* glsl */ `
 varying vec3 vNormal, vEye;
 varying float vLevel;
+#ifdef USE_INSTANCING_COLOR
+varying vec3 vColour;
+#endif
 uniform vec3 colour;
 uniform sampler2D map;
 void main() {
   vec3 meant = colour;
+  #ifdef USE_INSTANCING_COLOR
+  meant = vColour;
+  #endif
   #ifdef BY_LEVEL
   meant = texture2D(map, vec2((0.5 + 255.0 * clamp(vLevel, 0.0, 1.0)) / 256.0, 0.5)).rgb;
   #endif
@@ -30,7 +49,7 @@ void main() {
 
 /**
  * @param {{color?: string, map?: THREE.Texture, front?: boolean}} options
- *   map: colours by the attribute `level`; front: drawn over everything else
+ *   map: colours by the attribute `level`; instances may have colours of their own; front: drawn over everything else
  */
 export function headlight({ color = "#ffffff", map = null, front = false }) {
   return new THREE.ShaderMaterial({

@@ -6,11 +6,13 @@ export const [PAINT, MARKS] = [0.004, 0.006];
 export const LIFT = 0.004;
 
 /**
- * Lines thinner than a pixel are drawn a pixel wide and so much fainter: the same light, and no dots instead of a line.
- * The attribute `aside` goes from the middle of a line to its edge.
+ * Lines thinner than some pixels are drawn as wide as that and so much fainter: the same light, and no dots instead of a
+ * line. The attribute `aside` goes from the middle of a line to its edge.
  * @param {Data} shader of three.js @param {{value: Data}} viewport pixels
+ * @param {{up?: number[], least?: number, fainter?: boolean}} [options] up: unit vector across which lines lie; least:
+ *   pixels; fainter: false for what is no paint and is to be found however far it is
  */
-export function widen(shader, viewport) {
+export function widen(shader, viewport, { up = [0, 0, 1], least = 1.2, fainter = true } = {}) {
   shader.uniforms.aViewport = viewport;
   shader.vertexShader = `attribute vec3 aside;\nuniform vec2 aViewport;\nvarying float vThin;\n${shader.vertexShader}`.replace(
     "#include <begin_vertex>",
@@ -18,16 +20,16 @@ export function widen(shader, viewport) {
 mat4 seen = projectionMatrix * modelViewMatrix;
 vec4 edgeSeen = seen * vec4(position, 1.0);
 vec4 middleSeen = seen * vec4(position - aside, 1.0);
-vec4 aheadSeen = seen * vec4(position - aside + vec3(-aside.y, aside.x, 0.0), 1.0);
+vec4 aheadSeen = seen * vec4(position - aside + cross(vec3(${up.map((value) => value.toFixed(6))}), aside), 1.0);
 vThin = 1.0;
 if (min(min(edgeSeen.w, middleSeen.w), aheadSeen.w) > 0.0) {
   vec2 middle = middleSeen.xy / middleSeen.w;
   vec2 across = (edgeSeen.xy / edgeSeen.w - middle) * 0.5 * aViewport;
   vec2 ahead = normalize((aheadSeen.xy / aheadSeen.w - middle) * aViewport + 1e-9);
   float halfWidth = abs(across.x * ahead.y - across.y * ahead.x);
-  float grow = clamp(0.6 / max(halfWidth, 1e-3), 1.0, 40.0);
+  float grow = clamp(${(0.5 * least).toFixed(2)} / max(halfWidth, 1e-3), 1.0, 40.0);
   transformed += aside * (grow - 1.0);
-  vThin = 1.0 / grow;
+  vThin = ${fainter ? "1.0 / grow" : "1.0"};
 }`,
   );
   shader.fragmentShader = `varying float vThin;\n${shader.fragmentShader}`.replace(

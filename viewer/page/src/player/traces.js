@@ -9,6 +9,7 @@ import { Frames } from "../scene/frames.js";
 import { add, dot, finite, length, scale, subtract } from "../scene/math.js";
 
 const MOST = 4000; // points of a path
+const LEAST = 1.5; // pixels: the path of the reference point is found however far it is
 const { body: BODY, wheel: WHEEL, shares: SHARES, opacities: OPACITIES } = looks.paths;
 
 /** The traces of one run in a view; those of a ghost have its colour, and neither marks nor dust. */
@@ -50,7 +51,7 @@ export class Traces {
     ways.forEach(({ points, at }, k) => {
       if (points.length < 2) return;
       const which = k === 0 ? 0 : 1;
-      const look = { colour: tint ?? [BODY, WHEEL][which], width: SHARES[which] * view.extent, opacity: OPACITIES[which] };
+      const look = { colour: tint ?? [BODY, WHEEL][which], width: SHARES[which] * view.extent, opacity: OPACITIES[which], least: k === 0 ? LEAST : undefined };
       this.paths.push(new Path(view, { times: at.map((i) => run.t[i]), points }, look));
     });
   }

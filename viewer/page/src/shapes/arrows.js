@@ -12,6 +12,9 @@ const LONGEST = 0.35;
 
 /** The arrows of a scene. */
 export class Arrows {
+  #stand = new THREE.Object3D();
+  #colour = new THREE.Color();
+
   /** @param {Data[]} list a scene's `arrows` */
   constructor(list) {
     this.list = list;
@@ -25,10 +28,10 @@ export class Arrows {
     this.ranges = new Map();
     this.now = [];
     this.group = new THREE.Group();
-    this.materials = new Map();
-    this.shaft = new THREE.CylinderGeometry(1, 1, 1, 14);
-    this.head = new THREE.ConeGeometry(1, 1, 20);
-    this.pool = [];
+    this.material = headlight({ front: true });
+    this.shapes = [new THREE.CylinderGeometry(1, 1, 1, 14), new THREE.ConeGeometry(1, 1, 20)];
+    /** All shafts and all heads, a call each; made for more where there are more. @type {THREE.InstancedMesh[]} */
+    this.meshes = [];
   }
 
   /** @param {((name: string) => number | undefined) | null} lookup @param {import("../scene/frames.js").Frames} frames @param {(sentence: string) => void} tell */
@@ -59,43 +62,49 @@ export class Arrows {
 
   /** @param {number[]} origin of the picture */
   place(origin) {
-    while (this.pool.length < this.now.length) this.pool.push(this.#make());
-    this.pool.forEach((arrow, i) => this.#put(arrow, this.now[i], origin));
+    if (this.now.length > (this.meshes[0]?.instanceMatrix.count ?? 0)) this.#make(this.now.length);
+    for (const mesh of this.meshes) mesh.count = 0;
+    for (const force of this.now) this.#put(force, origin);
+    for (const mesh of this.meshes) {
+      mesh.visible = mesh.count > 0;
+      for (const buffer of [mesh.instanceMatrix, mesh.instanceColor]) if (buffer) buffer.needsUpdate = true;
+    }
   }
 
-  #make() {
-    const arrow = { shaft: new THREE.Mesh(this.shaft), head: new THREE.Mesh(this.head) };
-    arrow.shaft.renderOrder = 20;
-    arrow.head.renderOrder = 21;
-    this.group.add(arrow.shaft, arrow.head);
-    return arrow;
+  /** @param {number} most arrows */
+  #make(most) {
+    for (const mesh of this.meshes) mesh.dispose();
+    this.group.clear();
+    this.meshes = this.shapes.map((shape, k) => {
+      const mesh = new THREE.InstancedMesh(shape, this.material, most);
+      mesh.renderOrder = 20 + k;
+      mesh.frustumCulled = false; // its box would be that of its first arrows
+      this.group.add(mesh);
+      return mesh;
+    });
   }
 
-  #put({ shaft, head }, force, origin) {
-    const direction = force && unit(force.vector);
-    const { metres, value } = this.scaleOf(force?.unit);
+  #put(force, origin) {
+    const direction = unit(force.vector);
+    const { metres, value } = this.scaleOf(force.unit);
     const size = direction ? (length(force.vector) * metres) / value : 0;
-    shaft.visible = head.visible = size > 0.004 * this.extent;
-    if (!shaft.visible) return;
+    if (direction === null || size <= 0.004 * this.extent) return;
     const thick = Math.min(0.007 * this.extent, 0.12 * size);
     const from = subtract(force.at, origin);
     const neck = add(from, scale(direction, Math.max(0, size - 4.2 * thick)));
-    shaft.material = head.material = this.#material(force.unit);
-    stretch(shaft, from, neck, thick);
-    stretch(head, neck, add(from, scale(direction, size)), 2.3 * thick);
-  }
-
-  #material(name) {
-    if (!this.materials.has(name)) {
-      this.materials.set(name, headlight({ color: this.colourOf(name), front: true }));
-    }
-    return this.materials.get(name);
+    const ends = [[from, neck, thick], [neck, add(from, scale(direction, size)), 2.3 * thick]]; // prettier-ignore
+    this.meshes.forEach((mesh, k) => {
+      const [begin, end, radius] = ends[k];
+      stretch(this.#stand, begin, end, radius);
+      this.#stand.updateMatrix();
+      mesh.setMatrixAt(mesh.count, this.#stand.matrix);
+      mesh.setColorAt(mesh.count, this.#colour.set(this.colourOf(force.unit)));
+      mesh.count++;
+    });
   }
 
   dispose() {
-    for (const material of this.materials.values()) material.dispose();
-    this.shaft.dispose();
-    this.head.dispose();
+    for (const part of [...this.meshes, ...this.shapes, this.material]) part.dispose();
     this.group.removeFromParent();
   }
 }

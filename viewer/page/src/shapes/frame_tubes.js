@@ -4,7 +4,7 @@ import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { across, add, cross, scale, subtract, unit } from "../scene/math.js";
 
 const AROUND = 12;
-/** Every so many points around, and the corners of a ball without those between them, are drawn in a draft. */
+/** Every so many points around, and eight triangles of a ball, are drawn in a draft. */
 const COARSE = 3;
 
 /** A surface over nodes and beams that is written again when the nodes move. */
@@ -14,7 +14,7 @@ export class FrameTubes {
     this.beams = beams;
     this.radii = radii;
     this.thick = thickness(nodes, beams, radii);
-    const [corners, ball] = [0, 1].map(icosphere);
+    const [corners, ball] = [new THREE.OctahedronGeometry(1), new THREE.IcosahedronGeometry(1, 1)].map(merged);
     this.ball = ball.points;
     this.first = beams.length * 2 * AROUND;
     const count = this.first + nodes.length * (this.ball.length / 3);
@@ -87,9 +87,8 @@ export class FrameTubes {
   }
 }
 
-/** Points and triangles of a ball of radius 1. @param {number} detail how often each triangle is divided into four */
-function icosphere(detail) {
-  const soup = new THREE.IcosahedronGeometry(1, detail);
+/** Points and triangles of a solid, each point once. @param {THREE.BufferGeometry} soup is freed */
+function merged(soup) {
   for (const name of ["normal", "uv"]) soup.deleteAttribute(name);
   const made = mergeVertices(soup, 1e-6);
   const found = { points: [...made.getAttribute("position").array], index: [...made.index.array] };

@@ -8,6 +8,8 @@ const [APART, KEPT] = [1.5, 4000];
 const AROUND = 110;
 /** Pixels around a place that count as it. */
 const NEAR = 18;
+/** How far beyond each side of a map its ground is drawn ahead, as a share of that side. */
+const AHEAD = 0.5;
 /** Height of a line of words, pixels. */
 const WORDS = 14;
 const BACKGROUND = "#3d4a36";
@@ -54,8 +56,8 @@ export class WorldPlan {
     return x >= x0 && x <= x1 && y >= y0 && y <= y1;
   }
 
-  /** @param {CanvasRenderingContext2D} context - Whose units are metres, x to the right, y up. @param {number} pixel - m. */
-  draw(context, pixel) {
+  /** What does not change. @param {CanvasRenderingContext2D} context - Whose units are metres, x to the right, y up. @param {number} pixel - m. */
+  drawGround(context, pixel) {
     for (const { image, box } of this.pictures) {
       context.save();
       context.translate(box[0], box[3]);
@@ -74,6 +76,10 @@ export class WorldPlan {
     context.lineWidth = 1.5 * pixel;
     const [x0, y0, x1, y1] = this.bounds;
     context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+  }
+
+  /** Where the car has been. @param {CanvasRenderingContext2D} context - As for the ground. @param {number} pixel - m. */
+  drawTrail(context, pixel) {
     let part = [];
     for (const point of [...this.trail.points, null]) {
       if (point) part.push(point);
@@ -134,6 +140,41 @@ function drawThing(context, { kind, at, points, width, colour, dash, height = 1,
   }
 }
 
+/** The ground of a map and somewhat around it, drawn once for as many pictures as it serves. */
+class Ground {
+  /** @param {WorldPlan} plan */
+  constructor(plan) {
+    this.plan = plan;
+    this.canvas = el("canvas");
+  }
+
+  /**
+   * @param {CanvasRenderingContext2D} context - Of the map, in its pixels.
+   * @param {{scale: number, x: number, y: number, pixel: number}} view - Pixels a metre, the place in the middle, and
+   *   the metres of a line's least width.
+   * @param {boolean} moves - The place in the middle goes along with the car.
+   */
+  draw(context, view, moves) {
+    const { width, height } = context.canvas;
+    const [aside, along] = [width, height].map((side) => (moves ? Math.round(AHEAD * side) : 0));
+    const shift = () => [this.scale * (this.x - view.x), this.scale * (view.y - this.y)].map(Math.round);
+    const fits = this.scale === view.scale && this.canvas.width === width + 2 * aside && this.canvas.height === height + 2 * along;
+    if (!fits || shift().some((pixels, k) => Math.abs(pixels) > [aside, along][k])) this.#make(view, width + 2 * aside, height + 2 * along);
+    const [right, down] = shift();
+    context.drawImage(this.canvas, right - aside, down - along);
+  }
+
+  #make({ scale, x, y, pixel }, w, h) {
+    Object.assign(this, { scale, x, y });
+    Object.assign(this.canvas, { width: w, height: h }); // empties it
+    const context = this.canvas.getContext("2d");
+    context.fillStyle = BACKGROUND;
+    context.fillRect(0, 0, w, h);
+    context.setTransform(scale, 0, 0, -scale, w / 2 - scale * x, h / 2 + scale * y);
+    this.plan.drawGround(context, pixel);
+  }
+}
+
 /** A map in an element: of the whole world, or of what is around the car. */
 export class WorldMap {
   /**
@@ -144,6 +185,7 @@ export class WorldMap {
     this.plan = plan;
     this._whole = whole;
     this.zoom = 1;
+    this._ground = new Ground(plan);
     this._canvas = el("canvas", { role: "img", "aria-label": "map" });
     this.element = el(whole ? "div.a3-map" : "div.a3-inset", { data: whole ? "map" : "map inset" }, this._canvas);
     this._canvas.addEventListener("wheel", (event) => this._zoom(event), { passive: false });
@@ -161,10 +203,9 @@ export class WorldMap {
     const context = this._canvas.getContext("2d");
     const { scale, x, y } = this._view(width, height);
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.fillStyle = BACKGROUND;
-    context.fillRect(0, 0, w, h);
+    this._ground.draw(context, { scale: ratio * scale, x, y, pixel: 1 / scale }, !this._whole || this.zoom > 1);
     context.setTransform(ratio * scale, 0, 0, -ratio * scale, w / 2 - ratio * scale * x, h / 2 + ratio * scale * y);
-    this.plan.draw(context, 1 / scale);
+    this.plan.drawTrail(context, 1 / scale);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     this._words(context, width, height);
     this._drawCar(context, this.pixel([car.x, car.y]), car.yaw);

@@ -4,7 +4,7 @@ import { prelit } from "./prelit.js";
 import { within } from "./thinned.js";
 
 /** Triangles of all solid parts and of those that change their form together, at most; solid parts have half of them. */
-export const MOST = 17000;
+export const MOST = 15000;
 /** The finest lattice, beside the size of the drawing. */
 const FINEST = 1.5e-3;
 /** Cameras do not see this layer. */

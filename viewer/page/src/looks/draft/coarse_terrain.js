@@ -9,15 +9,17 @@ import { bundles, parts, pieceParts } from "../terrain_mesh.js";
 const [CELLS, PIECES, POINTS] = [64, 14, 60000];
 /** Error of the heights that may be seen, m: near as paint is drawn above the ground, and so much more a metre away. */
 const [LEAST, ERROR] = [8e-3, 2.5e-3];
+/** Triangles of all parts at most: where there would be more, those that are far are coarser by so much, again and again. */
+const [MOST, COARSER] = [17500, 1.25];
 /** Metres that the eye goes before levels are chosen again. */
 const STEP = 15;
 
 /**
  * Index of the coarsest level that a distance allows.
- * @param {{error: number}[]} levels from the finest @param {number} far m
+ * @param {{error: number}[]} levels from the finest @param {number} far m @param {number} [error] m a metre away
  */
-export function levelAt(levels, far) {
-  const allowed = LEAST + ERROR * Math.max(0, far);
+export function levelAt(levels, far, error = ERROR) {
+  const allowed = LEAST + error * Math.max(0, far);
   let level = 0;
   while (level + 1 < levels.length && levels[level + 1].error <= allowed) level++;
   return level;
@@ -32,7 +34,7 @@ export function coarseTerrain(material, axes, field) {
   const group = new THREE.Group();
   turn(group, fromColumns(...axes));
   const pieces = bundles(parts(field.patches, CELLS), PIECES, POINTS).map((piece) => meshOf(pieceParts(piece, field), material));
-  const around = apron(field, material);
+  const around = apron(field, material, LEAST);
   group.add(...pieces.map(({ mesh }) => mesh), around.mesh);
   let chosen = null;
   /** @param {number[]} origin earth position of the picture's origin @param {number[]} eye of the camera, from there */
@@ -41,16 +43,31 @@ export function coarseTerrain(material, axes, field) {
     const camera = axes.slice(0, 2).map((axis, k) => from[k] + dot(eye, axis));
     around.follow(from);
     const moved = chosen === null || Math.hypot(camera[0] - chosen[0], camera[1] - chosen[1]) > STEP;
-    if (moved) chosen = camera;
-    for (const { mesh, base, choose } of pieces) {
-      mesh.position.set(base[0] - from[0], base[1] - from[1], -from[2]);
-      if (moved) choose(camera);
-    }
+    for (const { mesh, base } of pieces) mesh.position.set(base[0] - from[0], base[1] - from[1], -from[2]);
+    if (!moved) return;
+    chosen = camera;
+    const levels = levelsWithin(pieces.map(({ parts: drawn }) => drawn), camera);
+    pieces.forEach(({ choose }, k) => choose(levels[k]));
   };
   const dispose = () => {
     for (const { mesh } of [...pieces, around]) mesh.geometry.dispose();
   };
   return { group, follow, dispose };
+}
+
+/**
+ * Levels of all parts of all pieces, whose triangles are not more than a picture may have.
+ * @param {{middle: number[], radius: number, levels: {error: number, triangles: ArrayLike<number>}[]}[][]} pieces
+ * @param {number[]} eye x and y in the world @param {number} [most] triangles
+ * @returns {number[][]}
+ */
+export function levelsWithin(pieces, eye, most = MOST) {
+  const away = pieces.map((drawn) => drawn.map(({ middle, radius }) => Math.hypot(eye[0] - middle[0], eye[1] - middle[1]) - radius));
+  for (let error = ERROR; ; error *= COARSER) {
+    const chosen = pieces.map((drawn, k) => drawn.map(({ levels }, i) => levelAt(levels, away[k][i], error)));
+    const count = pieces.flatMap((drawn, k) => drawn.map(({ levels }, i) => levels[chosen[k][i]].triangles.length / 3));
+    if (error > 1 || count.reduce((sum, value) => sum + value, 0) <= most) return chosen;
+  }
 }
 
 function meshOf({ base, positions, normals, parts: drawn }, material) {
@@ -62,9 +79,8 @@ function meshOf({ base, positions, normals, parts: drawn }, material) {
   const index = new THREE.BufferAttribute(new Uint32Array(finest), 1).setUsage(THREE.DynamicDrawUsage);
   geometry.setIndex(index);
   let before = "";
-  /** @param {number[]} eye x and y in the world */
-  const choose = (eye) => {
-    const levels = drawn.map(({ middle, radius, levels: all }) => levelAt(all, Math.hypot(eye[0] - middle[0], eye[1] - middle[1]) - radius));
+  /** @param {number[]} levels of the parts */
+  const choose = (levels) => {
     const now = levels.join("");
     if (now === before) return;
     before = now;
@@ -79,5 +95,5 @@ function meshOf({ base, positions, normals, parts: drawn }, material) {
     index.needsUpdate = true;
     geometry.setDrawRange(0, used);
   };
-  return { mesh: new THREE.Mesh(geometry, material), base, choose };
+  return { mesh: new THREE.Mesh(geometry, material), base, parts: drawn, choose };
 }

@@ -61,7 +61,7 @@ export function makeScenery(things, { axes, paint, ground, drafted = false }) {
   const group = new THREE.Group();
   turn(group, fromColumns(...axes));
   const { known, texts } = drawable(things);
-  const held = makeHeld(known, texts, drafted ? 5 : 12);
+  const held = makeHeld(known, texts, drafted);
   const pieces = [];
   const fewer = () => known.filter(({ kind, seed }, k) => kind !== "tree" || (seed ?? k) % FEW === 0);
   for (const square of drafted ? [fewer()] : squares(known)) {
@@ -93,14 +93,14 @@ export function makeScenery(things, { axes, paint, ground, drafted = false }) {
   return { group, follow, dispose };
 }
 
-/** Materials and geometries that all squares share; only what the things need. @param {Data[]} things @param {string[]} texts @param {number} sides of cones */
-function makeHeld(things, texts, sides) {
+/** Materials and geometries that all squares share; only what the things need. @param {Data[]} things @param {string[]} texts @param {boolean} coarse */
+function makeHeld(things, texts, coarse) {
   const has = (kind) => things.some((thing) => thing.kind === kind);
   const plain = skylit(new THREE.MeshLambertMaterial({ vertexColors: true }));
   const held = { plain, owned: [plain], cones: new Map() };
   const own = (thing) => (held.owned.push(thing), thing);
   if (has("tree")) held.forest = own(new Forest());
-  if (has("post")) held.post = own(postGeometry());
+  if (has("post")) held.post = own(postGeometry(coarse));
   if (has("building")) {
     held.walls = own(skylit(new THREE.MeshLambertMaterial({ vertexColors: true }), windows));
     held.walls.defines = { USE_UV: 1 };
@@ -110,7 +110,7 @@ function makeHeld(things, texts, sides) {
     held.boards = own(skylit(new THREE.MeshLambertMaterial({ map })));
   }
   held.cone = (colour) => {
-    if (!held.cones.has(colour)) held.cones.set(colour, own(coneGeometry(colour, sides)));
+    if (!held.cones.has(colour)) held.cones.set(colour, own(coneGeometry(colour, coarse)));
     return held.cones.get(colour);
   };
   return held;

@@ -17,23 +17,24 @@ function turned(made, rings, sides) {
   }
 }
 
-/** @param {string} colour orange, yellow or blue @param {number} [sides] */
-export function coneGeometry(colour = "orange", sides = 12) {
+/** @param {string} colour orange, yellow or blue @param {boolean} [coarse] of four sides, open above */
+export function coneGeometry(colour = "orange", coarse = false) {
   const made = new Triangles();
   const paint = CONES[colour] ?? CONES.orange;
   made.box([0, 0, 0], [0.56, 0.56, 0.05], 0, paint.map((value) => 0.6 * value));
   const levels = [0.05, 0.38, 0.58, 0.72, 0.86, 1];
   const rings = levels.map((z, k) => ({ z, radius: 0.21 - 0.165 * z, colour: k % 2 === 1 ? WHITE : paint }));
-  turned(made, [...rings, { z: 1, radius: 0.001, colour: paint }], sides);
+  if (!coarse) rings.push({ z: 1, radius: 0.001, colour: paint });
+  turned(made, rings, coarse ? 4 : 12);
   return made.geometry();
 }
 
-/** A white post with a black band and a reflector. */
-export function postGeometry() {
+/** A white post with a black band and a reflector. @param {boolean} [coarse] without the reflector */
+export function postGeometry(coarse = false) {
   const made = new Triangles();
   made.box([0, 0, 0], [0.1, 0.12, 0.72], 0, WHITE);
   made.box([0, 0, 0.72], [0.1, 0.12, 0.2], 0.0, [0.02, 0.02, 0.02]);
   made.box([0, 0, 0.92], [0.1, 0.12, 0.08], 0, WHITE);
-  made.box([0, 0, 0.76], [0.112, 0.05, 0.12], 0, [0.85, 0.5, 0.08]);
+  if (!coarse) made.box([0, 0, 0.76], [0.112, 0.05, 0.12], 0, [0.85, 0.5, 0.08]);
   return made.geometry();
 }
