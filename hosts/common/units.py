@@ -153,15 +153,6 @@ def unit_of(name: str) -> str | None:
     return next((unit for pattern, unit in _OF_OUR_NAMES if re.fullmatch(pattern, name)), None)
 
 
-def round_off_of(unit: str) -> float:
-    """What rounding leaves of a number of a car that is zero, in this unit: 1e-9 of its base units, and 1e-6 where the
-    unit has kg, whose forces, moments and energies are some thousand N, N m and J; 1e-12 of a unit that is not known."""
-    known = known_unit(unit)
-    if known is None:
-        return 1e-12
-    return (1e-6 if known.exponents.get("kg") else 1e-9) / known.factor
-
-
 def same_quantity(one: UnitDefinition, other: UnitDefinition) -> bool:
     """Whether both measure the same; angles count as numbers."""
     first, second = ({b: n for b, n in unit.exponents.items() if b != "rad"} for unit in (one, other))

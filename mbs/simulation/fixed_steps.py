@@ -23,7 +23,6 @@ from mbs.simulation.march import march
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
-
 Told: TypeAlias = "list[tuple[type[Warning], str]]"
 
 

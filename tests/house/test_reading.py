@@ -23,7 +23,7 @@ MOST = {
     "compare": 9908,
     "study": 7058,
     "study --run": 8647,
-    "study, all of it": 16499,
+    "study, all of it": 16541,
     "road": 700,
 }
 """Lines; a command that needs fewer takes its number down with it."""

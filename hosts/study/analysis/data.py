@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.display_units import shown_in
-from hosts.common.units import round_off_of
+from hosts.common.units import known_unit
 from hosts.study.limits import limit_ends
 
 if TYPE_CHECKING:
@@ -189,7 +189,7 @@ def without_round_off(values: NDArray[np.float64], unit: str) -> NDArray[np.floa
         Each moved by no more than the round-off: to the smallest of its neighbours, which do not reach farther.
     """
     size = float(np.abs(values).max())
-    width = max(_RELATIVE_ROUND_OFF * size, round_off_of(unit))
+    width = max(_RELATIVE_ROUND_OFF * size, _round_off_of(unit))
     levels, codes = np.unique(values, return_inverse=True)
     start = 0
     while start < len(levels):
@@ -197,6 +197,15 @@ def without_round_off(values: NDArray[np.float64], unit: str) -> NDArray[np.floa
         levels[start:end] = levels[start]
         start = end
     return np.asarray(levels[codes])
+
+
+def _round_off_of(unit: str) -> float:
+    """What rounding leaves of a number of a car that is zero, in this unit: 1e-9 of its base units, and 1e-6 where it
+    has kg (forces, moments and energies are some thousand N, N m and J); 1e-12 of a unit that is not known."""
+    known = known_unit(unit)
+    if known is None:
+        return 1e-12
+    return (1e-6 if known.exponents.get("kg") else 1e-9) / known.factor
 
 
 def _numbers(column: pd.Series[Any]) -> tuple[NDArray[np.float64], tuple[str, ...]]:

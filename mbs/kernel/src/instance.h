@@ -53,7 +53,6 @@ struct ali3_instance {
   ali3_report report;
   ali3_report report_before; /* of the step that branch_watch.c may repeat */
   double t_base, h_last; /* time = t_base + count * h_last */
-  bool may_divide; /* the present step is halved where a force changes abruptly in it */
   bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count, iterations_before; /* of steps of h_last, and report.iterations where the present step began */
   int32_t initialised;

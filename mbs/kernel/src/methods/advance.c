@@ -1,4 +1,4 @@
-/* A step by the method of the settings, in halves where it does not converge or a force changes abruptly in it. */
+/* A step by the method of the settings, in halves where it does not converge. */
 #include "../instance.h"
 #include "../method.h"
 #include "../state/inputs.h"
@@ -6,7 +6,6 @@
 #include "../state/vectors.h"
 #include "../state/work.h"
 #include "energy_balance.h"
-#include "quick_stop.h"
 #include "steps.h"
 
 static ali3_status by_method(ali3_instance *in, double t, double h) {
@@ -28,13 +27,11 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
 
 enum { MOST_ITERATIONS = 1000 }; /* of a step with all its parts */
 
-/* A step to time t, in halves where it does not converge or a force changes abruptly in it. */
+/* A step to time t, in halves where it does not converge. */
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   const ali3_method *method = ali3_method_of(in);
   if (in->report.iterations - in->iterations_before > MOST_ITERATIONS) return ALI3_TOO_DEAR;
   in->halves_left = depth > 0 && depth < in->settings.max_halvings;
-  in->may_divide = ali3_may_divide(in, depth);
-  const int64_t divisions = in->report.divisions;
   const ali3_status status = by_method(in, t, h);
   if (status == ALI3_OK) in->t_now = t;
   if (status == ALI3_OK && method->motion != NULL) method->motion(in, h);
@@ -42,7 +39,7 @@ ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   if (status == ALI3_OK || status == ALI3_BAD_ARGUMENT || status == ALI3_BAD_NORMAL || depth <= 0 ||
       in->settings.step_iterations > 0)
     return status;
-  if (in->report.divisions == divisions) in->report.halvings++;
+  in->report.halvings++;
   ali3_back_up(in);
   const ali3_status first = ali3_advance(in, t - 0.5 * h, 0.5 * h, depth - 1);
   return first == ALI3_OK ? ali3_advance(in, t, 0.5 * h, depth - 1) : first;
