@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import TypeAlias
 
 from mbs.common.progress import progress_for
 from mbs.results import accuracy
@@ -17,9 +18,12 @@ from mbs.settings.input_signals import Signal
 from mbs.simulation import repeat
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
+from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
+
+Told: TypeAlias = "list[tuple[type[Warning], str]]"
 
 
 def fixed_step_run(
@@ -35,6 +39,28 @@ def fixed_step_run(
     extents: dict[str, float] | None = None,
 ) -> Trajectory:
     """A run in steps of h, with repeats where its accuracy asks for them, or at most one (see `repeat.check`)."""
+    told: Told = []
+    try:
+        return judged_run(system, start, t0, t_end, h, inputs, every, progress, estimate_error, told, extents)
+    finally:
+        for category, text in told:
+            warnings.warn(text, category, stacklevel=4)
+
+
+def judged_run(
+    system: System,
+    start: Callable[[float], SteppedSystem],
+    t0: float,
+    t_end: float,
+    h: float,
+    inputs: Mapping[str, Signal] | None,
+    every: int,
+    progress: bool | Callable[[float], None] | None,
+    estimate_error: bool | None,
+    told: Told,
+    extents: dict[str, float] | None = None,
+) -> Trajectory:
+    """The same; what it warns of beside `Accuracy.message` is added to `told`, also where the run fails."""
     made: list[SteppedSystem] = []
     found: Accuracy | None = None
 
@@ -65,13 +91,11 @@ def fixed_step_run(
         raise
     finally:  # of the run that was asked for, also when it failed
         jump = made and made[0].report.branch_kind == BRANCH_JUMPED
-        told = made[0].branch_change if jump else found.branch if found is not None else ""
-        if told:
-            warnings.warn(told, BranchWarning, stacklevel=4)
-        if made:
-            made[0].bending.warn(stacklevel=5)
-        if made and found is not None and (told := made[0].instance.rim_text()):  # else the refusal says it
-            warnings.warn(told, RoadWarning, stacklevel=4)
+        branch = made[0].branch_change if jump else found.branch if found is not None else ""
+        bent = made[0].bending.message if made else ""
+        rim = made[0].instance.rim_text() if made and found is not None else ""  # else the refusal says it
+        said = ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim))
+        told += [(category, text) for category, text in said if text]
     trajectory = run[0].thinned(every // often)
     trajectory.accuracy = found
     return trajectory

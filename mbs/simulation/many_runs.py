@@ -27,6 +27,7 @@ from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import (
     check_end,
+    check_estimate,
     check_every,
     check_progress,
     check_record,
@@ -38,6 +39,7 @@ from mbs.simulation.arguments import (
     count_steps,
 )
 from mbs.simulation.branch_warning import BranchWarning
+from mbs.simulation.fixed_steps import Told, judged_run
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.march import attached, next_chunk, trajectory_of
@@ -102,7 +104,7 @@ class _Found(NamedTuple):
     trajectory: Trajectory | None
     failure: SimulationError | None
     alone: int
-    told: list[tuple[type[Warning], str]]
+    told: Told
 
 
 class _Run:
@@ -113,21 +115,11 @@ class _Run:
     ) -> None:
         meta = prepared(system)[1]
         signals = InputSignals(variant.inputs, meta["inputs"])
-        first = signals.at(np.array([t0]), 1e-6 * h, after_jump=True)[0]
-        names = [meta["inputs"][i]["name"] for i in signals.columns()]
-        with _STARTING, warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            self.simulation = Simulation(
-                system,
-                settings=settings,
-                inputs=dict(zip(names, first.tolist(), strict=True)),
-                parameters=variant.parameters,
-                pose=variant.pose,
-                t0=t0,
-            )
-        self.told_at_start = [(w.category, str(w.message)) for w in caught]
+        self.system, self.variant, self.settings = system, variant, settings
+        self.signals, self.h, self.t0, self.steps, self.every = signals, h, t0, steps, every
+        self.told_at_start: Told = []
+        self.simulation = self._start(h)
         self.simulation.step_tried = h
-        self.signals, self.h, self.t0, self.every = signals, h, t0, every
         self.before, self.alone, self.wall = self.simulation.report, 0, 0.0
         self.values = np.empty((steps // every + 1, len(meta["sensors"])))
         self.values[0] = list(self.simulation.instance.sensors())
@@ -135,14 +127,31 @@ class _Run:
         self.record = PositionRecord(system, self.simulation.state.q, len(self.values))
         self.error: KernelError | None = None
 
+    def _start(self, h: float) -> Simulation:
+        first = self.signals.at(np.array([self.t0]), 1e-6 * h, after_jump=True)[0]
+        declared = prepared(self.system)[1]["inputs"]
+        names = [declared[i]["name"] for i in self.signals.columns()]
+        with _STARTING, warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            simulation = Simulation(
+                self.system,
+                settings=self.settings,
+                inputs=dict(zip(names, first.tolist(), strict=True)),
+                parameters=self.variant.parameters,
+                pose=self.variant.pose,
+                t0=self.t0,
+            )
+        self.told_at_start = [(w.category, str(w.message)) for w in caught]
+        return simulation
+
     def rows(self, done: int, n: int) -> tuple[int, Any, Any]:
         """Where n steps after the first `done` are recorded."""
         row = done // self.every + 1
         part = self.values[row : (done + n) // self.every + 1]
         return row, part, self.record.rows(row, len(part))
 
-    def ended(self) -> _Found:
-        """What was recorded, why it is not all, and what it warns of."""
+    def ended(self, checked: bool) -> _Found:
+        """What was recorded, why it is not all, and what it warns of, where it is `checked` as `simulate` does."""
         time_now = self.simulation.time
         good = round((time_now - self.t0) / self.h) // self.every + 1 if self.error else len(self.values)
         interval = self.h * self.every
@@ -153,9 +162,28 @@ class _Run:
         if self.error is not None:
             what = f"The step from t = {time_now:g} s with h = {self.h:g} s failed"
             failure = refusal(self.simulation, what, self.error, recorded)
-        return _Found(recorded, failure, self.alone, self._told(recorded))
+        told = self._checked(recorded) if checked and failure is None else self._told(recorded)
+        return _Found(recorded, failure, self.alone, told)
 
-    def _told(self, run: Trajectory) -> list[tuple[type[Warning], str]]:
+    def _checked(self, run: Trajectory) -> Told:
+        """By the repeats of `simulate`, which begin with the same run alone; a plainly smooth run has none."""
+        told = list(self.told_at_start)
+        report, method, driven = self.simulation.report, METHOD, len(self.system.arrays["gterm_row"]) > 0
+        if accuracy.doubt(report, report.steps, report.halvings, method) or accuracy.balance_decides(
+            report, method, driven
+        ):
+            end = self.t0 + self.steps * self.h
+            judged = judged_run(
+                self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None, told
+            )
+            run.accuracy = judged.accuracy
+            if run.accuracy is not None and run.accuracy.message:
+                told.append((AccuracyWarning, run.accuracy.message))
+            return told
+        bent, rim = self.simulation.bending.message, self.simulation.instance.rim_text()
+        return told + [(kind, text) for kind, text in ((BendingWarning, bent), (RoadWarning, rim)) if text]
+
+    def _told(self, run: Trajectory) -> Told:
         system, report = self.simulation.system, run.report
         driven, told = len(system.arrays["gterm_row"]) > 0, list(self.told_at_start)
         if report is not None and accuracy.balance_says(report, METHOD, driven):
@@ -181,6 +209,7 @@ def simulate_many(
     lanes: int | None = None,
     threads: int | None = None,
     progress: bool | Callable[[float], None] | None = None,
+    estimate_error: bool | None = None,
 ) -> ManyRuns:
     """Run variants of a System in equal steps, several at once on each core.
 
@@ -200,7 +229,10 @@ def simulate_many(
     threads : int, optional
         Groups at once; by default one for each core.
     progress : bool or callable, optional
-        As of `simulate`.
+        As of `simulate`; repeats are not in it.
+    estimate_error : {None, False}, optional
+        None checks each run as `simulate` does: one that is not plainly smooth is made again alone and with other
+        steps, which costs two runs of its own or more. False repeats none.
 
     Returns
     -------
@@ -210,8 +242,8 @@ def simulate_many(
     Warns
     -----
     AccuracyWarning, BranchWarning, BendingWarning, ParameterWarning, RoadWarning
-        As `simulate`, with the number of the variant. No run is repeated: where the energy balance is kept, nothing is
-        known of the error but `Trajectory.accuracy`, and `Report.coarse_event`, `Report.quick_load` and
+        As `simulate`, with the number of the variant. Of a run that fails, and of all with ``estimate_error=False``,
+        nothing is known of the error but the energy balance, and `Report.coarse_event`, `Report.quick_load` and
         `Report.quick_change`, which are warned of.
 
     Raises
@@ -223,6 +255,10 @@ def simulate_many(
     t0, h, every = check_time(t0, "The start t0"), check_step(h), check_every(every)
     steps = count_steps(t0, check_end(t0, t_end), h)
     check_progress(progress)
+    if check_estimate(estimate_error):
+        raise ValueError(
+            "estimate_error = True; many runs are checked where they need it (None) or not at all (False)."
+        )
     settings = check_settings(settings)
     if settings.method != METHOD:
         raise ValueError(
@@ -246,7 +282,7 @@ def simulate_many(
             made[number] = done * len(members)
             return not stopped.is_set()
 
-        found.update(_run_group(system, members, settings, (t0, h, steps, every), width, told))
+        found.update(_run_group(system, members, settings, (t0, h, steps, every), width, told, estimate_error is None))
         made[number] = steps * len(members)
 
     with progress_for(progress) as bar, ThreadPoolExecutor(min(workers, max(1, len(groups)))) as pool:
@@ -276,6 +312,7 @@ def _run_group(
     course: tuple[float, float, int, int],
     width: int,
     told: Callable[[int], bool],
+    checked: bool,
 ) -> dict[int, _Found]:
     """The runs of one group, by the number of the variant; `told` returns whether to go on."""
     t0, h, steps, every = course
@@ -310,7 +347,7 @@ def _run_group(
             chunk = next_chunk(chunk, spent, every)
             going = [run for run in going if run.error is None]
         for k, run in runs.items():
-            found[k] = run.ended()
+            found[k] = run.ended(checked)
     return found
 
 

@@ -119,7 +119,9 @@ def test_an_edge_at_speed_is_told_once(prototype_fmu: Path, host: HostMaker, h: 
     variant = mbs.Variant(edge, pose=mbs.Pose(speed=20.0))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
-        runs = mbs.simulate_many(mbs.compile(prototype_car.build()), [variant], 1.0, h, progress=False)
+        runs = mbs.simulate_many(
+            mbs.compile(prototype_car.build()), [variant], 1.0, h, progress=False, estimate_error=False
+        )
     report = runs.trajectories[0].report
     assert [words in str(w.message) for w in said if w.category is mbs.AccuracyWarning] == [True] * told
     if told:
@@ -155,7 +157,9 @@ def test_a_wheel_that_drops_onto_its_rebound_stop_is_told_once(
     variant = mbs.Variant({}, pose=mbs.Pose(speed=3.0, z=0.27))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
-        runs = mbs.simulate_many(mbs.compile(prototype_car.build()), [variant], 0.8, h, progress=False)
+        runs = mbs.simulate_many(
+            mbs.compile(prototype_car.build()), [variant], 0.8, h, progress=False, estimate_error=False
+        )
     report = runs.trajectories[0].report
     about = [str(w.message) for w in said if "rebound stop" in str(w.message)]
     assert len(about) == int(told)

@@ -41,7 +41,7 @@ VARIANTS = list(CARS.values())
 
 def test_trajectories_are_those_of_single_runs() -> None:
     """Two threads, groups that are not full, a record of every third step and times, units and counters."""
-    runs = simulate_many(system(), VARIANTS, 0.5, 0.01, every=3, threads=2, progress=False)
+    runs = simulate_many(system(), VARIANTS, 0.5, 0.01, every=3, threads=2, progress=False, estimate_error=False)
     assert runs.failures == {}
     assert runs.alone == [0] * len(VARIANTS)
     assert runs.lanes == min(widest_lanes(), 8)
@@ -97,7 +97,7 @@ def test_a_wrong_run_is_told() -> None:
 
 def test_progress_reaches_the_end() -> None:
     shares: list[float] = []
-    simulate_many(system(), VARIANTS[:3], 0.1, 0.01, progress=shares.append)
+    simulate_many(system(), VARIANTS[:3], 0.1, 0.01, progress=shares.append, estimate_error=False)
     assert shares[-1] == 1.0
     assert shares == sorted(shares)
 

@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.display_units import shown_in
-from hosts.common.numbers import is_round_off
+from hosts.common.units import known_unit
 from hosts.study.limits import limit_ends
 
 if TYPE_CHECKING:
     import pandas as pd
 
 FAILED = "failed"
+_RELATIVE_ROUND_OFF = 1e-8  # of the largest value: what steps leave within their tolerance
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ class Response:
     rows : ndarray of int, shape (m,)
         Positions in the frame of the runs that yield it.
     values : ndarray of shape (m,)
-        Finite.
+        Finite; those that differ by rounding only are the same, so that nothing ranks it.
     asked : int
         Runs that were to yield it.
     several : bool
@@ -79,7 +80,7 @@ class Response:
     @property
     def varies(self) -> bool:
         """Whether its values differ by more than rounding."""
-        return not is_round_off(float(np.ptp(self.values)), float(np.abs(self.values).max()))
+        return bool(np.ptp(self.values) > 0.0)
 
     @property
     def label(self) -> str:
@@ -165,10 +166,46 @@ def study_data(frame: pd.DataFrame) -> StudyData:
             if len(rows):
                 asked, several = int(mine.sum()), len(names) > 1
                 limits = (ends[0], ends[1])
-                responses.append(Response(measure, manoeuvre, unit, rows, values[rows], asked, several, limits))
+                found = without_round_off(values[rows], unit)
+                responses.append(Response(measure, manoeuvre, unit, rows, found, asked, several, limits))
     x = np.stack(columns, axis=1) if columns else np.empty((len(frame), 0))
     failed = np.asarray(frame["status"].astype(str) == FAILED)
     return StudyData(frame, tuple(parameters), x, tuple(responses), failed, attrs)
+
+
+def without_round_off(values: NDArray[np.float64], unit: str) -> NDArray[np.float64]:
+    """Values of which those that lie within the round-off of the largest of them, or of the unit, are the same.
+
+    Parameters
+    ----------
+    values : ndarray of shape (n,)
+        Finite; n is at least 1.
+    unit : str
+        Theirs.
+
+    Returns
+    -------
+    ndarray of shape (n,)
+        Each moved by no more than the round-off: to the smallest of its neighbours, which do not reach farther.
+    """
+    size = float(np.abs(values).max())
+    width = max(_RELATIVE_ROUND_OFF * size, _round_off_of(unit))
+    levels, codes = np.unique(values, return_inverse=True)
+    start = 0
+    while start < len(levels):
+        end = int(np.searchsorted(levels, levels[start] + width, side="right"))
+        levels[start:end] = levels[start]
+        start = end
+    return np.asarray(levels[codes])
+
+
+def _round_off_of(unit: str) -> float:
+    """What rounding leaves of a number of a car that is zero, in this unit: 1e-9 of its base units, and 1e-6 where it
+    has kg (forces, moments and energies are some thousand N, N m and J); 1e-12 of a unit that is not known."""
+    known = known_unit(unit)
+    if known is None:
+        return 1e-12
+    return (1e-6 if known.exponents.get("kg") else 1e-9) / known.factor
 
 
 def _numbers(column: pd.Series[Any]) -> tuple[NDArray[np.float64], tuple[str, ...]]:

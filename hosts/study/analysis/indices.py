@@ -123,8 +123,9 @@ def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.flo
     if same := _all_the_same(y):
         return same
     axes = range(len(names))
-    first = [table.mean(axis=tuple(k for k in axes if k != i)).var() / variance for i in axes]
-    total = [table.var(axis=i).mean() / variance for i in axes]
+    changes = [bool(np.ptp(table, axis=i).any()) for i in axes]  # a mean of equal numbers need not be that number
+    first = [changes[i] * table.mean(axis=tuple(k for k in axes if k != i)).var() / variance for i in axes]
+    total = [changes[i] * table.var(axis=i).mean() / variance for i in axes]
     none = np.full(len(names), np.nan)
     how = f"Exact for the {' x '.join(map(str, shape))} points of the grid, each taken to be equally likely."
     return Indices(tuple(names), np.array(first), none, np.array(total), none, how)

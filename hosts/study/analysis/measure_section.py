@@ -6,7 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ali3.html_elements import element, table
+from hosts.common.numbers import is_round_off
 from hosts.study.analysis.data import Parameter, Response, StudyData
 from hosts.study.analysis.effect_plots import MOST_POINTS, plot_main_effects, plot_scatter
 from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
@@ -121,7 +124,8 @@ def _numbers(
     rows = []
     for parameter, effect in zip(parameters, effects, strict=True):
         row: dict[str, object] = {"measure": response.measure, "manoeuvre": response.manoeuvre, "unit": response.unit}
-        row |= {"parameter": parameter.name, "parameter_unit": parameter.unit, "main_effect_span": effect.span}
+        span = 0.0 if is_round_off(effect.span, float(np.abs(response.values).max())) else effect.span
+        row |= {"parameter": parameter.name, "parameter_unit": parameter.unit, "main_effect_span": span}
         if isinstance(indices, Indices) and parameter.name in indices.names:
             k = indices.names.index(parameter.name)
             row |= {"first": indices.first[k], "first_conf": indices.first_conf[k]}

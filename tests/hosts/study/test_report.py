@@ -16,6 +16,7 @@ from hosts.common.errors import HostError
 from hosts.study.analysis.data import study_data
 from hosts.study.analysis.effect_plots import failed_share
 from hosts.study.analysis.indices import Indices
+from hosts.study.analysis.measure_section import indices_of
 from hosts.study.analysis.report import report_of
 from hosts.study.analysis.slide import limit_rows, main_response
 from hosts.study.analysis.summary_plots import plot_indices, rank_correlations
@@ -102,6 +103,19 @@ def test_round_off_is_no_effect(tmp_path: Path) -> None:
     assert "It is 3 m/s2 in all runs" in report_of(made, tmp_path, commands)[0].read_text(encoding="utf-8")
     made["peak"] = 3.0 * (1.0 + 1e-6 * rng.random(100))
     assert study_data(made).responses[0].varies
+
+
+def test_a_parameter_that_changes_round_off_only_has_no_effect() -> None:
+    """Beside one that does; and a lateral acceleration of a car that drives straight is none."""
+    a, b = (g.ravel() for g in np.meshgrid([0.0, 1.0, 2.0], [0.0, 1.0, 2.0], indexing="ij"))
+    columns = {"peak": 3.0 + a + 2e-9 * b, "straight": 5e-11 * (1.0 + a)}
+    made = frame_of({"mass": a, "toe": b}, columns, UNITS | {"straight": "m/s2"}, method="grid")
+    data = study_data(made)
+    assert [r.varies for r in data.responses] == [True, False]
+    assert rank_correlations(data, data.responses)[0] == pytest.approx([1.0, 0.0], abs=1e-12)
+    indices = indices_of(data, data.responses[0])
+    assert isinstance(indices, Indices)
+    assert (indices.first[1], indices.total[1]) == (0.0, 0.0)
 
 
 def test_units_are_those_of_the_field() -> None:

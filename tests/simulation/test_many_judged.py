@@ -1,0 +1,76 @@
+"""`simulate_many` warns of the runs that `simulate` warns of, in its words."""
+
+from __future__ import annotations
+
+import warnings
+from collections import Counter
+
+import pytest
+
+import mbs
+from mbs.scenes import double_four_bar
+from mbs.vehicle import load as load_car
+
+Told = Counter[tuple[type[Warning], str]]
+
+
+def told_by_each(system: mbs.System, variants: list[mbs.Variant], t_end: float, h: float, every: int) -> list[Told]:
+    """Warnings of the runs made one by one."""
+    found = []
+    for variant in variants:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            mbs.simulate(
+                system, t_end, h, variant.inputs, parameters=variant.parameters, pose=variant.pose, every=every,
+                progress=False,
+            )  # fmt: skip
+        found.append(Counter((w.category, str(w.message)) for w in caught))
+    return found
+
+
+def told_together(system: mbs.System, variants: list[mbs.Variant], t_end: float, h: float, every: int) -> list[Told]:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        mbs.simulate_many(system, variants, t_end, h, every=every, progress=False)
+    found: list[Told] = [Counter() for _ in variants]
+    for w in caught:
+        number, _, text = str(w.message).removeprefix("Variant ").partition(": ")
+        found[int(number)][w.category, text] += 1
+    return found
+
+
+@pytest.mark.slow
+def test_cars_over_kerbs_and_falls() -> None:
+    """One that stands and wrong ones, with few samples."""
+    system = mbs.compile(load_car("commonroad_escort").model())
+    kerb = {"road.kerb_x": 3.0, "road.kerb_height": 0.1}
+    variants = [
+        mbs.Variant(),
+        mbs.Variant(kerb, {"brake": 0.6}, mbs.Pose(speed=22.0)),
+        mbs.Variant(kerb, {"steering": 0.3}, mbs.Pose(speed=8.0)),
+        mbs.Variant(pose=mbs.Pose(z=0.5, speed=2.0)),
+    ]
+    each = told_by_each(system, variants, 1.0, 0.02, 10)
+    assert told_together(system, variants, 1.0, 0.02, 10) == each
+    assert each[0] == Counter()
+    assert sum(bool(told) for told in each) > 0
+
+
+def test_a_mechanism_that_swings_too_fast() -> None:
+    system = mbs.compile(double_four_bar.build())
+    variants = [mbs.Variant(), mbs.Variant()]
+    each = told_by_each(system, variants, 3.0, 0.05, 1)
+    assert told_together(system, variants, 3.0, 0.05, 1) == each
+    assert any(kind is mbs.AccuracyWarning for told in each for kind, _ in told)
+
+
+def test_without_checks_nothing_is_repeated_and_true_is_refused() -> None:
+    system = mbs.compile(double_four_bar.build())
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        runs = mbs.simulate_many(system, [mbs.Variant()], 0.2, 0.01, progress=False, estimate_error=False)
+    assert runs.trajectories[0] is not None
+    assert runs.trajectories[0].accuracy is not None
+    assert runs.trajectories[0].accuracy.repeated_with is None
+    with pytest.raises(ValueError, match="estimate_error = True; many runs"):
+        mbs.simulate_many(system, [mbs.Variant()], 0.2, 0.01, progress=False, estimate_error=True)
