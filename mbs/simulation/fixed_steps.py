@@ -92,7 +92,7 @@ def judged_run(
     finally:  # of the run that was asked for, also when it failed
         jump = made and made[0].report.branch_kind == BRANCH_JUMPED
         branch = made[0].branch_change if jump else found.branch if found is not None else ""
-        bent = made[0].bending.message if made else ""
+        bent = made[0].bending.once() if made else ""
         rim = made[0].instance.rim_text() if made and found is not None else ""  # else the refusal says it
         said = ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim))
         told += [(category, text) for category, text in said if text]

@@ -39,7 +39,7 @@ class BendingWatch:
         self.frames = frames
         self.turn, self.time = 0.0, 0.0
         self.body: FlexibleShapes | None = None
-        self._warned = False
+        self._taken = False
 
     @property
     def watches(self) -> bool:
@@ -70,8 +70,13 @@ class BendingWatch:
             f"{parts} or more bodies welded end to end."
         )
 
+    def once(self) -> str:
+        """The sentence where it was not taken before, else empty."""
+        text = "" if self._taken else self.message
+        self._taken = self._taken or bool(text)
+        return text
+
     def warn(self, stacklevel: int) -> None:
         """Issue the sentence, once."""
-        if self.message and not self._warned:
-            self._warned = True
-            warnings.warn(self.message, BendingWarning, stacklevel=stacklevel)
+        if text := self.once():
+            warnings.warn(text, BendingWarning, stacklevel=stacklevel)

@@ -26,17 +26,18 @@ void main() {
   gl_Position = projectionMatrix * seen;
 }`;
 
+// Of instances with colours three.js tells a vertex shader USE_INSTANCING_COLOR, a fragment shader USE_COLOR.
 const FRAGMENT = /* glsl */ `
 varying vec3 vNormal, vEye;
 varying float vLevel;
-#ifdef USE_INSTANCING_COLOR
+#ifdef USE_COLOR
 varying vec3 vColour;
 #endif
 uniform vec3 colour;
 uniform sampler2D map;
 void main() {
   vec3 meant = colour;
-  #ifdef USE_INSTANCING_COLOR
+  #ifdef USE_COLOR
   meant = vColour;
   #endif
   #ifdef BY_LEVEL
