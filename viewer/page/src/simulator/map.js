@@ -146,6 +146,8 @@ class Ground {
   constructor(plan) {
     this.plan = plan;
     this.canvas = el("canvas");
+    /** Pixels a metre and the place in the middle of what is drawn; 0: nothing yet. */
+    this.scale = this.x = this.y = 0;
   }
 
   /**
@@ -165,7 +167,9 @@ class Ground {
   }
 
   #make({ scale, x, y, pixel }, w, h) {
-    Object.assign(this, { scale, x, y });
+    this.scale = scale;
+    this.x = x;
+    this.y = y;
     Object.assign(this.canvas, { width: w, height: h }); // empties it
     const context = this.canvas.getContext("2d");
     context.fillStyle = BACKGROUND;
