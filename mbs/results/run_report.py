@@ -58,6 +58,9 @@ class Report:
         squares of their changes in a step, over the largest load, s^1.5, 0: nowhere; when, s; a step that would do, s.
     largest_force : float
         Of a tyre, a contact or a spring with end stops in a System with roads, N.
+    divisions : int
+        Steps that were made in halves, as parts of them may have been again, because a force of a contact or a stop
+        changed abruptly in them.
     branch_changes : int
         Changes of the assembly mode of closed loops.
     branch_time : float
@@ -105,6 +108,7 @@ class Report:
     load_time: float = 0.0
     load_step: float = 0.0
     largest_force: float = 0.0
+    divisions: int = 0
     branch_changes: int = 0
     branch_time: float = 0.0
     branch_kind: int = 0

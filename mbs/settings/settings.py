@@ -36,6 +36,7 @@ class Settings:
         Newton iterations of one step.
     max_halvings : int
         How often a step that does not converge, or in which the energy changes without a force, is halved; 0 never.
+        One in which a force of a contact or a stop changes abruptly is halved twice at most; `Report.divisions` counts.
     project : bool
         Project velocities and accelerations, equations (24) and (25) of the paper.
     update : {"linearised", "paper"}

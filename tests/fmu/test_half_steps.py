@@ -56,6 +56,27 @@ def test_the_motion_is_that_of_the_engine_to_the_last_bit(prototype_fmu: Path, h
     assert (found == np.array([run[name] for name in FORCES]).T[1:]).all()
 
 
+def test_a_step_that_is_divided_at_an_abrupt_force_has_no_derivative(prototype_fmu: Path, host: HostMaker) -> None:
+    """By the second step of 10 ms that the engine divides; the one before it has one."""
+    h, run = 0.01, mbs.Simulation(mbs.compile(prototype_car.build()), pose=mbs.Pose(z=FALL["initial.z"], speed=8.4))
+    driven = host(prototype_fmu).start(FALL | {"step_size": h})
+    unknown, known = [driven.references["chassis.yaw"]], [driven.references["steering"]]
+    asked = {True: 0, False: 0}
+    for k in range(40):
+        before = run.report.divisions
+        run.step(h)
+        driven.step(k * h, h)
+        divided = run.report.divisions > before
+        if divided:
+            assert driven.call("getDirectionalDerivative", unknown, known, [1.0]) == ERROR
+            assert "an inner step of it was halved" in driven.messages[-1]
+        elif k % 4 == 0:
+            driven.call("getDirectionalDerivative", unknown, known, [1.0])
+            assert "halved" not in driven.messages[-1:]
+        asked[divided] += 1
+    assert min(asked.values()) > 3
+
+
 def test_a_run_that_ends_soon_is_judged_at_its_end(prototype_fmu: Path, host: HostMaker) -> None:
     driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
     for k in range(150):

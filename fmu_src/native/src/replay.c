@@ -126,7 +126,7 @@ static slave_status check_halvings(slave *s) {
   ali3_report_get(s->fidelity.kernel, &end);
   ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.start);
   ali3_report_get(s->fidelity.kernel, &start);
-  if (start.halvings == end.halvings) return SLAVE_OK;
+  if (start.halvings == end.halvings && start.divisions == end.divisions) return SLAVE_OK;
   return slave_say(s, SLAVE_ERROR,
                    "There is no directional derivative of this communication step: an inner step of it was halved.");
 }

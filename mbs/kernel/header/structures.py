@@ -72,6 +72,7 @@ class ReportFields(Structure):
         ("hit_h", c_double),
         ("hit_left", c_double),
         ("abrupt_steps", c_int64),
+        ("divisions", c_int64),
         ("largest_load", c_double),
         ("quick_load", c_double),
         ("load_time", c_double),

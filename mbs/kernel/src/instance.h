@@ -53,8 +53,10 @@ struct ali3_instance {
   ali3_report report;
   ali3_report report_before; /* of the step that branch_watch.c may repeat */
   double t_base, h_last; /* time = t_base + count * h_last */
+  bool may_divide; /* the present step is halved where a force changes abruptly in it */
   bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count, iterations_before; /* of steps of h_last, and report.iterations where the present step began */
+  int64_t iterations_end; /* report.iterations where the present part must end, with a limit of the step's */
   int32_t initialised;
   /* start: of a step that may be halved; whole: of a composed one; direction: one in the space of states */
   ali3_vectors now, next, start, whole, direction;

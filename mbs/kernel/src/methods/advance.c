@@ -1,4 +1,4 @@
-/* A step by the method of the settings, in halves where it does not converge. */
+/* A step by the method of the settings, in halves where it does not converge or a force changes abruptly in it. */
 #include "../instance.h"
 #include "../method.h"
 #include "../state/inputs.h"
@@ -6,6 +6,7 @@
 #include "../state/vectors.h"
 #include "../state/work.h"
 #include "energy_balance.h"
+#include "quick_stop.h"
 #include "steps.h"
 
 static ali3_status by_method(ali3_instance *in, double t, double h) {
@@ -27,20 +28,32 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
 
 enum { MOST_ITERATIONS = 1000 }; /* of a step with all its parts */
 
-/* A step to time t, in halves where it does not converge. */
-ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
+/* A part of a step to time t, in halves where it does not converge or a force changes abruptly in it. With a limit of
+ * the step's iterations they go up to iterations_end, and only what changes abruptly is divided. */
+static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t depth, int64_t iterations_end) {
   const ali3_method *method = ali3_method_of(in);
+  const bool limited = in->settings.step_iterations > 0;
   if (in->report.iterations - in->iterations_before > MOST_ITERATIONS) return ALI3_TOO_DEAR;
-  in->halves_left = depth > 0 && depth < in->settings.max_halvings;
+  in->halves_left = depth > 0 && depth < in->settings.max_halvings && !limited;
+  in->may_divide = ali3_may_divide(in, depth);
+  in->iterations_end = iterations_end;
+  const int64_t divisions = in->report.divisions;
   const ali3_status status = by_method(in, t, h);
   if (status == ALI3_OK) in->t_now = t;
   if (status == ALI3_OK && method->motion != NULL) method->motion(in, h);
   if (status != ALI3_OK && ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
+  const bool divided = in->report.divisions != divisions;
   if (status == ALI3_OK || status == ALI3_BAD_ARGUMENT || status == ALI3_BAD_NORMAL || depth <= 0 ||
-      in->settings.step_iterations > 0)
+      (limited && !divided))
     return status;
-  in->report.halvings++;
+  if (!divided) in->report.halvings++;
   ali3_back_up(in);
-  const ali3_status first = ali3_advance(in, t - 0.5 * h, 0.5 * h, depth - 1);
-  return first == ALI3_OK ? ali3_advance(in, t, 0.5 * h, depth - 1) : first;
+  const int64_t made = in->report.iterations, half = made + (iterations_end - made) / 2;
+  const ali3_status first = advance_part(in, t - 0.5 * h, 0.5 * h, depth - 1, half);
+  return first == ALI3_OK ? advance_part(in, t, 0.5 * h, depth - 1, iterations_end) : first;
+}
+
+/* A step to time t by the method of the settings, which may halve it so deep. */
+ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
+  return advance_part(in, t, h, depth, in->report.iterations + in->settings.step_iterations);
 }

@@ -24,6 +24,7 @@
 #include "newton.h"
 #include "predict.h"
 #include "projection.h"
+#include "quick_stop.h"
 #include "steps.h"
 
 /* Forces of the present iterate. */
@@ -120,11 +121,11 @@ static ali3_status capped(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* With a limit of a whole step, `made` iterations of it are used. */
-static ali3_status newton(ali3_instance *in, double h, double alpha, int32_t made) {
+/* With a limit of a whole step the iterations go up to its part's share of them. */
+static ali3_status newton(ali3_instance *in, double h, double alpha) {
   const ali3_settings *settings = &in->settings;
   const bool limited = settings->step_iterations > 0;
-  const int32_t most = limited ? settings->step_iterations - made : settings->max_iterations;
+  const int64_t most = limited ? in->iterations_end - in->report.iterations : settings->max_iterations;
   const bool rigid =
       in->system->n_flexible == 0; /* forces again are cheaper there than tangents that nothing asks for */
   bool kept = false;
@@ -182,10 +183,10 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
   /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
-  status = newton(in, h, alpha, 0);
+  status = newton(in, h, alpha);
   if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */
     ali3_predict(in, h, false);
-    status = newton(in, h, alpha, in->report.last_iterations);
+    status = newton(in, h, alpha);
   }
   if (status != ALI3_OK) return status;
   for (int32_t i = 0; i < nq; i++) to->qdd[i] = (in->D[i] - in->d0[i]) / c;
@@ -204,6 +205,7 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
                                 .out = to->out,
                                 .potential = to->potential};
   ali3_forces_accept(in, &call);
+  if (ali3_divides(in)) return ALI3_UNRESOLVED;
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
   ali3_constraint_rate(in, to->q, to, in->Phit);

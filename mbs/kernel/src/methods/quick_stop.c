@@ -11,6 +11,7 @@ static const double QUICK = 0.0315; /* sqrt(s); calibrated on random drives of t
 static const double SAFE = 0.3;     /* of the limit: what a step would do with */
 static const double ABRUPT = 0.1;   /* of the largest force: a change in a step */
 static const double SPAN = 0.5;     /* s after a hit in which its wheel lands: the largest force there counts too */
+enum { DIVISIONS = 2 }; /* how deep a step is halved at such a change */
 enum { LOAD = 2, OF_A_TYRE = 3 };   /* output of a tyre; first outputs of what touches a road that are forces */
 
 /* The change of a force in a step up to which nothing is said. */
@@ -48,6 +49,41 @@ int32_t ali3_contact_forces(const ali3_instance *in, int32_t all, double *force)
   return n;
 }
 
+/* Largest change of such a force of element e in a step between two of its ends; *largest: of these forces. */
+static double change_of(const ali3_system *S, int32_t e, const double *from, const double *to, double *largest) {
+  int32_t first;
+  double most = 0.0;
+  for (int32_t i = forces_of(S, e, false, &first); i-- > 0;) {
+    most = fmax(most, fabs(to[first + i] - from[first + i]));
+    *largest = fmax(*largest, fmax(fabs(from[first + i]), fabs(to[first + i])));
+  }
+  return most;
+}
+
+bool ali3_may_divide(const ali3_instance *in, int32_t depth) {
+  return depth > 0 && depth > in->settings.max_halvings - DIVISIONS;
+}
+
+/* Whether a limit of the step's iterations leaves as many for each half as the whole took. */
+static bool room_for_halves(const ali3_instance *in) {
+  return in->settings.step_iterations == 0 ||
+         in->iterations_end - in->report.iterations >= 2 * (int64_t)in->report.last_iterations;
+}
+
+/* A load is measured by the largest load there was, other forces by the largest force. */
+bool ali3_divides(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  if (!in->may_divide || S->nr == 0 || !room_for_halves(in)) return false;
+  bool abrupt = false;
+  for (int32_t e = 0; e < S->size.ne && !abrupt; e++) {
+    double largest = S->el_kind[e]->depth == ali3_tyre_depth ? in->report.largest_load : in->report.largest_force;
+    const double change = change_of(S, e, in->now.out, in->next.out, &largest);
+    abrupt = change > ABRUPT * largest;
+  }
+  in->report.divisions += abrupt;
+  return abrupt;
+}
+
 /* Largest change of such a force of element e in the step. */
 static double look_at(ali3_instance *in, double h, int32_t e) {
   const ali3_system *S = in->system;
@@ -55,9 +91,8 @@ static double look_at(ali3_instance *in, double h, int32_t e) {
   const ali3_element_type *kind = S->el_kind[e];
   const double *from = in->next.out + S->el_out_ptr[e], *to = in->now.out + S->el_out_ptr[e];
   int32_t first;
-  double most = 0.0;
-  for (int32_t i = forces_of(S, e, false, &first); i-- > 0;)
-    most = fmax(most, fabs(in->now.out[first + i] - in->next.out[first + i]));
+  double largest = 0.0;
+  const double most = change_of(S, e, in->next.out, in->now.out, &largest);
   for (int32_t i = forces_of(S, e, true, &first); i-- > 0;)
     r->largest_force = fmax(r->largest_force, fabs(in->now.out[first + i]));
   if (kind->rebound == NULL) return most;

@@ -1,7 +1,11 @@
-/* End stops that are hit too hard for the step. */
+/* Forces of contacts and end stops that change too quickly for the step. */
 #ifndef ALI3_METHODS_QUICK_STOP_H
 #define ALI3_METHODS_QUICK_STOP_H
 #include "../instance.h"
 
 void ali3_quick_stop(ali3_instance *in, double h);
+/* Whether a step that may still be halved so deep is, where a force changes abruptly in it. */
+bool ali3_may_divide(const ali3_instance *in, int32_t depth);
+/* Whether the step from in->now to in->next, both with their outputs, is to be made in halves; counted. */
+bool ali3_divides(ali3_instance *in);
 #endif

@@ -54,7 +54,7 @@ ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_s
     in->report.failures++;
     return status;
   }
-  if (in->report.halvings != step->before.halvings)
+  if (in->report.halvings != step->before.halvings || in->report.divisions != step->before.divisions)
     ali3_iterations_since(in, step->before.iterations); /* not of the last half only */
   in->report.steps++;
   if (in->capped) {

@@ -1,0 +1,78 @@
+"""Steps in which a force of a contact or a stop changes abruptly are made in halves, others are not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import mbs
+from benchmarks.car import accuracy, manoeuvres, trajectories
+from mbs.simulation.many_runs import Variant
+from mbs.vehicle import load as load_car
+
+CAR, NAME, STEP = "commonroad_escort", "kerb_lock_brake", 0.005
+NEVER = mbs.Settings(max_halvings=0)
+
+
+def load_error(h: float, settings: mbs.Settings | None = None) -> tuple[float, mbs.Report]:
+    """Of the hardest manoeuvre against its reference, over the largest load."""
+    every = round(manoeuvres.sampling(NAME, CAR) / h)
+    run = manoeuvres.run(NAME, h, car=CAR, every=every, settings=settings)
+    assert run.report is not None
+    return trajectories.load_error(run, trajectories.read(NAME, CAR)[1]), run.report
+
+
+@pytest.mark.parametrize("h", [0.005, 0.01])
+def test_loads_behind_an_edge_are_right_where_whole_steps_are_not(h: float) -> None:
+    whole, undivided = load_error(h, NEVER)
+    found, divided = load_error(h)
+    assert whole > 2.0 * accuracy.LOAD_BOUND
+    assert found < accuracy.LOAD_BOUND
+    assert (undivided.divisions, divided.halvings) == (0, 0)
+    assert 0 < divided.divisions < 0.1 * divided.steps
+    assert divided.iterations < 1.5 * undivided.iterations
+
+
+def test_a_step_with_a_limit_of_its_iterations_is_not_divided() -> None:
+    report = load_error(STEP, mbs.Settings(step_iterations=6))[1]
+    assert (report.divisions, report.steps) == (0, 600)
+
+
+def test_a_drive_without_edges_keeps_its_bits() -> None:
+    manoeuvre = replace(manoeuvres.load("slalom", CAR), stop_time=2.0)
+    system = manoeuvres.system_of("slalom", CAR)
+    found, whole = (manoeuvres.run_on(system, manoeuvre, STEP, settings=s) for s in (None, NEVER))
+    assert found.report is not None
+    assert found.report.divisions == 0
+    assert all((found[name] == whole[name]).all() for name in trajectories.SENSORS)
+
+
+def test_lanes_divide_the_steps_that_a_single_run_does() -> None:
+    system = mbs.compile(load_car(CAR).model())
+    falls = [mbs.Pose(z=z, speed=8.0) for z in (0.0, 0.1, 0.25)]
+    many = mbs.simulate_many(system, [Variant(pose=pose) for pose in falls], 0.5, STEP, progress=False)
+    for pose, found, alone in zip(falls, many.trajectories, many.alone, strict=True):
+        single = mbs.simulate(system, 0.5, STEP, pose=pose, progress=False, estimate_error=False)
+        assert found is not None
+        assert found.report is not None
+        assert single.report is not None
+        assert found.report.divisions == single.report.divisions
+        assert (found.report.divisions > 0) == (pose.z > 0.0) == (alone > 0)
+        assert all((found[name] == single[name]).all() for name in trajectories.SENSORS)
+
+
+def test_a_saved_state_of_such_a_run_goes_on_bit_for_bit() -> None:
+    """Before, between and behind divided steps."""
+    run = mbs.Simulation(mbs.compile(load_car(CAR).model()), pose=mbs.Pose(z=0.1, speed=8.0))
+    for _ in range(60):
+        state = run.save()
+        run.step(STEP)
+        ended, divisions = run.state.q.copy(), run.report.divisions
+        run.restore(state)
+        run.step(STEP)
+        assert (run.state.q == ended).all()
+        assert run.report.divisions == divisions
+    assert run.report.divisions > 3
+    assert np.isfinite(run.state.q).all()
