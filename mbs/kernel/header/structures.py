@@ -73,6 +73,7 @@ class ReportFields(Structure):
         ("hit_left", c_double),
         ("abrupt_steps", c_int64),
         ("divisions", c_int64),
+        ("change_rate", c_double),
         ("largest_load", c_double),
         ("quick_load", c_double),
         ("load_time", c_double),

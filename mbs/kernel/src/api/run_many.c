@@ -77,6 +77,7 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   ali3_vectors *from = &in->now, *to = &in->next;
   in->halves_left = false;
   in->may_divide = ali3_may_divide(in, in->settings.max_halvings);
+  if (ali3_divides_ahead(in, step->h)) return false;
   if (from->history[ALI3_HISTORY_OWNER] != (double)ALI3_METHOD_ALI3P) return false;
   if (ali3_inputs_begin(in, step->t, step->h) != ALI3_OK) return false;
   ali3_vectors_copy(in, to, from);
@@ -94,7 +95,7 @@ static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *s
   ali3_history_append(in, step->h, in->x);
   ali3_group_multipliers(g, l);
   ali3_lane_elements_accept(g, l);
-  if (ali3_divides(in)) return ALI3_UNRESOLVED;
+  if (ali3_divides(in, step->h)) return ALI3_UNRESOLVED;
   const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l]);
   if (resolved != ALI3_OK) return resolved;
   ali3_work_along(in, 0.5);

@@ -38,7 +38,7 @@ static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t d
   in->may_divide = ali3_may_divide(in, depth);
   in->iterations_end = iterations_end;
   const int64_t divisions = in->report.divisions;
-  const ali3_status status = by_method(in, t, h);
+  const ali3_status status = ali3_divides_ahead(in, h) ? ALI3_UNRESOLVED : by_method(in, t, h);
   if (status == ALI3_OK) in->t_now = t;
   if (status == ALI3_OK && method->motion != NULL) method->motion(in, h);
   if (status != ALI3_OK && ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;

@@ -205,7 +205,7 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
                                 .out = to->out,
                                 .potential = to->potential};
   ali3_forces_accept(in, &call);
-  if (ali3_divides(in)) return ALI3_UNRESOLVED;
+  if (ali3_divides(in, h)) return ALI3_UNRESOLVED;
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
   ali3_constraint_rate(in, to->q, to, in->Phit);

@@ -106,6 +106,7 @@ void ali3_balance_restore(ali3_report *report, const ali3_report *before) {
   report->hit_left = before->hit_left;
   report->abrupt_steps = before->abrupt_steps;
   report->divisions = before->divisions;
+  report->change_rate = before->change_rate;
   report->largest_load = before->largest_load;
   report->quick_load = before->quick_load;
   report->load_time = before->load_time;

@@ -12,6 +12,7 @@ static const double SAFE = 0.3;     /* of the limit: what a step would do with *
 static const double ABRUPT = 0.1;   /* of the largest force: a change in a step */
 static const double SPAN = 0.5;     /* s after a hit in which its wheel lands: the largest force there counts too */
 enum { DIVISIONS = 2 }; /* how deep a step is halved at such a change */
+enum { ENOUGH = 4 };    /* iterations of a half that is made without trying the whole, where they are limited */
 enum { LOAD = 2, OF_A_TYRE = 3 };   /* output of a tyre; first outputs of what touches a road that are forces */
 
 /* The change of a force in a step up to which nothing is said. */
@@ -61,25 +62,34 @@ static double change_of(const ali3_system *S, int32_t e, const double *from, con
 }
 
 bool ali3_may_divide(const ali3_instance *in, int32_t depth) {
-  return depth > 0 && depth > in->settings.max_halvings - DIVISIONS;
+  return depth > 0 && depth > in->settings.max_halvings - DIVISIONS && in->system->nr > 0;
 }
 
-/* Whether a limit of the step's iterations leaves as many for each half as the whole took. */
-static bool room_for_halves(const ali3_instance *in) {
-  return in->settings.step_iterations == 0 ||
-         in->iterations_end - in->report.iterations >= 2 * (int64_t)in->report.last_iterations;
+/* Whether a limit of the step's iterations leaves so many for each half. */
+static bool room_for_halves(const ali3_instance *in, int32_t iterations) {
+  return in->settings.step_iterations == 0 || in->iterations_end - in->report.iterations >= 2 * (int64_t)iterations;
+}
+
+bool ali3_divides_ahead(ali3_instance *in, double h) {
+  const bool abrupt = in->may_divide && in->report.change_rate * h > ABRUPT && room_for_halves(in, ENOUGH);
+  in->report.divisions += abrupt;
+  return abrupt;
 }
 
 /* A load is measured by the largest load there was, other forces by the largest force. */
-bool ali3_divides(ali3_instance *in) {
+bool ali3_divides(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
-  if (!in->may_divide || S->nr == 0 || !room_for_halves(in)) return false;
-  bool abrupt = false;
-  for (int32_t e = 0; e < S->size.ne && !abrupt; e++) {
-    double largest = S->el_kind[e]->depth == ali3_tyre_depth ? in->report.largest_load : in->report.largest_force;
-    const double change = change_of(S, e, in->now.out, in->next.out, &largest);
-    abrupt = change > ABRUPT * largest;
+  if (S->nr == 0) return false;
+  double load = 0.0, force = 0.0, largest_load = in->report.largest_load, largest_force = in->report.largest_force;
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    const bool tyre = S->el_kind[e]->depth == ali3_tyre_depth;
+    double *most = tyre ? &load : &force, *largest = tyre ? &largest_load : &largest_force;
+    *most = fmax(*most, change_of(S, e, in->now.out, in->next.out, largest));
   }
+  largest_force = fmax(largest_force, largest_load);
+  const double change = fmax(load > 0.0 ? load / largest_load : 0.0, force > 0.0 ? force / largest_force : 0.0);
+  const bool abrupt = in->may_divide && change > ABRUPT && room_for_halves(in, in->report.last_iterations);
+  in->report.change_rate = change / h;
   in->report.divisions += abrupt;
   return abrupt;
 }

@@ -6,6 +6,8 @@
 void ali3_quick_stop(ali3_instance *in, double h);
 /* Whether a step that may still be halved so deep is, where a force changes abruptly in it. */
 bool ali3_may_divide(const ali3_instance *in, int32_t depth);
-/* Whether the step from in->now to in->next, both with their outputs, is to be made in halves; counted. */
-bool ali3_divides(ali3_instance *in);
+/* Whether the coming step of size h is to be made in halves, because a force changed as quickly in the last; counted. */
+bool ali3_divides_ahead(ali3_instance *in, double h);
+/* Whether that from in->now to in->next, both with their outputs, is. */
+bool ali3_divides(ali3_instance *in, double h);
 #endif

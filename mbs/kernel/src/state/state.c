@@ -93,7 +93,7 @@ static bool stop_valid(const ali3_report *r) {
   return magnitude(r->largest_force) && magnitude(r->quick_change) && magnitude(r->quick_step) &&
          magnitude(r->hit_change) && magnitude(r->hit_h) && r->quick_time - r->quick_time == 0.0 &&
          r->hit_time - r->hit_time == 0.0 && r->hit_left - r->hit_left == 0.0 && counted(r->abrupt_steps) &&
-         counted(r->divisions);
+         counted(r->divisions) && magnitude(r->change_rate);
 }
 
 static bool load_valid(const ali3_report *r) {
