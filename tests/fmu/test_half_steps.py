@@ -15,9 +15,9 @@ from mbs.scenes import prototype_car
 HostMaker = Callable[..., Any]
 WHEELS = ("FL", "FR", "RL", "RR")
 FORCES = [f"{name}_{w}.{what}" for w in WHEELS for name, what in (("wheel", "Fz"), ("spring", "force"))]
-FALL = {"initial.z": 0.18, "initial.speed": 8.4}  # onto the metal of the rebound stops, within a step of 2 ms
+FALL = {"initial.z": 0.5, "initial.speed": 3.0}  # onto the metal of the stops: forces are off by 14 % at 10 ms
 WORDS = "made again with half"
-EVERY, SPAN = 0.002, 0.8  # s
+EVERY, SPAN = 0.01, 0.8  # s
 
 
 def drive(driven: Any, step: float, values: dict[str, float] = FALL) -> tuple[np.ndarray, list[str]]:

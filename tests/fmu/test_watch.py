@@ -106,17 +106,17 @@ def test_a_changed_assembly_mode_is_reported_once(
     assert driven.get("solver.status") == Status.BRANCH_CHANGED
 
 
-@pytest.mark.parametrize(("h", "told"), [(0.02, True), (0.01, True), (0.002, False)])
+@pytest.mark.parametrize(("h", "told"), [(0.02, True), (0.01, False), (0.002, False)])
 def test_an_edge_at_speed_is_told_once(prototype_fmu: Path, host: HostMaker, h: float, told: bool) -> None:
-    """Down 8 cm at 20 m/s loads are off by more than 5 % with steps of 20 and 10 ms, not with 2 ms; in lanes too."""
-    edge = {"road.kerb_x": 10.0, "road.kerb_height": 0.08}
-    driven = host(prototype_fmu).start({"initial.speed": 20.0, "step_size": h} | edge)
+    """Down 12 cm at 30 m/s loads are off by 11 % with steps of 20 ms, by 4.3 and less with 10 and 2 ms; in lanes too."""
+    edge = {"road.kerb_x": 10.0, "road.kerb_height": 0.12}
+    driven = host(prototype_fmu).start({"initial.speed": 30.0, "step_size": h} | edge)
     slave = driven.slave
     statuses = [slave.dll.fmi2DoStep(slave.component, 0.02 * k, 0.02, 1) for k in range(50)]
     words = "a wheel swings on its tyre too quickly for the step"
     lines = [m for m in driven.messages if words in m]
     assert statuses.count(WARNING) == len(lines) == int(told)
-    variant = mbs.Variant(edge, pose=mbs.Pose(speed=20.0))
+    variant = mbs.Variant(edge, pose=mbs.Pose(speed=30.0))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         runs = mbs.simulate_many(
@@ -126,7 +126,7 @@ def test_an_edge_at_speed_is_told_once(prototype_fmu: Path, host: HostMaker, h: 
     assert [words in str(w.message) for w in said if w.category is mbs.AccuracyWarning] == [True] * told
     if told:
         assert 6e-4 < report.quick_load < 6e-3
-        assert report.load_time == pytest.approx(10.0 / 20.0, abs=0.2)  # the front wheels, or the rear ones
+        assert report.load_time == pytest.approx(10.0 / 30.0, abs=0.2)  # the front wheels, or the rear ones
         assert f"At {report.load_time:.4g} s" in lines[0]
         assert f"a step_size of {report.load_step:.2g} s" in lines[0]
         assert report.load_step < 0.6 * h
@@ -143,11 +143,11 @@ def test_no_other_driving_is_told_so(prototype_fmu: Path, host: HostMaker) -> No
     assert driven.messages == []
 
 
-@pytest.mark.parametrize(("h", "told"), [(0.005, True), (0.001, False)])
+@pytest.mark.parametrize(("h", "told"), [(0.01, True), (0.001, False)])
 def test_a_wheel_that_drops_onto_its_rebound_stop_is_told_once(
     prototype_fmu: Path, host: HostMaker, h: float, told: bool
 ) -> None:
-    """Let go 0.27 m above the ground: at 5 ms loads are off by 30 %, at 1 ms they are right; in lanes too."""
+    """Let go 0.27 m above the ground: at 10 ms forces of stops are off by 15 %, at 1 ms they are right; in lanes too."""
     driven = host(prototype_fmu).start({"initial.speed": 3.0, "initial.z": 0.27, "step_size": h})
     slave = driven.slave
     statuses = [slave.dll.fmi2DoStep(slave.component, 0.01 * k, 0.01, 1) for k in range(80)]

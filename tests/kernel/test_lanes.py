@@ -55,12 +55,14 @@ def compare(many: Many, single: list[Simulation], together: list[Simulation], h:
 @pytest.mark.slow
 @pytest.mark.parametrize("width", WIDTHS)
 def test_cars_have_the_bits_of_single_runs(width: int) -> None:
-    """Wild driving, kerbs, a fall and a launch beside each other; at 40 ms steps are halved, or refused without halves.
+    """Wild driving, kerbs, a fall and a launch beside each other; steps are divided at abrupt forces, at 40 ms halved
+    too, or refused without halves.
 
     The neighbours of a car that halves, fails or stands still go on with their bits.
     """
-    alone, statuses = dict.fromkeys((0.002, 0.01, 0.04), 0), set[int]()
-    for h, halvings in ((0.002, 8), (0.01, 8), (0.04, 8), (0.04, 0)):
+    cases = ((0.002, 0), (0.01, 0), (0.01, 8), (0.04, 8), (0.04, 0))
+    alone, statuses = dict.fromkeys(cases, 0), set[int]()
+    for h, halvings in cases:
         settings = Settings(max_halvings=halvings)
         for first in range(0, len(CARS), width):
             names = list(CARS)[first : first + width]
@@ -70,24 +72,31 @@ def test_cars_have_the_bits_of_single_runs(width: int) -> None:
             many = Many(prepared(single[0].system)[0], width)
             for _ in range(4):
                 part, ended = compare(many, single, together, h, 25)
-                alone[h] += part
+                alone[h, halvings] += part
                 statuses |= ended
-    assert (alone[0.002], alone[0.01]) == (0, 0)  # a step that lanes get wrong is refused there and right alone
-    assert alone[0.04] > 0
+    assert (alone[0.002, 0], alone[0.01, 0]) == (0, 0)  # a step that lanes get wrong is refused there and right alone
+    assert alone[0.01, 8] > 0
+    assert alone[0.04, 8] > 0
     assert statuses > {Status.OK}
 
 
+@pytest.mark.parametrize("halvings", [0, 8])
 @pytest.mark.parametrize("width", WIDTHS)
-def test_cars_by_table_have_the_bits_of_single_runs(width: int) -> None:
+def test_cars_by_table_have_the_bits_of_single_runs(width: int, halvings: int) -> None:
     """Each lane is in cells of its own of the tables; what is summed over the bodies of the chassis is of each lane."""
+    alone = 0
     for first in range(0, len(CARS), width):
         names = list(CARS)[first : first + width]
-        single, together = ([car(name, Settings(), fidelity=10) for name in names] for _ in range(2))
+        settings = Settings(max_halvings=halvings)
+        single, together = ([car(name, settings, fidelity=10) for name in names] for _ in range(2))
         for name, s in [*zip(names, single, strict=True), *zip(names, together, strict=True)]:
             attach(name, s)
         many = Many(prepared(single[0].system)[0], width)
         for _ in range(2):
-            assert compare(many, single, together, 0.01, 30) == (0, {Status.OK})
+            part, statuses = compare(many, single, together, 0.01, 30)
+            assert statuses == {Status.OK}
+            alone += part
+    assert (alone > 0) == (halvings > 0)  # what is made alone is divided: lanes get no step wrong
 
 
 @pytest.mark.parametrize("fidelity", [0, 10])
@@ -134,7 +143,9 @@ def test_lanes_have_roads_of_their_own(tmp_path: Path) -> None:
 
 def _on(file: Path) -> Simulation:
     inputs = {"steering": 0.4, "throttle": 0.6}
-    return Simulation(car_system(), inputs=inputs, parameters={"road.file": str(file)}, pose=Pose(speed=10.0))
+    settings = Settings(max_halvings=0)  # no step is divided
+    pose = Pose(speed=10.0)
+    return Simulation(car_system(), settings=settings, inputs=inputs, parameters={"road.file": str(file)}, pose=pose)
 
 
 @pytest.mark.parametrize("name", SCENES)

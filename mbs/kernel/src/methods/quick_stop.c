@@ -70,10 +70,15 @@ static bool room_for_halves(const ali3_instance *in, int32_t iterations) {
   return in->settings.step_iterations == 0 || in->iterations_end - in->report.iterations >= 2 * (int64_t)iterations;
 }
 
+/* Its parts may change less; who judges abrupt steps afterwards is told of the whole. */
+static bool counted(ali3_instance *in, bool divided) {
+  in->report.divisions += divided;
+  in->report.abrupt_steps += divided;
+  return divided;
+}
+
 bool ali3_divides_ahead(ali3_instance *in, double h) {
-  const bool abrupt = in->may_divide && in->report.change_rate * h > ABRUPT && room_for_halves(in, ENOUGH);
-  in->report.divisions += abrupt;
-  return abrupt;
+  return counted(in, in->may_divide && in->report.change_rate * h > ABRUPT && room_for_halves(in, ENOUGH));
 }
 
 /* A load is measured by the largest load there was, other forces by the largest force. */
@@ -88,10 +93,8 @@ bool ali3_divides(ali3_instance *in, double h) {
   }
   largest_force = fmax(largest_force, largest_load);
   const double change = fmax(load > 0.0 ? load / largest_load : 0.0, force > 0.0 ? force / largest_force : 0.0);
-  const bool abrupt = in->may_divide && change > ABRUPT && room_for_halves(in, in->report.last_iterations);
   in->report.change_rate = change / h;
-  in->report.divisions += abrupt;
-  return abrupt;
+  return counted(in, in->may_divide && change > ABRUPT && room_for_halves(in, in->report.last_iterations));
 }
 
 /* Largest change of such a force of element e in the step. */
