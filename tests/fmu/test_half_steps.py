@@ -14,10 +14,11 @@ from mbs.scenes import prototype_car
 
 HostMaker = Callable[..., Any]
 WHEELS = ("FL", "FR", "RL", "RR")
+ERROR = 3
 FORCES = [f"{name}_{w}.{what}" for w in WHEELS for name, what in (("wheel", "Fz"), ("spring", "force"))]
-FALL = {"initial.z": 0.5, "initial.speed": 3.0}  # onto the metal of the stops: forces are off by 14 % at 10 ms
+FALL = {"initial.z": 0.18, "initial.speed": 8.4}  # onto the metal of the rebound stops
 WORDS = "made again with half"
-EVERY, SPAN = 0.01, 0.8  # s
+EVERY, SPAN = 0.008, 0.8  # s; springs are off by 16 %
 
 
 def drive(driven: Any, step: float, values: dict[str, float] = FALL) -> tuple[np.ndarray, list[str]]:
@@ -31,7 +32,7 @@ def drive(driven: Any, step: float, values: dict[str, float] = FALL) -> tuple[np
 
 
 def test_what_it_tells_is_the_error_and_the_step_that_it_names_is_enough(prototype_fmu: Path, host: HostMaker) -> None:
-    """By the same motion with steps of 0.05 ms."""
+    """By the same motion with steps of 0.05 ms. At a stop two errors of steps differ by a half to three quarters."""
     fine, nothing = drive(host(prototype_fmu), 5e-5)
     coarse, said = drive(host(prototype_fmu), EVERY)
     size = np.abs(coarse).max()
@@ -39,7 +40,7 @@ def test_what_it_tells_is_the_error_and_the_step_that_it_names_is_enough(prototy
     assert len(said) == 1
     told = float(said[0].split("about ")[1].split(" %")[0]) / 100.0
     assert told > 0.05
-    assert told == pytest.approx(np.abs(coarse - fine).max() / size, rel=0.3)
+    assert 0.4 < told * size / np.abs(coarse - fine).max() < 1.3
     named = float(said[0].split("step_size of ")[1].split(" s")[0])
     assert named <= 0.5 * EVERY
     again, said = drive(host(prototype_fmu), named)
@@ -57,7 +58,7 @@ def test_the_motion_is_that_of_the_engine_to_the_last_bit(prototype_fmu: Path, h
 
 
 def test_a_step_that_is_divided_at_an_abrupt_force_has_no_derivative(prototype_fmu: Path, host: HostMaker) -> None:
-    """By the second step of 10 ms that the engine divides; the one before it has one."""
+    """Steps that the engine does not divide have one, as far as no contact changes in them."""
     h, run = 0.01, mbs.Simulation(mbs.compile(prototype_car.build()), pose=mbs.Pose(z=FALL["initial.z"], speed=8.4))
     driven = host(prototype_fmu).start(FALL | {"step_size": h})
     unknown, known = [driven.references["chassis.yaw"]], [driven.references["steering"]]
@@ -71,15 +72,16 @@ def test_a_step_that_is_divided_at_an_abrupt_force_has_no_derivative(prototype_f
             assert driven.call("getDirectionalDerivative", unknown, known, [1.0]) == ERROR
             assert "an inner step of it was halved" in driven.messages[-1]
         elif k % 4 == 0:
+            said = len(driven.messages)
             driven.call("getDirectionalDerivative", unknown, known, [1.0])
-            assert "halved" not in driven.messages[-1:]
+            assert not any("halved" in m for m in driven.messages[said:])
         asked[divided] += 1
     assert min(asked.values()) > 3
 
 
 def test_a_run_that_ends_soon_is_judged_at_its_end(prototype_fmu: Path, host: HostMaker) -> None:
     driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
-    for k in range(150):
+    for k in range(round(0.3 / EVERY)):
         driven.step(k * EVERY, EVERY)
     assert driven.messages == []
     driven.slave.terminate()
@@ -91,10 +93,10 @@ def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMake
     driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
     driven.step(0.0, EVERY)
     state = driven.slave.getFMUstate()
-    for k in range(1, 70):
+    for k in range(1, round(0.14 / EVERY)):
         driven.step(k * EVERY, EVERY)
     driven.slave.setFMUstate(state)
-    for k in range(1, 400):
+    for k in range(1, round(SPAN / EVERY)):
         driven.step(k * EVERY, EVERY)
     (said,) = [m for m in driven.messages if WORDS in m]
     plain = drive(host(prototype_fmu), EVERY)[1]
@@ -104,11 +106,11 @@ def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMake
 def test_a_host_that_sets_a_state_before_each_step_is_told_what_steps_tell_themselves(
     prototype_fmu: Path, host: HostMaker
 ) -> None:
-    """No second motion lives long enough there; with steps of 5 ms the rebound stop tells by its tangent."""
-    driven = host(prototype_fmu).start(FALL | {"step_size": 0.005})
-    for k in range(160):
+    """No second motion lives long enough there; with steps of 10 ms the rebound stop tells by its tangent."""
+    driven = host(prototype_fmu).start(FALL | {"step_size": 0.01})
+    for k in range(80):
         driven.slave.setFMUstate(driven.slave.getFMUstate())
-        driven.step(k * 0.005, 0.005)
+        driven.step(k * 0.01, 0.01)
     (said,) = driven.messages
     assert "rebound stop too hard" in said
 

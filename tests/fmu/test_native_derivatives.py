@@ -214,7 +214,8 @@ def test_a_step_that_was_halved_has_no_derivative(build: Callable[..., Path], ho
 
 
 def test_a_contact_that_is_made_has_no_derivative(prototype_fmu: Path, host: HostMaker) -> None:
-    """A dropped car: derivatives in the air and on the ground, none where a wheel meets the road or leaves it."""
+    """A dropped car: derivatives in the air and on the ground, none where a wheel meets the road or leaves it, or where
+    its load changes so abruptly that the step is divided."""
     driven = host(prototype_fmu).start({"initial.z": 0.05, "initial.speed": 10.0})
     unknown = [driven.references[n] for n in ("wheel_FL.Fz", "chassis.ay")]
     known, touched, seen = [driven.references["steering"]], False, []
@@ -224,7 +225,8 @@ def test_a_contact_that_is_made_has_no_derivative(prototype_fmu: Path, host: Hos
         status = driven.call("getDirectionalDerivative", unknown, known, [1.0])
         seen.append((before != touched, status))
         if status == ERROR:
-            made = "a contact with the road was made or lost" in driven.messages[-1]
+            told = driven.messages[-1]
+            made = "a contact with the road was made or lost" in told or "an inner step of it was halved" in told
             assert made or "'tyre" in driven.messages[-1]  # not yet deep enough for all of its damping
     assert (True, OK) not in seen
     assert (True, ERROR) in seen

@@ -126,7 +126,7 @@ def test_an_edge_at_speed_is_told_once(prototype_fmu: Path, host: HostMaker, h: 
     assert [words in str(w.message) for w in said if w.category is mbs.AccuracyWarning] == [True] * told
     if told:
         assert 6e-4 < report.quick_load < 6e-3
-        assert report.load_time == pytest.approx(10.0 / 30.0, abs=0.2)  # the front wheels, or the rear ones
+        assert report.load_time == pytest.approx(10.0 / 30.0, abs=0.3)  # the front wheels, or the rear ones
         assert f"At {report.load_time:.4g} s" in lines[0]
         assert f"a step_size of {report.load_step:.2g} s" in lines[0]
         assert report.load_step < 0.6 * h

@@ -31,13 +31,8 @@ def test_loads_behind_an_edge_are_right_where_whole_steps_are_not(h: float) -> N
     assert whole > 2.0 * accuracy.LOAD_BOUND
     assert found < accuracy.LOAD_BOUND
     assert (undivided.divisions, divided.halvings) == (0, 0)
-    assert 0 < divided.divisions < 0.1 * divided.steps
-    assert divided.iterations < 1.5 * undivided.iterations
-
-
-def test_a_step_with_a_limit_of_its_iterations_is_not_divided() -> None:
-    report = load_error(STEP, mbs.Settings(step_iterations=6))[1]
-    assert (report.divisions, report.steps) == (0, 600)
+    assert 0 < divided.divisions < 0.15 * divided.steps
+    assert divided.iterations < 1.1 * undivided.iterations
 
 
 def test_a_drive_without_edges_keeps_its_bits() -> None:
@@ -51,7 +46,7 @@ def test_a_drive_without_edges_keeps_its_bits() -> None:
 
 def test_lanes_divide_the_steps_that_a_single_run_does() -> None:
     system = mbs.compile(load_car(CAR).model())
-    falls = [mbs.Pose(z=z, speed=8.0) for z in (0.0, 0.1, 0.25)]
+    falls = [mbs.Pose(z=z, speed=8.0) for z in (0.0, 0.0, 0.1, 0.25)]
     many = mbs.simulate_many(system, [Variant(pose=pose) for pose in falls], 0.5, STEP, progress=False)
     for pose, found, alone in zip(falls, many.trajectories, many.alone, strict=True):
         single = mbs.simulate(system, 0.5, STEP, pose=pose, progress=False, estimate_error=False)

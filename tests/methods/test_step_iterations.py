@@ -50,9 +50,20 @@ def test_a_limit_that_is_not_reached_changes_nothing(rough):
     assert stepped(free, 400).max() <= DEEP
     stepped(limited, 400)
     assert free.report()["halvings"] == 0
+    assert free.report()["divisions"] == limited.report()["divisions"] > 0
     assert list(map(list, free.get_state())) == list(map(list, limited.get_state()))
     assert limited.report()["capped"] == 0
     assert limited.report()["capped_residual"] == 0.0
+
+
+def test_all_parts_of_a_step_share_its_limit(rough):
+    """Steps for whose halves it has no room stay whole."""
+    free, limited, low = (started(rough, step_iterations=limit) for limit in (0, 14, 3))
+    assert stepped(free, 400).max() > 14 >= stepped(limited, 400).max()
+    stepped(low, 400)
+    divisions = [instance.report()["divisions"] for instance in (low, limited, free)]
+    assert 0 == divisions[0] < divisions[1] < divisions[2]
+    assert limited.report()["failures"] == 0
 
 
 @pytest.mark.parametrize("limit", [2, 3, 5])
@@ -87,7 +98,7 @@ def test_the_work_of_a_step_is_bounded(rough, limit):
 
 def test_what_is_left_bounds_how_far_the_positions_are_off(rough):
     """One step from the same state, solved and not: the tangent holds more than the mass matrix alone."""
-    exact, apart = started(rough), 0
+    exact, apart = started(rough, max_halvings=0), 0  # so small a limit leaves no room for halves
     for _ in range(300):
         limited = started(rough, step_iterations=2)
         limited.restore(exact.save())
@@ -105,7 +116,7 @@ def test_what_is_left_bounds_how_far_the_positions_are_off(rough):
 
 def test_the_state_stays_good(rough):
     """After the rough part the rows are closed, and the motion is that of steps that were solved."""
-    free, limited = started(rough), started(rough, step_iterations=4)
+    free, limited = started(rough, max_halvings=0), started(rough, step_iterations=4)
     stepped(free, 300)
     stepped(limited, 300)
     assert limited.report()["capped"] > 10
