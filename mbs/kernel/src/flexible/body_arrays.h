@@ -48,8 +48,7 @@ static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b)
 }
 
 /* out += M x, M by columns; four columns at once. */
-static inline void ali3_accumulate(int32_t n, const double *restrict M, const real *restrict x,
-                                   real *restrict out) {
+static inline void ali3_accumulate(int32_t n, const double *restrict M, const real *restrict x, real *restrict out) {
   int32_t l = 0;
   for (; l + 3 < n; l += 4) {
     const double *restrict c0 = M + (int64_t)l * n, *restrict c1 = c0 + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;

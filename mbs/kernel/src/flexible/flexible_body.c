@@ -183,8 +183,8 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_prepare, (const ali3_instance *in, 
 ALI3_BY_PROCESSOR(in->system, void, flexible_mass_times, (const ali3_instance *in, const real *x, real *out),
                   (in, x, out))
 
-ALI3_BY_PROCESSOR(in->system, void, flexible_forces,
-                  (const ali3_instance *in, const real *q, const real *qd, real *Q), (in, q, qd, Q))
+ALI3_BY_PROCESSOR(in->system, void, flexible_forces, (const ali3_instance *in, const real *q, const real *qd, real *Q),
+                  (in, q, qd, Q))
 
 ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
                   (const ali3_instance *in, double wM, double wC, double wK, real *F), (in, wM, wC, wK, F))

@@ -258,7 +258,8 @@ static void watch(ali3_lane_group *in) {
   for (int32_t k = 0; k < S->n_work; k++) {
     const int32_t e = S->work_element[k];
     in->power[k] = ali3_same(0.0);
-    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) in->power[k] += in->element_force[i] * in->ud[S->el_sig[i]];
+    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++)
+      in->power[k] += in->element_force[i] * in->ud[S->el_sig[i]];
   }
 }
 
