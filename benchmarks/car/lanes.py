@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from benchmarks.car import manoeuvres
 from benchmarks.car.older_cars import OlderCars
-from mbs import Simulation, System, compile
+from mbs import Model, Simulation, System, compile
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.many import Many, widest_lanes
 from mbs.scenes import double_four_bar, prototype_car
@@ -54,6 +54,23 @@ def varied_four_bars(windows: int) -> tuple[System, Start]:
         mechanism.instance.set_q(None, ((1.0 + 0.01 * number) * mechanism.state.qd).tolist())
         mechanism.instance.initialise()
         return mechanism
+
+    return system, start
+
+
+def one_after_another(build: Callable[[], Model], begin: float) -> tuple[System, Start]:
+    """Systems each of which is a step further in its motion than the one before, the first at `begin`, s."""
+    system = compile(build())
+    first: dict[float, bytes] = {}
+
+    def start(number: int, h: float, seconds: float) -> Simulation:
+        simulation = Simulation(system)
+        if h not in first:
+            simulation.instance.run(h, round(begin / h))
+            first[h] = simulation.instance.save()
+        simulation.instance.restore(first[h])
+        simulation.instance.run(h, number)
+        return simulation
 
     return system, start
 

@@ -86,8 +86,8 @@ class ManyRuns:
     failures : dict of int to SimulationError
         Why a run failed, by the number of its variant.
     alone : list of int
-        Steps that each run made alone: halved ones, failed ones, those without a neighbour, and all of Systems and
-        settings that are not stepped together.
+        Steps that each run made alone: halved ones, failed ones, those without a neighbour, the first six of a flexible
+        System with modes that the step does not resolve, and all of Systems and settings that are not stepped together.
     lanes : int
         Runs of a whole group, which advance together; the last group may have fewer.
     """
@@ -222,8 +222,8 @@ def simulate_many(
     variants : sequence of Variant
         Parameters, inputs and the pose of each run.
     t_end, h, settings, every, t0
-        As of `simulate`; the method is 'ali3p'. Rigid Systems without switches, with projections, the linearised
-        update and no `step_iterations`, are stepped together, others one by one.
+        As of `simulate`; the method is 'ali3p'. Systems without switches, with projections, the linearised update and
+        no `step_iterations`, are stepped together, others one by one.
     lanes : int, optional
         2, 4 or 8 runs at once; by default what the processor has instructions for, and no more than the variants fill.
     threads : int, optional

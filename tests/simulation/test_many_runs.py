@@ -23,7 +23,7 @@ from mbs import (
 )
 from mbs.common.errors import ArgumentTypeError
 from mbs.kernel.binding.many import widest_lanes
-from mbs.scenes import double_four_bar
+from mbs.scenes import assembly_defect_four_bar, double_four_bar
 from mbs.settings.input_signals import Signal
 from mbs.vehicle import car_names, load
 from tests.simulation.many_cars import CARS, SLALOM, system
@@ -179,5 +179,20 @@ def test_planar_mechanisms_advance_in_lanes(windows: int, alone: int) -> None:
     one = simulate(mechanism, 10.0, 0.01, estimate_error=False, progress=False)
     for run in runs.trajectories:
         assert run is not None
+        for name in run.units:
+            np.testing.assert_array_equal(run[name], one[name], err_msg=name)
+
+
+def test_flexible_mechanisms_advance_in_lanes() -> None:
+    """With the section forces that follow from their amplitudes; the first steps are damped, each alone."""
+    mechanism = compile(assembly_defect_four_bar.build())
+    runs = simulate_many(
+        mechanism, [Variant()] * 2, 0.5, 0.01, lanes=2, threads=1, progress=False, estimate_error=False
+    )
+    assert runs.alone == [6, 6]
+    one = simulate(mechanism, 0.5, 0.01, estimate_error=False, progress=False)
+    for run in runs.trajectories:
+        assert run is not None
+        assert run.report == one.report
         for name in run.units:
             np.testing.assert_array_equal(run[name], one[name], err_msg=name)

@@ -269,9 +269,9 @@ ALI3_API ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, cons
                               double *out, double *positions, int64_t *done);
 /* Several instances of one System that advance together, a lane each: every number of a step is a vector of 2, 4 or 8 of
  * them, by the instructions that the processor has. Each lane has the bits of ali3_run. Steps of ALi3-P with projections
- * and the linearised update, of rigid Systems without switches, are made together; other Systems, methods and settings,
- * and what one lane needs and the others do not (halves of a step, a failure), are stepped alone and counted. A group
- * belongs to one thread at a time. */
+ * and the linearised update, of Systems without switches, are made together; other Systems, methods and settings, and
+ * what one lane needs and the others do not (halves of a step, a failure, the damped start of a flexible System), are
+ * stepped alone and counted. A group belongs to one thread at a time. */
 typedef struct ali3_many ali3_many;
 typedef struct {
   ali3_instance *instance; /* of the System of the lanes, each once, all with the same settings */

@@ -144,33 +144,23 @@ static inline void ali3_products_from_far(const double *restrict column, int64_t
   sum[3] = (d[0] + d[1]) + (d[2] + d[3]);
 }
 #else
-/* x y in the order of the sums of one instance */
-static inline real ali3_product_from_far(const real *restrict x, const real *restrict y, int64_t n) {
-  real sum = {0}, second = {0}, third = {0}, fourth = {0};
-  int64_t i = n;
-  for (; i >= 4; i -= 4) {
-    sum += x[i - 4] * y[i - 4];
-    second += x[i - 3] * y[i - 3];
-    third += x[i - 2] * y[i - 2];
-    fourth += x[i - 1] * y[i - 1];
+/* The same in the order of the sums of one instance. */
+#define ALI3_FROM_FAR(name, declared, term)                                                                            \
+  static inline real name declared {                                                                                   \
+    real sum[4] = {0};                                                                                                 \
+    int64_t i = n;                                                                                                     \
+    for (; i >= 4; i -= 4)                                                                                             \
+      for (int k = 0; k < 4; k++) sum[k] += term(i - 4 + k);                                                           \
+    real all = (sum[0] + sum[1]) + (sum[2] + sum[3]);                                                                  \
+    while (i-- > 0) all += term(i);                                                                                    \
+    return all;                                                                                                        \
   }
-  sum = (sum + second) + (third + fourth);
-  while (i-- > 0) sum += x[i] * y[i];
-  return sum;
-}
-
-static inline real ali3_numbers_from_far(const double *restrict x, const real *restrict y, int64_t n) {
-  real sum = {0};
-  for (int64_t i = 0; i < n; i++) sum += x[i] * y[i];
-  return sum;
-}
-
-static inline real ali3_sum_product_from_far(const real *restrict x, const double *restrict z, const real *restrict y,
-                                             int64_t n) {
-  real sum = {0};
-  for (int64_t i = 0; i < n; i++) sum += (x[i] + z[i]) * y[i];
-  return sum;
-}
+#define ALI3_PRODUCT(i) x[i] * y[i]
+#define ALI3_SUM_PRODUCT(i) (x[i] + z[i]) * y[i]
+ALI3_FROM_FAR(ali3_product_from_far, (const real *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
+ALI3_FROM_FAR(ali3_numbers_from_far, (const double *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
+ALI3_FROM_FAR(ali3_sum_product_from_far,
+              (const real *restrict x, const double *restrict z, const real *restrict y, int64_t n), ALI3_SUM_PRODUCT)
 #endif
 
 /* Sums of three rows of n numbers each with x at columns that are one further from row to row. */

@@ -8,9 +8,11 @@
 #include "../method.h"
 #include "../methods/energy_balance.h"
 #include "../methods/energy_watch.h"
+#include "../methods/generalised_alpha.h"
 #include "../methods/history.h"
 #include "../methods/input_jump.h"
 #include "../methods/newton.h"
+#include "../methods/predict.h"
 #include "../methods/quick_stop.h"
 #include "../methods/steps.h"
 #include "../methods/stiffness.h"
@@ -66,8 +68,14 @@ void ali3_many_free(ali3_many *many) {
 
 /* Whether lanes make steps of this System with these settings: those of ALi3-P as it is by default. */
 static bool taken(const ali3_system *s, const ali3_settings *settings) {
-  return s->n_flexible == 0 && s->size.n_switch == 0 && settings->method == ALI3_METHOD_ALI3P && settings->project &&
+  return s->size.n_switch == 0 && settings->method == ALI3_METHOD_ALI3P && settings->project &&
          settings->update == ALI3_UPDATE_LINEARISED && settings->step_iterations == 0;
+}
+
+/* Whether a step goes on by ALi3-P from one of its own. */
+static bool goes_on(const ali3_instance *in, double h) {
+  if (in->system->n_flexible > 0) return !ali3_damped_start(in, h);
+  return in->now.history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_ALI3P;
 }
 
 /* A step that has begun: lane l of the group from in->now. False: the instance must make it alone. */
@@ -77,8 +85,7 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   ali3_vectors *from = &in->now, *to = &in->next;
   in->halves_left = false;
   in->may_divide = ali3_may_divide(in, in->settings.max_halvings);
-  if (ali3_divides_ahead(in, step->h)) return false;
-  if (from->history[ALI3_HISTORY_OWNER] != (double)ALI3_METHOD_ALI3P) return false;
+  if (ali3_divides_ahead(in, step->h) || !goes_on(in, step->h)) return false;
   if (ali3_inputs_begin(in, step->t, step->h) != ALI3_OK) return false;
   ali3_vectors_copy(in, to, from);
   if (ali3_input_jump(in, step->h) != ALI3_OK) return false;
@@ -92,7 +99,12 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
 /* The end of a step that converged in lane l, after ali3_group_to: in->next becomes the state. */
 static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   ali3_instance *in = g->lane[l];
-  ali3_history_append(in, step->h, in->x);
+  if (in->system->n_flexible > 0) {
+    in->next.history[ALI3_HISTORY_OWNER] = ALI3_METHOD_ALI3P;
+    ali3_predict_rates(in, step->h);
+  } else {
+    ali3_history_append(in, step->h, in->x);
+  }
   ali3_group_multipliers(g, l);
   ali3_lane_elements_accept(g, l);
   if (ali3_divides(in, step->h)) return ALI3_UNRESOLVED;

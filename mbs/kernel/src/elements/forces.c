@@ -4,6 +4,7 @@
 #include "../flexible/flexible_body.h"
 #include "../instance.h"
 #include "../tabled/tabled.h"
+#include "defect.h"
 #include "element.h"
 #include "forces.h"
 #include "signals.h"
@@ -142,26 +143,26 @@ void ali3_law_pieces(ali3_instance *in, uint32_t *piece) {
   }
 }
 
-/* r = -wK (change of the forces of elements from the last ali3_forces, with signals in->u_at, to those of `call`) - B' S
- * times the change of their signals, S the tangents in F. */
-void ali3_elements_defect(ali3_instance *in, const ali3_force_call *call, double *r) {
+void ali3_elements_defect(ali3_instance *in, double h, bool lanes, const double *q, const double *qd, double *r) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
+  const ali3_force_call call = {.q = q,
+                                .qd = qd,
+                                .y_old = in->now.y,
+                                .h = h,
+                                .wC = in->rule.wC,
+                                .wK = in->rule.c,
+                                .y_new = in->y_work,
+                                .out = in->out_work,
+                                .potential = in->potential_work};
+  (void)lanes;
   memset(r, 0, (size_t)S->size.nq * sizeof *r);
-  ali3_active_signals(in, call->q, call->qd);
+  ali3_active_signals(in, q, qd);
   for (int32_t e = 0; e < S->size.ne; e++) {
     if (S->el_front[e] < 0) continue;
-    const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
-    const double *before = in->element_force + S->el_sig_ptr[e], *row = in->S_tangent + S->el_S_off[e];
     local(in, e, u, ud);
-    ali3_element_forces(in, call, e, u, ud, f, NULL);
-    for (int32_t i = 0; i < n; i++) u[i] -= in->u_at[signal[i]];
-    for (int32_t i = 0; i < n; i++, row += n) {
-      double defect = -call->wK * (f[i] - before[i]);
-      for (int32_t j = 0; j < n; j++) defect -= row[j] * u[j];
-      for (int32_t k = S->sig_ptr[signal[i]]; k < S->sig_ptr[signal[i] + 1]; k++)
-        r[S->sig_col[k]] += S->sig_val[k] * defect;
-    }
+    ali3_element_forces(in, &call, e, u, ud, f, NULL);
+    ali3_add_defect(in, e, u, f, r);
   }
 }
 

@@ -1,6 +1,7 @@
 /* A flexible body in the arrays of a System, and the loops that its files share. */
 #ifndef ALI3_BODY_ARRAYS_H
 #define ALI3_BODY_ARRAYS_H
+#include "../algebra/real.h"
 #include "../instance.h"
 
 enum {
@@ -14,20 +15,26 @@ enum {
 typedef struct {
   int32_t n;                          /* modes */
   const int32_t *frame, *mode, *loc;  /* 12, n, 12 + n */
-  const double *P, *c, *E, *H, *K, *C, *gravity;
-  double *A, *S, *J, *D;              /* axes; P eta; J - J0; 9 x n */
+  const real *P, *c;
+  const double *E, *H, *K, *C, *gravity;
+  real *A, *S, *J, *D;                /* axes; P eta; J - J0; 9 x n */
 } ali3_flexible;
 
 static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b) {
   const ali3_system *s = in->system;
   const int64_t first = s->flex_mode_ptr[b], n = s->flex_mode_ptr[b + 1] - first, square = s->flex_square[b];
-  double *work = in->flex + ALI3_FLEX_COUPLING * (int64_t)b + ALI3_FLEX_OF_MODE * first;
+#ifdef ALI3_WIDTH
+  const real *P = in->flex_P, *c = in->flex_c;
+#else
+  const double *P = s->flex_P, *c = s->flex_c;
+#endif
+  real *work = in->flex + ALI3_FLEX_COUPLING * (int64_t)b + ALI3_FLEX_OF_MODE * first;
   const ali3_flexible f = {.n = (int32_t)n,
                            .frame = s->flex_frame + 12 * (int64_t)b,
                            .mode = s->flex_mode + first,
                            .loc = s->flex_loc + 12 * (int64_t)b + first,
-                           .P = s->flex_P + 3 * first,
-                           .c = s->flex_c + 9 * first,
+                           .P = P + 3 * first,
+                           .c = c + 9 * first,
                            .E = s->flex_T + 9 * square,
                            .H = s->flex_T + 9 * square + 6 * n * n,
                            .K = s->flex_K + square,
@@ -41,22 +48,22 @@ static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b)
 }
 
 /* out += M x, M by columns; four columns at once. */
-static inline void ali3_accumulate(int32_t n, const double *restrict M, const double *restrict x,
-                                   double *restrict out) {
+static inline void ali3_accumulate(int32_t n, const double *restrict M, const real *restrict x, real *restrict out) {
   int32_t l = 0;
   for (; l + 3 < n; l += 4) {
     const double *restrict c0 = M + (int64_t)l * n, *restrict c1 = c0 + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;
-    const double x0 = x[l], x1 = x[l + 1], x2 = x[l + 2], x3 = x[l + 3];
+    const real x0 = x[l], x1 = x[l + 1], x2 = x[l + 2], x3 = x[l + 3];
     for (int32_t i = 0; i < n; i++) out[i] += (c0[i] * x0 + c1[i] * x1) + (c2[i] * x2 + c3[i] * x3);
   }
   for (; l < n; l++) {
-    const double *restrict column = M + (int64_t)l * n, factor = x[l];
+    const double *restrict column = M + (int64_t)l * n;
+    const real factor = x[l];
     for (int32_t i = 0; i < n; i++) out[i] += column[i] * factor;
   }
 }
 
-static inline double ali3_inner(int32_t n, const double *restrict a, const double *restrict b) {
-  double even = 0.0, odd = 0.0;
+static inline real ali3_inner(int32_t n, const real *restrict a, const real *restrict b) {
+  real even = {0}, odd = {0};
   int32_t i = 0;
   for (; i + 1 < n; i += 2) {
     even += a[i] * b[i];
@@ -66,7 +73,7 @@ static inline double ali3_inner(int32_t n, const double *restrict a, const doubl
   return even + odd;
 }
 
-static inline void ali3_gather(int32_t n, const int32_t *index, const double *from, double *to) {
+static inline void ali3_gather(int32_t n, const int32_t *index, const real *from, real *to) {
   for (int32_t i = 0; i < n; i++) to[i] = from[index[i]];
 }
 #endif

@@ -12,18 +12,18 @@
 #include "body_arrays.h"
 #include "flexible_body.h"
 
-ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, const double *q) {
+ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, const real *q) {
   const int32_t n = f->n;
   const int64_t square = (int64_t)n * n;
-  double *restrict eta = in->flex_work, *restrict even = eta + n, *restrict odd = even + n;
+  real *restrict eta = in->flex_work, *restrict even = eta + n, *restrict odd = even + n;
   ali3_gather(9, f->frame + 3, q, f->A);
   ali3_gather(n, f->mode, q, eta);
-  memcpy(f->D, f->c, 9 * (size_t)n * sizeof(double));
+  memcpy(f->D, f->c, 9 * (size_t)n * sizeof *f->D);
   for (int i = 0; i < 3; i++) ali3_accumulate(n, f->E + i * square, eta, f->D + 4 * i * n);
   for (int p = 0; p < 3; p++) { /* the pairs yz, zx, xy: sum m phi_i phi_k' = E - H, its transpose E + H */
     const int i = (p + 1) % 3, k = (p + 2) % 3;
-    double *restrict ik = f->D + (3 * i + k) * n, *restrict ki = f->D + (3 * k + i) * n;
-    memset(even, 0, 2 * (size_t)n * sizeof(double));
+    real *restrict ik = f->D + (3 * i + k) * n, *restrict ki = f->D + (3 * k + i) * n;
+    memset(even, 0, 2 * (size_t)n * sizeof *even);
     ali3_accumulate(n, f->E + (3 + p) * square, eta, even);
     ali3_accumulate(n, f->H + p * square, eta, odd);
     for (int32_t j = 0; j < n; j++) {
@@ -34,13 +34,13 @@ ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, 
   for (int i = 0; i < 3; i++) {
     f->S[i] = ali3_inner(n, f->P + i * n, eta);
     for (int k = 0; k <= i; k++) {
-      const double value = ali3_inner(n, f->c + (3 * k + i) * n, eta) + ali3_inner(n, f->D + (3 * i + k) * n, eta);
+      const real value = ali3_inner(n, f->c + (3 * k + i) * n, eta) + ali3_inner(n, f->D + (3 * i + k) * n, eta);
       f->J[3 * i + k] = f->J[3 * k + i] = value;
     }
   }
 }
 
-ALI3_INLINED void flexible_prepare(const ali3_instance *in, const double *q) {
+ALI3_INLINED void flexible_prepare(const ali3_instance *in, const real *q) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     prepare_body(in, &f, q);
@@ -48,21 +48,21 @@ ALI3_INLINED void flexible_prepare(const ali3_instance *in, const double *q) {
 }
 
 /* out += (M(q) - constant part) x at the q that was prepared. */
-ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const double *x, double *out) {
+ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const real *x, real *out) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
-    double *restrict rate = in->flex_work, *restrict force = rate + n;
-    double v[12], local[3], local_r[3] = {0.0, 0.0, 0.0};
+    real *restrict rate = in->flex_work, *restrict force = rate + n;
+    real v[12], local[3], local_r[3] = {0};
     ali3_gather(12, f.frame, x, v);
     ali3_gather(n, f.mode, x, rate);
-    memset(force, 0, (size_t)n * sizeof(double));
+    memset(force, 0, (size_t)n * sizeof *force);
     for (int i = 0; i < 4; i++) { /* r_o, then the axes */
-      const double *a = v + 3 * i;
-      double total[3] = {0.0, 0.0, 0.0};
+      const real *a = v + 3 * i;
+      real total[3] = {0};
       for (int l = 0; l < 3; l++) {
-        const double *restrict row = i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n;
-        const double *axis = f.A + 3 * l, back = axis[0] * a[0] + axis[1] * a[1] + axis[2] * a[2];
+        const real *restrict row = i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n;
+        const real *axis = f.A + 3 * l, back = axis[0] * a[0] + axis[1] * a[1] + axis[2] * a[2];
         local[l] = ali3_inner(n, row, rate);
         for (int32_t j = 0; j < n; j++) force[j] += row[j] * back;
         for (int k = 0; k < 3; k++) total[k] += axis[k] * local[l];
@@ -83,45 +83,113 @@ ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const double *x, 
 
 /* Q += Q_v, weight beside its constant part, elastic and damping forces, at the q that was prepared. Without Q_v in a
  * step by discrete gradients, whose inertia is in discrete_inertia.c. */
-ALI3_INLINED void flexible_forces(const ali3_instance *in, const double *q, const double *qd, double *Q) {
+ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const real *qd, real *Q) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
-    double *restrict x = in->flex_work, *restrict sum = x + n, *restrict rate = sum + n;
+    real *restrict x = in->flex_work, *restrict sum = x + n, *restrict rate = sum + n;
     const double *g = f.gravity, turning = in->discrete ? 0.0 : 1.0;
-    double Ad[9];
+    real Ad[9];
     ali3_gather(9, f.frame + 3, qd, Ad);
     for (int i = 0; i < 9; i++) Ad[i] *= turning;
     ali3_gather(n, f.mode, qd, rate);
     ali3_gather(n, f.mode, q, x);
-    memset(sum, 0, (size_t)n * sizeof(double));
+    memset(sum, 0, (size_t)n * sizeof *sum);
     ali3_accumulate(n, f.K, x, sum);
     ali3_accumulate(n, f.C, rate, sum);
     for (int p = 0; p < 3; p++) { /* A'Ad is skew: of sum m phi_j' A'Ad phi_l only H = (sum m phi_i phi_k' - ...)/2 */
-      const double *ai = f.A + 3 * ((p + 1) % 3), *ak = f.A + 3 * ((p + 2) % 3);
-      const double *di = Ad + 3 * ((p + 1) % 3), *dk = Ad + 3 * ((p + 2) % 3);
-      const double spin =
+      const real *ai = f.A + 3 * ((p + 1) % 3), *ak = f.A + 3 * ((p + 2) % 3);
+      const real *di = Ad + 3 * ((p + 1) % 3), *dk = Ad + 3 * ((p + 2) % 3);
+      const real spin =
           0.5 * ((ai[0] * dk[0] + ai[1] * dk[1] + ai[2] * dk[2]) - (ak[0] * di[0] + ak[1] * di[1] + ak[2] * di[2]));
       for (int32_t j = 0; j < n; j++) x[j] = 4.0 * spin * rate[j];
       ali3_accumulate(n, f.H + p * (int64_t)n * n, x, sum);
     }
     for (int i = 0; i < 4; i++) {
-      double total[3] = {0.0, 0.0, 0.0};
+      real total[3] = {0};
       for (int l = 0; l < 3; l++) {
-        const double local = -2.0 * ali3_inner(n, i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n, rate);
+        const real local = -2.0 * ali3_inner(n, i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n, rate);
         for (int k = 0; k < 3; k++) total[k] += Ad[3 * l + k] * local;
       }
-      for (int k = 0; k < 3; k++) Q[f.frame[3 * i + k]] += total[k] + (i > 0 ? f.S[i - 1] * g[k] : 0.0);
+      for (int k = 0; k < 3; k++) Q[f.frame[3 * i + k]] += total[k] + (i > 0 ? f.S[i - 1] * g[k] : ali3_same(0.0));
     }
     for (int l = 0; l < 3; l++) {
-      const double *axis = f.A + 3 * l, weight = axis[0] * g[0] + axis[1] * g[1] + axis[2] * g[2];
-      const double *restrict row = f.P + l * n;
+      const real *axis = f.A + 3 * l, weight = axis[0] * g[0] + axis[1] * g[1] + axis[2] * g[2];
+      const real *restrict row = f.P + l * n;
       for (int32_t j = 0; j < n; j++) sum[j] -= row[j] * weight;
     }
     for (int32_t j = 0; j < n; j++) Q[f.mode[j]] -= sum[j];
   }
 }
 
+/* Lower triangle of wC C + wK K into the body's front. */
+ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, double wK, real *block) {
+  const int32_t n = f->n, *mode = f->loc + 12;
+  const bool together = mode[n - 1] - mode[0] == n - 1;
+  for (int32_t j = 0; j < n; j++) {
+    const double *restrict C = f->C + (int64_t)j * n, *restrict K = f->K + (int64_t)j * n;
+    real *restrict column = block + (int64_t)mode[j] * size;
+    if (together)
+      for (int32_t i = j; i < n; i++) column[mode[0] + i] += wC * C[i] + wK * K[i];
+    else
+      for (int32_t i = j; i < n; i++) column[mode[i]] += wC * C[i] + wK * K[i];
+  }
+}
+
+/* The rows of modes in the columns of the frame; these come first and those lie side by side, unless the front of the
+ * body has many others. */
+ALI3_INLINED void add_coupling(const ali3_flexible *f, int32_t size, double wM, double wK, real *block) {
+  const int32_t n = f->n, *mode = f->loc + 12;
+  bool together = mode[n - 1] - mode[0] == n - 1;
+  for (int i = 0; i < 12; i++) together = together && f->loc[i] < mode[0];
+  for (int i = 0; i < 4; i++)
+    for (int k = 0; k < 3; k++) {
+      const real *restrict X = i == 0 ? f->P : f->D + 3 * (i - 1) * n, *restrict Y = X + n, *restrict Z = Y + n;
+      const real *restrict hang = i == 0 ? f->P : f->P + (i - 1) * n;
+      const real ax = wM * f->A[k], ay = wM * f->A[3 + k], az = wM * f->A[6 + k];
+      const double g = i == 0 ? 0.0 : wK * f->gravity[k];
+      const int32_t at = f->loc[3 * i + k];
+      real *restrict column = block + (int64_t)at * size + mode[0];
+      if (together) {
+        ALI3_BY_FOURS
+        for (int32_t j = 0; j < n; j++) column[j] += (ax * X[j] + ay * Y[j]) + (az * Z[j] - g * hang[j]);
+        continue;
+      }
+      for (int32_t j = 0; j < n; j++)
+        ali3_add_lower(block, size, at, mode[j], (ax * X[j] + ay * Y[j]) + (az * Z[j] - g * hang[j]));
+    }
+}
+
+/* F += wM (M(q) - constant part) + wC C + wK K at the q that was prepared; K with the part of the weight. */
+ALI3_INLINED void flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, real *F) {
+  const ali3_system *s = in->system;
+  for (int32_t b = 0; b < s->n_flexible; b++) {
+    const ali3_flexible f = ali3_flexible_of(in, b);
+    const int32_t front = s->flex_front[b], size = s->front_ptr[front + 1] - s->front_ptr[front];
+    real *block = F + s->front_off[front];
+    for (int i = 0; i < 3; i++)
+      for (int k = 0; k < 3; k++) {
+        const int32_t axis = f.loc[3 + 3 * i + k];
+        ali3_add_lower(block, size, axis, f.loc[k], wM * f.S[i]);
+        for (int l = 0; l <= i; l++) ali3_add_lower(block, size, axis, f.loc[3 + 3 * l + k], wM * f.J[3 * i + l]);
+      }
+    add_coupling(&f, size, wM, wK, block);
+    if (wC != 0.0 || wK != 0.0) add_moduli(&f, size, wC, wK, block);
+  }
+}
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_prepare, (const ali3_instance *in, const real *q), (in, q))
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_mass_times, (const ali3_instance *in, const real *x, real *out),
+                  (in, x, out))
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_forces, (const ali3_instance *in, const real *q, const real *qd, real *Q),
+                  (in, q, qd, Q))
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
+                  (const ali3_instance *in, double wM, double wC, double wK, real *F), (in, wM, wC, wK, F))
+
+#ifndef ALI3_WIDTH /* of one instance alone */
 /* K eta with the amplitudes eta of x, which stay in in->flex_work. */
 static const double *elastic_force(const ali3_instance *in, const ali3_flexible *f, const double *x) {
   double *eta = in->flex_work, *force = eta + f->n;
@@ -139,62 +207,6 @@ void ali3_flexible_energy(const ali3_instance *in, const double *q, double *grav
     *elastic += 0.5 * ali3_inner(f.n, force, in->flex_work);
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) *gravity -= f.gravity[k] * f.A[3 * i + k] * f.S[i];
-  }
-}
-
-/* Lower triangle of wC C + wK K into the body's front. */
-ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, double wK, double *block) {
-  const int32_t n = f->n, *mode = f->loc + 12;
-  const bool together = mode[n - 1] - mode[0] == n - 1;
-  for (int32_t j = 0; j < n; j++) {
-    const double *restrict C = f->C + (int64_t)j * n, *restrict K = f->K + (int64_t)j * n;
-    double *restrict column = block + (int64_t)mode[j] * size;
-    if (together)
-      for (int32_t i = j; i < n; i++) column[mode[0] + i] += wC * C[i] + wK * K[i];
-    else
-      for (int32_t i = j; i < n; i++) column[mode[i]] += wC * C[i] + wK * K[i];
-  }
-}
-
-/* The rows of modes in the columns of the frame; these come first and those lie side by side, unless the front of the
- * body has many others. */
-ALI3_INLINED void add_coupling(const ali3_flexible *f, int32_t size, double wM, double wK, double *block) {
-  const int32_t n = f->n, *mode = f->loc + 12;
-  bool together = mode[n - 1] - mode[0] == n - 1;
-  for (int i = 0; i < 12; i++) together = together && f->loc[i] < mode[0];
-  for (int i = 0; i < 4; i++)
-    for (int k = 0; k < 3; k++) {
-      const double *restrict X = i == 0 ? f->P : f->D + 3 * (i - 1) * n, *restrict Y = X + n, *restrict Z = Y + n;
-      const double *restrict hang = i == 0 ? f->P : f->P + (i - 1) * n;
-      const double ax = wM * f->A[k], ay = wM * f->A[3 + k], az = wM * f->A[6 + k],
-                   g = i == 0 ? 0.0 : wK * f->gravity[k];
-      const int32_t at = f->loc[3 * i + k];
-      double *restrict column = block + (int64_t)at * size + mode[0];
-      if (together) {
-        ALI3_BY_FOURS
-        for (int32_t j = 0; j < n; j++) column[j] += (ax * X[j] + ay * Y[j]) + (az * Z[j] - g * hang[j]);
-        continue;
-      }
-      for (int32_t j = 0; j < n; j++)
-        ali3_add_lower(block, size, at, mode[j], (ax * X[j] + ay * Y[j]) + (az * Z[j] - g * hang[j]));
-    }
-}
-
-/* F += wM (M(q) - constant part) + wC C + wK K at the q that was prepared; K with the part of the weight. */
-ALI3_INLINED void flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, double *F) {
-  const ali3_system *s = in->system;
-  for (int32_t b = 0; b < s->n_flexible; b++) {
-    const ali3_flexible f = ali3_flexible_of(in, b);
-    const int32_t front = s->flex_front[b], size = s->front_ptr[front + 1] - s->front_ptr[front];
-    double *block = F + s->front_off[front];
-    for (int i = 0; i < 3; i++)
-      for (int k = 0; k < 3; k++) {
-        const int32_t axis = f.loc[3 + 3 * i + k];
-        ali3_add_lower(block, size, axis, f.loc[k], wM * f.S[i]);
-        for (int l = 0; l <= i; l++) ali3_add_lower(block, size, axis, f.loc[3 + 3 * l + k], wM * f.J[3 * i + l]);
-      }
-    add_coupling(&f, size, wM, wK, block);
-    if (wC != 0.0 || wK != 0.0) add_moduli(&f, size, wC, wK, block);
   }
 }
 
@@ -216,14 +228,4 @@ void ali3_flexible_elastic(const ali3_instance *in, double weight, const double 
     for (int32_t j = 0; j < f.n; j++) out[f.mode[j]] += weight * force[j];
   }
 }
-
-ALI3_BY_PROCESSOR(in->system, void, flexible_prepare, (const ali3_instance *in, const double *q), (in, q))
-
-ALI3_BY_PROCESSOR(in->system, void, flexible_mass_times, (const ali3_instance *in, const double *x, double *out),
-                  (in, x, out))
-
-ALI3_BY_PROCESSOR(in->system, void, flexible_forces,
-                  (const ali3_instance *in, const double *q, const double *qd, double *Q), (in, q, qd, Q))
-
-ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
-                  (const ali3_instance *in, double wM, double wC, double wK, double *F), (in, wM, wC, wK, F))
+#endif

@@ -1,13 +1,14 @@
 /* Flexible bodies: prepare is for one q, the others use what it left. */
 #ifndef ALI3_FLEXIBLE_BODY_H
 #define ALI3_FLEXIBLE_BODY_H
+#include "../algebra/real.h"
 #include "../instance.h"
 
-void ali3_flexible_prepare(const ali3_instance *in, const double *q);
-void ali3_flexible_mass_times(const ali3_instance *in, const double *x, double *out);
-void ali3_flexible_forces(const ali3_instance *in, const double *q, const double *qd, double *Q);
+void ali3_flexible_prepare(const ali3_instance *in, const real *q);
+void ali3_flexible_mass_times(const ali3_instance *in, const real *x, real *out);
+void ali3_flexible_forces(const ali3_instance *in, const real *q, const real *qd, real *Q);
 void ali3_flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic);
-void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, double *F);
+void ali3_flexible_tangent(const ali3_instance *in, double wM, double wC, double wK, real *F);
 void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F);
 void ali3_flexible_elastic(const ali3_instance *in, double weight, const double *x, double *out);
 #endif

@@ -5,6 +5,7 @@
 
 #include "../elements/element.h"
 #include "../elements/road.h"
+#include "../flexible/body_arrays.h"
 #include "../state/vectors.h"
 #include "../state/workspace.h"
 #include "../system/pool.h"
@@ -20,9 +21,11 @@ static void *items(const ali3_lane_group *g, ali3_pool *pool, size_t n) {
   return ali3_pool_array(pool, n * (size_t)g->width);
 }
 
+/* `past`: with what is known of past steps. */
 static void place_vectors(const ali3_lane_group *g, ali3_lane_vectors *v, bool past, ali3_pool *pool) {
   const ali3_sizes *z = &g->system->size;
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, ng = (size_t)z->ng;
+  const bool flexible = g->system->n_flexible > 0;
   v->q = items(g, pool, nq);
   v->qd = items(g, pool, nq);
   v->qdd = items(g, pool, nq);
@@ -31,6 +34,9 @@ static void place_vectors(const ali3_lane_group *g, ali3_lane_vectors *v, bool p
   v->sd = items(g, pool, ng);
   v->sdd = items(g, pool, ng);
   v->y = items(g, pool, (size_t)z->ny);
+  v->mean = items(g, pool, past && flexible ? nq : 0);
+  v->mean_before = items(g, pool, past && flexible ? nq : 0);
+  past = past && !flexible;
   v->history = items(g, pool, past ? ALI3_HISTORY : 0);
   v->past_a = items(g, pool, past ? ALI3_PAST * nq : 0);
   v->past_lam = items(g, pool, past ? ALI3_PAST * nc : 0);
@@ -64,10 +70,23 @@ static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
   g->ud = items(g, pool, (size_t)z->nsig);
   g->S = items(g, pool, (size_t)S->el_S_off[z->ne]);
   g->SB = items(g, pool, ali3_signal_work(S));
-  g->f = items(g, pool, (size_t)S->el_sig_ptr[z->ne]);
+  g->element_force = items(g, pool, (size_t)S->el_sig_ptr[z->ne]);
   g->ways = items(g, pool, (size_t)S->n_work_force);
   g->power = items(g, pool, (size_t)S->n_work);
   g->idle = items(g, pool, (size_t)z->ne);
+}
+
+/* Flexible bodies, and what defect_correction.c needs where there are any. */
+static void place_flexible(ali3_lane_group *g, ali3_pool *pool) {
+  const ali3_system *S = g->system;
+  const size_t any = S->n_flexible > 0, modes = (size_t)S->n_flex_mode;
+  g->flex = items(g, pool, ALI3_FLEX_COUPLING * (size_t)S->n_flexible + ALI3_FLEX_OF_MODE * modes);
+  g->flex_work = items(g, pool, 3 * (size_t)S->max_modes);
+  g->flex_P = items(g, pool, 3 * modes);
+  g->flex_c = items(g, pool, 9 * modes);
+  g->stage = items(g, pool, any * 3 * (size_t)S->size.nq);
+  g->S_tangent = items(g, pool, any * (size_t)S->el_S_off[S->size.ne]);
+  g->u_at = items(g, pool, any * (size_t)S->size.nsig);
 }
 
 static void place_tabled(ali3_lane_group *g, ali3_pool *pool) {
@@ -127,6 +146,7 @@ static void place(ali3_lane_group *g, ali3_pool *pool) {
   place_vectors(g, &g->next, false, pool);
   place_step(g, pool);
   place_tangents(g, pool);
+  place_flexible(g, pool);
   place_tabled(g, pool);
   place_elements(g, pool);
   place_counts(g, pool);
@@ -220,6 +240,8 @@ void ali3_group_parameters(ali3_lane_group *g) {
   PUT(g, g->mass_floor, z->nq, in, in->mass_floor);
   PUT(g, g->mass_floor_inverse, z->nq, in, in->mass_floor_inverse);
   PUT(g, g->gravity_force, z->nq, in, in->gravity_force);
+  PUT(g, g->flex_P, 3 * (int32_t)g->system->n_flex_mode, in, in->system->flex_P);
+  PUT(g, g->flex_c, 9 * (int32_t)g->system->n_flex_mode, in, in->system->flex_c);
   PUT(g, g->el_real, g->system->el_real_ptr[z->ne], in, in->el_real);
   roads(g);
 }
@@ -239,9 +261,14 @@ void ali3_group_from(ali3_lane_group *g) {
   PUT(g, g->next.s, ng, in, in->next.s);
   PUT(g, g->next.sd, ng, in, in->next.sd);
   PUT(g, g->next.sdd, ng, in, in->next.sdd);
-  PUT(g, g->now.history, ALI3_HISTORY, in, in->now.history);
-  PUT(g, g->now.past_a, ALI3_PAST * nq, in, in->now.past_a);
-  PUT(g, g->now.past_lam, ALI3_PAST * nc, in, in->now.past_lam);
+  if (S->n_flexible > 0) {
+    PUT(g, g->now.mean, nq, in, in->now.mean);
+    PUT(g, g->now.mean_before, nq, in, in->now.mean_before);
+  } else {
+    PUT(g, g->now.history, ALI3_HISTORY, in, in->now.history);
+    PUT(g, g->now.past_a, ALI3_PAST * nq, in, in->now.past_a);
+    PUT(g, g->now.past_lam, ALI3_PAST * nc, in, in->now.past_lam);
+  }
   PUT(g, g->input, S->size.nu, in, in->force_input);
   for (int32_t e = 0; e < S->size.ne; e++) {
     const int32_t first = S->el_state_ptr[e], n = S->el_state_ptr[e + 1] - first;
@@ -283,6 +310,10 @@ void ali3_group_to(const ali3_lane_group *g) {
   TAKE(g, in, in->next.lam, g->newton_lam, S->size.nc);
   TAKE(g, in, in->D, g->D, nq);
   TAKE(g, in, in->x, g->mean_a, nq);
+  for (int32_t b = 0; b < S->n_flexible; b++) { /* axes and moments, for the energy of their weight */
+    const int32_t at = ALI3_FLEX_COUPLING * b + ALI3_FLEX_OF_MODE * S->flex_mode_ptr[b];
+    TAKE(g, in, in->flex + at, g->flex + at * g->width, ALI3_FLEX_COUPLING);
+  }
   if (S->n_tabled_base > 0) /* for the energy of their weight */
     TAKE(g, in, (double *)in->tabled_base, (const double *)g->tabled_base, S->n_tabled_base * BASE_NUMBERS);
   for (int32_t e = 0; e < S->size.ne; e++) {
@@ -298,7 +329,7 @@ void ali3_group_to(const ali3_lane_group *g) {
     const int32_t e = S->work_element[k], force = S->n_work + S->work_ptr[k], first = S->el_sig_ptr[e];
     if (!g->by_law[e]) continue;
     TAKE(g, in, in->watched + k, g->power + k * g->width, 1);
-    TAKE(g, in, in->watched + force, g->f + first * g->width, S->el_sig_ptr[e + 1] - first);
+    TAKE(g, in, in->watched + force, g->element_force + first * g->width, S->el_sig_ptr[e + 1] - first);
   }
   for (int32_t l = 0; l < g->used; l++)
     if (g->good[l]) counts(g, l);

@@ -16,6 +16,7 @@ typedef int64_t ali3_mask;
 typedef struct {
   real *q, *qd, *qdd, *lam;
   real *s, *sd, *sdd; /* guides */
+  real *mean, *mean_before;
   real *history, *past_a, *past_lam;
   real *y; /* states of elements */
 } ali3_lane_vectors;
@@ -37,7 +38,7 @@ typedef struct ali3_lane_group {
   ali3_settings settings; /* those of all lanes */
   ali3_rule rule;
   double h, alpha;
-  bool controlled; /* false */
+  bool controlled, discrete; /* false */
   ali3_lane_vectors now, next;
   real *mass_val, *mass_floor, *mass_floor_inverse, *gravity_force;
   real *D, *d0, *r, *x, *w, *hat, *Q, *shifted, *correction_q, *step_q; /* nq, as those of an instance */
@@ -50,8 +51,10 @@ typedef struct ali3_lane_group {
   ali3_tabled_base_work *tabled_base;
   ali3_tabled_parameter_work *tabled_parameter;
   real *tabled_square, *extended[3], *extended_force;
-  real *f; /* forces of elements on their signals */
+  real *element_force;
   real *ways, *power; /* of elements whose work is watched, see ../state/work.c */
+  real *flex, *flex_work, *flex_P, *flex_c; /* of flexible bodies; numbers of the System, the same in all lanes */
+  real *stage, *S_tangent, *u_at; /* of defect_correction.c */
   ali3_mask *idle;
   real *el_real, *input, *out, *potential;
   ali3_lane_road *road;
@@ -73,8 +76,8 @@ void ali3_step_lanes_2(ali3_lane_group *group);
 void ali3_step_lanes_4(ali3_lane_group *group);
 void ali3_step_lanes_8(ali3_lane_group *group);
 
-/* Element e of the lanes in group->evaluated, one by one. */
-void ali3_lane_element(ali3_lane_group *group, int32_t e, bool tangent);
+/* Element e of the lanes in group->evaluated, one by one; f: its forces. */
+void ali3_lane_element(ali3_lane_group *group, int32_t e, real *f, bool tangent);
 /* What ali3_road_contacts gives in each lane, two contacts. */
 void ali3_lane_contacts(const ali3_lane_road *road, const real *centre, const real *axis, const real *radius,
                         real *contacts);

@@ -1,5 +1,5 @@
 /* The sources of a step, compiled for lanes: included once for each width, with ALI3_WIDTH and the instructions that the
- * processor then has. An instance is a group there; what a rigid System without switches never asks for is nothing. */
+ * processor then has. An instance is a group there; what a System without switches never asks for is nothing. */
 #ifndef ALI3_KERNELS_H
 #define ALI3_KERNELS_H
 #ifdef ALI3_WIDTH
@@ -69,14 +69,22 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_tabled_inertia_forces ALI3_LANED(tabled_inertia_forces)
 #define ali3_tabled_tangent ALI3_LANED(tabled_tangent)
 #define ali3_tabled_elements_tangent ALI3_LANED(tabled_elements_tangent)
+#define ali3_flexible_prepare ALI3_LANED(flexible_prepare)
+#define ali3_flexible_mass_times ALI3_LANED(flexible_mass_times)
+#define ali3_flexible_forces ALI3_LANED(flexible_forces)
+#define ali3_flexible_tangent ALI3_LANED(flexible_tangent)
+#define ali3_defect_correction ALI3_LANED(defect_correction)
+#define ali3_elements_defect ALI3_LANED(elements_defect)
 #define ali3_history_smooth ALI3_LANED(history_smooth)
 #define ali3_extrapolate ALI3_LANED(extrapolate)
 
 #include "../algebra/fronts.c"
 #include "../elements/signals.c"
 #include "../flexible/constant_mass.c"
+#include "../flexible/flexible_body.c"
 #include "../methods/accelerate.c"
 #include "../methods/constraint_work.c"
+#include "../methods/defect_correction.c"
 #include "../methods/extrapolation.c"
 #include "../methods/projection.c"
 #include "../rows/constraints.c"
@@ -89,6 +97,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 
 void ali3_mass_times(const ali3_instance *in, const real *x, real *out) {
   ali3_constant_mass_times(in, x, out);
+  if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
   if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out);
 }
 

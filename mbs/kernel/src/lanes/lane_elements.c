@@ -26,7 +26,7 @@ static void local(const ali3_lane_group *g, int32_t e, int32_t l, double *u, dou
 }
 
 /* f, idle and, where it is wanted, the tangent of element e in lane l. */
-static void one(ali3_lane_group *g, const ali3_force_call *call, int32_t e, int32_t l, bool tangent) {
+static void one(ali3_lane_group *g, const ali3_force_call *call, int32_t e, int32_t l, real *forces, bool tangent) {
   const ali3_system *S = g->system;
   const int32_t width = g->width, n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS], T[ALI3_MAX_SIGNALS * ALI3_MAX_SIGNALS];
@@ -34,16 +34,16 @@ static void one(ali3_lane_group *g, const ali3_force_call *call, int32_t e, int3
   local(g, e, l, u, ud);
   const bool idle = ali3_element_forces(g->lane[l], call, e, u, ud, f, wanted ? T : NULL);
   g->idle[e * width + l] = idle ? -1 : 0;
-  real *forces = g->f + (int64_t)S->el_sig_ptr[e] * width + l, *to = g->S + (int64_t)S->el_S_off[e] * width + l;
-  for (int32_t i = 0; i < n; i++) forces[i * width] = f[i];
+  real *to = g->S + (int64_t)S->el_S_off[e] * width + l;
+  for (int32_t i = 0; i < n; i++) forces[i * width + l] = f[i];
   for (int32_t i = 0; wanted && i < n * n; i++) to[i * width] = T[i];
 }
 
-void ali3_lane_element(ali3_lane_group *g, int32_t e, bool tangent) {
+void ali3_lane_element(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
   for (int32_t l = 0; l < g->width; l++) {
     if (!g->evaluated[l]) continue;
     const ali3_force_call call = call_of(g, g->lane[l]);
-    one(g, &call, e, l, tangent);
+    one(g, &call, e, l, f, tangent);
   }
 }
 

@@ -5,6 +5,7 @@
 #define ALI3_LANE_STEP_H
 #ifdef ALI3_LANED /* by kernels.h */
 #include "../methods/ali3p.h"
+#include "../methods/defect_correction.h"
 #include "../methods/energy_watch.h"
 #include "../methods/extrapolation.h"
 #include "../methods/predict.h"
@@ -17,7 +18,7 @@ static truth all_finite(const real *v, int32_t n) {
 }
 
 /* Element e of all lanes: f, y, out, potential, idle and, where it is wanted, the tangent. */
-static void law(ali3_lane_group *g, int32_t e, bool tangent) {
+static void law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
   const ali3_system *S = g->system;
   const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
   const int32_t beside = S->el_beside[e];
@@ -39,7 +40,7 @@ static void law(ali3_lane_group *g, int32_t e, bool tangent) {
                          .integer = S->el_int + S->el_int_ptr[e],
                          .input = g->input,
                          .roads = g->road,
-                         .f = g->f + S->el_sig_ptr[e],
+                         .f = f,
                          .S = tangent && S->el_front[e] >= 0 ? g->S + S->el_S_off[e] : NULL,
                          .out = g->out + S->el_out_ptr[e]};
   memset(a.f, 0, (size_t)n * sizeof *a.f);
@@ -49,14 +50,34 @@ static void law(ali3_lane_group *g, int32_t e, bool tangent) {
   g->idle[e] = (truth){0} - a.idle;
 }
 
+/* Element e of the lanes in in->evaluated. */
+static void element(ali3_lane_group *in, int32_t e, real *f, bool tangent) {
+  if (in->by_law[e])
+    law(in, e, f, tangent);
+  else
+    ali3_lane_element(in, e, f, tangent);
+}
+
 /* Elements of these lanes; the others keep theirs, but for the tangent, for which they are not asked again. */
 static void elements(ali3_lane_group *in, truth lanes, bool tangent) {
+  const ali3_system *S = in->system;
   *in->evaluated = lanes;
-  for (int32_t e = 0; e < in->system->size.ne; e++) {
-    if (in->by_law[e])
-      law(in, e, tangent);
-    else
-      ali3_lane_element(in, e, tangent);
+  for (int32_t e = 0; e < S->size.ne; e++) element(in, e, in->element_force + S->el_sig_ptr[e], tangent);
+}
+
+/* The next iterate writes again what elements have beside f; lanes that have ended come to the same. */
+void ali3_elements_defect(ali3_lane_group *in, double h, truth lanes, const real *q, const real *qd, real *r) {
+  const ali3_system *S = in->system;
+  real u[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
+  (void)h;
+  *in->evaluated = lanes;
+  memset(r, 0, (size_t)S->size.nq * sizeof *r);
+  ali3_active_signals(in, q, qd);
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    if (S->el_front[e] < 0) continue;
+    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) u[i - S->el_sig_ptr[e]] = in->u[S->el_sig[i]];
+    element(in, e, f, false);
+    ali3_add_defect(in, e, u, f, r);
   }
 }
 
@@ -71,10 +92,14 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
     q = in->extended[0], qd = in->extended[1];
   }
   ali3_active_signals(in, q, qd);
-  elements(in, lanes, tangent);
   real *Q = S->n_tabled > 0 ? in->extended_force : in->Q; /* with those on dependents behind */
   memcpy(Q, in->gravity_force, (size_t)nq * sizeof *Q);
-  ali3_add_forces(in, in->f, Q);
+  if (S->n_flexible > 0) {
+    ali3_flexible_prepare(in, q);
+    ali3_flexible_forces(in, q, qd, Q);
+  }
+  elements(in, lanes, tangent);
+  ali3_add_forces(in, in->element_force, Q);
   if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->Q);
 }
 
@@ -144,6 +169,11 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
     if (S->mass_pos[k] >= 0) F[S->mass_pos[k]] = in->mass_val[k];
   ali3_rows_square(in, in->J, in->rule.c * in->alpha, F);
   if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, in->rule.c, F);
+  if (S->n_flexible > 0) {
+    ali3_flexible_tangent(in, 1.0, in->rule.wC, in->rule.c, F);
+    for (int32_t i = 0; i < S->el_S_off[S->size.ne]; i++)
+      in->S_tangent[i] = first ? in->S[i] : ali3_where(lanes, in->S[i], in->S_tangent[i]);
+  }
   ali3_elements_tangent(in, F);
   if (S->n_tabled > 0) {
     ali3_tabled_tangent(in, 1.0, in->rule.c, F);
@@ -168,6 +198,7 @@ static truth correct(ali3_lane_group *in, truth lanes, truth kept, int32_t itera
   for (int32_t i = 0; i < nq; i++) x[i] = -(ali3_where(kept, x[i], r[i]) + c * w[i]);
   ali3_solve(in, in->F, x);
   const truth finite = all_finite(x, nq);
+  if (ali3_defect_corrected(S)) ali3_defect_correction(in, in->h, iteration, lanes & finite);
   ali3_rows_times(S, in->J_tangent, x, in->gamma);
   for (int32_t k = 0; k < nc; k++) change[k] = alpha * (Phi[k] + gamma[k]);
   ali3_accelerate(in, iteration);
@@ -178,6 +209,7 @@ static truth correct(ali3_lane_group *in, truth lanes, truth kept, int32_t itera
 
 static void newton(ali3_lane_group *in) {
   const double h = in->h;
+  const bool flexible = in->system->n_flexible > 0;
   truth active = *in->lanes, kept = {0};
   real before = ali3_same(HUGE_VAL);
   *in->good = *in->singular = *in->iterations = kept;
@@ -188,14 +220,14 @@ static void newton(ali3_lane_group *in) {
     active &= ~*in->singular;
     active &= correct(in, active, kept, iteration);
     *in->iterations -= active;
-    evaluate(in, active, false);
+    evaluate(in, active, flexible);
     active &= judge(in);
     const truth ended = active & (*in->residual <= in->settings.tolerance_r) & closed(in);
     *in->good |= ended;
     active &= ~ended;
     kept = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4)) & (*in->residual <= KEPT_RESIDUAL * before);
     before = *in->residual;
-    if (ali3_any(active & ~kept)) elements(in, active & ~kept, true);
+    if (!flexible && ali3_any(active & ~kept)) elements(in, active & ~kept, true);
   }
 }
 
@@ -204,6 +236,11 @@ static void predict(ali3_lane_group *in) {
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
   const double h = in->h;
   truth goes_on = {0};
+  if (in->system->n_flexible > 0) {
+    for (int32_t i = 0; i < nq; i++) in->D[i] = h * (2.0 * in->now.mean[i] - in->now.mean_before[i]);
+    memcpy(in->next.lam, in->now.lam, (size_t)nc * sizeof *in->next.lam);
+    return;
+  }
   if (in->settings.predictor == ALI3_PREDICTOR_PARABOLA) goes_on = ali3_history_smooth(in, ALI3_PARABOLA, h);
   if (ali3_any(goes_on)) ali3_extrapolate(in, 0.5 * h, ALI3_PARABOLA, in->x, in->next.lam);
   for (int32_t k = 0; k < nc; k++) {
@@ -221,7 +258,8 @@ static void watch(ali3_lane_group *in) {
   for (int32_t k = 0; k < S->n_work; k++) {
     const int32_t e = S->work_element[k];
     in->power[k] = ali3_same(0.0);
-    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) in->power[k] += in->f[i] * in->ud[S->el_sig[i]];
+    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++)
+      in->power[k] += in->element_force[i] * in->ud[S->el_sig[i]];
   }
 }
 

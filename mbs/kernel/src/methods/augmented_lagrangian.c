@@ -101,7 +101,7 @@ static ali3_status correct(ali3_instance *in, double h, double alpha, int32_t it
   for (int32_t i = 0; i < nq; i++) in->x[i] = -(balance[i] + c * in->w[i]);
   ali3_solve(in, in->F, in->x);
   if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
-  if (ali3_defect_corrected(S)) ali3_defect_correction(in, h);
+  if (ali3_defect_corrected(S)) ali3_defect_correction(in, h, iteration, true);
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
     ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
     for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
