@@ -18,19 +18,6 @@ ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real
   for (int32_t j = 0; j < n; j++) out[j] = (((out[j] + w * a[j]) + y * b[j]) + z * c[j]) + v * d[j];
 }
 
-/* Three rows that are components of one point. */
-ALI3_INLINED void three_rows(const real *val, const int32_t *col, int32_t n, const real *x, real *out) {
-  real first = {0}, second = {0}, third = {0};
-  ALI3_SHORT
-  for (int32_t k = 0; k < n; k++) {
-    const real *y = x + col[k];
-    first += val[k] * y[0];
-    second += val[n + k] * y[1];
-    third += val[2 * n + k] * y[2];
-  }
-  out[0] = first, out[1] = second, out[2] = third;
-}
-
 /* Rows with the same columns, those of the modes of a flexible body, are summed side by side, column by column: as M is
  * symmetric, the entries of a column lie side by side in its row. `stretches`: rows have modes side by side, which
  * are one sum of four. */
@@ -41,8 +28,11 @@ ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, real *out, 
   for (int32_t i = 0; i < S->size.nq; i++) {
     const int32_t alike = S->mass_alike[i];
     real sum = {0};
-    if (alike == 0) {
-      three_rows(val + ptr[i], col + ptr[i], ptr[i + 1] - ptr[i], x, out + i);
+    if (alike == 0 && in->mass_isotropic) {
+      ali3_three three = {0};
+      ALI3_SHORT
+      for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) ali3_three_add(&three, x + col[k], val[k]);
+      ali3_three_put(out + i, three);
       i += 2;
       continue;
     }

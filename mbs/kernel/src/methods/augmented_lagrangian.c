@@ -217,7 +217,6 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
     const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic, end, open);
     if (resolved != ALI3_OK) return resolved;
     ali3_guides_work(in, to, guides);
-    in->guides_measured = true;
   } else {
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0);
   }
@@ -230,6 +229,7 @@ static bool projects(const ali3_instance *in) { return in->settings.project; }
 const ali3_method ali3_method_ali3p = {.step = augmented_lagrangian,
                                        .motion = ali3_balance_step,
                                        .has_balance = projects,
+                                       .has_guides_work = projects,
                                        .owner = ALI3_METHOD_ALI3P,
                                        .fills = true,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};
@@ -237,5 +237,6 @@ const ali3_method ali3_method_ali3p = {.step = augmented_lagrangian,
 const ali3_method ali3_method_generalised_alpha = {.step = augmented_lagrangian,
                                                    .motion = ali3_balance_step,
                                                    .has_balance = projects,
+                                                   .has_guides_work = projects,
                                                    .owner = ALI3_METHOD_GENERALISED_ALPHA,
                                                    .round_off = ALI3_ROUND_OFF_INDEX_3};

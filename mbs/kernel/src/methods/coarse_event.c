@@ -33,7 +33,8 @@ static double depth_at(const ali3_instance *in, const double *q, int32_t e, doub
 /* Whether the last step made or lost a contact, or the road under one rose or fell more than the body went. A jump of
  * an input is missed by v + h a alike, and is no such event. */
 static bool road_changed(const ali3_instance *in) {
-  for (int32_t e = 0; e < in->system->size.ne; e++) {
+  for (int32_t c = 0; c < in->system->n_contact; c++) {
+    const int32_t e = in->system->contact_element[c];
     if (in->system->el_kind[e]->depth == NULL) continue;
     double from, to;
     const double before = depth_at(in, in->next.q, e, &from), now = depth_at(in, in->now.q, e, &to);

@@ -37,6 +37,7 @@ void ali3_masses_start(ali3_instance *in) {
   const ali3_masses *own = &in->own_masses;
   const bool loaded = changes(S);
   in->mass_val = loaded ? own->val : S->mass_val;
+  in->mass_isotropic = true;
   in->front_mass = loaded ? own->front : S->front_mass;
   in->mass_floor = loaded ? own->floor : S->mass_floor;
   in->mass_floor_inverse = loaded ? own->floor_inverse : S->mass_floor_inverse;
@@ -150,5 +151,6 @@ void ali3_masses_apply(ali3_instance *in) {
   for (int64_t k = 0; k < S->n_armature_ratio; k++) turn(in, k);
   for (int64_t k = 0; k < S->n_inertia_real / ALI3_INERTIA_REALS; k++) weigh(in, k);
   for (int64_t k = 0; k < S->n_axis_inertia; k++) tilt(in, k);
+  in->mass_isotropic = ali3_mass_isotropic(S, own->val);
   ali3_mass_in_fronts(S, own->val, own->front, own->floor, own->floor_inverse, own->missing);
 }
