@@ -65,3 +65,35 @@ ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, re
 
 ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *in, const real *x, real *out),
                   (in, x, out))
+
+/* M x and M y, entries loaded once, of a System whose M is constant. */
+ALI3_INLINED void constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x,
+                                           real *out_y) {
+  const ali3_system *S = in->system;
+  const real *val = in->mass_val;
+  const int32_t *ptr = S->mass_ptr, *col = S->mass_col;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    if (S->mass_alike[i] == 0 && in->mass_isotropic) {
+      ali3_three three_x = {0}, three_y = {0};
+      ALI3_SHORT
+      for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
+        ali3_three_add(&three_x, x + col[k], val[k]);
+        ali3_three_add(&three_y, y + col[k], val[k]);
+      }
+      ali3_three_put(out_x + i, three_x);
+      ali3_three_put(out_y + i, three_y);
+      i += 2;
+      continue;
+    }
+    real sum_x = {0}, sum_y = {0};
+    for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
+      sum_x += val[k] * x[col[k]];
+      sum_y += val[k] * y[col[k]];
+    }
+    out_x[i] = sum_x, out_y[i] = sum_y;
+  }
+}
+
+ALI3_BY_PROCESSOR(in->system, void, constant_mass_times_both,
+                  (const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y),
+                  (in, x, y, out_x, out_y))

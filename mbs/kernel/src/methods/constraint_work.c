@@ -38,27 +38,28 @@ static truth follows(const ali3_instance *in) {
 }
 
 /* Before the projections: in->J and in->Phit are of the end of the step, in->next.lam those of Newton's loop. The part
- * of the multipliers after (25) is still to be added, to *guides, the work of drives, too. */
+ * of the multipliers after (25) is still to be added, to *guides, the work of drives, too. Leaves Phi_q v of the rates
+ * in in->mu, with which (24) begins. */
 real ali3_constraint_work(ali3_instance *in, double h, real *guides) {
   const ali3_system *S = in->system;
   real work = {0}, first = {0}, newton = {0};
-  ali3_rows_times(S, in->J, in->D, in->gamma);
-  for (int32_t k = 0; k < S->size.nc; k++) work -= 0.5 * in->gamma[k] * (in->next.lam[k] - in->now.lam[k]);
-  *guides = first;
-  if (S->n_driven == 0) return work;
-  drives(in, h);
-  const truth filtered = follows(in);
-  for (int32_t i = 0; i < S->n_driven; i++) {
-    const int32_t k = S->driven_row[i];
-    const real at_start = h * in->mu[k] - in->drive[k];
-    work += in->drive[k] * in->now.lam[k];
-    first += at_start * in->now.lam[k];
-    newton += at_start * in->next.lam[k];
-    in->drive[k] = ali3_where(filtered, in->drive[k] - at_start, in->drive[k]);
+  if (S->n_driven > 0) {
+    drives(in, h);
+    const truth filtered = follows(in);
+    for (int32_t i = 0; i < S->n_driven; i++) {
+      const int32_t k = S->driven_row[i];
+      const real at_start = h * in->mu[k] - in->drive[k];
+      work += in->drive[k] * in->now.lam[k];
+      first += at_start * in->now.lam[k];
+      newton += at_start * in->next.lam[k];
+      in->drive[k] = ali3_where(filtered, in->drive[k] - at_start, in->drive[k]);
+    }
+    newton = ali3_where(filtered, newton, ali3_same(0.0));
   }
-  newton = ali3_where(filtered, newton, ali3_same(0.0));
+  ali3_rows_times_both(S, in->J, in->D, in->next.qd, in->gamma, in->mu);
+  for (int32_t k = 0; k < S->size.nc; k++) work -= 0.5 * in->gamma[k] * (in->next.lam[k] - in->now.lam[k]);
   *guides = first + newton;
-  return ali3_where(filtered, work - newton, work);
+  return work - newton;
 }
 
 /* After the projections: the kinetic energy that (24) gave to the velocity rate D + hat, which is work of drives where
@@ -69,16 +70,20 @@ real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *ope
   const ali3_vectors *v = &in->next;
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  real *w = in->w, *x = in->x, *change = in->r;
+  real *w = in->w, *x = in->x, *change = in->r, *left = in->d0;
   for (int32_t i = 0; i < nq; i++) {
     w[i] = 0.5 * (in->rule.rate * in->D[i] + in->hat[i] + v->qd[i]);
     change[i] = 2.0 * (v->qd[i] - w[i]);
   }
-  ali3_mass_times(in, w, x);
+  if (S->n_flexible + S->n_tabled > 0) {
+    ali3_mass_times(in, w, x);
+    ali3_mass_times(in, v->qdd, left);
+  } else {
+    ali3_constant_mass_times_both(in, w, v->qdd, x, left);
+  }
   const real given = ali3_product_from_far(change, x, nq), twice = ali3_product_from_far(w, x, nq);
-  ali3_mass_times(in, v->qdd, x);
-  for (int32_t i = 0; i < nq; i++) x[i] -= in->Q[i];
-  real power = ali3_product_from_far(v->qd, x, nq), drive = {0};
+  for (int32_t i = 0; i < nq; i++) left[i] -= in->Q[i];
+  real power = ali3_product_from_far(v->qd, left, nq), drive = {0};
   for (int32_t i = 0; i < S->n_driven; i++) {
     const int32_t k = S->driven_row[i];
     power -= v->lam[k] * in->Phit[k];
@@ -97,8 +102,14 @@ real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *ope
  * what the tolerance of the residual leaves open. */
 real ali3_energy_size(const ali3_instance *in, double h, real kinetic) {
   const double left = 2.0 * in->settings.tolerance_r / h;
-  real size = kinetic;
-  for (int32_t i = 0; i < in->system->size.nq; i++)
-    size += 0.5 * (h * h * in->Q[i] * in->Q[i] * in->mass_floor_inverse[i] + left * left * in->mass_floor[i]);
-  return size;
+  const double rest = left * left, square = h * h;
+  const real *Q = in->Q, *inverse = in->mass_floor_inverse, *m = in->mass_floor;
+  real even = {0}, odd = {0}; /* so that additions need not wait for each other */
+  int32_t i = 0;
+  for (; i + 1 < in->system->size.nq; i += 2) {
+    even += square * Q[i] * Q[i] * inverse[i] + rest * m[i];
+    odd += square * Q[i + 1] * Q[i + 1] * inverse[i + 1] + rest * m[i + 1];
+  }
+  if (i < in->system->size.nq) even += square * Q[i] * Q[i] * inverse[i] + rest * m[i];
+  return kinetic + 0.5 * (even + odd);
 }
