@@ -209,7 +209,8 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
     double kinetic, end, open, guides, work = ali3_constraint_work(in, h, &guides);
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS, true);
+    in->report.velocity_violation =
+        ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS, true);
     ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
     ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, MAX_SWEEPS, false);
     /* with the work that the forces did in this step which the last (25) left without balance */

@@ -63,7 +63,7 @@ ALI3_INLINED real weighed(const real w[WINDOW], const real x[WINDOW]) {
 }
 
 ALI3_INLINED void along_one(int32_t n, const window *x, const double *const point[LANES],
-                             real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+                            real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
   for (int32_t i = 0; i < n; i++) {
     const real v[WINDOW] = {pick(point, i), pick(point, n + i), pick(point, 2 * n + i), pick(point, 3 * n + i)};
     value[0][i] = weighed(x->w[0], v);
@@ -74,7 +74,7 @@ ALI3_INLINED void along_one(int32_t n, const window *x, const double *const poin
 
 /* `row`: from one control point along the first parameter to the next. */
 ALI3_INLINED void along_two(int32_t n, int64_t row, const window *x, const window *y, const double *const point[LANES],
-                             real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+                            real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
   for (int32_t i = 0; i < n; i++) {
     real v[WINDOW], d[WINDOW], b[WINDOW];
     for (int k = 0; k < WINDOW; k++) {

@@ -96,7 +96,7 @@ void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out) {
 
 /* -B' M_X Bd qd of a body, but for what the rates of Y have to do with r and Y. */
 ALI3_INLINED void add_rates(const ali3_tabled *c, const ali3_tabled_work *w, const real *qd, const real *turning,
-                      ali3_tabled_base_work *base, real *Q) {
+                            ali3_tabled_base_work *base, real *Q) {
   const real a = qd[c->param[0]], b = c->count[1] > 1 ? qd[c->param[1]] : ali3_same(0.0);
   real t[12], P[12];
   for (int i = 0; i < 12; i++) {

@@ -79,7 +79,7 @@ void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, real *F)
 
 /* Row of B of a signal: its coefficient `value` of dependent d of an item, over the coordinates of the group. */
 ALI3_INLINED void spread(const ali3_tabled *c, const ali3_tabled_work *w, const int32_t *slot, int32_t d, double value,
-                   real *row) {
+                         real *row) {
   row[slot[FIRST_PARAMETER]] += value * w->by[0][d];
   if (c->count[1] > 1) row[slot[FIRST_PARAMETER + 1]] += value * w->by[1][d];
   if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) return;
@@ -126,7 +126,7 @@ ALI3_INLINED truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, 
 
 /* to (m, from `first` on) = sum of the rows in the list by their factors, which are `step` apart. */
 ALI3_INLINED void blend(const ali3_tabled_list *list, int32_t m, int32_t first, const real *factor, int32_t step,
-                  const real *restrict rows, real *restrict to) {
+                        const real *restrict rows, real *restrict to) {
   for (int32_t at = first / CHUNK * CHUNK; at < m; at += CHUNK) {
     real sum[CHUNK];
     for (int k = 0; k < CHUNK; k++) sum[k] = ali3_same(0.0);
