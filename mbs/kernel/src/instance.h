@@ -62,7 +62,6 @@ struct ali3_instance {
   ali3_vectors now, next, start, whole, direction;
   ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its centre, its end by one whole step */
   ali3_rule rule;
-  bool guides_measured; /* the present step has measured the work of guides */
   bool capped; /* the present step ends at settings.step_iterations, */
   double capped_residual; /* and leaves this, m */
   double call_residual; /* the largest of the steps of a call */
@@ -78,6 +77,8 @@ struct ali3_instance {
   /* masses.c: mass matrix as mass_val and as the start of every tangent, what else the System has of it, gravity; those
    * of the System where nothing changes them */
   const double *mass_val, *front_mass, *mass_floor, *mass_floor_inverse, *mass_missing, *gravity_force;
+  bool mass_isotropic; /* see ali3_mass_isotropic */
+  double fall; /* what gravity does to the velocities in a second, in the metric of the report */
   double gravity_const;
   ali3_masses own_masses; /* with payloads and armatures; empty where there are none */
   ali3_road *road, *own_road; /* in use: the System's own or from files; the System's own */

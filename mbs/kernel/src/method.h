@@ -18,6 +18,7 @@ typedef struct {
   void (*before)(ali3_instance *in, double h);   /* what a step changes in in->now first, after ali3_back_up */
   void (*motion)(ali3_instance *in, double h);   /* ali3_balance_change after a good step; NULL: the step does it */
   bool (*has_balance)(const ali3_instance *in);  /* whether its steps end with ali3_energy_watch; NULL: never */
+  bool (*has_guides_work)(const ali3_instance *in); /* whether its steps measure the work of guides; NULL: never */
   ali3_status (*takes)(const ali3_instance *in); /* ALI3_OK, or why it cannot take the System; NULL: it takes all */
   const char *excludes; /* what it takes no System with, in words for users; NULL: it takes all */
   /* What readers of in->now need after steps without a reader: those with in->unobserved, those with in->sampled. */

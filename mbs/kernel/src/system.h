@@ -151,6 +151,7 @@ struct ali3_system {
   ali3_angle_term *angle; /* as angle_a */
   int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;
   ali3_guide_term *gterm;
+  int32_t *driven_row; /* n_driven: rows with such terms */
   ali3_term *velocity; /* as velocity_a; b is the coordinate whose rate it takes */
   double *front_mass; /* front storage holding M, the start of every tangent */
   double *mass_floor; /* nq: M_ii, or a typical mass for massless coordinates */
@@ -159,16 +160,17 @@ struct ali3_system {
   int32_t
       *mass_stretch; /* nq: entries of mass_ptr between which the columns of a row are neighbours, or twice its end */
   /* A triple are three signals or rows of mass_ptr that are components of a point or a direction: entry by entry of the
-   * first the columns of the others are one and two further. */
+   * first the columns of the others are one and two further, and the values are the same. */
   int32_t *
       mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns; 0: it is the first of a triple */
   int32_t *el_beside; /* ne: the first signal of an element whose signals follow each other, else -1 */
-  unsigned char *active_triple,
-      *el_triple; /* n_active, as el_sig: 1: it is the first of a triple that follows in turn */
+  unsigned char *active_triple, *el_triple,
+      *triad_triple; /* n_active, as el_sig, as mode_triad: 1: it is the first of a triple that follows in turn */
   int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
   int32_t *front_side; /* nf: entry of a front, behind its pivots, from which on its coordinates lie side by side */
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;
+  int32_t *contact_element; /* n_contact: those with a depth or a rebound stop */
   int32_t *el_S_off; /* ne+1: offsets of the elements' signal tangents */
   int32_t *el_entry_ptr; /* ne+1: signal entries of the element */
   int32_t *el_entry_signal,
@@ -191,6 +193,7 @@ struct ali3_system {
   int32_t n_guide_work; /* 1 where the work of guides is sensed, else 0 */
   int32_t n_work, n_work_force; /* elements whose work is sensed, signals of all of them */
   int32_t *work_of, *work_element, *work_ptr; /* ne: number among them or -1; which; n_work + 1: offsets of signals */
+  int32_t n_driven, n_contact;
   int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that shows the translation, or -1 */
 };
 

@@ -163,19 +163,6 @@ ALI3_FROM_FAR(ali3_sum_product_from_far,
               (const real *restrict x, const double *restrict z, const real *restrict y, int64_t n), ALI3_SUM_PRODUCT)
 #endif
 
-/* Sums of three rows of n numbers each with x at columns that are one further from row to row. */
-static inline void ali3_three_rows(const double *val, const int32_t *col, int32_t n, const real *x, real *out) {
-  real first = {0}, second = {0}, third = {0};
-  ALI3_SHORT
-  for (int32_t k = 0; k < n; k++) {
-    const real *at = x + col[k];
-    first += val[k] * at[0];
-    second += val[n + k] * at[1];
-    third += val[2 * n + k] * at[2];
-  }
-  out[0] = first, out[1] = second, out[2] = third;
-}
-
 /* The largest size of n numbers with these factors; NaN count as nothing. */
 static inline real ali3_largest_product(const real *x, const double *factor, int64_t n) {
   real most = {0};
@@ -215,6 +202,53 @@ static inline real ali3_largest(const real *x, int64_t n) {
 /* Three numbers, the components of a point or a direction. */
 static inline real ali3_triple_sum(real sum, const real *x, const real *y) {
   return sum + x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+
+/* Such three numbers in registers, two of which are one instruction. */
+#ifdef ALI3_WIDTH
+typedef struct {
+  real x, y, z;
+} ali3_three;
+
+static inline ali3_three ali3_three_of(const double *a) {
+  return (ali3_three){ali3_same(a[0]), ali3_same(a[1]), ali3_same(a[2])};
+}
+
+/* to += a x, a the same for all three */
+static inline void ali3_three_add(ali3_three *to, const real *x, real a) {
+  to->x += a * x[0];
+  to->y += a * x[1];
+  to->z += a * x[2];
+}
+
+static inline void ali3_three_put(real *to, ali3_three a) { to[0] = a.x, to[1] = a.y, to[2] = a.z; }
+#else
+typedef double ali3_pair __attribute__((vector_size(16), aligned(8), may_alias));
+
+typedef struct {
+  ali3_pair xy;
+  double z;
+} ali3_three;
+
+static inline ali3_three ali3_three_of(const double *a) { return (ali3_three){{a[0], a[1]}, a[2]}; }
+
+static inline void ali3_three_add(ali3_three *to, const double *x, double a) {
+  to->xy += a * *(const ali3_pair *)x;
+  to->z += a * x[2];
+}
+
+static inline void ali3_three_put(double *to, ali3_three a) {
+  *(ali3_pair *)to = a.xy;
+  to[2] = a.z;
+}
+#endif
+
+/* Sums of n triples at columns of x with factors. */
+static inline void ali3_three_rows(const double *val, const int32_t *col, int32_t n, const real *x, real *out) {
+  ali3_three sum = {0};
+  ALI3_SHORT
+  for (int32_t k = 0; k < n; k++) ali3_three_add(&sum, x + col[k], ali3_same(val[k]));
+  ali3_three_put(out, sum);
 }
 
 /* y += a x of three numbers */

@@ -87,7 +87,7 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   in->may_divide = ali3_may_divide(in, in->settings.max_halvings);
   if (ali3_divides_ahead(in, step->h) || !goes_on(in, step->h)) return false;
   if (ali3_inputs_begin(in, step->t, step->h) != ALI3_OK) return false;
-  ali3_vectors_copy(in, to, from);
+  ali3_vectors_copy_unwritten(in, to, from);
   if (ali3_input_jump(in, step->h) != ALI3_OK) return false;
   ali3_guides_step(in, from, to, step->t, step->h);
   memcpy(to->used, in->input, (size_t)z->nu * sizeof(double));

@@ -10,16 +10,15 @@
 ALI3_INLINED void three_signals(const ali3_system *S, int32_t i, const real *q, const real *qd, real *u, real *ud) {
   const int32_t n = S->sig_ptr[i + 1] - S->sig_ptr[i], *col = S->sig_col + S->sig_ptr[i];
   const double *val = S->sig_val + S->sig_ptr[i], *start = S->sig_const + i;
-  real x = ali3_same(start[0]), y = ali3_same(start[1]), z = ali3_same(start[2]), xd = {0}, yd = {0}, zd = {0};
+  ali3_three place = ali3_three_of(start), rates = {0};
   ALI3_SHORT
   for (int32_t k = 0; k < n; k++) {
-    const real *at = q + col[k], *rate = qd + col[k];
-    x += val[k] * at[0], xd += val[k] * rate[0];
-    y += val[n + k] * at[1], yd += val[n + k] * rate[1];
-    z += val[2 * n + k] * at[2], zd += val[2 * n + k] * rate[2];
+    const real v = ali3_same(val[k]);
+    ali3_three_add(&place, q + col[k], v);
+    ali3_three_add(&rates, qd + col[k], v);
   }
-  u[0] = x, u[1] = y, u[2] = z;
-  ud[0] = xd, ud[1] = yd, ud[2] = zd;
+  ali3_three_put(u, place);
+  ali3_three_put(ud, rates);
 }
 
 /* in->u, in->ud of the signals that elements use. */
@@ -51,14 +50,8 @@ ALI3_BY_PROCESSOR(in->system, void, active_signals, (ali3_instance * in, const r
 ALI3_INLINED void add_three(const ali3_system *S, int32_t i, const real *f, real *restrict Q) {
   const int32_t n = S->sig_ptr[i + 1] - S->sig_ptr[i], *col = S->sig_col + S->sig_ptr[i];
   const double *val = S->sig_val + S->sig_ptr[i];
-  const real x = f[0], y = f[1], z = f[2];
   ALI3_SHORT
-  for (int32_t k = 0; k < n; k++) {
-    real *at = Q + col[k];
-    at[0] += val[k] * x;
-    at[1] += val[n + k] * y;
-    at[2] += val[2 * n + k] * z;
-  }
+  for (int32_t k = 0; k < n; k++) ali3_triple_add(Q + col[k], f, ali3_same(val[k]));
 }
 
 /* Q += the forces f of all elements on their signals, but for idle ones. */

@@ -18,19 +18,6 @@ ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real
   for (int32_t j = 0; j < n; j++) out[j] = (((out[j] + w * a[j]) + y * b[j]) + z * c[j]) + v * d[j];
 }
 
-/* Three rows that are components of one point. */
-ALI3_INLINED void three_rows(const real *val, const int32_t *col, int32_t n, const real *x, real *out) {
-  real first = {0}, second = {0}, third = {0};
-  ALI3_SHORT
-  for (int32_t k = 0; k < n; k++) {
-    const real *y = x + col[k];
-    first += val[k] * y[0];
-    second += val[n + k] * y[1];
-    third += val[2 * n + k] * y[2];
-  }
-  out[0] = first, out[1] = second, out[2] = third;
-}
-
 /* Rows with the same columns, those of the modes of a flexible body, are summed side by side, column by column: as M is
  * symmetric, the entries of a column lie side by side in its row. `stretches`: rows have modes side by side, which
  * are one sum of four. */
@@ -41,8 +28,11 @@ ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, real *out, 
   for (int32_t i = 0; i < S->size.nq; i++) {
     const int32_t alike = S->mass_alike[i];
     real sum = {0};
-    if (alike == 0) {
-      three_rows(val + ptr[i], col + ptr[i], ptr[i + 1] - ptr[i], x, out + i);
+    if (alike == 0 && in->mass_isotropic) {
+      ali3_three three = {0};
+      ALI3_SHORT
+      for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) ali3_three_add(&three, x + col[k], val[k]);
+      ali3_three_put(out + i, three);
       i += 2;
       continue;
     }
@@ -75,3 +65,35 @@ ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, re
 
 ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *in, const real *x, real *out),
                   (in, x, out))
+
+/* M x and M y, entries loaded once, of a System whose M is constant. */
+ALI3_INLINED void constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x,
+                                           real *out_y) {
+  const ali3_system *S = in->system;
+  const real *val = in->mass_val;
+  const int32_t *ptr = S->mass_ptr, *col = S->mass_col;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    if (S->mass_alike[i] == 0 && in->mass_isotropic) {
+      ali3_three three_x = {0}, three_y = {0};
+      ALI3_SHORT
+      for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
+        ali3_three_add(&three_x, x + col[k], val[k]);
+        ali3_three_add(&three_y, y + col[k], val[k]);
+      }
+      ali3_three_put(out_x + i, three_x);
+      ali3_three_put(out_y + i, three_y);
+      i += 2;
+      continue;
+    }
+    real sum_x = {0}, sum_y = {0};
+    for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
+      sum_x += val[k] * x[col[k]];
+      sum_y += val[k] * y[col[k]];
+    }
+    out_x[i] = sum_x, out_y[i] = sum_y;
+  }
+}
+
+ALI3_BY_PROCESSOR(in->system, void, constant_mass_times_both,
+                  (const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y),
+                  (in, x, y, out_x, out_y))

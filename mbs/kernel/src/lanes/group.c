@@ -237,6 +237,8 @@ static void roads(ali3_lane_group *g) {
 void ali3_group_parameters(ali3_lane_group *g) {
   const ali3_sizes *z = &g->system->size;
   PUT(g, g->mass_val, z->nnz_mass, in, in->mass_val);
+  g->mass_isotropic = true;
+  for (int32_t l = 0; l < g->used; l++) g->mass_isotropic &= g->lane[l]->mass_isotropic;
   PUT(g, g->mass_floor, z->nq, in, in->mass_floor);
   PUT(g, g->mass_floor_inverse, z->nq, in, in->mass_floor_inverse);
   PUT(g, g->gravity_force, z->nq, in, in->gravity_force);

@@ -40,6 +40,7 @@ typedef struct ali3_lane_group {
   double h, alpha;
   bool controlled, discrete; /* false */
   ali3_lane_vectors now, next;
+  bool mass_isotropic;
   real *mass_val, *mass_floor, *mass_floor_inverse, *gravity_force;
   real *D, *d0, *r, *x, *w, *hat, *Q, *shifted, *correction_q, *step_q; /* nq, as those of an instance */
   real *Phi, *Phit, *gamma, *mu, *lam, *drive, *correction_lam, *step_lam; /* nc */

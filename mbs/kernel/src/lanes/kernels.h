@@ -32,6 +32,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ALI3_SWITCH_ROWS_H
 #define ali3_mass_times ALI3_LANED(mass_times)
 #define ali3_constant_mass_times ALI3_LANED(constant_mass_times)
+#define ali3_constant_mass_times_both ALI3_LANED(constant_mass_times_both)
 #define ali3_factorise ALI3_LANED(factorise)
 #define ali3_solve ALI3_LANED(solve)
 #define ali3_constraints ALI3_LANED(constraints)
@@ -41,6 +42,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_rows_square ALI3_LANED(rows_square)
 #define ali3_rows_product ALI3_LANED(rows_product)
 #define ali3_rows_times ALI3_LANED(rows_times)
+#define ali3_rows_times_both ALI3_LANED(rows_times_both)
 #define ali3_rows_transposed ALI3_LANED(rows_transposed)
 #define ali3_velocity_jacobian ALI3_LANED(velocity_jacobian)
 #define ali3_velocity_gamma ALI3_LANED(velocity_gamma)

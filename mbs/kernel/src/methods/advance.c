@@ -18,10 +18,10 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
     ali3_vectors_copy_unwritten(in, &in->next, &in->now);
   else if (!method->relative)
     ali3_vectors_copy(in, &in->next, &in->now);
-  in->guides_measured = in->system->n_guide_work == 0;
-  const double power = in->guides_measured ? 0.0 : ali3_guides_power(in, &in->now);
+  const bool by_powers = in->system->n_guide_work > 0 && !(method->has_guides_work && method->has_guides_work(in));
+  const double power = by_powers ? ali3_guides_power(in, &in->now) : 0.0;
   const ali3_status status = method->step(in, t, h);
-  if (status == ALI3_OK && !in->guides_measured)
+  if (status == ALI3_OK && by_powers)
     ali3_guides_work(in, &in->now, 0.5 * h * (power + ali3_guides_power(in, &in->now)));
   return status;
 }

@@ -211,17 +211,17 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
     double kinetic, end, open, guides, work = ali3_constraint_work(in, h, &guides);
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);
+    in->report.velocity_violation =
+        ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS, true);
     ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
-    ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, MAX_SWEEPS);
+    ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, MAX_SWEEPS, false);
     /* with the work that the forces did in this step which the last (25) left without balance */
     work += ali3_projection_work(in, &kinetic, &end, &open, &guides) + 0.5 * h * in->report.open_power;
     const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic, end, open);
     if (resolved != ALI3_OK) return resolved;
     ali3_guides_work(in, to, guides);
-    in->guides_measured = true;
   } else {
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0, false);
   }
   ali3_work_step(in, 0.5);
   return ali3_accept(in);
@@ -232,6 +232,7 @@ static bool projects(const ali3_instance *in) { return in->settings.project; }
 const ali3_method ali3_method_ali3p = {.step = augmented_lagrangian,
                                        .motion = ali3_balance_step,
                                        .has_balance = projects,
+                                       .has_guides_work = projects,
                                        .owner = ALI3_METHOD_ALI3P,
                                        .fills = true,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};
@@ -239,5 +240,6 @@ const ali3_method ali3_method_ali3p = {.step = augmented_lagrangian,
 const ali3_method ali3_method_generalised_alpha = {.step = augmented_lagrangian,
                                                    .motion = ali3_balance_step,
                                                    .has_balance = projects,
+                                                   .has_guides_work = projects,
                                                    .owner = ALI3_METHOD_GENERALISED_ALPHA,
                                                    .round_off = ALI3_ROUND_OFF_INDEX_3};

@@ -14,14 +14,6 @@ static const double LEAST = 0.2; /* of what gravity does to the velocities in th
 static const double UNEVEN = 0.005; /* m: a change of the road's height under a wheel in a step */
 static const double QUIET = 1e-3; /* s of fall: what no step need be looked at for */
 
-/* What gravity does to the velocities in a second, in the metric of the report. */
-static double fall(const ali3_instance *in) {
-  double square = 0.0;
-  for (int32_t i = 0; i < in->system->size.nq; i++)
-    if (in->mass_floor[i] > 0.0) square += in->gravity_force[i] * in->gravity_force[i] / in->mass_floor[i];
-  return sqrt(square);
-}
-
 /* How deep element e is in its road at q; *height: of its first point. */
 static double depth_at(const ali3_instance *in, const double *q, int32_t e, double *height) {
   double u[ALI3_MAX_SIGNALS] = {0.0}, part;
@@ -33,7 +25,8 @@ static double depth_at(const ali3_instance *in, const double *q, int32_t e, doub
 /* Whether the last step made or lost a contact, or the road under one rose or fell more than the body went. A jump of
  * an input is missed by v + h a alike, and is no such event. */
 static bool road_changed(const ali3_instance *in) {
-  for (int32_t e = 0; e < in->system->size.ne; e++) {
+  for (int32_t c = 0; c < in->system->n_contact; c++) {
+    const int32_t e = in->system->contact_element[c];
     if (in->system->el_kind[e]->depth == NULL) continue;
     double from, to;
     const double before = depth_at(in, in->next.q, e, &from), now = depth_at(in, in->now.q, e, &to);
@@ -45,7 +38,7 @@ static bool road_changed(const ali3_instance *in) {
 /* After a step in which the velocity changes by `change` and misses v + h a by `miss`. */
 void ali3_coarse_event(ali3_instance *in, double h, double change, double miss) {
   ali3_report *r = &in->report;
-  if (miss > r->event_miss && (r->event_miss > 0.0 || miss > QUIET * fall(in)) && road_changed(in)) {
+  if (miss > r->event_miss && (r->event_miss > 0.0 || miss > QUIET * in->fall) && road_changed(in)) {
     r->event_miss = miss;
     r->event_squares = miss * miss;
     r->event_path = change;
@@ -57,7 +50,7 @@ void ali3_coarse_event(ali3_instance *in, double h, double change, double miss) 
   }
   if (r->event_miss == 0.0 || r->event_left >= 0.5 * h) return;
   const double missed = sqrt(r->event_squares), path = r->event_path;
-  if (missed > fmax(COARSE, r->coarse_event) * path && path > LEAST * SPAN * fall(in)) {
+  if (missed > fmax(COARSE, r->coarse_event) * path && path > LEAST * SPAN * in->fall) {
     r->coarse_event = missed / path;
     r->coarse_time = ali3_time(in) - SPAN;
   }

@@ -9,6 +9,7 @@
  * and together they cancel. Guides that follow an input begin to move within a step: the mean of Phi_t at both ends
  * would be wrong by half. Where one moves, lam0 is that before a jump of its acceleration, for which Newton's loop makes
  * up: there the force is the mean of lam0 and lam1 with what (24) adds, and the work of drives is that of this force. */
+#include "../algebra/stretch.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
@@ -23,7 +24,10 @@ static void drives(ali3_instance *in, double h) {
   for (int32_t g = 0; g < S->size.ng; g++) mean.sd[g] = (in->next.s[g] - in->now.s[g]) / h;
   ali3_constraint_rate(in, in->next.q, &mean, in->mu);
   ali3_constraint_rate(in, in->now.q, &in->now, in->drive);
-  for (int32_t k = 0; k < S->size.nc; k++) in->drive[k] = h * (0.5 * in->mu[k] + (in->Phit[k] - in->drive[k]) / 12.0);
+  for (int32_t i = 0; i < S->n_driven; i++) {
+    const int32_t k = S->driven_row[i];
+    in->drive[k] = h * (0.5 * in->mu[k] + (in->Phit[k] - in->drive[k]) / 12.0);
+  }
 }
 
 /* Whether filtered guides move. */
@@ -34,26 +38,28 @@ static truth follows(const ali3_instance *in) {
 }
 
 /* Before the projections: in->J and in->Phit are of the end of the step, in->next.lam those of Newton's loop. The part
- * of the multipliers after (25) is still to be added, to *guides, the work of drives, too. */
+ * of the multipliers after (25) is still to be added, to *guides, the work of drives, too. Leaves Phi_q v of the rates
+ * in in->mu, with which (24) begins. */
 real ali3_constraint_work(ali3_instance *in, double h, real *guides) {
   const ali3_system *S = in->system;
   real work = {0}, first = {0}, newton = {0};
-  ali3_rows_times(S, in->J, in->D, in->gamma);
-  for (int32_t k = 0; k < S->size.nc; k++) work -= 0.5 * in->gamma[k] * (in->next.lam[k] - in->now.lam[k]);
-  *guides = first;
-  if (S->n_gterm_row == 0) return work;
-  drives(in, h);
-  const truth filtered = follows(in);
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    const real at_start = h * in->mu[k] - in->drive[k];
-    work += in->drive[k] * in->now.lam[k];
-    first += at_start * in->now.lam[k];
-    newton += at_start * in->next.lam[k];
-    in->drive[k] = ali3_where(filtered, in->drive[k] - at_start, in->drive[k]);
+  if (S->n_driven > 0) {
+    drives(in, h);
+    const truth filtered = follows(in);
+    for (int32_t i = 0; i < S->n_driven; i++) {
+      const int32_t k = S->driven_row[i];
+      const real at_start = h * in->mu[k] - in->drive[k];
+      work += in->drive[k] * in->now.lam[k];
+      first += at_start * in->now.lam[k];
+      newton += at_start * in->next.lam[k];
+      in->drive[k] = ali3_where(filtered, in->drive[k] - at_start, in->drive[k]);
+    }
+    newton = ali3_where(filtered, newton, ali3_same(0.0));
   }
-  newton = ali3_where(filtered, newton, ali3_same(0.0));
+  ali3_rows_times_both(S, in->J, in->D, in->next.qd, in->gamma, in->mu);
+  for (int32_t k = 0; k < S->size.nc; k++) work -= 0.5 * in->gamma[k] * (in->next.lam[k] - in->now.lam[k]);
   *guides = first + newton;
-  return ali3_where(filtered, work - newton, work);
+  return work - newton;
 }
 
 /* After the projections: the kinetic energy that (24) gave to the velocity rate D + hat, which is work of drives where
@@ -62,23 +68,31 @@ real ali3_constraint_work(ali3_instance *in, double h, real *guides) {
  * the power of the forces that (25) leaves without balance now. */
 real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guides) {
   const ali3_vectors *v = &in->next;
-  const int32_t nq = in->system->size.nq;
-  const bool driven = in->system->n_gterm_row > 0;
-  real given = {0}, power = {0}, twice = {0}, drive = {0};
-  for (int32_t i = 0; i < nq; i++) in->w[i] = 0.5 * (in->rule.rate * in->D[i] + in->hat[i] + v->qd[i]);
-  ali3_mass_times(in, in->w, in->x);
+  const ali3_system *S = in->system;
+  const int32_t nq = S->size.nq;
+  real *w = in->w, *x = in->x, *change = in->r, *left = in->d0;
   for (int32_t i = 0; i < nq; i++) {
-    given += 2.0 * (v->qd[i] - in->w[i]) * in->x[i];
-    twice += in->w[i] * in->x[i];
+    w[i] = 0.5 * (in->rule.rate * in->D[i] + in->hat[i] + v->qd[i]);
+    change[i] = 2.0 * (v->qd[i] - w[i]);
   }
-  ali3_mass_times(in, v->qdd, in->x);
-  for (int32_t i = 0; i < nq; i++) power += v->qd[i] * (in->x[i] - in->Q[i]);
-  for (int32_t k = 0; k < in->system->size.nc; k++) power -= v->lam[k] * in->Phit[k];
-  for (int32_t k = 0; driven && k < in->system->size.nc; k++) drive += v->lam[k] * in->drive[k];
+  if (S->n_flexible + S->n_tabled > 0) {
+    ali3_mass_times(in, w, x);
+    ali3_mass_times(in, v->qdd, left);
+  } else {
+    ali3_constant_mass_times_both(in, w, v->qdd, x, left);
+  }
+  const real given = ali3_product_from_far(change, x, nq), twice = ali3_product_from_far(w, x, nq);
+  for (int32_t i = 0; i < nq; i++) left[i] -= in->Q[i];
+  real power = ali3_product_from_far(v->qd, left, nq), drive = {0};
+  for (int32_t i = 0; i < S->n_driven; i++) {
+    const int32_t k = S->driven_row[i];
+    power -= v->lam[k] * in->Phit[k];
+    drive += v->lam[k] * in->drive[k];
+  }
   *kinetic = 0.5 * twice;
   *end = 0.5 * (twice + given);
   *open = power;
-  if (!driven) return given - drive;
+  if (S->n_driven == 0) return given;
   const truth filtered = follows(in);
   *guides += ali3_where(filtered, given + drive, drive);
   return ali3_where(filtered, -drive, given - drive);
@@ -88,8 +102,14 @@ real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *ope
  * what the tolerance of the residual leaves open. */
 real ali3_energy_size(const ali3_instance *in, double h, real kinetic) {
   const double left = 2.0 * in->settings.tolerance_r / h;
-  real size = kinetic;
-  for (int32_t i = 0; i < in->system->size.nq; i++)
-    size += 0.5 * (h * h * in->Q[i] * in->Q[i] * in->mass_floor_inverse[i] + left * left * in->mass_floor[i]);
-  return size;
+  const double rest = left * left, square = h * h;
+  const real *Q = in->Q, *inverse = in->mass_floor_inverse, *m = in->mass_floor;
+  real even = {0}, odd = {0}; /* so that additions need not wait for each other */
+  int32_t i = 0;
+  for (; i + 1 < in->system->size.nq; i += 2) {
+    even += square * Q[i] * Q[i] * inverse[i] + rest * m[i];
+    odd += square * Q[i + 1] * Q[i + 1] * inverse[i + 1] + rest * m[i + 1];
+  }
+  if (i < in->system->size.nq) even += square * Q[i] * Q[i] * inverse[i] + rest * m[i];
+  return kinetic + 0.5 * (even + odd);
 }

@@ -2,6 +2,8 @@
  * the simplest prediction. They do not influence the steps. */
 #include <math.h>
 
+#include "../algebra/processor.h"
+#include "../algebra/stretch.h"
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
@@ -62,17 +64,43 @@ void ali3_balance_motion(ali3_instance *in, double h, double speed, double chang
   ali3_coarse_event(in, h, sqrt(change), sqrt(miss));
 }
 
+/* Sums over coordinates, weighted by m: of v1^2, of d^2 with d = v1 - v0, and of (d - h a)^2. */
+ALI3_INLINED void balance_squares(const ali3_instance *in, double h, const double *v0, const double *a,
+                                  const double *v1, double out[3]) {
+  const double *m = in->mass_floor;
+  const int32_t nq = in->system->size.nq;
+  ali3_four speed = {0}, change = {0}, miss = {0};
+  int32_t i = 0;
+  ALI3_SHORT
+  for (; i + 3 < nq; i += 4) {
+    const ali3_four w = *(const ali3_four *)(m + i), v = *(const ali3_four *)(v1 + i);
+    const ali3_four d = v - *(const ali3_four *)(v0 + i), e = d - h * *(const ali3_four *)(a + i);
+    speed += w * v * v;
+    change += w * d * d;
+    miss += w * e * e;
+  }
+  out[0] = (speed[0] + speed[1]) + (speed[2] + speed[3]);
+  out[1] = (change[0] + change[1]) + (change[2] + change[3]);
+  out[2] = (miss[0] + miss[1]) + (miss[2] + miss[3]);
+  ALI3_SHORT
+  for (; i < nq; i++) {
+    const double d = v1[i] - v0[i], e = d - h * a[i];
+    out[0] += m[i] * v1[i] * v1[i];
+    out[1] += m[i] * d * d;
+    out[2] += m[i] * e * e;
+  }
+}
+
+ALI3_BY_PROCESSOR(in->system, void, balance_squares,
+                  (const ali3_instance *in, double h, const double *v0, const double *a, const double *v1,
+                   double out[3]),
+                  (in, h, v0, a, v1, out))
+
 /* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
 void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
-  const double *m = in->mass_floor;
-  double speed = 0.0, change = 0.0, miss = 0.0;
-  for (int32_t i = 0; i < in->system->size.nq; i++) {
-    const double d = v1[i] - v0[i], e = d - h * a[i];
-    speed += m[i] * v1[i] * v1[i];
-    change += m[i] * d * d;
-    miss += m[i] * e * e;
-  }
-  ali3_balance_motion(in, h, speed, change, miss);
+  double square[3];
+  ali3_balance_squares(in, h, v0, a, v1, square);
+  ali3_balance_motion(in, h, square[0], square[1], square[2]);
 }
 
 /* The same where velocities and accelerations of the states tell: what was in->now is in in->next. */

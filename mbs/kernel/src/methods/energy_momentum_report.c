@@ -67,7 +67,7 @@ ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
     memcpy(v->qd, v->own, (size_t)S->size.nq * sizeof(double));
     ali3_constraint_rate(in, v->q, v, in->Phit);
     in->report.velocity_violation =
-        ali3_project(in, ALI3_INDEX_ONE_PENALTY, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS);
+        ali3_project(in, ALI3_INDEX_ONE_PENALTY, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS, false);
     scale(in, v);
     ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
     ali3_forces(in, &call);

@@ -5,6 +5,6 @@
 #include "../instance.h"
 
 truth ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, real *violation);
-real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real *lam, double tolerance,
-                  int32_t sweeps);
+real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real *lam, double tolerance, int32_t sweeps,
+                  bool begun);
 #endif

@@ -30,7 +30,8 @@ void ali3_quick_load(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   ali3_report *r = &in->report;
   double worst = 0.0;
-  for (int32_t e = 0; e < S->size.ne; e++) {
+  for (int32_t c = 0; c < S->n_contact; c++) {
+    const int32_t e = S->contact_element[c];
     if (S->el_kind[e]->depth != ali3_tyre_depth) continue;
     const double from = in->next.out[S->el_out_ptr[e] + LOAD], to = in->now.out[S->el_out_ptr[e] + LOAD];
     worst = fmax(worst, fabs(to - from));

@@ -125,7 +125,7 @@ static double look_at(ali3_instance *in, double h, int32_t e) {
 void ali3_quick_stop(ali3_instance *in, double h) {
   ali3_report *r = &in->report;
   double most = 0.0;
-  for (int32_t e = 0; e < in->system->size.ne; e++) most = fmax(most, look_at(in, h, e));
+  for (int32_t c = 0; c < in->system->n_contact; c++) most = fmax(most, look_at(in, h, in->system->contact_element[c]));
   if (most > ABRUPT * r->largest_force) r->abrupt_steps++;
   r->hit_left -= h;
   if (r->hit_change > 0.0 && r->hit_left < 0.5 * h) judge(r);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "../algebra/finite.h"
+#include "../algebra/processor.h"
 #include "../instance.h"
 #include "road_files.h"
 #include "vectors.h"
@@ -65,9 +66,19 @@ void ali3_back_up(ali3_instance *in) {
   in->backed_up = true;
 }
 
+/* Of the past, what a step added: the rest of it was in a state before. */
+ALI3_INLINED bool vectors_finite(const ali3_instance *in, const ali3_vectors *v) {
+  const int64_t nq = in->system->size.nq, nc = in->system->size.nc;
+  const double *behind = v->past_lam + ALI3_PAST * nc;
+  return ali3_finite_inlined(v->q, v->past_a + nq - v->q) && ali3_finite_inlined(v->past_lam, nc) &&
+         ali3_finite_inlined(behind, v->q + in->n_vector - behind);
+}
+
+ALI3_BY_PROCESSOR(in->system, bool, vectors_finite, (const ali3_instance *in, const ali3_vectors *v), (in, v))
+
 /* in->next becomes the state when all of it is finite and the road under it is known. */
 ali3_status ali3_accept(ali3_instance *in) {
-  if (!ali3_finite(in->next.q, (int64_t)in->n_vector)) return ALI3_NOT_FINITE;
+  if (!ali3_vectors_finite(in, &in->next)) return ALI3_NOT_FINITE;
   if (ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
   const ali3_vectors swap = in->now;
   in->now = in->next;

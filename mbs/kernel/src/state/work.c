@@ -8,6 +8,7 @@
  * (../methods/constraint_work.c), by other methods as the mean of the powers at both ends of a step. */
 #include <string.h>
 
+#include "../algebra/stretch.h"
 #include "../elements/forces.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
@@ -76,14 +77,12 @@ void ali3_work_step(ali3_instance *in, double share) {
 
 void ali3_work_along(ali3_instance *in, double share) {
   const ali3_system *S = in->system;
-  const double *force = in->watched + S->n_work, *before = in->now.watched + S->n_work;
+  const double *force = in->watched + S->n_work, *before = in->now.watched + S->n_work, *way = in->next.step_way;
+  double *restrict mean = in->next.step_force;
+  for (int32_t i = 0; i < S->n_work_force; i++) mean[i] = share * force[i] + (1.0 - share) * before[i];
   for (int32_t k = 0; k < S->n_work; k++) {
-    double sum = 0.0;
-    for (int32_t i = S->work_ptr[k]; i < S->work_ptr[k + 1]; i++) {
-      in->next.step_force[i] = share * force[i] + (1.0 - share) * before[i];
-      sum += in->next.step_force[i] * in->next.step_way[i];
-    }
-    in->next.work[k] = in->now.work[k] + sum;
+    const int32_t first = S->work_ptr[k];
+    in->next.work[k] = in->now.work[k] + ali3_product_from_far(mean + first, way + first, S->work_ptr[k + 1] - first);
   }
   ali3_work_store(in, &in->next);
 }

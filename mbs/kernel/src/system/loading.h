@@ -30,6 +30,8 @@ const char *ali3_check_data(const ali3_system *s, const double *const data[ALI3_
 const char *ali3_check_target(const ali3_system *s, int64_t k, const double *const data[ALI3_TARGET_COUNT]);
 ali3_status ali3_system_derive(ali3_system *s, ali3_message m);
 /* A mass matrix in front storage, its diagonal, and what massless coordinates lack; each may be that of an instance. */
+bool ali3_same_values(const int32_t *ptr, const double *val, int32_t i);
+bool ali3_mass_isotropic(const ali3_system *s, const double *val);
 void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front, double *floor, double *floor_inverse,
                          double *missing);
 #endif

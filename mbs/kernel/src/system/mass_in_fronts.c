@@ -5,6 +5,22 @@
 #include "../tabled/tabled.h"
 #include "loading.h"
 
+/* Whether rows i to i + 2, all of one length, have the same values. */
+bool ali3_same_values(const int32_t *ptr, const double *val, int32_t i) {
+  const double *row = val + ptr[i];
+  const int32_t n = ptr[i + 1] - ptr[i];
+  for (int32_t k = 0; k < n; k++)
+    if (row[n + k] != row[k] || row[2 * n + k] != row[k]) return false;
+  return true;
+}
+
+/* Whether values of the mass matrix leave its triples what they are. */
+bool ali3_mass_isotropic(const ali3_system *s, const double *val) {
+  for (int32_t i = 0; i < s->size.nq; i++)
+    if (s->mass_alike[i] == 0 && !ali3_same_values(s->mass_ptr, val, i)) return false;
+  return true;
+}
+
 /* A base may be lighter than the bodies that tables place on it. */
 static void carried(const ali3_system *s, double *floor) {
   for (int32_t i = 0; i < s->n_tabled; i++) {

@@ -40,6 +40,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->angle_theta_j = ali3_pool_items(p, na, sizeof(int32_t));
   s->angle_theta_pos = ali3_pool_items(p, na, sizeof(int32_t));
   s->gterm = ali3_pool_items(p, (size_t)s->n_gterm_row, sizeof *s->gterm);
+  s->driven_row = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->velocity = ali3_pool_items(p, (size_t)s->n_velocity_a, sizeof *s->velocity);
   s->front_mass = ali3_pool_items(p, (size_t)s->size.front_size, sizeof(double));
   s->mass_floor = ali3_pool_items(p, nq, sizeof(double));
@@ -51,6 +52,8 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->front_side = ali3_pool_items(p, (size_t)s->size.nf, sizeof(int32_t));
   s->diagonal_pos = ali3_pool_items(p, nq, sizeof(int32_t));
   s->el_kind = ali3_pool_items(p, ne, sizeof *s->el_kind);
+  s->contact_element = ali3_pool_items(p, ne, sizeof(int32_t));
+  s->triad_triple = ali3_pool_items(p, (size_t)s->n_mode_triad, 1);
   s->el_S_off = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->work_of = ali3_pool_items(p, ne, sizeof(int32_t));
   s->work_element = ali3_pool_items(p, ne, sizeof(int32_t));
@@ -103,6 +106,11 @@ static void derive_rows(ali3_system *s) {
                                .power = s->gterm_power[t]};
     s->gterm[t] = g;
   }
+  for (int32_t k = 0; k < s->size.nc; k++) {
+    bool driven = false;
+    for (int64_t t = 0; t < s->n_gterm_row; t++) driven |= s->gterm_row[t] == k;
+    if (driven) s->driven_row[s->n_driven++] = k;
+  }
   for (int64_t i = 0; i < s->n_velocity_row; i++)
     for (int32_t t = s->velocity_ptr[i]; t < s->velocity_ptr[i + 1]; t++)
       s->velocity[t] = make_term(s, s->velocity_row[i], s->velocity_a[t], s->velocity_b[t], s->velocity_h[t]);
@@ -127,21 +135,22 @@ static void derive_rows(ali3_system *s) {
   }
 }
 
-/* Whether rows i to i + 2 of a sparse matrix have the same columns, one further from row to row, and none twice. */
-static bool is_triple(const int32_t *ptr, const int32_t *col, int32_t i) {
+/* Whether rows i to i + 2 of a sparse matrix have the same columns, one further from row to row, none twice, and the same
+ * values. */
+static bool is_triple(const int32_t *ptr, const int32_t *col, const double *val, int32_t i) {
   const int32_t n = ptr[i + 1] - ptr[i];
   const int32_t *a = col + ptr[i], *b = col + ptr[i + 1], *c = col + ptr[i + 2];
   if (n == 0 || ptr[i + 2] - ptr[i + 1] != n || ptr[i + 3] - ptr[i + 2] != n) return false;
   for (int32_t k = 0; k < n; k++)
     if (b[k] != a[k] + 1 || c[k] != a[k] + 2 || (k > 0 && a[k] < a[k - 1] + TRIPLE)) return false;
-  return true;
+  return ali3_same_values(ptr, val, i);
 }
 
 /* Triples of n rows in the order in which they are gone through. */
-static void derive_triples(const int32_t *ptr, const int32_t *col, const int32_t *row, int32_t n,
-                           unsigned char *triple) {
+static void derive_triples(const ali3_system *s, const int32_t *row, int32_t n, unsigned char *triple) {
   for (int32_t a = 0; a < n; a++) {
-    triple[a] = a + 2 < n && row[a + 1] == row[a] + 1 && row[a + 2] == row[a] + 2 && is_triple(ptr, col, row[a]);
+    triple[a] = a + 2 < n && row[a + 1] == row[a] + 1 && row[a + 2] == row[a] + 2 &&
+                is_triple(s->sig_ptr, s->sig_col, s->sig_val, row[a]);
     if (triple[a]) triple[a + 1] = triple[a + 2] = 0, a += 2;
   }
 }
@@ -322,7 +331,7 @@ static void derive_mass_rows(ali3_system *s) {
                        memcmp(col + ptr[i], col + ptr[i + 1], (size_t)n * sizeof *col) == 0;
     s->mass_alike[i] = alike ? s->mass_alike[i + 1] + 1 : 1;
     longest_stretch(col, ptr[i], ptr[i + 1], s->mass_stretch + 2 * (int64_t)i);
-    if (i + 2 < s->size.nq && is_triple(ptr, col, i)) s->mass_alike[i] = 0;
+    if (i + 2 < s->size.nq && is_triple(ptr, col, s->mass_val, i)) s->mass_alike[i] = 0;
     for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
       const int32_t j = col[k];
       s->mass_mirror[k] = ptr[j] + ali3_find(col + ptr[j], ptr[j + 1] - ptr[j], i);
@@ -400,6 +409,7 @@ static void derive_elements(ali3_system *s) {
   for (int32_t e = 0; e < ne; e++) {
     const int32_t n = s->el_sig_ptr[e + 1] - s->el_sig_ptr[e];
     s->el_kind[e] = ali3_element_type_get(s->el_type[e]);
+    if (s->el_kind[e]->depth != NULL || s->el_kind[e]->rebound != NULL) s->contact_element[s->n_contact++] = e;
     s->el_S_off[e + 1] = s->el_S_off[e] + (s->el_front[e] >= 0 ? n * n : 0);
     derive_element(s, e);
   }
@@ -407,10 +417,12 @@ static void derive_elements(ali3_system *s) {
   for (int64_t i = 0; i < s->n_el_sig; i++) s->active_signal[s->el_sig[i]] = 1;
   for (int32_t i = 0; i < s->size.nsig; i++)
     if (s->active_signal[i]) s->active_signal[s->n_active++] = i;
-  derive_triples(s->sig_ptr, s->sig_col, s->active_signal, s->n_active, s->active_triple);
+  derive_triples(s, s->active_signal, s->n_active, s->active_triple);
+  for (int64_t k = 0; k < s->n_mode_triad; k += ALI3_TRIAD_ITEMS)
+    for (int64_t i = k; i < k + 9; i += 3) derive_triples(s, s->mode_triad + i, 3, s->triad_triple + i);
   for (int32_t e = 0; e < ne; e++) {
     const int32_t first = s->el_sig_ptr[e], n = s->el_sig_ptr[e + 1] - first;
-    derive_triples(s->sig_ptr, s->sig_col, s->el_sig + first, n, s->el_triple + first);
+    derive_triples(s, s->el_sig + first, n, s->el_triple + first);
     s->el_beside[e] = n > 0 ? s->el_sig[first] : -1;
     for (int32_t i = 1; i < n; i++)
       if (s->el_sig[first + i] != s->el_sig[first] + i) s->el_beside[e] = -1;

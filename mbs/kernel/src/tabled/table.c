@@ -1,5 +1,6 @@
 /* Functions of one or two parameters as uniform cubic B-splines: twice continuously differentiable. Beyond the ends of
  * its table a function goes on along its tangent. */
+#include "../algebra/processor.h"
 #include "tabled.h"
 
 enum { WINDOW = 4 }; /* control points that a place depends on */
@@ -39,7 +40,7 @@ static inline real pick(const double *const point[LANES], int64_t at) {
 #endif
 }
 
-static inline window at(const double *axis, int32_t count, real x) {
+ALI3_INLINED window at(const double *axis, int32_t count, real x) {
   window n;
   const double per = 1.0 / axis[1], end = count - WINDOW + 1;
   const real place = (x - axis[0]) / axis[1], from = ali3_where(place > 0.0, place, ali3_same(0.0)),
@@ -57,12 +58,12 @@ static inline window at(const double *axis, int32_t count, real x) {
   return n;
 }
 
-static inline real weighed(const real w[WINDOW], const real x[WINDOW]) {
+ALI3_INLINED real weighed(const real w[WINDOW], const real x[WINDOW]) {
   return (w[0] * x[0] + w[1] * x[1]) + (w[2] * x[2] + w[3] * x[3]);
 }
 
-static inline void along_one(int32_t n, const window *x, const double *const point[LANES],
-                             real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+ALI3_INLINED void along_one(int32_t n, const window *x, const double *const point[LANES],
+                            real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
   for (int32_t i = 0; i < n; i++) {
     const real v[WINDOW] = {pick(point, i), pick(point, n + i), pick(point, 2 * n + i), pick(point, 3 * n + i)};
     value[0][i] = weighed(x->w[0], v);
@@ -72,8 +73,8 @@ static inline void along_one(int32_t n, const window *x, const double *const poi
 }
 
 /* `row`: from one control point along the first parameter to the next. */
-static inline void along_two(int32_t n, int64_t row, const window *x, const window *y, const double *const point[LANES],
-                             real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+ALI3_INLINED void along_two(int32_t n, int64_t row, const window *x, const window *y, const double *const point[LANES],
+                            real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
   for (int32_t i = 0; i < n; i++) {
     real v[WINDOW], d[WINDOW], b[WINDOW];
     for (int k = 0; k < WINDOW; k++) {
@@ -94,7 +95,9 @@ static inline void along_two(int32_t n, int64_t row, const window *x, const wind
 }
 
 /* The loops of a body have a length that the compiler knows. */
-void ali3_tabled_table(const ali3_tabled *c, real a, real b, real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+ALI3_INLINED void tabled_table(const ali3_system *S, const ali3_tabled *c, real a, real b,
+                               real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+  (void)S;
   const window x = at(c->axis, c->count[0], a);
   const bool body = c->n == ALI3_TABLED_BODY;
   const int64_t row = (int64_t)c->count[1] * c->n;
@@ -114,3 +117,8 @@ void ali3_tabled_table(const ali3_tabled *c, real a, real b, real value[ALI3_TAB
   else
     along_two(1, row, &x, &y, point, value);
 }
+
+ALI3_BY_PROCESSOR(S, void, tabled_table,
+                  (const ali3_system *S, const ali3_tabled *c, real a, real b,
+                   real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]),
+                  (S, c, a, b, value))

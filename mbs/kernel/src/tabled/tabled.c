@@ -29,7 +29,7 @@ void ali3_tabled_prepare(const ali3_instance *in, const real *q) {
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     ali3_tabled_work *w = work_of(in, i);
-    ali3_tabled_table(c, parameter(c, 0, q), parameter(c, 1, q), w->value);
+    ali3_tabled_table(S, c, parameter(c, 0, q), parameter(c, 1, q), w->value);
     if (c->n != ALI3_TABLED_BODY) {
       for (int p = 0; p < (c->count[1] > 1 ? 2 : 1); p++) w->by[p][0] = w->value[ALI3_BY_A + p][0];
       continue;

@@ -4,9 +4,10 @@
  * of the rates of Y with those of parameters only what is antisymmetric in Y' Yd is there. */
 #include <string.h>
 
+#include "../algebra/processor.h"
 #include "tabled.h"
 
-void ali3_tabled_moments(const double *m, const real *x, real *out) {
+ALI3_INLINED void moments(const double *m, const real *x, real *out) {
   for (int k = 0; k < 3; k++) {
     const real r = x[k], a = x[3 + k], b = x[6 + k], c = x[9 + k];
     out[k] = m[0] * r + m[1] * a + m[2] * b + m[3] * c;
@@ -16,14 +17,16 @@ void ali3_tabled_moments(const double *m, const real *x, real *out) {
   }
 }
 
-static real inner(const real *a, const real *b) {
+void ali3_tabled_moments(const double *m, const real *x, real *out) { moments(m, x, out); }
+
+ALI3_INLINED real inner(const real *a, const real *b) {
   real sum = {0};
   for (int i = 0; i < 12; i++) sum += a[i] * b[i];
   return sum;
 }
 
 /* out (K = 0 .. 3, 3) += T P of the vectors P of a body. */
-static void gather(const real *T, const real *P, real *out) {
+ALI3_INLINED void gather(const real *T, const real *P, real *out) {
   for (int k = 0; k < 3; k++) {
     out[k] += P[k];
     for (int K = 0; K < 3; K++)
@@ -31,11 +34,11 @@ static void gather(const real *T, const real *P, real *out) {
   }
 }
 
-void ali3_tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3_tabled_work *w) {
+ALI3_INLINED void tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3_tabled_work *w) {
   ali3_tabled_base_work *b = in->tabled_base + c->base;
   real P[12], own[12], by[2][12];
   memset(own, 0, sizeof own);
-  ali3_tabled_moments(c->mass, w->value[0], P);
+  moments(c->mass, w->value[0], P);
   gather(w->value[0], P, own);
   b->mass[0][0] += c->mass[0];
   for (int k = 0; k < 3; k++) {
@@ -45,7 +48,7 @@ void ali3_tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3
   }
   const int n_par = c->count[1] > 1 ? 2 : 1;
   for (int p = 0; p < n_par; p++) {
-    ali3_tabled_moments(c->mass, w->value[ALI3_BY_A + p], by[p]);
+    moments(c->mass, w->value[ALI3_BY_A + p], by[p]);
     gather(w->value[0], by[p], in->tabled_parameter[c->along[p]].own);
     for (int o = 0; o <= p; o++) w->inertia[p + o] = inner(w->value[ALI3_BY_A + o], by[p]);
   }
@@ -56,6 +59,9 @@ void ali3_tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3
       w->twist[k] += w->value[ALI3_BY_A][v + k] * by[1][v + l] - w->value[ALI3_BY_A][v + l] * by[1][v + k];
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, tabled_add_inertia,
+                  (const ali3_instance *in, const ali3_tabled *c, ali3_tabled_work *w), (in, c, w))
 
 void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out) {
   const ali3_system *S = in->system;
@@ -89,15 +95,15 @@ void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out) {
 }
 
 /* -B' M_X Bd qd of a body, but for what the rates of Y have to do with r and Y. */
-static void add_rates(const ali3_tabled *c, const ali3_tabled_work *w, const real *qd, const real *turning,
-                      ali3_tabled_base_work *base, real *Q) {
+ALI3_INLINED void add_rates(const ali3_tabled *c, const ali3_tabled_work *w, const real *qd, const real *turning,
+                            ali3_tabled_base_work *base, real *Q) {
   const real a = qd[c->param[0]], b = c->count[1] > 1 ? qd[c->param[1]] : ali3_same(0.0);
   real t[12], P[12];
   for (int i = 0; i < 12; i++) {
     t[i] = -a * a * w->value[ALI3_BY_AA][i];
     if (c->count[1] > 1) t[i] -= 2.0 * a * b * w->value[ALI3_BY_AB][i] + b * b * w->value[ALI3_BY_BB][i];
   }
-  ali3_tabled_moments(c->mass, t, P);
+  moments(c->mass, t, P);
   gather(w->value[0], P, base->force);
   Q[c->param[0]] += inner(w->value[ALI3_BY_A], P);
   if (c->count[1] == 1) return;
@@ -106,7 +112,7 @@ static void add_rates(const ali3_tabled *c, const ali3_tabled_work *w, const rea
   Q[c->param[1]] += inner(w->value[ALI3_BY_B], P) + a * twist;
 }
 
-void ali3_tabled_inertia_forces(const ali3_instance *in, const real *qd, real *Q) {
+ALI3_INLINED void tabled_inertia_forces(const ali3_instance *in, const real *qd, real *Q) {
   const ali3_system *S = in->system;
   for (int32_t b = 0; b < S->n_tabled_base; b++) memset(in->tabled_base[b].force, 0, sizeof in->tabled_base[b].force);
   for (int32_t i = 0; i < S->n_tabled; i++) {
@@ -142,6 +148,9 @@ void ali3_tabled_inertia_forces(const ali3_instance *in, const real *qd, real *Q
     }
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, tabled_inertia_forces, (const ali3_instance *in, const real *qd, real *Q),
+                  (in, qd, Q))
 
 #ifndef ALI3_WIDTH
 /* Energy of the weight of tabled bodies where they are prepared, J. */

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "../algebra/fronts.h"
+#include "../algebra/processor.h"
 #include "tabled.h"
 
 enum { FIRST_PARAMETER = 12, CHUNK = ALI3_TABLED_CHUNK };
@@ -77,8 +78,8 @@ void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, real *F)
 }
 
 /* Row of B of a signal: its coefficient `value` of dependent d of an item, over the coordinates of the group. */
-static void spread(const ali3_tabled *c, const ali3_tabled_work *w, const int32_t *slot, int32_t d, double value,
-                   real *row) {
+ALI3_INLINED void spread(const ali3_tabled *c, const ali3_tabled_work *w, const int32_t *slot, int32_t d, double value,
+                         real *row) {
   row[slot[FIRST_PARAMETER]] += value * w->by[0][d];
   if (c->count[1] > 1) row[slot[FIRST_PARAMETER + 1]] += value * w->by[1][d];
   if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) return;
@@ -88,7 +89,7 @@ static void spread(const ali3_tabled *c, const ali3_tabled_work *w, const int32_
 }
 
 /* B, n x m: the signals of a group by its coordinates, made of its tables. */
-static void rows_of(const ali3_instance *in, const ali3_tabled_group *of, int32_t m, real *B) {
+ALI3_INLINED void rows_of(const ali3_instance *in, const ali3_tabled_group *of, int32_t m, real *B) {
   const ali3_system *S = in->system;
   memset(B, 0, (size_t)(of->n_signal * m) * sizeof *B);
   for (int32_t i = 0; i < of->n_signal; i++)
@@ -104,7 +105,7 @@ static void rows_of(const ali3_instance *in, const ali3_tabled_group *of, int32_
 }
 
 /* Sum of the tangents of a group's elements by its signals, n x n; returns whether none has any. */
-static truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, real *sum) {
+ALI3_INLINED truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, real *sum) {
   const ali3_system *S = in->system;
   truth idle = ali3_same(0.0) == 0.0;
   memset(sum, 0, (size_t)(of->n_signal * of->n_signal) * sizeof *sum);
@@ -124,8 +125,8 @@ static truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, real *
 }
 
 /* to (m, from `first` on) = sum of the rows in the list by their factors, which are `step` apart. */
-static void blend(const ali3_tabled_list *list, int32_t m, int32_t first, const real *factor, int32_t step,
-                  const real *restrict rows, real *restrict to) {
+ALI3_INLINED void blend(const ali3_tabled_list *list, int32_t m, int32_t first, const real *factor, int32_t step,
+                        const real *restrict rows, real *restrict to) {
   for (int32_t at = first / CHUNK * CHUNK; at < m; at += CHUNK) {
     real sum[CHUNK];
     for (int k = 0; k < CHUNK; k++) sum[k] = ali3_same(0.0);
@@ -138,7 +139,7 @@ static void blend(const ali3_tabled_list *list, int32_t m, int32_t first, const 
 }
 
 /* B' S B of the elements of a group. */
-static void add_group(ali3_instance *in, const ali3_tabled_group *of, real *F) {
+ALI3_INLINED void add_group(ali3_instance *in, const ali3_tabled_group *of, real *F) {
   const ali3_system *S = in->system;
   const int32_t size = S->front_ptr[of->front + 1] - S->front_ptr[of->front];
   const int32_t n = of->n_signal, m = ali3_tabled_stride(of);
@@ -155,6 +156,8 @@ static void add_group(ali3_instance *in, const ali3_tabled_group *of, real *F) {
   }
 }
 
-void ali3_tabled_elements_tangent(ali3_instance *in, real *F) {
+ALI3_INLINED void tabled_elements_tangent(ali3_instance *in, real *F) {
   for (int32_t g = 0; g < in->system->n_tabled_group; g++) add_group(in, in->system->tabled_group + g, F);
 }
+
+ALI3_BY_PROCESSOR(in->system, void, tabled_elements_tangent, (ali3_instance * in, real *F), (in, F))
