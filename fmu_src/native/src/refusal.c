@@ -1,35 +1,45 @@
 /* Refused steps: the first time the host may go on from the last good state, by a shorter step or other values; asked
  * again unchanged the slave wishes the end of the simulation; then it is an error. */
+#include <stdio.h>
+
 #include "slave.h"
 
 void slave_forget_refusal(slave *s) { s->refusal.count = 0; }
 
 bool slave_wants_end(const slave *s) { return s->refusal.count > 1; }
 
-slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst) {
+/* Where no step_size helps: what does. */
+static const char *remedy(ali3_status status, bool jumped) {
+  switch (status) {
+  case ALI3_ROAD_LOST:
+    return "The file of the road must be whole again, whatever the step_size.";
+  case ALI3_BAD_NORMAL: /* within the step: at its start the last one is held */
+    return "A shorter communication step may pass, or one whose derivatives turn the normal less, whatever the "
+           "step_size.";
+  default:
+    break;
+  }
+  if (jumped) return "Set one that goes on from the last one, whatever the step_size.";
+  return status == ALI3_WHEEL_IN_ROAD || status == ALI3_BEYOND_TABLE ? "Go on from another state." : NULL;
+}
+
+slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst,
+                               const slave_variable *jumped) {
   slave_refusal *r = &s->refusal;
   const double h = s->value[s->step_reference];
+  const char *const instead = remedy(status, jumped != NULL);
+  char jump[SLAVE_TEXT / 4] = "";
   r->count = r->count > 0 && r->time == time && r->step == step ? r->count + 1 : 1;
   r->time = time;
   r->step = step;
   s->calls.phase = SLAVE_STEP_FAILED;
-  if (status == ALI3_ROAD_LOST) /* no step passes a road that is not there */
-    return slave_say(
-        s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
-        "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s The file of the "
-        "road must be whole again, whatever the step_size.",
-        time, step, r->count > 1 ? " again" : "", time, ali3_status_text(status), worst);
-  if (status == ALI3_WHEEL_IN_ROAD || status == ALI3_BEYOND_TABLE) /* nor a state that no step leaves */
-    return slave_say(
-        s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
-        "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s Go on from another state.",
-        time, step, r->count > 1 ? " again" : "", time, ali3_status_text(status), worst);
-  if (status == ALI3_BAD_NORMAL) /* within the step: at its start the last one is held */
+  if (jumped != NULL)
+    snprintf(jump, sizeof jump, " It began with a jump of the answer '%s' to %.6g m.", jumped->name,
+             s->value[jumped - slave_the_table.variable]);
+  if (instead != NULL)
     return slave_say(s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
-                     "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s A shorter "
-                     "communication step "
-                     "may pass, or one whose derivatives turn the normal less, whatever the step_size.",
-                     time, step, r->count > 1 ? " again" : "", time, ali3_status_text(status), worst);
+                     "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s%s %s", time,
+                     step, r->count > 1 ? " again" : "", time, ali3_status_text(status), worst, jump, instead);
   if (r->count == 1)
     return slave_say(s, SLAVE_DISCARD,
                      "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s A smaller "

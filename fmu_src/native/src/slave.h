@@ -259,7 +259,8 @@ void slave_kinks_after(slave_kinks *k, ali3_instance *kernel);
 slave_status slave_kinks_say(slave *s, const slave_kinks *k);
 
 /* refusal.c: a host that asks for a refused step again is stopped */
-slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst);
+slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst,
+                               const slave_variable *jumped);
 void slave_forget_refusal(slave *s);
 bool slave_wants_end(const slave *s);
 
@@ -273,7 +274,7 @@ void slave_watch_ports(slave *s);
 /* wheel_answers.c: normals that are none hold the last ones; answers that jump or are far from a wheel, and steps that
  * are long for a tyre, are told */
 void slave_hold_normals(slave *s);
-void slave_watch_jumps(slave *s);
+const slave_variable *slave_watch_jumps(slave *s);
 void slave_bad_normal(const slave *s, char *text, size_t size);
 void slave_watch_answers(slave *s);
 

@@ -133,7 +133,7 @@ static slave_status try_step(slave *s, double time, double step) {
   double h, left;
   if (!possible(s, time, step, now)) return SLAVE_ERROR;
   slave_hold_normals(s);
-  slave_watch_jumps(s);
+  const slave_variable *const jumped = slave_watch_jumps(s);
   const int64_t n = division(s, now, time + step, &h);
   ali3_snapshot_take(s->fidelity.kernel,
                      s->fidelity.snapshot); /* inputs, parameters and inner steps go back together */
@@ -149,7 +149,7 @@ static slave_status try_step(slave *s, double time, double step) {
       snprintf(worst, sizeof worst, " Here %s.", words);
     }
     ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.snapshot);
-    return slave_refuse_step(s, status, now, step, worst);
+    return slave_refuse_step(s, status, now, step, worst, jumped);
   }
   keep_start(s, n, h);
   const slave_status halved = slave_halve_steps(s);

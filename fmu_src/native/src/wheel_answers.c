@@ -6,7 +6,6 @@
 #include "slave.h"
 
 static const double FAR_AWAY = 10.0; /* m */
-static const double JUMP = 1.0; /* m; more than a wheel, and a kerb, is high */
 static const double SLOW = 10.0; /* m/s; this and the steps are measured, see docs/fmu.md */
 static const double LONG_STEP = 5.001e-3, LONGEST_STEP = 10.001e-3; /* s */
 
@@ -30,26 +29,6 @@ void slave_hold_normals(slave *s) {
       n[k] = held[k];
       for (size_t order = 0; order < SLAVE_MOST_ORDERS; order++) s->slope[(i + k) * SLAVE_MOST_ORDERS + order] = 0.0;
     }
-  }
-}
-
-/* Before a step, after normals are held: an answer that leaves the plane of the one before, which a partner that was not
- * asked at the start, or counts in another unit, gives; the step that follows may be refused for it. */
-void slave_watch_jumps(slave *s) {
-  const slave_table *t = &slave_the_table;
-  for (size_t i = 0; i + 5 < t->n_known; i++) {
-    if (t->variable[i].role != SLAVE_ANSWER || t->variable[i + 3].role != SLAVE_NORMAL) continue;
-    double last[6]; /* point and normal */
-    for (size_t k = 0; k < 6; k++) ali3_get_input(s->fidelity.kernel, t->variable[i + k].index, &last[k]);
-    const double *now = &s->value[i], *n = &last[3];
-    const double plane = last[2] - (n[0] * (now[0] - last[0]) + n[1] * (now[1] - last[1])) / n[2];
-    if (!(fabs(now[2] - plane) > JUMP) || s->said[i] & SLAVE_JUMPED) continue;
-    s->said[i] |= SLAVE_JUMPED;
-    slave_say(s, SLAVE_WARNING,
-              "At %.6g s the answer '%s' = %.6g m lies %.3g m %s the plane of the last one; what stands on the road "
-              "there is lifted or falls. This is said once.",
-              ali3_time(s->fidelity.kernel), t->variable[i + 2].name, now[2], fabs(now[2] - plane),
-              now[2] > plane ? "above" : "below");
   }
 }
 
