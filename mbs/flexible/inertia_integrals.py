@@ -13,8 +13,8 @@ from mbs.flexible.reduced_body import ReducedBody
 class ShapeIntegrals:
     """Sums over the mass points k with position x_k and shapes phi_kj (body axes, origin at the reference node).
 
-    The coordinates are q = (r_o, a, b, c, eta): 12 + n with A = [a b c] and n amplitudes eta. Every mass point moves with
-    ``A' v = A' (rd_o + Ad (x + phi eta)) + phi etad``, the paper's equation (6).
+    The coordinates are q = (r_o, a, b, c, eta): 12 + n with A = [a b c] and n amplitudes eta. Every mass point moves
+    with ``A' v = A' (rd_o + Ad (x + phi eta)) + phi etad``, the paper's equation (6).
 
     Parameters
     ----------
