@@ -32,7 +32,7 @@ SUMMARY = {
 
 
 def measure(name: str, method: str, h: float) -> dict[str, Any]:
-    """One run."""
+    """A run of a scene in steps of h s: true error, estimate and verdict."""
     scene = SCENES[name]
     row: dict[str, Any] = {"scene": name, "method": method, "h_s": h, "ended": "refused", "verdict": "refused"}
     row |= dict.fromkeys(("error", "estimate", "balance", "halvings_per_step", "warning"))

@@ -11,7 +11,8 @@ from mbs.common.checks import positive
 from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Positive, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import index, several, size
+from mbs.elements.record_checks import index, several
+from mbs.elements.wheel_signals import carrier_signals
 from mbs.kernel.header.enumerations import ElementType
 
 
@@ -104,8 +105,6 @@ class AutomaticDrive:
             The ratios do not fall, or a gear is left as soon as it is engaged.
         """
         what = f"the drive '{name}'"
-        size(f, (3,), f"The vector f of {what}")
-        size(g, (3,), f"The vector g of {what}")
         own = reals_of(self, what)
         of_selector: Reals = {n: own.pop(n) for n in ("reverse_ratio", "engage_speed", "engage_time")}
         ratios = [positive(r, f"A ratio of {what}") for r in several(self.ratios, f"the ratios of {what}")]
@@ -137,7 +136,7 @@ class AutomaticDrive:
         return ElementRecord(
             name,
             ElementType.AUTOMATIC_DRIVE,
-            (left, right, *f.components, *g.components),
+            (left, right, *carrier_signals(f, g, what)),
             *columns(own | of_gears | of_selector),
             inputs,
             (float(gear), float(gear), 1e3, 0.0, *((1.0, 1.0) if of_selector else ())),

@@ -9,7 +9,8 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import flag, positive
 from mbs.elements.reals import NotNegative, Positive, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import index, size
+from mbs.elements.record_checks import index
+from mbs.elements.wheel_signals import carrier_signals
 from mbs.kernel.header.enumerations import ElementType
 
 
@@ -80,12 +81,10 @@ class Brake:
             Whether `input` is no pedal but any number from 0 on, and `max_torque` the torque per unit of it.
         """
         what = f"the brake '{name}'"
-        size(f, (3,), f"The vector f of {what}")
-        size(g, (3,), f"The vector g of {what}")
         return ElementRecord(
             name,
             ElementType.BRAKE,
-            (*f.components, *g.components, spin),
+            (*carrier_signals(f, g, what), spin),
             *columns(reals_of(self, what)),
             (
                 index(input, f"The input of {what}"),

@@ -8,7 +8,8 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import not_negative, positive
 from mbs.elements.reals import NotNegative, Positive, Share, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import index, size
+from mbs.elements.record_checks import index
+from mbs.elements.wheel_signals import carrier_signals
 from mbs.kernel.header.enumerations import ElementType
 
 
@@ -93,15 +94,13 @@ class ElectricDrive:
             Number of an input: -1 reverse, 0 neutral, 1 drive; without one the drive is in drive.
         """
         what = f"the drive '{name}'"
-        size(f, (3,), f"The vector f of {what}")
-        size(g, (3,), f"The vector g of {what}")
         inputs = [index(throttle, f"The input of {what}")]
         if selector is not None:
             inputs.append(index(selector, f"The selector of {what}"))
         return ElementRecord(
             name,
             ElementType.ELECTRIC_DRIVE,
-            (left, right, *f.components, *g.components),
+            (left, right, *carrier_signals(f, g, what)),
             *columns(reals_of(self, what)),
             inputs,
             () if selector is None else (1.0, 1.0),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.reals import Positive, reals_of
 from mbs.elements.record import ElementRecord, columns
-from mbs.elements.record_checks import size
+from mbs.elements.wheel_signals import carrier_signals
 from mbs.kernel.header.enumerations import ElementType
 
 
@@ -29,9 +29,7 @@ class GyroscopicSpin:
             Absolute spin of the wheel, rad.
         """
         what = f"the spinning wheel '{name}'"
-        size(f, (3,), f"The vector f of {what}")
-        size(g, (3,), f"The vector g of {what}")
-        signals = (*f.components, *g.components, spin)
+        signals = (*carrier_signals(f, g, what), spin)
         return ElementRecord(
             name,
             ElementType.GYROSCOPIC_SPIN,

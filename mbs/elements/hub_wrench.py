@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import channels, size
+from mbs.elements.record_checks import channels
+from mbs.elements.wheel_signals import wheel_signals
 from mbs.kernel.header.enumerations import ElementType
 
 
@@ -38,12 +39,10 @@ class HubWrench:
             Absolute spin of the wheel, rad.
         """
         what = f"the wrench '{name}'"
-        size(centre, (3,), f"The centre of {what}")
-        size(axis, (3,), f"The axis of {what}")
         return ElementRecord(
             name,
             ElementType.HUB_WRENCH,
-            (*centre.components, *axis.components, spin),
+            wheel_signals(centre, axis, spin, what),
             integer=channels(self.inputs, 6, what),
             outputs=(Output("power", "W", "power of force and moment on wheel and carrier together"),),
         )

@@ -13,8 +13,9 @@ from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index
-from mbs.elements.tyre import TYRE_OUTPUTS, check_rim, wheel_signals
+from mbs.elements.tyre import TYRE_OUTPUTS, check_rim
 from mbs.elements.tyre_bore import TyreBore, bore_reals
+from mbs.elements.wheel_signals import wheel_signals
 from mbs.kernel.header.enumerations import ElementType
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import size
+from mbs.elements.wheel_signals import carrier_signals
 from mbs.kernel.header.enumerations import ElementType
 
 
@@ -35,12 +35,10 @@ class SpinAngle:
             counts, without wrapping.
         """
         what = f"the angle of the spinning wheel '{name}'"
-        size(f, (3,), f"The vector f of {what}")
-        size(g, (3,), f"The vector g of {what}")
         return ElementRecord(
             name,
             ElementType.SPIN_ANGLE,
-            (*f.components, *g.components, spin),
+            (*carrier_signals(f, g, what), spin),
             states=(0.0,) * 7,
             outputs=(Output("angle", "rad", "angle of the wheel on its carrier since the start"),),
             tangent=False,

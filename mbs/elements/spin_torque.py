@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.reals import Number, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import index, size
+from mbs.elements.record_checks import index
+from mbs.elements.wheel_signals import carrier_signals
 from mbs.kernel.header.enumerations import ElementType
 
 
@@ -30,12 +31,10 @@ class SpinTorque:
             Absolute spin of the wheel, rad.
         """
         what = f"the spin torque '{name}'"
-        size(f, (3,), f"The vector f of {what}")
-        size(g, (3,), f"The vector g of {what}")
         return ElementRecord(
             name,
             ElementType.SPIN_TORQUE,
-            (*f.components, *g.components, spin),
+            (*carrier_signals(f, g, what), spin),
             *columns(reals_of(self, what)),
             (index(self.input, f"The input of {what}"),),
             outputs=(

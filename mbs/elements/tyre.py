@@ -11,8 +11,9 @@ from mbs.common.checks import instance_of, number, positive
 from mbs.common.errors import ModelError
 from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import index, size
+from mbs.elements.record_checks import index
 from mbs.elements.tyre_bore import TyreBore, bore_reals
+from mbs.elements.wheel_signals import wheel_signals
 from mbs.kernel.header.enumerations import ElementType
 
 LOADS, AXES = ("1", "2"), ("x", "y")
@@ -43,13 +44,6 @@ TYRE_OUTPUTS = (
     Output("rolling_moment", "N m", "about the contact point: rolling resistance, and Fx by its lever"),
 )
 """What every tyre tells first, in the order of the kernel."""
-
-
-def wheel_signals(centre: AffineVector, axis: AffineVector, spin: Affine, what: str) -> tuple[Affine, ...]:
-    """What every tyre reads of its wheel, in the order of the kernel."""
-    size(centre, (3,), f"The centre of {what}")
-    size(axis, (3,), f"The axis of {what}")
-    return (*centre.components, *axis.components, spin)
 
 
 def check_rim(bottoming_radius: float, radius: float, what: str) -> None:

@@ -13,8 +13,8 @@ from mbs.flexible.reduced_body import ReducedBody
 class ShapeIntegrals:
     """Sums over the mass points k with position x_k and shapes phi_kj (body axes, origin at the reference node).
 
-    The coordinates are q = (r_o, a, b, c, eta): 12 + n with A = [a b c]. Every mass point moves with
-    ``A' v = A' (rd_o + Ad (x + phi eta)) + phi etad``, the paper's equation (6).
+    The coordinates are q = (r_o, a, b, c, eta): 12 + n with A = [a b c] and n amplitudes eta. Every mass point moves
+    with ``A' v = A' (rd_o + Ad (x + phi eta)) + phi etad``, the paper's equation (6).
 
     Parameters
     ----------
@@ -49,49 +49,16 @@ class ShapeIntegrals:
         return np.asarray(np.einsum("jlii->jl", self.T))
 
     def first_moments(self, eta: np.ndarray) -> np.ndarray:
-        """sum m (x + phi eta).
-
-        Parameters
-        ----------
-        eta : ndarray, shape (n,)
-            Amplitudes.
-
-        Returns
-        -------
-        ndarray, shape (3,)
-            kg m.
-        """
+        """sum m (x + phi eta), shape (3,), kg m."""
         return np.asarray(self.S0 + self.P @ eta)
 
     def second_moments(self, eta: np.ndarray) -> np.ndarray:
-        """sum m (x + phi eta)(x + phi eta)'.
-
-        Parameters
-        ----------
-        eta : ndarray, shape (n,)
-            Amplitudes.
-
-        Returns
-        -------
-        ndarray, shape (3, 3)
-            kg m2.
-        """
+        """sum m (x + phi eta)(x + phi eta)', shape (3, 3), kg m2."""
         mixed = np.einsum("ijk,j->ik", self.c, eta)
         return np.asarray(self.J0 + mixed + mixed.T + np.einsum("jlik,j,l->ik", self.T, eta, eta))
 
     def couplings(self, eta: np.ndarray) -> np.ndarray:
-        """sum m (x + phi eta)_i phi_j at [i, j].
-
-        Parameters
-        ----------
-        eta : ndarray, shape (n,)
-            Amplitudes.
-
-        Returns
-        -------
-        ndarray, shape (3, n, 3)
-            kg m.
-        """
+        """sum m (x + phi eta)_i phi_j at [i, j], shape (3, n, 3), kg m."""
         return np.asarray(self.c + np.einsum("jlik,l->ijk", self.T, eta))
 
     def mass_matrix(self, A: np.ndarray, eta: np.ndarray) -> np.ndarray:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import functools
+import hashlib
 import importlib.util
 import os
 import platform
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
+from importlib.metadata import version
 from pathlib import Path
 
 from ali3.cache import cache_folder
@@ -99,7 +102,7 @@ def compiler() -> str:
 
 
 def compile_library(target: str | None = None, out: str | Path | None = None) -> Path:
-    """Compile the kernel.
+    """Compile the kernel, once for all folders that hold the same sources.
 
     Parameters
     ----------
@@ -115,8 +118,24 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
     """
     target = target or host_target()
     path = Path(out) if out is not None else HERE / "lib" / library_name(target)
-    compile_c(sources(), target, path, what="the kernel", exports=(*functions(), *WASM_HELPERS))
+    exports = (*functions(), *WASM_HELPERS)
+    kept = cache_directory() / "kernels" / _digest(target, exports) / library_name(target)
+    if not kept.is_file():
+        compile_c(sources(), target, kept, what="the kernel", exports=exports)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=path.parent) as folder:
+        shutil.copyfile(kept, Path(folder, path.name)).replace(path)  # as in `compile_c`
     return path
+
+
+def _digest(target: str, exports: Sequence[str]) -> str:
+    """A hash of all that the library of the kernel depends on: the compiler, its options, the sources; no places."""
+    command = compiler_command([], target, Path(library_name(target)), exports=exports)[1:]
+    digest = hashlib.sha256(repr((version("ziglang"), command)).encode())
+    for file in sorted((*HERE.glob("include/*.h"), *HERE.rglob("src/**/*.[ch]"))):
+        content = file.read_bytes()
+        digest.update(f"\n{file.relative_to(HERE).as_posix()} {len(content)}\n".encode() + content)
+    return digest.hexdigest()
 
 
 def functions() -> list[str]:

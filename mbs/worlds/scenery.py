@@ -18,11 +18,11 @@ from mbs.worlds.world_types import Cones, Line
 
 Float = NDArray[np.float64]
 SAMPLE = 0.25
-"""m: along a line its heights are looked at so often."""
+"""Distance of the points of a line at which its heights are taken, m."""
 OFF = 4e-3
-"""m: points of a line are left out where a straight line is as near to it."""
+"""Largest distance of a point that is left out from the line that is drawn, m."""
 EDGE = 0.25
-"""m: of an edge line from the edge of the road to its middle."""
+"""Distance of the middle of an edge line from the edge of the road, m."""
 
 
 def scenery_of(terrain: Terrain) -> list[dict[str, Any]]:

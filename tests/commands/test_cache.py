@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 import time
 from pathlib import Path
@@ -13,6 +14,7 @@ import pytest
 from ali3.cache import cache_folder
 from ali3.errors import FileError
 from ali3.folders import forget_oldest
+from mbs.kernel import build
 
 
 def test_the_user_may_name_it(tmp_path, monkeypatch):
@@ -82,3 +84,41 @@ def test_a_folder_that_another_program_removes_meanwhile_is_none(tmp_path, monke
     forget_oldest(tmp_path, 1)
     monkeypatch.undo()
     assert sorted(place.name for place in tmp_path.iterdir()) == ["2"]
+
+
+def test_a_kernel_is_compiled_once_for_all_folders_with_the_same_sources(tmp_path, monkeypatch):
+    """The compiler is not called again for a copy; it is where a header, an option or the platform differs."""
+    compiled = []
+
+    def compile_c(files, target, path, **_):
+        compiled.append(target)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(f"library {len(compiled)}")
+
+    monkeypatch.setattr(build, "cache_directory", lambda: tmp_path / "cache")
+    monkeypatch.setattr(build, "compile_c", compile_c)
+    folders = [tmp_path / "a", tmp_path / "b"]
+    made = []
+
+    def make(target="x86_64-linux-gnu.2.17"):
+        made.append(build.compile_library(target).read_text())
+
+    for folder in folders:
+        for room in ("src", "include"):
+            shutil.copytree(build.HERE / room, folder / room)
+    for folder in folders:
+        monkeypatch.setattr(build, "HERE", folder)
+        make()
+    assert made == ["library 1"] * 2
+    with (folders[1] / "src" / "system.h").open("a") as header:
+        header.write("\n")
+    make()
+    make("aarch64-linux-gnu.2.17")
+    monkeypatch.setattr(build, "FLAGS", [*build.FLAGS, "-g"])
+    make()
+    assert made[2:] == ["library 2", "library 3", "library 4"]
+    monkeypatch.setattr(build, "HERE", folders[0])
+    monkeypatch.setattr(build, "FLAGS", build.FLAGS[:-1])
+    make()
+    assert made[-1] == "library 1"
+    assert len(compiled) == 4

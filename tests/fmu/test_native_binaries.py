@@ -31,10 +31,15 @@ FUNCTIONS = 34
 
 
 @pytest.fixture(scope="session")
-def all_platforms(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def all_platforms(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Path:
     """The crane for all platforms; the compiler's first run for Windows takes minutes."""
-    name, system = load_scene(f"{SCENES}:crane")
-    return build_fmu(system, name, tmp_path_factory.mktemp("platforms"))
+
+    def fill(folder: Path) -> None:
+        name, system = load_scene(f"{SCENES}:crane")
+        build_fmu(system, name, folder)
+
+    (path,) = made_once("all_platforms", fill).glob("*.fmu")
+    return path
 
 
 def binary(fmu: Path, name: str) -> bytes:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import fmpy
 import pytest
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.fmu.fmu import Fmu
 from tests.fmu.native import compile_host, unpack
 
@@ -18,9 +17,8 @@ PLATFORM = fmpy.platform
 
 
 @pytest.fixture(scope="module")
-def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene(f"{HERE / 'scenes.py'}:tuned")
-    return build_fmu(system, name, tmp_path_factory.mktemp("tuned"), [PLATFORM])
+def fmu(scene_fmu: Callable[..., Path]) -> Path:
+    return scene_fmu(f"{HERE / 'scenes.py'}:tuned")
 
 
 @pytest.fixture(scope="module")

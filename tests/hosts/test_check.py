@@ -5,13 +5,12 @@ from __future__ import annotations
 import subprocess
 import sys
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 
 import fmpy
 import pytest
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.check.command import main
 from hosts.check.instance import Instance, open_subject
 from mbs.kernel import build
@@ -22,10 +21,9 @@ CHECKS = 26
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    name, system = load_scene(f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum")
-    folder = tmp_path_factory.mktemp("fmus")
-    return {kind: build_fmu(system, name, folder, [fmpy.platform], kind=kind) for kind in ("native", "fmi3")}
+def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
+    scene = f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum"
+    return {kind: scene_fmu(scene, kind) for kind in ("native", "fmi3")}
 
 
 def check(fmu: Path) -> subprocess.CompletedProcess[str]:
@@ -102,9 +100,10 @@ def test_an_fmu_that_crashes_is_bad(fmus: dict[str, Path], tmp_path: Path) -> No
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["native", "fmi3"])
-def test_it_checks_with_what_is_set(tmp_path: Path, capfd: pytest.CaptureFixture[str], kind: str) -> None:
-    name, system = load_scene(f"{Path(__file__).with_name('scenes.py')}:tuned")
-    fmu = build_fmu(system, name, tmp_path, [fmpy.platform], kind=kind)
+def test_it_checks_with_what_is_set(
+    scene_fmu: Callable[..., Path], tmp_path: Path, capfd: pytest.CaptureFixture[str], kind: str
+) -> None:
+    fmu = scene_fmu(f"{Path(__file__).with_name('scenes.py')}:tuned", kind)
     command = [str(fmu), "--steps", "5", "--set", "spring.free_length=1.5", "--set", "pull=4"]
     assert main(command) == 0
     said = capfd.readouterr().out

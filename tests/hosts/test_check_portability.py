@@ -5,13 +5,12 @@ from __future__ import annotations
 import subprocess
 import sys
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 
-import fmpy
 import pytest
 
-from fmu_src.build.build import build_fmu, face_name
-from fmu_src.build.scene_registry import load_scene
+from fmu_src.build.build import face_name
 from fmu_src.native.sources import DETOUR, HERE, KERNEL_INCLUDE, shell_files
 from mbs.kernel import build
 
@@ -21,10 +20,8 @@ Change = tuple[str, str, str]
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    name, system = load_scene(f"{SCENES}:crank_slider")
-    folder = tmp_path_factory.mktemp("fmus")
-    return {kind: build_fmu(system, name, folder, [fmpy.platform], kind=kind) for kind in ("native", "fmi3")}
+def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
+    return {kind: scene_fmu(f"{SCENES}:crank_slider", kind) for kind in ("native", "fmi3")}
 
 
 def findings(fmu: Path) -> dict[str, str]:

@@ -9,21 +9,17 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import fmpy
 import numpy as np
 import pytest
 
-import mbs
-from fmu_src.build.build import build_fmu
 from hosts.check.command import main
 from hosts.run.command import main as run_main
-from tests.hosts.scenes import tuned
 from tests.in_process import run
 
 
 @pytest.fixture(scope="module")
-def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build_fmu(mbs.compile(tuned()), "tuned", tmp_path_factory.mktemp("fmu"), [fmpy.platform])
+def fmu(scene_fmu: Callable[..., Path]) -> Path:
+    return scene_fmu(f"{Path(__file__).with_name('scenes.py')}:tuned")
 
 
 @pytest.fixture(scope="module")

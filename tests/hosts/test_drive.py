@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import fmpy
@@ -13,8 +14,6 @@ import pytest
 from fmpy.util import read_csv
 from matplotlib import image
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.fmu.fmu import Fmu
 from hosts.run.command import main
 from tests.in_process import run
@@ -30,14 +29,9 @@ def drive(*arguments: object) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    folder = tmp_path_factory.mktemp("fmus")
+def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
     scenes = {"sledge": HERE / "scenes.py", "motor_pendulum": ROOT / "examples" / "motor_pendulum.py"}
-    made = {}
-    for function, file in scenes.items():
-        name, system = load_scene(f"{file}:{function}")
-        made[function] = build_fmu(system, name, folder, [PLATFORM])
-    return made
+    return {function: scene_fmu(f"{file}:{function}") for function, file in scenes.items()}
 
 
 @pytest.fixture

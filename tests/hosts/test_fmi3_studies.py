@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.compare.command import main as compare
 from hosts.study.command import main as study
 from hosts.study.store import read_study
@@ -22,9 +20,8 @@ MEASURES = ["lowest", "highest"]
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    name, system = load_scene(f"{HERE / 'scenes.py'}:tuned")
-    return {k: build_fmu(system, name, tmp_path_factory.mktemp(k), [fmpy.platform], kind=k) for k in KINDS}
+def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
+    return {k: scene_fmu(f"{HERE / 'scenes.py'}:tuned", k) for k in KINDS}
 
 
 @pytest.mark.slow

@@ -8,14 +8,12 @@ import html
 import json
 import re
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import fmpy
 import pytest
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.common import commands
 from hosts.view.command import main
 
@@ -28,9 +26,8 @@ DRAWING = {
 
 
 @pytest.fixture(scope="module")
-def tuned(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene(f"{SCENES}:tuned")
-    return build_fmu(system, name, tmp_path_factory.mktemp("tuned"), [fmpy.platform])
+def tuned(scene_fmu: Callable[..., Path]) -> Path:
+    return scene_fmu(f"{SCENES}:tuned")
 
 
 def changed(fmu: Path, folder: Path, change: Any, scene: Any = DRAWING) -> Path:
@@ -149,10 +146,8 @@ def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
         assert words in refusal(fmu, capsys)
 
 
-def test_an_fmu_of_fmi_3(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    name, system = load_scene(f"{SCENES}:tuned")
-    fmu = build_fmu(system, name, tmp_path, [fmpy.platform], kind="fmi3")
-    said = refusal(fmu, capsys)
+def test_an_fmu_of_fmi_3(scene_fmu: Callable[..., Path], capsys: pytest.CaptureFixture[str]) -> None:
+    said = refusal(scene_fmu(f"{SCENES}:tuned", "fmi3"), capsys)
     assert "is an FMU of FMI 3.0; a page runs the kind native (FMI 2.0)" in said
     assert "--scene tuned --kind native --platforms this,wasm32" in said
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -73,9 +73,8 @@ def entry(name: str, element: str) -> str:
 
 
 @pytest.fixture(scope="module")
-def tuned(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene(f"{HERE / 'scenes.py'}:tuned")
-    return build_fmu(system, name, tmp_path_factory.mktemp("tuned"), [PLATFORM])
+def tuned(scene_fmu: Callable[..., Path]) -> Path:
+    return scene_fmu(f"{HERE / 'scenes.py'}:tuned")
 
 
 @pytest.fixture
@@ -510,9 +509,10 @@ def test_a_set_of_all_parameters_of_a_car_is_the_engine_with_them(file: Path, tm
 
 
 @pytest.mark.slow
-def test_a_column_of_whole_numbers_is_held_between_its_rows(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    name, system = load_scene(f"{HERE / 'scenes.py'}:switched")
-    fmu = build_fmu(system, name, tmp_path, [PLATFORM])
+def test_a_column_of_whole_numbers_is_held_between_its_rows(
+    scene_fmu: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    fmu = scene_fmu(f"{HERE / 'scenes.py'}:switched")
     table = tmp_path / "shift.csv"
     table.write_text('"time","pull","gear"\n0,0,1\n1,2,3\n2,2,-1\n')
     assert run([str(fmu), "--input", str(table), "--step", "0.1", "--out", str(tmp_path)]) == 0

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.header.enumerations import ElementType
 from mbs.settings.settings import Settings
 
 from .scenes import everything, four_bar
@@ -292,6 +293,33 @@ def test_accelerations_and_multipliers_at_the_start_solve_the_index_one_equation
     np.testing.assert_allclose(qdd, exact[:12], rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(lam, exact[12:], rtol=1e-9, atol=1e-7)
     np.testing.assert_allclose(J @ qd, 0.0, atol=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("signals", "columns"),
+    [
+        *(([0, 1, 2], [0, *columns]) for columns in ([1, 2, 3], [3, 2, 1], [1, 3, 2])),
+        *((signals, [0, 1, 2, 3]) for signals in ([0, 3, 2], [2, 1, 0], [0, 1, 3])),
+    ],
+)
+def test_a_spring_acts_on_its_own_signals_in_any_order(signals: list[int], columns: list[int]) -> None:
+    """Three signals go together where their numbers and columns follow each other, and only there."""
+    q, stiffness, free = np.array([1.0, 2.0, 3.0, 5.0]), 10.0, 1.0
+    b = SystemBuilder(np.eye(4), q)
+    for column in columns:
+        b.signal({column: 1.0})
+    b.elements = [Element(ElementType.SPRING_DAMPER, signals, [stiffness, 0.0, free, 0.0, 0.0, 1e9, 0.0], outputs=4)]
+    instance = Instance(LoadedSystem(b.to_bytes()))
+    own = np.isin(np.arange(4), np.array(columns)[signals])
+    length = np.linalg.norm(q[own])
+    n = np.where(own, q / length, 0.0)
+    np.testing.assert_allclose(instance.evaluate(q, 0.0 * q)["force"], -stiffness * (length - free) * n, rtol=1e-14)
+    slack = 1.0 - free / length
+    hessian = stiffness * (slack * np.diag(own) + (1.0 - slack) * np.outer(n, n))
+    instance.initialise(0.0)
+    h = 0.1
+    tangent = np.array(instance.tangent(h)).reshape(4, 4)
+    np.testing.assert_allclose(tangent, np.eye(4) + 0.25 * h**2 * hessian, rtol=1e-13, atol=1e-15)
 
 
 def test_velocities_given_are_projected_in_the_mass_metric() -> None:

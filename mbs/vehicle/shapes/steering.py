@@ -19,7 +19,7 @@ RADIUS = 0.185  # m, of the steering wheel
 
 
 def rack_of(b: CarBuilder, car: CarContent) -> Owner:
-    """What the inner ends of the tie rods move with: a rack slides by its travel, a link goes about in its plane."""
+    """What the inner ends of the tie rods move with: a rack slides by its travel, a link moves in its plane."""
     inner, frame = car.rack_ends, b.chassis.frame
     if isinstance(car.steering, PitmanArm):
         ahead, left = car.steering.plane

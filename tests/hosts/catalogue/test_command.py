@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -65,15 +66,9 @@ def test_cars_stand_side_by_side_and_jobs_change_nothing(
 
 
 def test_a_test_that_cannot_be_done_is_a_row_with_its_reason(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    scene_fmu: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    import fmpy
-
-    from fmu_src.build.build import build_fmu
-    from fmu_src.build.scene_registry import load_scene
-
-    name, system = load_scene(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
-    fmu = build_fmu(system, name, tmp_path, [fmpy.platform])
+    fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
     assert main([str(fmu), "--tests", "steady_circle", "--out", str(tmp_path / "out")]) == 1
     (row,) = rows(tmp_path / "out")
     assert row["measure"] == ""

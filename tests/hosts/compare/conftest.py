@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
-import fmpy
 import pytest
-
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 
 HERE = Path(__file__).parent
 if str(HERE) not in sys.path:
@@ -17,6 +14,5 @@ if str(HERE) not in sys.path:
 
 
 @pytest.fixture(scope="session")
-def tuned(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    name, system = load_scene(f"{HERE.parent / 'scenes.py'}:tuned")
-    return build_fmu(system, name, tmp_path_factory.mktemp("tuned"), [fmpy.platform])
+def tuned(scene_fmu: Callable[..., Path]) -> Path:
+    return scene_fmu(f"{HERE.parent / 'scenes.py'}:tuned")

@@ -5,11 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-import fmpy
 import pytest
-
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 
 TESTS = Path(__file__).parents[2]
 _SCENES = {"sledge": TESTS / "hosts" / "scenes.py", "switched": TESTS / "hosts" / "scenes.py"}
@@ -17,31 +13,16 @@ _SCENES |= {"reach": TESTS / "fmu" / "scenes.py"}
 
 
 @pytest.fixture(scope="session")
-def fmu(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Callable[[str], Path]:
+def fmu(scene_fmu: Callable[..., Path]) -> Callable[[str], Path]:
     """The FMU of a scene: sledge (a car by its names, in the plane), reach (can be pulled beyond its reach),
     switched (an input is a whole number), prototype_car; each is built once."""
-    made: dict[str, Path] = {}
-
-    def build(scene: str) -> Path:
-        if scene == "prototype_car":
-            return Path(request.getfixturevalue("prototype_fmu"))
-        if scene not in made:
-            name, system = load_scene(f"{_SCENES[scene]}:{scene}")
-            made[scene] = build_fmu(system, name, tmp_path_factory.mktemp(scene), [fmpy.platform])
-        return made[scene]
-
-    return build
+    return lambda scene: scene_fmu(f"{_SCENES[scene]}:{scene}" if scene in _SCENES else scene)
 
 
-@pytest.fixture(scope="module")
-def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+@pytest.fixture
+def fmus(fmu: Callable[[str], Path]) -> dict[str, Path]:
     """Sledges whose drives are recorded."""
-    folder = tmp_path_factory.mktemp("fmus")
-    made = {}
-    for function in ("sledge", "switched"):
-        name, system = load_scene(f"{_SCENES[function]}:{function}")
-        made[function] = build_fmu(system, name, folder, [fmpy.platform])
-    return made
+    return {scene: fmu(scene) for scene in ("sledge", "switched")}
 
 
 class FakeClock:

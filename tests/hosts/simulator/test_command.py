@@ -16,11 +16,8 @@ import zipfile
 from contextlib import contextmanager
 from pathlib import Path
 
-import fmpy
 import pytest
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.common import commands
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
@@ -42,14 +39,9 @@ TESTS = Path(__file__).parents[2]
 TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1,0.5\n'
 
 
-@pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("fmus")
-    made = {}
-    for scene, file in (("sledge", TESTS / "hosts" / "scenes.py"), ("reach", TESTS / "fmu" / "scenes.py")):
-        name, system = load_scene(f"{file}:{scene}")
-        made[scene] = build_fmu(system, name, folder, [fmpy.platform])
-    return made
+@pytest.fixture
+def fmus(fmu):
+    return {scene: fmu(scene) for scene in ("sledge", "reach")}
 
 
 @pytest.fixture
@@ -318,12 +310,11 @@ def test_a_recording_is_not_written_over_another(fmus, told, tmp_path):
 
 
 @pytest.mark.slow
-def test_files_that_are_no_fmu_and_an_fmu_of_fmi_3(told, tmp_path):
+def test_files_that_are_no_fmu_and_an_fmu_of_fmi_3(told, scene_fmu, tmp_path):
     assert "There is no file none.fmu" in told("none.fmu", "--headless", "--stop-time", 1)[2]
     (tmp_path / "text.fmu").write_text("text")
     assert "is not an FMU" in told(tmp_path / "text.fmu", "--headless", "--stop-time", 1)[2]
-    name, system = load_scene(f"{TESTS / 'hosts' / 'scenes.py'}:sledge")
-    made = build_fmu(system, name, tmp_path, [fmpy.platform], kind="fmi3")
+    made = scene_fmu(f"{TESTS / 'hosts' / 'scenes.py'}:sledge", "fmi3")
     code, out, error = told(made, "--headless", "--stop-time", 1)
     assert (code, error) == (0, "")
     assert "simulated" in out

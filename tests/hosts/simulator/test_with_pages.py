@@ -15,14 +15,11 @@ import time
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import connect
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from tests.hosts.simulator.raw_client import RawClient, request
 from viewer import bundle
 
@@ -33,13 +30,12 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C of anoth
 
 
 @pytest.fixture(scope="module")
-def sledge(tmp_path_factory):
+def sledge(scene_fmu):
     try:
         bundle.bundle()
     except RuntimeError as error:
         pytest.skip(str(error))
-    name, system = load_scene(f"{ROOT / 'tests' / 'hosts' / 'scenes.py'}:sledge")
-    return build_fmu(system, name, tmp_path_factory.mktemp("fmu"), [fmpy.platform])
+    return scene_fmu(f"{ROOT / 'tests' / 'hosts' / 'scenes.py'}:sledge")
 
 
 class Program:

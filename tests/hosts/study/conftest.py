@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import fmpy
 import pytest
 from distributed import LocalCluster
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.study.campaign import run_study
 
 TESTS = Path(__file__).parents[2]
@@ -18,10 +15,9 @@ STUDY = (Path(__file__).parent / "study.txt").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="session")
-def spring(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def spring(scene_fmu: Callable[..., Path]) -> Path:
     """The FMU of the scene `tuned`."""
-    name, system = load_scene(f"{TESTS / 'hosts' / 'scenes.py'}:tuned")
-    return build_fmu(system, name, tmp_path_factory.mktemp("spring"), [fmpy.platform])
+    return scene_fmu(f"{TESTS / 'hosts' / 'scenes.py'}:tuned")
 
 
 @pytest.fixture

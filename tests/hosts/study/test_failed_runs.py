@@ -8,12 +8,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.build.build import build_fmu
-from fmu_src.build.scene_registry import load_scene
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
 from hosts.study.campaign import run_study
@@ -85,9 +82,8 @@ def test_runs_that_raise_crash_or_hang_are_rows(study_file: Callable[..., Path],
     ]
 
 
-def test_a_refused_step_is_a_reason(tmp_path: Path) -> None:
-    name, system = load_scene(f"{TESTS / 'fmu' / 'scenes.py'}:reach")
-    fmu = build_fmu(system, name, tmp_path, [fmpy.platform])
+def test_a_refused_step_is_a_reason(scene_fmu: Callable[..., Path]) -> None:
+    fmu = scene_fmu(f"{TESTS / 'fmu' / 'scenes.py'}:reach")
     manoeuvre = Manoeuvre("pull", np.array([0.0, 1.0]), {"pull": np.array([0.0, 10.0])}, 1.0)
     job = Job("pull", manoeuvre, step=0.01, every=10, samples=11)
     work = Work(fmu.name, "", "", "", (job,), (), (), (), ("bob.x",), Aliases(), reuse=True)
