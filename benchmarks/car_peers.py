@@ -1,10 +1,11 @@
-"""A step of a car beside one of MuJoCo: ``python -m benchmarks.car_peers [--json FILE]``.
+"""A step of a car beside those of other programs: ``python -m benchmarks.car_peers [--json FILE]``.
 
-The prototype with links and by tables, alone and in lanes, and a MuJoCo car of the same mass, wheelbase and track on
-four sprung wheels (`benchmarks.peers.mujoco_car`), which is given the angles of the rigid car's front wheels: by
-`mujoco.rollout` one after the other and on all cores; CommonRoad's multi-body car (`benchmarks.peers.commonroad_car`)
-is given their mean. All make the same steps of the same manoeuvres in turn; of three
-rounds the least is taken, in seconds in which threads had a core.
+The prototype with links and by tables, alone and in lanes; a MuJoCo car of the same mass, wheelbase and track on four
+sprung wheels (`benchmarks.peers.mujoco_car`), by `mujoco.rollout` one after the other and on all cores; an Exudyn car
+with the wheel rates and damping of the prototype too (`benchmarks.peers.exudyn_car`); CommonRoad's multi-body car
+(`benchmarks.peers.commonroad_car`). The first two are given the angles of the rigid car's front wheels, the last one
+their mean. All make the same steps of the same manoeuvres in turn; of three rounds the least is taken, in seconds in
+which threads had a core. What is not installed is left out with a word.
 """
 
 from __future__ import annotations
@@ -12,11 +13,12 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ali3.running import run_command
 from benchmarks.car import lanes, manoeuvres
@@ -25,11 +27,16 @@ from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from mbs import Settings, Trajectory, compile, simulate
 from mbs.scenes import prototype_car
-from mbs.vehicle import load
+from mbs.vehicle import Car, load
 
+Array: TypeAlias = NDArray[np.float64]
+Drive: TypeAlias = Callable[[], tuple[tuple[Array, Array], float]]
+"""Gives the yaw rate and the speed of a car, and the seconds that a core took for all of them."""
 SCENES = (("slalom", "slalom", 0.005), ("lane change", "double_lane_change_replay", 0.01))
 FIDELITIES = {"links": 0, "tables": 10}
 ROUNDS = 3
+PEERS = {"MuJoCo": ("mujoco",), "Exudyn": ("exudyn",), "CommonRoad": ("numba", "vehiclemodels")}
+"""Cars of other programs and the modules that they need."""
 COLUMNS = {
     "scene": "",
     "step_ms": "g",
@@ -40,45 +47,51 @@ COLUMNS = {
     "yaw_rate": ".3f",
     "speed": ".2f",
 }
-WORDS = """yaw_rate: the largest, rad/s, and speed: at the end, m/s; they say that the manoeuvres are alike, no more.
-MuJoCo's car has no suspension links, no tyre model, no drive and no air: its error against the others is not defined.
-CommonRoad's car is a BMW 320i of 1093 kg with axles that roll and rise on springs, 29 states and tyres by the Magic
-Formula without relaxation. It coasts; a step is four evaluations (Runge and Kutta's rule).
-Not here: a batch on a GPU. Published are 19 250 steps a second for PhysX's cars on one, 52 us a step: a GPU in place
-of a core, with other tyres and roads."""
+WORDS = {
+    "": """yaw_rate: the largest, rad/s, and speed: at the end, m/s; they say that the manoeuvres are alike, no more:
+errors against each other are not defined.""",
+    "MuJoCo": "MuJoCo's car has no suspension links, no tyre model, no drive and no air.",
+    "Exudyn": """Exudyn's car has the prototype's wheel rates and damping, radial stiffness and friction of its tyres
+and, at the speed of the start, their cornering stiffness. Its wheels rise upright, so that it rolls more; friction
+grows in proportion to slip and load up to a limit. It has no links, no drive and no air.""",
+    "CommonRoad": """CommonRoad's car is a BMW 320i of 1093 kg with axles that roll and rise on springs, 29 states and
+tyres by the Magic Formula without relaxation. It coasts; a step is four evaluations (Runge and Kutta's rule).""",
+    "GPU": """Not here: a batch on a GPU. Published are 19 250 steps a second for PhysX's cars on one, 52 us a step: a
+GPU in place of a core, with other tyres and roads.""",
+}
+"""What the figures say and do not say."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = parser_of("car_peers", __doc__)
     options = parser.parse_args(arguments)
-    for module in ("mujoco", "numba", "vehiclemodels"):
-        if importlib.util.find_spec(module) is None:
-            parser.error(f"{module} is not installed; the extra 'peers' has it")
+    missing = [car for car, needs in PEERS.items() if not all(importlib.util.find_spec(module) for module in needs)]
+    for car in missing:
+        needs = " and ".join(PEERS[car])
+        print(f"{needs} not installed: {car}'s car is left out (python -m pip install 'ali3[peers]')")
 
     def work() -> int:
-        rows = [row for scene in watched(SCENES) for row in measure(*scene)]
+        there = [car for car in PEERS if car not in missing]
+        rows = [row for scene in watched(SCENES) for row in measure(*scene, peers=there)]
         print_table(rows, COLUMNS)
-        print(f"\n{WORDS}")
-        save_rows(options.json, describe("car_peers", Settings(), repeats=ROUNDS), rows)
+        print("\n" + "\n".join(words for car, words in WORDS.items() if car not in missing))
+        save_rows(options.json, describe("car_peers", Settings(), repeats=ROUNDS, missing_peers=missing), rows)
         return 0
 
     return run_command(work)
 
 
-def measure(scene: str, name: str, h: float, seconds: float = lanes.SECONDS) -> list[dict[str, Any]]:
+def measure(
+    scene: str, name: str, h: float, seconds: float = lanes.SECONDS, peers: Sequence[str] = tuple(PEERS)
+) -> list[dict[str, Any]]:
     """Rows of one scene."""
-    from benchmarks.peers import commonroad_car, mujoco_car
-
     runs = {car: _run(name, h, fidelity, seconds) for car, fidelity in FIDELITIES.items()}
     guide = runs["links"]
-    angles = np.column_stack([guide[f"wheel_{w}.steer"][1:] for w in mujoco_car.WHEELS[:2]])
-    car, cores, count = load(manoeuvres.PROTOTYPE), os.cpu_count() or 1, lanes.CARS
-    mass = sum(body.mass for body in car.model().bodies)
-    models = [mujoco_car.model(car, mass, h, 1.0 + 0.01 * k) for k in range(count)]
-    threads = {"single": 0, f"rollout, {cores} threads": cores}
+    angles = np.column_stack([guide[f"wheel_{w}.steer"][1:] for w in ("FL", "FR")])
+    measured = {car: _PEERS[car](float(guide["speed"][0]), h, angles) for car in peers}
     spent: dict[tuple[str, str], float] = {}
-    rates = states = np.empty(0)
+    moved = {kind: (run["chassis.wz"], run["speed"]) for kind, run in runs.items()}
 
     def take(car: str, way: str, us: float) -> None:
         spent[car, way] = min(us, spent.get((car, way), np.inf))
@@ -87,14 +100,10 @@ def measure(scene: str, name: str, h: float, seconds: float = lanes.SECONDS) -> 
         for kind, fidelity in FIDELITIES.items():
             for row in lanes.measure(scene, h, partial(lanes.varied_cars, name, fidelity), seconds):
                 take(kind, row["way"], row["us_a_step"])
-        for way, number in threads.items():
-            rates, used = mujoco_car.drive(models, float(guide["speed"][0]), angles, number)
-            take("MuJoCo", way, 1e6 * used / (count * len(angles)))
-        states, used = commonroad_car.drive(count, float(guide["speed"][0]), h, angles.mean(axis=1))
-        take("CommonRoad", "single", 1e6 * used / (count * len(angles)))
-    moved = {kind: (run["chassis.wz"], run["speed"]) for kind, run in runs.items()}
-    moved["MuJoCo"] = rates[0, :, 5], np.linalg.norm(rates[0, :, :2], axis=1)
-    moved["CommonRoad"] = commonroad_car.motion(states)
+        for car, ways in measured.items():
+            for way, run in ways.items():
+                moved[car], used = run()
+                take(car, way, 1e6 * used / (lanes.CARS * len(angles)))
     return [
         {
             "scene": scene,
@@ -108,6 +117,48 @@ def measure(scene: str, name: str, h: float, seconds: float = lanes.SECONDS) -> 
         }
         for (kind, way), us in spent.items()
     ]
+
+
+def _mujoco(speed: float, h: float, angles: Array) -> dict[str, Drive]:
+    from benchmarks.peers import mujoco_car
+
+    cores = os.cpu_count() or 1
+    models = [mujoco_car.model(*_prototype(), h, 1.0 + 0.01 * k) for k in range(lanes.CARS)]
+
+    def run(threads: int) -> tuple[tuple[Array, Array], float]:
+        rates, used = mujoco_car.drive(models, speed, angles, threads)
+        return (rates[0, :, 5], np.linalg.norm(rates[0, :, :2], axis=1)), used
+
+    return {"single": partial(run, 0), f"rollout, {cores} threads": partial(run, cores)}
+
+
+def _exudyn(speed: float, h: float, angles: Array) -> dict[str, Drive]:
+    from benchmarks.peers import exudyn_car
+
+    def run() -> tuple[tuple[Array, Array], float]:
+        rates, used = exudyn_car.drive(*_prototype(), speed, h, angles, lanes.CARS)
+        return (rates[:, exudyn_car.YAW], np.linalg.norm(rates[:, :2], axis=1)), used
+
+    return {"single": run}
+
+
+def _commonroad(speed: float, h: float, angles: Array) -> dict[str, Drive]:
+    from benchmarks.peers import commonroad_car
+
+    def run() -> tuple[tuple[Array, Array], float]:
+        states, used = commonroad_car.drive(lanes.CARS, speed, h, angles.mean(axis=1))
+        return commonroad_car.motion(states), used
+
+    return {"single": run}
+
+
+_PEERS = {"MuJoCo": _mujoco, "Exudyn": _exudyn, "CommonRoad": _commonroad}
+
+
+def _prototype() -> tuple[Car, float]:
+    """The car and its mass, kg."""
+    car = load(manoeuvres.PROTOTYPE)
+    return car, sum(body.mass for body in car.model().bodies)
 
 
 def _run(name: str, h: float, fidelity: int, seconds: float) -> Trajectory:

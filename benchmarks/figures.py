@@ -14,6 +14,7 @@ from collections.abc import Callable, Sequence
 
 import mbs
 from ali3.running import run_command
+from benchmarks import tables
 from benchmarks.car import accuracy, road_faces, trust, tyre_formulas
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
 from benchmarks.methods import honesty, pages, stability, stability_margins
@@ -92,6 +93,13 @@ def car() -> list[Again]:
     ]
 
 
+def tabled() -> list[Again]:
+    """Errors of cars by tables in a part of their manoeuvres."""
+    todo = ((c, name) for c in tables.CARS for name in ("step_steer", "double_lane_change_replay", "kerb_lock_brake"))
+    text = tables.table_of([tables.compare(car, name, tables.STEP) for car, name in todo])
+    return [Again("docs/cars.md", text, "tables", ("car", "manoeuvre"), ("us a step, tables, links",))]
+
+
 def flexible() -> list[Again]:
     """Sizes of the prototype, and counts and peaks of its kerb test."""
     page = "docs/flexible_car.md"
@@ -147,6 +155,7 @@ MADE: dict[str, Callable[[], list[Again]]] = {
     "honesty": honest_crank,
     "trust": trusted,
     "car": car,
+    "tables": tabled,
     "flexible": flexible,
     "roads and tyres": roads_and_tyres,
     "instructions": instructions,

@@ -1,97 +1,129 @@
-"""Cars whose suspensions are tables against those with links: ``python -m benchmarks.tables [--json FILE]``.
+"""Cars whose suspensions are tables against those with links: ``python -m benchmarks.tables [--write] [--json FILE]``.
 
-The same manoeuvres with the same step. Path: largest distance of the reference points over the length of the way;
-loads: largest difference over the largest change of a wheel load. What steps cost:
-`python -m benchmarks.instructions`.
+Of each manoeuvre with references (`benchmarks.car_references`): errors of the car by tables and of the one with links
+against the car with links and steps of 0.1 ms; how far both are apart with the same step; what a step takes, processor
+time. Path: largest distance of the reference points over the length of the way; loads: largest error of a wheel load
+over the largest load. ``--write`` puts the table into `docs/cars.md`.
 """
 
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-import numpy as np
-
+from ali3.files import write_text
 from ali3.running import run_command
-from benchmarks.car import manoeuvres
+from benchmarks.car import accuracy, manoeuvres, trajectories
+from benchmarks.car_table import referenced
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
-from benchmarks.shared.tables import print_table
+from benchmarks.shared.pages import DOCS, Row, replace, table
 from mbs import Settings, System, compile
 from mbs.vehicle import load
+from mbs.vehicle.levels.errors import load_error, path_error
 
-STEPS = (0.002, 0.005, 0.01)  # s
-NAMES = (
-    "slalom",
-    "double_lane_change_replay",
-    "step_steer",
-    "steady_cornering",
-    "full_lock",
-    "launch_and_brake",
-    "drop",
-)
-WHEELS = ("FL", "FR", "RL", "RR")
-COLUMNS = {
-    "car": "",
-    "manoeuvre": "",
-    "h_s": "g",
-    "way_m": ".0f",
-    "path": ".1e",
-    "path_m": ".1e",
-    "load": ".1e",
-    "load_N": ".2g",
-    "iterations": ".2f",
-    "iterations_links": ".2f",
-}
+STEP = 0.005  # s
 CARS = (manoeuvres.PROTOTYPE, "hatchback")
-"""Those of decision 90."""
+PAGE = DOCS / "cars.md"
+SMOOTH = ("step_steer", "slalom", "steady_cornering", "double_lane_change_replay")
+"""Manoeuvres of rolling wheels on a plane road, without pedals pressed at once."""
+GOAL = 4.0  # us a step
 
 
 @cache
-def tabled(car: str) -> System:
-    """A car by tables."""
-    return compile(load(car).model(fidelity="table"))
+def tabled(name: str, car: str) -> System:
+    """A car by tables on the road of a manoeuvre."""
+    road = manoeuvres.rise(car) if name in manoeuvres.OTHER_ROAD else None
+    return compile(load(car).model(road, fidelity="table"))
 
 
-def compare(car: str, name: str, h: float) -> dict[str, Any]:
-    """A row of errors."""
-    manoeuvre = manoeuvres.load(name, car)
-    one, other = (manoeuvres.run_on(s, manoeuvre, h) for s in (tabled(car), manoeuvres.system_of(name, car)))
-    assert one.report is not None
-    assert other.report is not None
-    gap = np.hypot(*(one[f"chassis.{c}"] - other[f"chassis.{c}"] for c in "xy")).max()
-    way = float(np.hypot(*(np.diff(other[f"chassis.{c}"]) for c in "xy")).sum())
-    loads = [(one[f"wheel_{w}.Fz"], other[f"wheel_{w}.Fz"]) for w in WHEELS]
-    change = max(float(np.abs(b - b[0]).max()) for _, b in loads)
-    off = max(float(np.abs(a - b).max()) for a, b in loads)
-    return {
-        "car": car,
-        "manoeuvre": name,
-        "h_s": h,
-        "way_m": way,
-        "path": gap / max(way, 1.0),
-        "path_m": gap,
-        "load": off / change,
-        "load_N": off,
-        "iterations": one.report.mean_iterations,
-        "iterations_links": other.report.mean_iterations,
+def compare(car: str, name: str, h: float, repeats: int = 0) -> dict[str, Any]:
+    """A row: errors, and without repeats no times."""
+    manoeuvre, (_, reference, length) = manoeuvres.load(name, car), trajectories.read(name, car)
+    way, every = max(length, 1.0), round(manoeuvres.sampling(name, car) / h)
+    systems = {"tables": tabled(name, car), "links": manoeuvres.system_of(name, car)}
+    runs = {kind: manoeuvres.run_on(system, manoeuvre, h, every=every) for kind, system in systems.items()}
+    row: dict[str, Any] = {"car": car, "manoeuvre": name, "h_s": h, "way_m": length}
+    for kind, run in runs.items():
+        assert run.report is not None
+        spent = None
+        if repeats:
+            spent = manoeuvres.time_on(systems[kind], manoeuvre, h, repeats, time.process_time)
+        row |= {
+            f"{kind}_path": path_error(run, reference) / way,
+            f"{kind}_load": load_error(run, reference),
+            f"{kind}_iterations": run.report.mean_iterations,
+            f"{kind}_us": None if spent is None else 1e6 * spent * h / manoeuvre.stop_time,
+        }
+    return row | {
+        "apart_path": path_error(runs["tables"], runs["links"]) / way,
+        "apart_load": load_error(runs["tables"], runs["links"]),
     }
+
+
+def table_of(rows: Sequence[Row]) -> str:
+    """The table of the page."""
+    lines = [
+        {
+            "car": r["car"],
+            "manoeuvre": r["manoeuvre"].replace("_", " "),
+            "h, ms": 1e3 * r["h_s"],
+            "tables: path, loads": _errors(r, "tables"),
+            "links: path, loads": _errors(r, "links"),
+            "apart: path, loads": _errors(r, "apart"),
+            "iterations, tables, links": f"{r['tables_iterations']:.2f}, {r['links_iterations']:.2f}",
+            "us a step, tables, links": f"{r['tables_us']:.0f}, {r['links_us']:.0f}" if r["tables_us"] else None,
+        }
+        for r in rows
+    ]
+    return table(lines, dict.fromkeys(lines[0], "") | {"h, ms": "g"})
+
+
+def verdict(rows: Sequence[Row]) -> str:
+    """Where the car by tables is outside of 1 % of the path and 3 % of the loads, and how far its step is from 4 us."""
+    outside = [
+        f"{r['car']}, {r['manoeuvre'].replace('_', ' ')}"
+        for r in rows
+        if r["tables_path"] > accuracy.PATH_BOUND or r["tables_load"] > accuracy.LOAD_BOUND
+    ]
+    smooth = [r for r in rows if r["manoeuvre"] in SMOOTH]
+    said = f"Tables are outside of 1 % of the path and 3 % of the loads in: {'; '.join(outside) or 'none'}."
+    if smooth:
+        path, loads = (max(r[f"tables_{key}"] for r in smooth) for key in ("path", "load"))
+        said += f" In smooth manoeuvres they are within {path:.1e} and {100.0 * loads:.2g} %."
+    times = [r["tables_us"] for r in smooth if r["tables_us"]]
+    if times:
+        word = "reached" if max(times) <= GOAL else "missed"
+        said += f" A step alone takes {min(times):.0f} to {max(times):.0f} us there (goal {GOAL:g}: {word})."
+    return said
+
+
+def _errors(row: Row, what: str) -> str:
+    return f"{row[f'{what}_path']:.1e}, {100.0 * row[f'{what}_load']:.2g} %"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, print, and write what was asked for."""
     parser = parser_of("tables", __doc__)
     parser.add_argument("--cars", nargs="+", default=CARS, choices=manoeuvres.CARS, metavar="CAR")
-    parser.add_argument("--manoeuvres", nargs="+", default=NAMES, choices=NAMES, metavar="NAME")
+    parser.add_argument("--manoeuvres", nargs="+", choices=manoeuvres.NAMES, metavar="NAME")
+    parser.add_argument("--steps", nargs="+", type=float, default=[STEP], metavar="H", help="s; default: 0.005")
+    parser.add_argument("--repeats", type=int, default=3, metavar="N", help="timed runs per row; default: 3")
+    parser.add_argument("--write", action="store_true", help="put the table into docs/cars.md")
     options = parser.parse_args(arguments)
 
     def work() -> int:
-        todo = [(car, name, h) for car in options.cars for name in options.manoeuvres for h in STEPS]
-        rows = [compare(car, name, h) for car, name, h in watched(todo)]
-        print_table(rows, COLUMNS)
-        save_rows(options.json, describe("tables", Settings()), rows)
+        names = {car: options.manoeuvres or referenced(car) for car in options.cars}
+        todo = [(car, name, h) for car in options.cars for name in names[car] for h in options.steps]
+        rows = [compare(*one, repeats=options.repeats) for one in watched(todo)]
+        text = table_of(rows)
+        print(f"{text}\n\n{verdict(rows)}")
+        save_rows(options.json, describe("tables", Settings(), repeats=options.repeats), rows)
+        if options.write:
+            write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), {"tables": f"{text}\n\n{verdict(rows)}"}))
         return 0
 
     return run_command(work, (RuntimeError,))

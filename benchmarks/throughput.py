@@ -96,7 +96,9 @@ def thousand(rows: Sequence[dict[str, Any]]) -> list[str]:
         lines.append(
             f"{scene}: a second of {THOUSAND} cars takes {1e3 * single:.1f} ms on {THOUSAND} cores, a car each, "
             f"{1e3 * wide * lanes:.1f} ms on {-(-THOUSAND // lanes)} cores in {widest}, "
-            f"{THOUSAND * wide:.1f} s on one core (computed from the steps above)."
+            f"{THOUSAND * wide:.1f} s on one core (computed from the steps above); "
+            f"they have {1e-6 * THOUSAND * ways['single']['kilobytes_a_car']:.2g} GB, "
+            f"in {widest} {1e-6 * THOUSAND * ways[widest]['kilobytes_a_car']:.2g} GB."
         )
     return lines
 

@@ -23,13 +23,13 @@ KERNEL = {
 }
 """Colours of Okabe and Ito, and wine of Tol, the same in every chart; methods that are not here are in the tables."""
 OTHERS = {
-    "classical": ("#777777", ":"),
-    "drake": ("#bbbbbb", ":"),
-    "exudyn": ("#444444", "--"),
-    "mujoco": ("#999999", "--"),
-    "pinocchio": ("#bbbbbb", "--"),
+    "classical": ("#777777", ":", "osD^vPX"),
+    "drake": ("#8b6914", "--", "PX"),
+    "exudyn": ("#444444", "--", "os^"),
+    "mujoco": ("#999999", "--", "v<"),
+    "pinocchio": ("#000000", "--", "dD"),
 }
-MARKERS = "osD^vPX"
+"""Colour, line, and the marks of the methods of each family."""
 CONTROLLED = {controlled(title): style for title, style in KERNEL.items()}
 """Runs to a tolerance: the same colours, dash-dotted with open marks."""
 PANELS = {"wall_s": ("kernel", "drake", "exudyn", "mujoco", "pinocchio"), "factorizations": ("kernel", "classical")}
@@ -63,8 +63,8 @@ def draw(rows: Sequence[dict[str, Any]], case: Case, lost: float, file: Path) ->
                 ]
                 if not points or (family == "kernel" and method not in KERNEL | CONTROLLED):
                     continue
-                colour, line = OTHERS.get(family, ("", "-." if method in CONTROLLED else "-"))
-                colour, marker = (KERNEL | CONTROLLED).get(method, (colour, MARKERS[k % len(MARKERS)]))
+                colour, line, marks = OTHERS.get(family, ("", "-." if method in CONTROLLED else "-", " "))
+                colour, marker = (KERNEL | CONTROLLED).get(method, (colour, marks[k % len(marks)]))
                 ax.loglog(
                     *zip(*points, strict=True),
                     line,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import sys
 from types import ModuleType
 
 NAMES = {
@@ -13,6 +14,8 @@ NAMES = {
     "pinocchio": "benchmarks.peers.pinocchio_peer",
 }
 PACKAGES = {"drake": "pydrake"}  # where the name to import is another
+
+sys.exudynFast = True  # type: ignore[attr-defined] # Exudyn's faster module, asked for before it is imported
 
 
 def available() -> tuple[dict[str, ModuleType], list[str]]:

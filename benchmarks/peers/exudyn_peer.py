@@ -55,19 +55,19 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
     s.timeIntegration.numberOfSteps = round(end / h)
     s.timeIntegration.endTime = end
     s.timeIntegration.verboseMode = 0
-    s.displayStatistics = False
-    s.solutionSettings.writeSolutionToFile = False
-    s.solutionSettings.sensorsWritePeriod = end / samples
+    s.show.statistics = False
+    s.solution.file.write = False
+    s.solution.sensors.writePeriod = end / samples
     s.timeIntegration.newton.useModifiedNewton = True
     s.timeIntegration.newton.relativeTolerance = 1e-8  # its default
     s.timeIntegration.newton.absoluteTolerance = 1e-10
     s.timeIntegration.generalizedAlpha.spectralRadius = 1.0 if integrator.startswith("trap") else 0.9
     s.timeIntegration.generalizedAlpha.useIndex2Constraints = integrator.startswith("trap")
     s.timeIntegration.generalizedAlpha.useNewmark = integrator.startswith("trap")
-    s.linearSolverSettings.ignoreSingularJacobian = scene == "bricard"
-    s.linearSolverType = exu.LinearSolverType.EigenSparse if large else exu.LinearSolverType.EXUdense
+    s.linearSolver.ignoreSingularJacobian = scene == "bricard"
+    s.linearSolver.solverType = exu.LinearSolverType.EigenSparse if large else exu.LinearSolverType.EXUdense
     if scene == "bricard":
-        s.linearSolverType = exu.LinearSolverType.EigenDense
+        s.linearSolver.solverType = exu.LinearSolverType.EigenDense
     kind = exu.DynamicSolverType.RK44 if explicit else exu.DynamicSolverType.GeneralizedAlpha
     begin = time.perf_counter()
     try:

@@ -12,7 +12,7 @@ from typing import Any
 
 from mbs.settings.settings import Settings
 
-PACKAGES = ("ali3", "numpy", "scipy", "fmpy", "pythonfmu", "ziglang", "exudyn", "mujoco")
+PACKAGES = ("ali3", "numpy", "scipy", "fmpy", "pythonfmu", "ziglang", "drake", "exudyn", "mujoco", "pin")
 
 
 def machine() -> dict[str, Any]:

@@ -21,6 +21,7 @@ def step_time(
     inputs: Mapping[str, Signal] | None = None,
     parameters: Mapping[str, float] | None = None,
     pose: Pose | None = None,
+    warm_up: int = 1,
 ) -> float:
     """Least time of all steps of a run, s; start and table of inputs are made before.
 
@@ -29,11 +30,13 @@ def step_time(
     duration, h : float
         Of the run and of a step, s.
     repeats : int
-        Timed runs, after one more.
+        Timed runs.
     clock : callable
         Seconds: `time.perf_counter` for wall time, `time.process_time` for that of the processor.
     inputs, parameters, pose
         As `mbs.simulate` takes them; the inputs have their first values before the start is made consistent.
+    warm_up : int
+        Runs before those that are timed.
     """
     steps = round(duration / h)
     declared = system.meta["inputs"]
@@ -53,4 +56,4 @@ def step_time(
         simulation.instance.run(h, steps, table, steps, values)
         return clock() - begin
 
-    return min([once() for _ in range(1 + repeats)][1:])
+    return min([once() for _ in range(warm_up + repeats)][warm_up:])

@@ -1,4 +1,4 @@
-"""`python -m benchmarks.car_peers`: MuJoCo's car and CommonRoad's turn as cars do, and are driven as ours is."""
+"""`python -m benchmarks.car_peers`: cars of other programs turn as cars do, and are driven as ours is."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from benchmarks.peers import mujoco_car  # noqa: E402
 
 vehiclemodels = pytest.importorskip("vehiclemodels")
 from benchmarks.peers import commonroad_car  # noqa: E402
+
+exudyn = pytest.importorskip("exudyn")
+from benchmarks.peers import exudyn_car  # noqa: E402
 
 CAR, MASS, H = load("prototype"), 600.0, 5e-3
 
@@ -71,6 +74,68 @@ def test_commonroads_car_is_that_of_its_own_functions() -> None:
     assert seconds > 0.0
 
 
+@pytest.fixture(scope="module")
+def rates() -> dict[str, float]:
+    return exudyn_car.kinematics(CAR)
+
+
+def test_exudyns_car_rolls_on_its_springs_as_it_starts(rates: dict[str, float]) -> None:
+    q, v, seconds = exudyn_car.ExudynCar(CAR, MASS, 15.0, 0.01, np.zeros((100, 2)), rates).drive()
+    assert q[-1, 0] == pytest.approx(15.0, abs=1e-9)
+    assert np.abs(q[:, 1:6]).max() < 1e-9  # neither sinks nor turns: loads, springs and tyres are in balance
+    assert v[-1, 0] == pytest.approx(15.0, abs=1e-9)
+    assert seconds > 0.0
+
+
+def test_exudyns_car_turns_and_leans_as_its_numbers_say(rates: dict[str, float]) -> None:
+    """A slow car turns with speed x angle / wheelbase, to the left for an angle to the left. A faster one leans out of
+    the turn by the moments of its masses about the lowest points of the discs, where Exudyn's forces act, and of the
+    spin of the wheels, over the stiffness of springs and tyres.
+    """
+    angles = np.full((600, 2), 0.05)
+    _, v, _ = exudyn_car.ExudynCar(CAR, MASS, 3.0, H, angles, rates).drive()
+    speed = float(np.linalg.norm(v[-1, :2]))
+    assert v[-1, exudyn_car.YAW] == pytest.approx(speed * 0.05 / CAR.wheelbase, rel=0.03)
+    q, v, _ = exudyn_car.ExudynCar(CAR, MASS, 15.0, H, 0.4 * angles, rates).drive()
+    turn, speed = float(v[-1, exudyn_car.YAW]), float(np.linalg.norm(v[-1, :2]))
+    assert turn > 0.05
+    stiffness = moment = spin = 0.0  # the moment: of masses over their heights
+    ahead, body = (
+        CAR.chassis.com[0] - CAR.rear.wheel.centre[0],
+        MASS - 2.0 * (CAR.front.wheel.mass + CAR.rear.wheel.mass),
+    )
+    for name, axle, way in (("front", CAR.front, ahead), ("rear", CAR.rear, CAR.wheelbase - ahead)):
+        spring, tyre = rates[f"{name}.wheel_rate"], axle.tyre.stiffness
+        carried = body * way / CAR.wheelbase / 2.0 + axle.wheel.mass
+        moment += 2.0 * carried * (9.81 * carried / tyre)
+        stiffness += 0.5 * axle.track**2 * spring * tyre / (spring + tyre)
+        moment += 2.0 * axle.wheel.mass * axle.wheel.centre[2]
+        spin += 2.0 * axle.wheel.spin_inertia * speed / axle.wheel.centre[2]
+    moment += body * CAR.chassis.com[2]
+    leans = (moment * speed + spin) * turn / (stiffness - 9.81 * moment)
+    assert q[-1, exudyn_car.ROLL] == pytest.approx(leans, rel=0.03)
+
+
+def test_exudyns_car_comes_to_its_motion_with_order_two(rates: dict[str, float]) -> None:
+    ends = []
+    for h in (0.02, 0.01, 0.005):
+        t = h * np.arange(1, round(2.0 / h) + 1)
+        angles = np.repeat(0.02 * np.sin(np.pi * t)[:, None], 2, axis=1)
+        ends.append(exudyn_car.ExudynCar(CAR, MASS, 15.0, h, angles, rates).drive()[0][-1, 1])
+    assert abs(ends[2] - ends[1]) < 2e-3
+    assert (ends[0] - ends[1]) / (ends[1] - ends[2]) > 3.5
+
+
+def test_what_is_not_installed_is_left_out_with_a_word(capsys, monkeypatch) -> None:
+    monkeypatch.setattr(car_peers, "PEERS", {"Exudyn": ("no_such_module",)})
+    monkeypatch.setattr(car_peers, "SCENES", ())
+    monkeypatch.setattr(car_peers, "print_table", lambda rows, columns: None)
+    assert car_peers.main([]) == 0
+    said = capsys.readouterr().out
+    assert "no_such_module not installed: Exudyn's car is left out" in said
+    assert "Exudyn's car has" not in said
+
+
 @pytest.mark.slow
 def test_the_command_has_a_row_for_each_way(tmp_path, capsys, monkeypatch) -> None:
     monkeypatch.setattr(car_peers, "SCENES", car_peers.SCENES[1:])
@@ -78,19 +143,19 @@ def test_the_command_has_a_row_for_each_way(tmp_path, capsys, monkeypatch) -> No
     monkeypatch.setattr(lanes, "PARTS", 2)
     monkeypatch.setattr(lanes, "CARS", 2)
     measure = car_peers.measure
-    monkeypatch.setattr(car_peers, "measure", lambda *scene: measure(*scene, seconds=3.0))
+    monkeypatch.setattr(car_peers, "measure", lambda *scene, **peers: measure(*scene, seconds=3.0, **peers))
     assert car_peers.main(["--json", str(tmp_path / "rows.json")]) == 0
     rows = json.loads((tmp_path / "rows.json").read_text("utf-8"))["rows"]
-    ways = {
-        car: [row["way"] for row in rows if row["car"] == car] for car in ("links", "tables", "MuJoCo", "CommonRoad")
-    }
+    cars = ("links", "tables", "MuJoCo", "Exudyn", "CommonRoad")
+    ways = {car: [row["way"] for row in rows if row["car"] == car] for car in cars}
     assert ways["links"] == ways["tables"]
     assert ways["MuJoCo"][0] == ways["links"][0] == "single"
-    assert ways["CommonRoad"] == ["single"]
+    assert ways["Exudyn"] == ways["CommonRoad"] == ["single"]
     yaw = {row["car"]: row["yaw_rate"] for row in rows}
     assert yaw["links"] > 0.05
     assert yaw["MuJoCo"] == pytest.approx(yaw["links"], rel=0.3)
+    assert yaw["Exudyn"] == pytest.approx(yaw["links"], rel=0.3)
     assert yaw["CommonRoad"] == pytest.approx(yaw["links"], rel=0.3)
     assert yaw["tables"] == pytest.approx(yaw["links"], rel=1e-3)
     assert all(row["cars_in_real_time_a_core"] == pytest.approx(1e4 / row["us_a_step"]) for row in rows)
-    assert "its error against the others is not defined" in capsys.readouterr().out
+    assert "errors against each other are not defined" in capsys.readouterr().out

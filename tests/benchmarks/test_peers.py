@@ -10,6 +10,7 @@ from benchmarks.references.cases import CASES, SAMPLES, exact_of
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # Exudyn's older names of masses and rotations
 @pytest.mark.parametrize(
     ("name", "scene", "integrator", "h", "most", "falls"),
     [
@@ -18,6 +19,8 @@ from benchmarks.references.cases import CASES, SAMPLES, exact_of
         ("pinocchio", "spatial_chain", "RK4", 0.01, 1e-3, 8.0),
         ("drake", "double_four_bar", "SAP, semi-implicit Euler", 0.01, 0.1, 1.8),
         ("drake", "spatial_chain", "RK5", 0.01, 1e-4, 25.0),
+        ("exudyn", "double_four_bar", "generalised alpha", 0.01, 0.05, 3.5),
+        ("exudyn", "bricard", "generalised alpha", 0.01, 0.05, 3.5),
     ],
 )
 def test_it_comes_to_the_exact_motion_with_its_order(

@@ -33,6 +33,7 @@ def test_ways_and_the_thousand_cars(tmp_path, capsys, monkeypatch):
     single = rows["single"]["us_a_step"] / 5.0
     said = capsys.readouterr().out
     assert f"takes {single:.1f} ms on 1000 cores" in said
+    assert f"they have {1e-3 * rows['single']['kilobytes_a_car']:.2g} GB" in said
     assert said.count("a second of 1000 cars") == 1  # a mechanism is no car
     assert "ratio_to_older" not in rows["single"]
 

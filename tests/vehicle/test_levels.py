@@ -58,6 +58,21 @@ def test_rows_are_errors_and_cost(saloon):
     assert (fine[0]["path"], fine[0]["load"]) == (0.0, 0.0)  # the reference itself
 
 
+def test_levels_take_turns_and_the_least_time_counts(saloon, monkeypatch):
+    seconds = iter((9.0, 2.0, 3.0, 8.0))  # a busy machine in the first run of one and in the second of the other
+    made = []
+
+    def step_time(system, *args, **kwargs):
+        made.append(system)
+        return next(seconds)
+
+    monkeypatch.setattr("mbs.vehicle.levels.measure.step_time", step_time)
+    rows = measure(saloon, [Drive("roll", 0.1, {}, speed=5.0)], steps=(0.01,), repeats=2)
+    table, rigid = saloon[Fidelity.TABLE], saloon[Fidelity.RIGID]
+    assert made == [table, rigid, table, rigid]
+    assert [row["us_per_step"] for row in rows] == pytest.approx([3e5, 2e5])
+
+
 def test_errors_are_those_of_their_definitions():
     t = np.linspace(0.0, 1.0, 5)
     names = ("chassis.x", "chassis.y", "chassis.z", *(f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR")))

@@ -1,0 +1,226 @@
+"""A car of the same mass, wheel positions, wheel rates and damping in Exudyn: a kinematic tree of 16 coordinates.
+
+Each wheel slides upright on a spring and rolls by Exudyn's `ObjectConnectorRollingDiscPenalty`: a penalty in the
+direction of the normal with the tyre's stiffness, and a friction force that grows with the speed of slip up to the
+largest one. The speed at which it is reached is such that the cornering stiffness at the start is that of our tyre.
+There are no links, drive and air. Angles of the front wheels are set by a function in Python before each step, as
+Exudyn's users do it.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from exudyn import itemInterface
+from numpy.typing import NDArray
+
+from benchmarks.car.rig import kinematics
+from mbs.vehicle.car import Car
+from mbs.vehicle.tyre import TMeasy
+
+Array = NDArray[np.float64]
+VERSION = exu.__version__
+GRAVITY = 9.81  # m/s2
+STEERING = 2e4, 200.0  # N m/rad, N m s/rad: what holds a front wheel at its angle
+TOLERANCES = 1e-4, 1e-6  # of Newton's method; with the default ones a path of 60 m is 0.02 mm away
+YAW, ROLL = 3, 5  # numbers of coordinates: x, y, z, yaw, pitch, roll of the body come first
+AXLES = ("front", "rear")
+
+
+class ExudynCar:
+    """The assembled car, which starts at rest on its springs and rolls.
+
+    Parameters
+    ----------
+    mass : float
+        Of the whole car, kg; what is not in the wheels is the body.
+    speed : float
+        At the start, m/s.
+    h : float
+        Step, s.
+    angles : ndarray, shape (steps, 2)
+        Of the front wheels, left and right, at the end of each step, rad.
+    rates : dict of str to float
+        Of `benchmarks.car.rig.kinematics`.
+    """
+
+    def __init__(self, car: Car, mass: float, speed: float, h: float, angles: Array, rates: dict[str, float]) -> None:
+        self.h, self.angles, self.grip = h, angles, car.road.friction
+        self._container = exu.SystemContainer()
+        self.mbs = self._container.AddSystem()
+        joint, body, axles = exu.JointType, car.chassis, dict(zip(AXLES, (car.front, car.rear), strict=True))
+        unsprung = 2.0 * sum(axle.wheel.mass for axle in axles.values())
+        x, _, z = body.com
+        ahead = x - car.rear.wheel.centre[0]
+        tree = _Tree()
+        for kind in (joint.PrismaticX, joint.PrismaticY, joint.PrismaticZ, joint.RevoluteZ, joint.RevoluteY):
+            tree.add(kind, rate=0.0 if tree.types else speed, place=(0.0, 0.0, 0.0) if tree.types else (x, 0.0, z))
+        base = tree.add(joint.RevoluteX, mass=mass - unsprung, inertia=body.inertia)
+        self.discs: list[tuple[int, float, float, TMeasy]] = []
+        steered = []
+        for name, axle in axles.items():
+            wheel, tyre = axle.wheel, axle.tyre
+            assert isinstance(tyre, TMeasy)
+            assert axle.damper.damping is not None
+            part = ahead if name == "front" else car.wheelbase - ahead
+            load = GRAVITY * (mass - unsprung) * part / car.wheelbase / 2.0
+            stiffness = rates[f"{name}.wheel_rate"]
+            damping = axle.damper.damping * rates[f"{name}.spring_ratio"] ** 2
+            pressed = load + GRAVITY * wheel.mass
+            radius = wheel.centre[2] + pressed / tyre.stiffness
+            for side in (1.0, -1.0):
+                place = (wheel.centre[0] - x, side * wheel.centre[1], wheel.centre[2] - z)
+                tree.add(joint.PrismaticZ, parent=base, place=place, held=(stiffness, damping, -load / stiffness))
+                if name == "front":
+                    steered.append(tree.add(joint.RevoluteZ, held=(*STEERING, 0.0)))
+                inertia = (wheel.diametral_inertia, wheel.spin_inertia, wheel.diametral_inertia)
+                spin = tree.add(joint.RevoluteY, mass=wheel.mass, inertia=inertia, rate=speed / radius)
+                self.discs.append((spin, radius, pressed, tyre))
+        node, number = tree.assemble(self.mbs)
+        self._roll(number, speed)
+        kinds = exu.OutputVariableType
+        self._sensors = [
+            self.mbs.AddSensor(itemInterface.SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=kind))
+            for kind in (kinds.Coordinates, kinds.Coordinates_t)
+        ]
+        offsets = np.array([held[2] for held in tree.held])
+
+        def steer(mbs: Any, t: float) -> bool:
+            offsets[steered] = angles[min(round(t / h), len(angles) - 1)]
+            mbs.SetObjectParameter(number, "jointPositionOffsetVector", offsets)
+            return True
+
+        self.mbs.SetPreStepUserFunction(steer)
+        self.mbs.Assemble()
+
+    def _roll(self, tree: int, speed: float) -> None:
+        """Wheels on the plane z = 0."""
+        ground = self.mbs.AddObject(itemInterface.ObjectGround())
+        plane = self.mbs.AddMarker(itemInterface.MarkerBodyRigid(bodyNumber=ground))
+        for link, radius, load, tyre in self.discs:
+            wheel = itemInterface.MarkerKinematicTreeRigid(objectNumber=tree, linkNumber=link)
+            start = [0.0, 0.0, -load / tyre.stiffness]
+            data = itemInterface.NodeGenericData(initialCoordinates=start, numberOfDataCoordinates=3)
+            friction = self.grip * tyre.lateral.max_force[0] / (tyre.nominal_load * tyre.reference_friction)
+            self.mbs.AddObject(
+                itemInterface.ObjectConnectorRollingDiscPenalty(
+                    markerNumbers=[plane, self.mbs.AddMarker(wheel)],
+                    nodeNumber=self.mbs.AddNode(data),
+                    discRadius=radius,
+                    discAxis=[0, 1, 0],
+                    contactStiffness=tyre.stiffness,
+                    contactDamping=tyre.damping,
+                    dryFriction=[friction, friction],
+                    dryFrictionProportionalZone=speed * friction * tyre.nominal_load / tyre.lateral.slope[0],
+                    useLinearProportionalZone=True,
+                )
+            )
+
+    def drive(self) -> tuple[Array, Array, float]:
+        """Coordinates and their rates after each step, shapes (steps, 16), and the seconds that a core took."""
+        s = exu.SimulationSettings()
+        s.timeIntegration.numberOfSteps = len(self.angles)
+        s.timeIntegration.endTime = self.h * len(self.angles)
+        s.timeIntegration.verboseMode = 0
+        s.timeIntegration.newton.useModifiedNewton = True
+        s.timeIntegration.newton.relativeTolerance, s.timeIntegration.newton.absoluteTolerance = TOLERANCES
+        s.timeIntegration.generalizedAlpha.spectralRadius = 0.9
+        s.solution.file.write = False
+        s.solution.sensors.writePeriod = self.h
+        s.linearSolver.solverType = exu.LinearSolverType.EXUdense
+        begin = time.process_time()
+        self.mbs.SolveDynamic(s, solverType=exu.DynamicSolverType.GeneralizedAlpha, showHints=False)
+        spent = time.process_time() - begin
+        found, rates = (np.asarray(self.mbs.GetSensorStoredData(k))[1:, 1:] for k in self._sensors)
+        return found, rates, spent
+
+
+def drive(car: Car, mass: float, speed: float, h: float, angles: Array, cars: int) -> tuple[Array, float]:
+    """Several cars one after the other, whose springs differ by 1 % from one to the next.
+
+    Parameters
+    ----------
+    mass, speed, h, angles
+        As of `ExudynCar`.
+
+    Returns
+    -------
+    rates : ndarray, shape (steps, 16)
+        Of the coordinates of the first car.
+    seconds : float
+        Of a core, without the assembly.
+    """
+    given, spent, first = kinematics(car), 0.0, np.empty(0)
+    for number in range(cars):
+        rates = given | {f"{axle}.wheel_rate": given[f"{axle}.wheel_rate"] * (1.0 + 0.01 * number) for axle in AXLES}
+        _, found, used = ExudynCar(car, mass, speed, h, angles, rates).drive()
+        first, spent = found if number == 0 else first, spent + used
+    return first, spent
+
+
+class _Tree:
+    """Links of a kinematic tree, each behind the last one or behind `parent`."""
+
+    def __init__(self) -> None:
+        self.types: list[Any] = []
+        self.parents: list[int] = []
+        self.places: list[tuple[float, ...]] = []
+        self.masses: list[float] = []
+        self.inertias: list[tuple[float, ...]] = []
+        self.held: list[tuple[float, float, float]] = []
+        self.rates: list[float] = []
+
+    def add(
+        self,
+        kind: Any,
+        *,
+        parent: int | None = None,
+        place: tuple[float, ...] = (0.0, 0.0, 0.0),
+        mass: float = 0.0,
+        inertia: tuple[float, ...] = (0.0, 0.0, 0.0),
+        held: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        rate: float = 0.0,
+    ) -> int:
+        """Number of the new link; `held`: stiffness and damping of its coordinate, and where its spring is free."""
+        self.parents.append(len(self.types) - 1 if parent is None else parent)
+        for values, value in zip(
+            (self.types, self.places, self.masses, self.inertias, self.held, self.rates),
+            (kind, place, mass, inertia, held, rate),
+            strict=True,
+        ):
+            values.append(value)
+        return len(self.types) - 1
+
+    def assemble(self, mbs: Any) -> tuple[int, int]:
+        """Numbers of its node and of itself."""
+        n = len(self.types)
+        node = mbs.AddNode(
+            itemInterface.NodeGenericODE2(
+                referenceCoordinates=[0.0] * n,
+                initialCoordinates=[0.0] * n,
+                initialCoordinates_t=self.rates,
+                numberOfODE2Coordinates=n,
+            )
+        )
+        stiffness, damping, offsets = (list(column) for column in zip(*self.held, strict=True))
+        tree = mbs.AddObject(
+            itemInterface.ObjectKinematicTree(
+                nodeNumber=node,
+                jointTypes=self.types,
+                linkParents=self.parents,
+                jointTransformations=exu.Matrix3DList([np.eye(3)] * n),
+                jointOffsets=exu.Vector3DList([np.array(place) for place in self.places]),
+                linkInertiasCOM=exu.Matrix3DList([np.diag(inertia) for inertia in self.inertias]),
+                linkCOMs=exu.Vector3DList([np.zeros(3)] * n),
+                linkMasses=self.masses,
+                gravity=[0.0, 0.0, -GRAVITY],
+                jointPControlVector=stiffness,
+                jointDControlVector=damping,
+                jointPositionOffsetVector=offsets,
+                jointVelocityOffsetVector=[0.0] * n,
+            )
+        )
+        return int(node), int(tree)
