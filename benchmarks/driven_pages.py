@@ -7,6 +7,7 @@ without other work shows what the program can do. Needs the extras ``simulator``
 
 from __future__ import annotations
 
+import itertools
 import json
 import statistics
 import subprocess
@@ -52,7 +53,7 @@ def pictures(page: Any, seconds: float) -> dict[str, float]:
     times = [1e-3 * t for t in page.evaluate("drawnAt")]
     cost = page.evaluate("(({ calls, triangles }) => ({ calls, triangles }))(player.view.renderer.info.render)")
     counts = [sum(k <= t - times[0] < k + 1 for t in times) for k in range(int(times[-1] - times[0]))]
-    longest = 1e3 * max(b - a for a, b in zip(times, times[1:], strict=False))
+    longest = 1e3 * max(b - a for a, b in itertools.pairwise(times))
     return {"median": statistics.median(counts), "worst": min(counts), "longest_ms": longest, **cost}
 
 
@@ -118,10 +119,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     rows = [dict.fromkeys(columns) | row for row in rows]
     print_table(rows, columns)
     print(
-        f"\n{SIZE[0]} x {SIZE[1]}, {options.seconds:g} s; median, worst: pictures in a second; work, others, stolen: late "
-        "steps because of their own work, other programs, a processor that stood still\nChromium " + version
+        f"\n{SIZE[0]} x {SIZE[1]}, {options.seconds:g} s; median, worst: pictures in a second; work, others, stolen: "
+        "late steps because of their own work, other programs, a processor that stood still\nChromium " + version
     )
-    save_rows(options.json, {**describe("driven_pages", chromium=version), "size": SIZE, "seconds": options.seconds}, rows)
+    save_rows(
+        options.json, {**describe("driven_pages", chromium=version), "size": SIZE, "seconds": options.seconds}, rows
+    )
     return 0
 
 
