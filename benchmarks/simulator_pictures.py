@@ -61,10 +61,9 @@ SHOTS = {
 
 
 @contextmanager
-def simulator(fmu: Path, shot: Shot) -> Iterator[str]:
+def simulator(fmu: Path, options: Sequence[str]) -> Iterator[str]:
     """Start the simulator; gives its address."""
-    options = ["--place", shot.place, "--fidelity", str(shot.fidelity), "--no-open", "--no-devices"]
-    command = [sys.executable, "-m", "hosts.simulator", str(fmu), *options]
+    command = [sys.executable, "-m", "hosts.simulator", str(fmu), "--no-open", "--no-devices", *options]
     host = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     said = ""
     try:
@@ -103,7 +102,8 @@ def take(fmu: Path, shot: Shot, file: Path) -> dict[str, float]:
     from PIL import Image
     from playwright.sync_api import sync_playwright
 
-    with simulator(fmu, shot) as address, sync_playwright() as play:
+    options = ["--place", shot.place, "--fidelity", str(shot.fidelity)]
+    with simulator(fmu, options) as address, sync_playwright() as play:
         chromium = play.chromium.launch(executable_path=browser.find_chromium(), args=browser.launch_arguments())
         width, height = SIZE
         page = chromium.new_page(viewport={"width": width, "height": height}, bypass_csp=True)  # it forbids waiting

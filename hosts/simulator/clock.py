@@ -16,6 +16,7 @@ from typing import Protocol
 _SPIN = 0.0005
 _CLOCK_MONOTONIC, _TIMER_ABSTIME = 1, 1
 _PR_SET_TIMERSLACK, _SLACK = 29, 1
+_WAITS = "/proc/thread-self/schedstat"  # ran, waited, turns; of the thread that opens it
 
 
 class Clock(Protocol):
@@ -27,13 +28,19 @@ class Clock(Protocol):
     def sleep_until(self, until: float) -> None:
         """Return at this time or as soon after it as the system wakes this thread; at once if it has passed."""
 
+    def spent(self) -> tuple[float, float] | None:
+        """Time in which this thread has run, and in which it was ready while others ran, s; None: not told."""
+
 
 class _TimeSpec(ctypes.Structure):
     _fields_ = (("seconds", ctypes.c_long), ("nanoseconds", ctypes.c_long))
 
 
 class LinuxClock:
-    """Sleeps of `clock_nanosleep` to an absolute time, without the 50 us by which the system may delay timers."""
+    """Sleeps of `clock_nanosleep` to an absolute time, without the 50 us by which the system may delay timers.
+
+    It belongs to the thread that makes it.
+    """
 
     def __init__(self) -> None:
         library = ctypes.CDLL(None, use_errno=True)
@@ -43,6 +50,10 @@ class LinuxClock:
         self._pointer = ctypes.pointer(self._time)
         # A default of 50 us belongs to threads without real-time priority; where it stays, the sleep is only coarser.
         library.prctl(_PR_SET_TIMERSLACK, ctypes.c_ulong(_SLACK), 0, 0, 0)
+        try:
+            self._waits = os.open(_WAITS, os.O_RDONLY)
+        except OSError:  # a kernel without CONFIG_SCHED_INFO
+            self._waits = -1
 
     def now(self) -> float:
         return time.perf_counter()
@@ -51,6 +62,12 @@ class LinuxClock:
         seconds = int(until)
         self._time.seconds, self._time.nanoseconds = seconds, int(1e9 * (until - seconds))
         self._sleep(_CLOCK_MONOTONIC, _TIMER_ABSTIME, self._pointer, None)
+
+    def spent(self) -> tuple[float, float] | None:
+        if self._waits < 0:
+            return None
+        # The file's own time of running is as old as the last tick.
+        return time.thread_time(), 1e-9 * int(os.pread(self._waits, 96, 0).split()[1])
 
 
 class SleepingClock:
@@ -74,6 +91,9 @@ class SleepingClock:
             time.sleep(rest)
         while time.perf_counter() < until:
             pass
+
+    def spent(self) -> tuple[float, float] | None:
+        return None
 
 
 def make_clock() -> Clock:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 
 from hosts.simulator.clock import Clock
+from hosts.simulator.late_causes import LateCauses
 from hosts.simulator.step_times import TimesRecord
 
 MOST_LATE = 0.25
@@ -44,7 +45,7 @@ class Pace:
         self._clock, self._step, self._times, self._paced = clock, step, times, paced
         self.speed = 1.0
         self.lateness = self.cost = 0.0
-        self._words = _Behind()
+        self._words, self._causes = _Behind(), LateCauses(clock)
         self._began = clock.now()
         self.restart()
 
@@ -59,8 +60,9 @@ class Pace:
 
     def restart(self) -> None:
         """The next step begins now."""
-        self._due = self._clock.now()
+        self._due = self._ended = self._clock.now()
         self._words.restart(self._due)
+        self._causes.restart()
 
     def wait(self) -> bool:
         """Sleep until the next step begins, at most for a short while; whether it is time."""
@@ -92,8 +94,10 @@ class Pace:
         if not self._paced:
             return ""
         times.add("scheduled", period)
-        self._due += period
+        elapsed = now - max(self._due, self._ended)
+        self._due, self._ended = self._due + period, now
         late, missed, lost = now - self._due, 0, 0.0
+        cause = self._causes.of_step(elapsed, period, late > 0.0)
         if late > 0.0:
             missed = 1
         if late > MOST_LATE:
@@ -104,6 +108,8 @@ class Pace:
             times.add("lost", lost)
         if missed:
             times.add("missed", missed)
+            if cause:
+                times.add(cause, missed)
         return self._words.step(now, period, late, missed, lost)
 
 

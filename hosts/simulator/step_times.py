@@ -9,12 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.simulator.late_causes import CAUSES
+
 _FIRST, _DECADES, _PER_DECADE = 1e-6, 7, 40
 BINS = _DECADES * _PER_DECADE + 2
 """Bins of a histogram: below 1 us, 40 in each decade up to 10 s, above."""
 _SCALARS = (
     *("steps", "simulated", "scheduled", "wall", "paused", "missed", "skipped", "lost"),
     *("cost_sum", "cost_largest", "lateness_largest", "capped", "capped_largest"),
+    *CAUSES,
 )
 _PLACES = {name: k for k, name in enumerate(_SCALARS)}
 TIMES_SIZE = len(_SCALARS) + 2 * BINS
@@ -43,7 +46,7 @@ class TimesRecord:
         self._values = memoryview(values.data).cast("B").cast("d")
 
     def add(self, name: str, amount: float) -> None:
-        """Add to a figure: steps, simulated, scheduled, wall, paused, missed, skipped, lost, capped."""
+        """Add to a figure: steps, simulated, scheduled, wall, paused, missed, skipped, lost, capped, `CAUSES`."""
         self._values[_PLACES[name]] += amount
 
     def __getitem__(self, name: str) -> float:
@@ -132,6 +135,8 @@ class StepTimes:
         Wall time in which the car ran and in which it was paused, s.
     missed : int
         Deadlines that were missed: the step was not done when the next was to begin.
+    missed_by : dict of str to int
+        How many of them by each of `CAUSES`; all zero where the system does not tell.
     skipped : int
         How often the schedule was moved on because the car was too late.
     lost : float
@@ -154,6 +159,7 @@ class StepTimes:
     wall: float
     paused: float
     missed: int
+    missed_by: dict[str, int]
     skipped: int
     lost: float
     cost: Spread
@@ -177,6 +183,7 @@ class StepTimes:
             scalar["wall"],
             scalar["paused"],
             int(scalar["missed"]),
+            {name: int(scalar[name]) for name in CAUSES},
             int(scalar["skipped"]),
             scalar["lost"],
             Spread(v[_COST : _COST + BINS], scalar["cost_largest"]),
@@ -203,6 +210,7 @@ class StepTimes:
             "paused": self.paused,
             "factor": self.factor,
             "missed": self.missed,
+            "missed_by": self.missed_by,
             "skipped": self.skipped,
             "lost": self.lost,
             "mean": self.mean,
@@ -231,6 +239,12 @@ class StepTimes:
                 f"lateness of its begin: {self.lateness.words()}",
                 f"missed deadlines: {self.missed} of {deadlines} ({100.0 * self.missed / deadlines:.3g} %)",
             ]
+            if any(self.missed_by.values()):
+                work, others, stolen = (self.missed_by[name] for name in CAUSES)
+                rows.append(
+                    f"  because of the work of a step: {work}; other programs: {others}; the processor stood still, as "
+                    f"where the host of a virtual machine takes it: {stolen}"
+                )
             if self.skipped:
                 rows.append(
                     f"too slow: the schedule was moved on {self.skipped} times, by {self.lost:.3f} s in all; "

@@ -30,6 +30,7 @@ class FakeClock:
 
     def __init__(self) -> None:
         self.time, self.wakes_late = 100.0, 0.0
+        self.ran = self.waited = 0.0
 
     def now(self) -> float:
         return self.time
@@ -39,6 +40,17 @@ class FakeClock:
 
     def work(self, seconds: float) -> None:
         self.time += seconds
+        self.ran += seconds
+
+    def wait_for_others(self, seconds: float) -> None:
+        self.time += seconds
+        self.waited += seconds
+
+    def stand(self, seconds: float) -> None:
+        self.time += seconds
+
+    def spent(self) -> tuple[float, float]:
+        return self.ran, self.waited
 
 
 @pytest.fixture

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 import sys
 import time
 
@@ -30,6 +32,36 @@ def test_a_time_that_has_passed_is_no_sleep(kind: type[Clock]) -> None:
     for past in (clock.now() - 100.0, 0.0):
         clock.sleep_until(past)
     assert abs(clock.now() - time.perf_counter()) < 10.0
+
+
+@pytest.mark.parametrize("other", [True, False])
+@_LINUX
+def test_time_that_others_ran_is_told_apart_from_sleep(other: bool) -> None:
+    """On one processor, beside a program that never sleeps and without it."""
+    mine = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(mine)})
+    beside = subprocess.Popen([sys.executable, "-c", "while True: pass" if other else "input()"], stdin=subprocess.PIPE)
+    try:
+        time.sleep(0.3)
+        clock = LinuxClock()
+        begin, before = clock.now(), clock.spent()
+        while clock.now() < begin + 0.2:
+            pass
+        middle, between = clock.now(), clock.spent()
+        clock.sleep_until(middle + 0.1)
+        end, after = clock.now(), clock.spent()
+    finally:
+        os.sched_setaffinity(0, mine)
+        beside.kill()
+        beside.communicate()
+    if before is None or between is None or after is None:
+        pytest.skip("a kernel without CONFIG_SCHED_INFO")
+    ran, waited = between[0] - before[0], between[1] - before[1]
+    assert 0.01 < ran <= middle - begin
+    assert ran + waited <= 1.02 * (middle - begin)
+    if other:
+        assert waited > 0.02
+    assert after[0] - between[0] < 0.5 * (end - middle)
 
 
 def test_priority_says_what_was_got(monkeypatch: pytest.MonkeyPatch) -> None:

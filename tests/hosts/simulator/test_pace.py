@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hosts.simulator.late_causes import CAUSES
 from hosts.simulator.pace import MOST_LATE, Pace
 from hosts.simulator.step_times import TIMES_SIZE, TimesRecord
 
@@ -144,3 +145,52 @@ def test_without_pace_nothing_is_late(clock: Any) -> None:
     assert (drive.times["steps"], drive.times["missed"], drive.times["scheduled"]) == (10.0, 0.0, 0.0)
     assert drive.said == []
     assert drive.pace.cost == pytest.approx(0.5)
+
+
+def causes(drive: Drive) -> list[float]:
+    return [drive.times[name] for name in CAUSES]
+
+
+def test_a_late_step_is_put_to_what_took_the_longest(drive: Drive) -> None:
+    drive.step(SHORT, 10)
+    drive.step(3e-3)  # one deadline
+    drive.step(SHORT, 10)
+    assert causes(drive) == [1.0, 0.0, 0.0]
+    drive.clock.wait_for_others(7e-3)  # late by 4, 2.5 and 1 ms at the end of a step
+    drive.step(SHORT, 10)
+    assert causes(drive) == [1.0, 3.0, 0.0]
+    drive.clock.stand(7e-3)
+    drive.step(SHORT, 10)
+    assert causes(drive) == [1.0, 3.0, 3.0]
+    drive.clock.stand(1.0)  # the schedule is moved on
+    drive.step(SHORT, 10)
+    assert sum(causes(drive)) == drive.times["missed"] > 500.0
+    assert causes(drive)[:2] == [1.0, 3.0]
+
+
+def test_a_slow_step_among_those_that_catch_up_has_a_cause_of_its_own(drive: Drive) -> None:
+    drive.step(SHORT, 10)
+    drive.clock.stand(5e-3)
+    drive.step(SHORT)
+    drive.step(3e-3)
+    drive.step(SHORT, 10)
+    assert causes(drive)[1] == 0.0
+    assert causes(drive)[2] == 1.0
+    assert causes(drive)[0] == drive.times["missed"] - 1.0 > 1.0
+
+
+def test_what_was_done_between_two_drives_is_no_cause(drive: Drive) -> None:
+    drive.step(SHORT, 5)
+    drive.clock.work(60.0)
+    drive.pace.restart()
+    drive.clock.stand(3e-3)
+    drive.step(SHORT, 5)
+    assert causes(drive) == [0.0, 0.0, drive.times["missed"]]
+    assert drive.times["missed"] > 0.0
+
+
+def test_where_the_system_does_not_tell_no_cause_is_named(drive: Drive, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(drive.clock, "spent", lambda: None)
+    drive.step(3e-3, 5)
+    assert drive.times["missed"] == 5.0
+    assert causes(drive) == [0.0, 0.0, 0.0]

@@ -77,13 +77,14 @@ export class Report {
   }
 
   /** @param {Data} report - Of the program, times in s. */
-  show({ step, steps, simulated, wall, missed, skipped = 0, cost, lateness }) {
+  show({ step, steps, simulated, wall, missed, missed_by: by, skipped = 0, cost, lateness }) {
     if (!steps) return this._body.replaceChildren(el("p.a3-hint", {}, "No step was computed yet."));
     const spread = ({ median, p99, p999, largest }) => `${[median, p99, p999, largest].map(milli).join(" · ")} ms`;
     const rows = [
       ["steps", `${steps} of ${milli(step)} ms`],
       ["simulated / wall", `${simulated.toFixed(2)} s / ${wall.toFixed(2)} s`],
       ["missed deadlines", `${missed} (${short((100 * missed) / steps)} %)`],
+      ...(missed && by ? [["because of", `work ${by.work} · other programs ${by.others} · processor taken ${by.stolen}`]] : []),
       ["moved on", skipped ? `${skipped} times, because it was too late` : "never"],
       ["", "median · p99 · p99.9 · largest"],
       ["cost of a step", spread(cost)],

@@ -1,0 +1,60 @@
+"""What makes a step late: its own work, other programs in its place, or a processor that stood still.
+
+A virtual machine's host takes processors away from it ("steal"); no priority within the machine prevents that. What a
+thread ran, and how long it was ready while others ran, is told by Linux without the time that the host took.
+"""
+
+from __future__ import annotations
+
+from hosts.simulator.clock import Clock
+
+CAUSES = ("work", "others", "stolen")
+"""The step's own work; programs that ran while it was ready; the processor stood still or woke the thread late."""
+
+
+class LateCauses:
+    """Tells which cause took the longest.
+
+    Parameters
+    ----------
+    clock : Clock
+        Its `spent` is what the system tells of the calling thread.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self.restart()
+
+    def restart(self) -> None:
+        """What the thread did until now belongs to no step."""
+        self._before, self._cause = self._clock.spent(), ""
+
+    def of_step(self, elapsed: float, period: float, late: bool) -> str:
+        """Take a step into account.
+
+        Parameters
+        ----------
+        elapsed : float
+            From its scheduled begin, or from the end of the step before where that was later, to its end, s.
+        period : float
+            What it had been given, s.
+        late : bool
+            Whether it missed its deadline.
+
+        Returns
+        -------
+        str
+            One of `CAUSES`; empty where it was not late or the system does not tell. A step that is late only because
+            the one before was has the cause of that one.
+        """
+        spent = self._clock.spent()
+        if spent is None or self._before is None:
+            return ""
+        ran, waited = (now - before for now, before in zip(spent, self._before, strict=True))
+        self._before = spent
+        if not late:
+            self._cause = ""
+        elif elapsed > period or not self._cause:
+            parts = dict(zip(CAUSES, (ran, waited, elapsed - ran - waited), strict=True))
+            self._cause = max(parts, key=lambda name: parts[name])
+        return self._cause
