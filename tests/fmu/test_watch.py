@@ -108,7 +108,7 @@ def test_a_changed_assembly_mode_is_reported_once(
 
 @pytest.mark.parametrize(("h", "told"), [(0.02, True), (0.01, False), (0.002, False)])
 def test_an_edge_at_speed_is_told_once(prototype_fmu: Path, host: HostMaker, h: float, told: bool) -> None:
-    """Down 12 cm at 30 m/s loads are off by 11 % with steps of 20 ms, by 4.3 and less with 10 and 2 ms; in lanes too."""
+    """Down 12 cm at 30 m/s loads are 11 % off with steps of 20 ms, 4.3 and less with 10 and 2 ms; in lanes too."""
     edge = {"road.kerb_x": 10.0, "road.kerb_height": 0.12}
     driven = host(prototype_fmu).start({"initial.speed": 30.0, "step_size": h} | edge)
     slave = driven.slave
@@ -147,7 +147,7 @@ def test_no_other_driving_is_told_so(prototype_fmu: Path, host: HostMaker) -> No
 def test_a_wheel_that_drops_onto_its_rebound_stop_is_told_once(
     prototype_fmu: Path, host: HostMaker, h: float, told: bool
 ) -> None:
-    """Let go 0.27 m above the ground: at 10 ms forces of stops are off by 15 %, at 1 ms they are right; in lanes too."""
+    """Let go 0.27 m above the ground: at 10 ms forces of stops are 15 % off, at 1 ms they are right; in lanes too."""
     driven = host(prototype_fmu).start({"initial.speed": 3.0, "initial.z": 0.27, "step_size": h})
     slave = driven.slave
     statuses = [slave.dll.fmi2DoStep(slave.component, 0.01 * k, 0.01, 1) for k in range(80)]
