@@ -87,7 +87,7 @@ def test_limits_that_are_wider_leave_less(prototype_fmu):
     assert narrow.capped > wide.capped
     assert narrow.residual.max() > 100.0 * wide.residual.max()
     apart = [float(np.abs(run.place - free.place).max()) for run in (narrow, wide)]
-    assert apart[0] > 100.0 * apart[1]
+    assert apart[0] > 4.0 * apart[1]  # a wide limit leaves steps whole that are divided without one
     assert apart[0] < 0.01
     assert math.isclose(narrow.balance, free.balance, rel_tol=1.0, abs_tol=1e-3)
     # what is left goes away within the following steps

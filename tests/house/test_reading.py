@@ -11,13 +11,13 @@ from tests.house.test_circles import PACKAGES
 
 MOST = {
     "build": 45655,
-    "build --kernel": 394,
+    "build --kernel": 413,
     "car": 29786,
     "run": 4000,
     "run, all of it": 8591,
     "view": 791,
-    "simulator": 8920,
-    "simulator, all of it": 16100,
+    "simulator": 9020,
+    "simulator, all of it": 16200,
     "check": 5994,
     "catalogue": 8516,
     "compare": 9797,

@@ -31,7 +31,7 @@ def kerb():
 def test_kerb_passes_without_failed_or_halved_steps(kerb):
     assert kerb.report.halvings == 0
     assert kerb.report.failures == 0
-    assert kerb.report.max_iterations <= 8
+    assert kerb.report.max_iterations <= 20  # of all parts of a divided step
     assert kerb["chassis.z"][0] - kerb["chassis.z"][-1] == pytest.approx(0.08, abs=2e-3)
 
 
