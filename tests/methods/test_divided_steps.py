@@ -11,6 +11,7 @@ import mbs
 from benchmarks.car import accuracy, manoeuvres, trajectories
 from mbs.simulation.many_runs import Variant
 from mbs.vehicle import load as load_car
+from mbs.vehicle.levels import errors
 
 CAR, NAME, STEP = "commonroad_escort", "kerb_lock_brake", 0.005
 NEVER = mbs.Settings(max_halvings=0)
@@ -21,7 +22,7 @@ def load_error(h: float, settings: mbs.Settings | None = None) -> tuple[float, m
     every = round(manoeuvres.sampling(NAME, CAR) / h)
     run = manoeuvres.run(NAME, h, car=CAR, every=every, settings=settings)
     assert run.report is not None
-    return trajectories.load_error(run, trajectories.read(NAME, CAR)[1]), run.report
+    return errors.load_error(run, trajectories.read(NAME, CAR)[1]), run.report
 
 
 @pytest.mark.parametrize("h", [0.005, 0.01])
