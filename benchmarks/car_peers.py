@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.running import run_command
-from benchmarks.car import lanes, manoeuvres
+from benchmarks.car import lanes, manoeuvres, rig
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
@@ -135,8 +135,11 @@ def _mujoco(speed: float, h: float, angles: Array) -> dict[str, Drive]:
 def _exudyn(speed: float, h: float, angles: Array) -> dict[str, Drive]:
     from benchmarks.peers import exudyn_car
 
+    car, mass = _prototype()
+    given = rig.kinematics(car)
+
     def run() -> tuple[tuple[Array, Array], float]:
-        rates, used = exudyn_car.drive(*_prototype(), speed, h, angles, lanes.CARS)
+        rates, used = exudyn_car.drive(car, mass, speed, h, angles, given, lanes.CARS)
         return (rates[:, exudyn_car.YAW], np.linalg.norm(rates[:, :2], axis=1)), used
 
     return {"single": run}

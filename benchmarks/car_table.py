@@ -65,12 +65,6 @@ def with_stored(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     return [found[car] for car in manoeuvres.CARS if car in found]
 
 
-def referenced(car: str) -> list[str]:
-    """Manoeuvres of which a car has references."""
-    folder = trajectories.folder_of(car)
-    return [name for name in manoeuvres.NAMES if (folder / f"{name}.csv").is_file()]
-
-
 def inside(row: Row) -> bool:
     """Whether both errors are within their bounds."""
     return bool(row["path_error_rel"] <= accuracy.PATH_BOUND and row["wheel_load_error_rel"] <= accuracy.LOAD_BOUND)
@@ -78,7 +72,7 @@ def inside(row: Row) -> bool:
 
 def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any]:
     """What is known of a car."""
-    rows = [accuracy.measure(name, STEP, None, repeats, car) for name in referenced(car)]
+    rows = [accuracy.measure(name, STEP, None, repeats, car) for name in trajectories.referenced(car)]
     path, load = (max(rows, key=lambda row: row[key]) for key in accuracy.ERRORS)
     needs: dict[str, float | None] = {}
     for row in rows:

@@ -20,8 +20,8 @@ from typing import Any
 from ali3.running import run_command
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
+from benchmarks.shared.simulator_program import simulator
 from benchmarks.shared.tables import print_table
-from benchmarks.simulator_pictures import simulator
 from viewer import browser
 
 SIZE, WORLD = (640, 360), "proving_ground"

@@ -14,8 +14,7 @@ from collections.abc import Callable, Sequence
 
 import mbs
 from ali3.running import run_command
-from benchmarks import tables
-from benchmarks.car import accuracy, road_faces, trust, tyre_formulas
+from benchmarks.car import accuracy, road_faces, tabled_cars, trust, tyre_formulas
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
 from benchmarks.methods import honesty, pages, stability, stability_margins
 from benchmarks.paper import double_four_bar, flexible_tables, puma
@@ -95,8 +94,9 @@ def car() -> list[Again]:
 
 def tabled() -> list[Again]:
     """Errors of cars by tables in a part of their manoeuvres."""
-    todo = ((c, name) for c in tables.CARS for name in ("step_steer", "double_lane_change_replay", "kerb_lock_brake"))
-    text = tables.table_of([tables.compare(car, name, tables.STEP) for car, name in todo])
+    names = "step_steer", "double_lane_change_replay", "kerb_lock_brake"
+    todo = ((car, name) for car in tabled_cars.CARS for name in names)
+    text = tabled_cars.table_of([tabled_cars.compare(car, name, tabled_cars.STEP) for car, name in todo])
     return [Again("docs/cars.md", text, "tables", ("car", "manoeuvre"), ("us a step, tables, links",))]
 
 

@@ -8,11 +8,9 @@ work shows what the program can do. Needs the extras ``simulator`` and ``picture
 from __future__ import annotations
 
 import io
-import re
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -21,6 +19,7 @@ from typing import Any
 from ali3.files import whole_file
 from ali3.running import run_command
 from benchmarks.shared.command import parser_of, watched
+from benchmarks.shared.simulator_program import simulator
 from viewer import browser
 
 SIZE = (800, 450)  # pixels: the smallest at which the bar is one line
@@ -58,25 +57,6 @@ SHOTS = {
     "map": Shot("slalom", (("", 5.0), *((key, 0.7) for key in ("a", "d", "d", "a", "a", "d"))), "map"),
     "stress": Shot("kerbs", (("", 5.0),), "orbit", 2, ("f", "p")),
 }
-
-
-@contextmanager
-def simulator(fmu: Path, options: Sequence[str]) -> Iterator[str]:
-    """Start the simulator; gives its address."""
-    command = [sys.executable, "-m", "hosts.simulator", str(fmu), "--no-open", "--no-devices", *options]
-    host = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    said = ""
-    try:
-        for line in host.stdout or ():
-            said += line
-            if found := re.search(r"http://\S+", line):
-                break
-        else:
-            raise RuntimeError(f"The simulator did not start: {said}")
-        yield found[0]
-    finally:
-        host.terminate()
-        host.communicate()
 
 
 def drive(page: Any, shot: Shot) -> None:

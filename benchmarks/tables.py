@@ -9,121 +9,40 @@ over the largest load. ``--write`` puts the table into `docs/cars.md`.
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Sequence
-from functools import cache
-from typing import Any
 
 from ali3.files import write_text
 from ali3.running import run_command
-from benchmarks.car import accuracy, manoeuvres, trajectories
-from benchmarks.car_table import referenced
+from benchmarks.car import manoeuvres, tabled_cars, trajectories
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
-from benchmarks.shared.pages import DOCS, Row, replace, table
-from mbs import Settings, System, compile
-from mbs.vehicle import load
-from mbs.vehicle.levels.errors import load_error, path_error
+from benchmarks.shared.pages import DOCS, replace
+from mbs import Settings
 
-STEP = 0.005  # s
-CARS = (manoeuvres.PROTOTYPE, "hatchback")
 PAGE = DOCS / "cars.md"
-SMOOTH = ("step_steer", "slalom", "steady_cornering", "double_lane_change_replay")
-"""Manoeuvres of rolling wheels on a plane road, without pedals pressed at once."""
-GOAL = 4.0  # us a step
-
-
-@cache
-def tabled(name: str, car: str) -> System:
-    """A car by tables on the road of a manoeuvre."""
-    road = manoeuvres.rise(car) if name in manoeuvres.OTHER_ROAD else None
-    return compile(load(car).model(road, fidelity="table"))
-
-
-def compare(car: str, name: str, h: float, repeats: int = 0) -> dict[str, Any]:
-    """A row: errors, and without repeats no times."""
-    manoeuvre, (_, reference, length) = manoeuvres.load(name, car), trajectories.read(name, car)
-    way, every = max(length, 1.0), round(manoeuvres.sampling(name, car) / h)
-    systems = {"tables": tabled(name, car), "links": manoeuvres.system_of(name, car)}
-    runs = {kind: manoeuvres.run_on(system, manoeuvre, h, every=every) for kind, system in systems.items()}
-    row: dict[str, Any] = {"car": car, "manoeuvre": name, "h_s": h, "way_m": length}
-    for kind, run in runs.items():
-        assert run.report is not None
-        spent = None
-        if repeats:
-            spent = manoeuvres.time_on(systems[kind], manoeuvre, h, repeats, time.process_time)
-        row |= {
-            f"{kind}_path": path_error(run, reference) / way,
-            f"{kind}_load": load_error(run, reference),
-            f"{kind}_iterations": run.report.mean_iterations,
-            f"{kind}_us": None if spent is None else 1e6 * spent * h / manoeuvre.stop_time,
-        }
-    return row | {
-        "apart_path": path_error(runs["tables"], runs["links"]) / way,
-        "apart_load": load_error(runs["tables"], runs["links"]),
-    }
-
-
-def table_of(rows: Sequence[Row]) -> str:
-    """The table of the page."""
-    lines = [
-        {
-            "car": r["car"],
-            "manoeuvre": r["manoeuvre"].replace("_", " "),
-            "h, ms": 1e3 * r["h_s"],
-            "tables: path, loads": _errors(r, "tables"),
-            "links: path, loads": _errors(r, "links"),
-            "apart: path, loads": _errors(r, "apart"),
-            "iterations, tables, links": f"{r['tables_iterations']:.2f}, {r['links_iterations']:.2f}",
-            "us a step, tables, links": f"{r['tables_us']:.0f}, {r['links_us']:.0f}" if r["tables_us"] else None,
-        }
-        for r in rows
-    ]
-    return table(lines, dict.fromkeys(lines[0], "") | {"h, ms": "g"})
-
-
-def verdict(rows: Sequence[Row]) -> str:
-    """Where the car by tables is outside of 1 % of the path and 3 % of the loads, and how far its step is from 4 us."""
-    outside = [
-        f"{r['car']}, {r['manoeuvre'].replace('_', ' ')}"
-        for r in rows
-        if r["tables_path"] > accuracy.PATH_BOUND or r["tables_load"] > accuracy.LOAD_BOUND
-    ]
-    smooth = [r for r in rows if r["manoeuvre"] in SMOOTH]
-    said = f"Tables are outside of 1 % of the path and 3 % of the loads in: {'; '.join(outside) or 'none'}."
-    if smooth:
-        path, loads = (max(r[f"tables_{key}"] for r in smooth) for key in ("path", "load"))
-        said += f" In smooth manoeuvres they are within {path:.1e} and {100.0 * loads:.2g} %."
-    times = [r["tables_us"] for r in smooth if r["tables_us"]]
-    if times:
-        word = "reached" if max(times) <= GOAL else "missed"
-        said += f" A step alone takes {min(times):.0f} to {max(times):.0f} us there (goal {GOAL:g}: {word})."
-    return said
-
-
-def _errors(row: Row, what: str) -> str:
-    return f"{row[f'{what}_path']:.1e}, {100.0 * row[f'{what}_load']:.2g} %"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, print, and write what was asked for."""
     parser = parser_of("tables", __doc__)
-    parser.add_argument("--cars", nargs="+", default=CARS, choices=manoeuvres.CARS, metavar="CAR")
+    parser.add_argument("--cars", nargs="+", default=tabled_cars.CARS, choices=manoeuvres.CARS, metavar="CAR")
     parser.add_argument("--manoeuvres", nargs="+", choices=manoeuvres.NAMES, metavar="NAME")
-    parser.add_argument("--steps", nargs="+", type=float, default=[STEP], metavar="H", help="s; default: 0.005")
+    steps = [tabled_cars.STEP]
+    parser.add_argument("--steps", nargs="+", type=float, default=steps, metavar="H", help="s; default: 0.005")
     parser.add_argument("--repeats", type=int, default=3, metavar="N", help="timed runs per row; default: 3")
     parser.add_argument("--write", action="store_true", help="put the table into docs/cars.md")
     options = parser.parse_args(arguments)
 
     def work() -> int:
-        names = {car: options.manoeuvres or referenced(car) for car in options.cars}
+        names = {car: options.manoeuvres or trajectories.referenced(car) for car in options.cars}
         todo = [(car, name, h) for car in options.cars for name in names[car] for h in options.steps]
-        rows = [compare(*one, repeats=options.repeats) for one in watched(todo)]
-        text = table_of(rows)
-        print(f"{text}\n\n{verdict(rows)}")
+        rows = [tabled_cars.compare(*one, repeats=options.repeats) for one in watched(todo)]
+        text = tabled_cars.table_of(rows)
+        text += f"\n\n{tabled_cars.verdict(rows)}"
+        print(text)
         save_rows(options.json, describe("tables", Settings(), repeats=options.repeats), rows)
         if options.write:
-            write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), {"tables": f"{text}\n\n{verdict(rows)}"}))
+            write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), {"tables": text}))
         return 0
 
     return run_command(work, (RuntimeError,))

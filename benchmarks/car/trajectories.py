@@ -35,6 +35,12 @@ def folder_of(car: str) -> Path:
     return FOLDER if car == manoeuvres.PROTOTYPE else FOLDER / car
 
 
+def referenced(car: str) -> list[str]:
+    """Manoeuvres of which a car has references."""
+    folder = folder_of(car)
+    return [name for name in manoeuvres.NAMES if (folder / f"{name}.csv").is_file()]
+
+
 def read(
     name: str, car: str = manoeuvres.PROTOTYPE
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]], float]:

@@ -9,6 +9,7 @@ import pytest
 
 from benchmarks import car_peers
 from benchmarks.car import lanes
+from benchmarks.car.rig import kinematics
 from mbs.vehicle import load
 
 mujoco = pytest.importorskip("mujoco")
@@ -76,7 +77,7 @@ def test_commonroads_car_is_that_of_its_own_functions() -> None:
 
 @pytest.fixture(scope="module")
 def rates() -> dict[str, float]:
-    return exudyn_car.kinematics(CAR)
+    return kinematics(CAR)
 
 
 def test_exudyns_car_rolls_on_its_springs_as_it_starts(rates: dict[str, float]) -> None:
