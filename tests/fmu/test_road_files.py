@@ -396,8 +396,8 @@ def test_values_with_which_no_car_works_are_told_with_those_that_do(car: Path, h
 def test_a_wheel_in_a_face_of_a_road_file_is_refused_with_place_radius_and_spacing(
     car: Path, host: Any, tmp_path: Path
 ) -> None:
-    heights = np.repeat(np.where(np.arange(-10.0, 40.0, 0.2) > 10.1, 0.4, 0.0)[:, None], 5, axis=1)
-    with pytest.warns(mbs.RoadWarning, match="a face of 0.4 m"):
+    heights = np.repeat(np.where(np.arange(-10.0, 40.0, 0.2) > 10.1, 0.6, 0.0)[:, None], 5, axis=1)
+    with pytest.warns(mbs.RoadWarning, match="a face of 0.6 m"):
         write_road(GridRoad((-10.0, -10.0), (0.2, 5.0), heights, 0.9), tmp_path / "wall.road")
     driven = host(car)
     text(driven, str(tmp_path / "wall.road"))

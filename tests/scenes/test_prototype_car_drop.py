@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks.car import manoeuvres
-from mbs import Pose, Simulation, SimulationError, compile
+from mbs import Pose, Settings, Simulation, SimulationError, compile
 from mbs.elements.road import KerbRoad, PlaneRoad
 from mbs.scenes import prototype_car
 from tests.scenes.car import WHEELS, H, car, drive
@@ -32,6 +32,7 @@ def test_kerb_passes_without_failed_or_halved_steps(kerb):
     assert kerb.report.halvings == 0
     assert kerb.report.failures == 0
     assert kerb.report.max_iterations <= 20  # of all parts of a divided step
+    assert manoeuvres.run("kerb_drop", H, settings=Settings(max_halvings=0)).report.max_iterations <= 8
     assert kerb["chassis.z"][0] - kerb["chassis.z"][-1] == pytest.approx(0.08, abs=2e-3)
 
 

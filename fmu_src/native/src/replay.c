@@ -128,7 +128,8 @@ static slave_status check_halvings(slave *s) {
   ali3_report_get(s->fidelity.kernel, &start);
   if (start.halvings == end.halvings && start.divisions == end.divisions) return SLAVE_OK;
   return slave_say(s, SLAVE_ERROR,
-                   "There is no directional derivative of this communication step: an inner step of it was halved.");
+                   "There is no directional derivative of this communication step: an inner step of it was halved; "
+                   "a smaller step_size may leave it whole.");
 }
 
 /* out (n_variables): the change of the outputs that are sensors per unit of the direction (nu); left_out: also of those

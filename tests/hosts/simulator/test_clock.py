@@ -47,7 +47,7 @@ def test_time_that_others_ran_is_told_apart_from_sleep(other: bool) -> None:
         begin, before = clock.now(), clock.spent()
         while clock.now() < begin + 0.2:
             pass
-        middle, between = clock.now(), clock.spent()
+        between, middle = clock.spent(), clock.now()  # what is spent lies between the times
         clock.sleep_until(middle + 0.1)
         end, after = clock.now(), clock.spent()
     finally:
