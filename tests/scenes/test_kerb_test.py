@@ -24,7 +24,7 @@ PARTS = 5  # of a divided step: the whole and four quarters (decision 175)
 @cache
 def run(fidelity, divided=True):
     settings = Settings() if divided else Settings(max_halvings=0)
-    simulation = Simulation(compile(kerb_test.build(fidelity)), settings)
+    simulation = Simulation(compile(kerb_test.build(fidelity)), settings=settings)
     return simulation, simulation.run(kerb_test.DURATION, H, progress=False)
 
 

@@ -41,9 +41,9 @@ static int32_t forces_of(const ali3_system *S, int32_t e, bool all, int32_t *fir
 
 int32_t ali3_contact_forces(const ali3_instance *in, int32_t all, double *force) {
   int32_t n = 0;
-  for (int32_t e = 0; e < in->system->size.ne; e++) {
+  for (int32_t c = 0; c < in->system->n_contact; c++) {
     int32_t first;
-    const int32_t mine = forces_of(in->system, e, all != 0, &first);
+    const int32_t mine = forces_of(in->system, in->system->contact_element[c], all != 0, &first);
     for (int32_t i = 0; force != NULL && i < mine; i++) force[n + i] = in->now.out[first + i];
     n += mine;
   }
@@ -86,7 +86,8 @@ bool ali3_divides(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   if (S->nr == 0) return false;
   double load = 0.0, force = 0.0, largest_load = in->report.largest_load, largest_force = in->report.largest_force;
-  for (int32_t e = 0; e < S->size.ne; e++) {
+  for (int32_t c = 0; c < S->n_contact; c++) {
+    const int32_t e = S->contact_element[c];
     const bool tyre = S->el_kind[e]->depth == ali3_tyre_depth;
     double *most = tyre ? &load : &force, *largest = tyre ? &largest_load : &largest_force;
     *most = fmax(*most, change_of(S, e, in->now.out, in->next.out, largest));
