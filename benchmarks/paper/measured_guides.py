@@ -18,7 +18,7 @@ from scipy.interpolate import PchipInterpolator, PPoly
 
 from benchmarks.car.fidelity_runs import FREQUENCY, MOMENTS
 from hosts.measures.low_pass import low_pass
-from mbs import Trajectory, compile, simulate
+from mbs import Settings, Trajectory, compile, simulate
 from mbs.model import Model
 from mbs.model.records import Guide
 from mbs.scenes import kerb_test, prototype_car
@@ -146,7 +146,7 @@ def _drift(t: Array, v: Array) -> PchipInterpolator:
     return PchipInterpolator(knots, [v[0], *(float(v[w].mean()) for w in windows), v[-1]])
 
 
-def driven(found: Motion) -> Trajectory:
+def driven(found: Motion, settings: Settings | None = None) -> Trajectory:
     """The kerb test in its own steps, the chassis guided by a motion."""
 
     def guide(m: Model, start: float) -> Guide:
@@ -154,7 +154,7 @@ def driven(found: Motion) -> Trajectory:
         pieces.c[-1] += start
         return m.guide_time("way of the chassis", pieces, unit="m")
 
-    return simulate(compile(kerb_test.build(guide=guide)), kerb_test.DURATION, kerb_test.STEP)
+    return simulate(compile(kerb_test.build(guide=guide)), kerb_test.DURATION, kerb_test.STEP, settings=settings)
 
 
 CASES: dict[str, dict[str, float]] = {

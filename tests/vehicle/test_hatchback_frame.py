@@ -23,6 +23,7 @@ from tests.scene_numbers import amplitudes, rows_of_stress, stress
 WHEELS = ("FL", "FR", "RL", "RR")
 GAUGES = ("SG1", "SG2", "SG3", "SG4", "SG5", "SG6")
 FLEXIBLE = (1, 2, 3)
+FINE = 0.00125
 
 
 @cache
@@ -113,18 +114,19 @@ def test_all_forces_on_the_chassis_enter_by_its_ports(payload: str) -> None:
 
 @pytest.mark.slow
 def test_the_kerb_gives_every_fidelity_the_same_stresses() -> None:
+    """By a step that leaves 1 % open: at 10 ms each fidelity is up to 14 % off its own converged peaks."""
     for gauge in GAUGES:
-        expected = peak(kerb(3), gauge)
+        expected = peak(kerb(3, FINE), gauge)
         assert expected > 1e6
         for fidelity in (1, 2):
-            assert peak(kerb(fidelity), gauge) == pytest.approx(expected, rel=0.1)
+            assert peak(kerb(fidelity, FINE), gauge) == pytest.approx(expected, rel=0.1)
     for name, gap in (("chassis.z", 1e-3), ("chassis.pitch", 1e-3), ("wheel_FL.travel", 2e-3)):
         np.testing.assert_allclose(kerb(3)[name], kerb(0)[name], rtol=0, atol=gap, err_msg=name)
 
 
 @pytest.mark.slow
 def test_stresses_on_the_kerb_converge_with_the_step() -> None:
-    steps = (0.01, 0.005, 0.0025, 0.00125)
+    steps = (0.01, 0.005, 0.0025, FINE)
     peaks = np.array([[peak(kerb(3, h), gauge) for gauge in ("SG1", "SG2", "SG5")] for h in steps])
     errors = np.abs(peaks[:-1] / peaks[-1] - 1.0).max(axis=1)
     assert errors[0] < 0.2
