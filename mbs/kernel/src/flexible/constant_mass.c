@@ -67,8 +67,7 @@ ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *i
                   (in, x, out))
 
 /* M x and M y, entries loaded once, of a System whose M is constant. */
-ALI3_INLINED void constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x,
-                                           real *out_y) {
+void ali3_constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y) {
   const ali3_system *S = in->system;
   const real *val = in->mass_val;
   const int32_t *ptr = S->mass_ptr, *col = S->mass_col;
@@ -93,7 +92,3 @@ ALI3_INLINED void constant_mass_times_both(const ali3_instance *in, const real *
     out_x[i] = sum_x, out_y[i] = sum_y;
   }
 }
-
-ALI3_BY_PROCESSOR(in->system, void, constant_mass_times_both,
-                  (const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y),
-                  (in, x, y, out_x, out_y))
