@@ -103,6 +103,36 @@ def test_without_stops_it_is_told_how_far_the_links_follow(name, tmp_path):
                 linkage.solve(q, np.full(2, 1.02 * end), 0.0)
 
 
+@pytest.mark.parametrize("name", quick(("prototype",), ("prototype", "ferrari_250_lm")))
+def test_without_a_stop_of_the_steering_it_is_told_how_far_the_links_follow(name, tmp_path):
+    file = copy_car(name, tmp_path / "car")[0].parent / "car.toml"
+    text = file.read_text(encoding="utf-8")
+    file.write_text(re.sub(r"\[front.suspension.steering_stop\]\n(?:.+\n)+", "", text), encoding="utf-8")
+    with pytest.warns(CarWarning, match="front.suspension.steering_stop is left out") as caught:
+        car = load(file)
+    (line,) = (str(warning.message) for warning in caught)
+    number = r"([-+.\d]+)"
+    rack, travel = re.findall(rf"{number} to {number} m of (?:the rack|wheel travel)", line)
+    linkage, full = Linkage(car, "front"), car.steering.rack_travel
+
+    def follow(*places):
+        at = linkage.drawn
+        for start, end in zip(((0.0, 0.0), *places), places, strict=False):
+            for share in np.linspace(0.02, 1.0, 50):
+                heave, rack = (a + share * (b - a) for a, b in zip(start, end, strict=True))
+                at = linkage.solve(at.q, np.full(2, heave), rack)
+
+    for end in map(float, rack):
+        assert abs(end) > full
+        follow((0.0, 0.98 * end))
+        with pytest.raises(NotReachedError):
+            follow((0.0, 0.98 * end), (0.0, 1.02 * end))
+    for end in map(float, travel):
+        follow((0.0, full), (0.98 * end, full))
+        with pytest.raises(NotReachedError):
+            follow((0.0, full), (0.98 * end, full), (1.02 * end, full))
+
+
 def test_springs_and_dampers_of_a_truck_are_in_the_ranges():
     """A damper of 36 725 N s/m, by number and by table, and a spring of 116 kN."""
     rows = [[-1.0, -36725.0], [0.0, 0.0], [1.0, 36725.0]]

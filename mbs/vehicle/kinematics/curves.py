@@ -12,12 +12,12 @@ from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures,
 from mbs.vehicle.kinematics.quantities import BY_NAME, quantity_of
 from mbs.vehicle.kinematics.steer_measures import WheelByRack, steer_measures
 from mbs.vehicle.kinematics.wheel_loads import OWN
-from mbs.vehicle.linkages.continuation import HEAVE, ROLL, ROUND_OFF, reached
+from mbs.vehicle.linkages.continuation import HEAVE, ROLL, ROUND_OFF, STEER, reached
 from mbs.vehicle.linkages.linkage import SIDES, Linkage, Position
 
 Array = NDArray[np.float64]
 
-DIRECTIONS = {"parallel": HEAVE, "opposite": ROLL, "single": OWN[0], "steer": np.array([0.0, 0.0, 1.0])}
+DIRECTIONS = {"parallel": HEAVE, "opposite": ROLL, "single": OWN[0], "steer": STEER}
 """Motions by their names: rates of the travels of the left and the right wheel, and of the rack."""
 WORDS = {
     "parallel": "parallel wheel travel",

@@ -6,14 +6,16 @@ import numpy as np
 
 from mbs.vehicle.linkages.linkage import Array, Linkage, NotReachedError, Position
 
-HEAVE, ROLL = np.array([1.0, 1.0, 0.0]), np.array([1.0, -1.0, 0.0])
+HEAVE, ROLL, STEER = np.array([1.0, 1.0, 0.0]), np.array([1.0, -1.0, 0.0]), np.array([0.0, 0.0, 1.0])
 """Motions: rates of the travels of the left and the right wheel and of the rack."""
 STEP, LEAST_STEP = 0.004, 1e-6  # m: of the continuation
 ROUND_OFF = 1e-9  # m
 STRAY = 0.2  # of a step: farther from its tangent a position may be on another branch
 
 
-def reached(linkage: Linkage, direction: Array, values: Array) -> tuple[list[Position], float | None]:
+def reached(
+    linkage: Linkage, direction: Array, values: Array, start: Position | None = None
+) -> tuple[list[Position], float | None]:
     """Positions at rising or falling values from zero on.
 
     Parameters
@@ -22,6 +24,8 @@ def reached(linkage: Linkage, direction: Array, values: Array) -> tuple[list[Pos
         Travels of the left and the right wheel and of the rack per value.
     values : ndarray, shape (n,)
         All of one sign, farther and farther from zero, m.
+    start : Position, optional
+        Where the value is zero; by default as drawn.
 
     Returns
     -------
@@ -29,13 +33,14 @@ def reached(linkage: Linkage, direction: Array, values: Array) -> tuple[list[Pos
         As many as can be reached, and where the linkage ends if that is before the last value.
     """
     found: list[Position] = []
-    at, now = linkage.drawn, 0.0
+    at = start = start or linkage.drawn
+    now = 0.0
     for value in values:
         step = STEP
         while now != value:
             ahead = value if abs(value - now) <= step else now + np.sign(value - now) * step
             try:
-                there = _next(linkage, at, direction, now, float(ahead))
+                there = _next(linkage, start, at, direction, now, float(ahead))
             except NotReachedError:
                 step = 0.5 * min(step, abs(float(ahead) - now))
                 if step < LEAST_STEP:
@@ -46,10 +51,11 @@ def reached(linkage: Linkage, direction: Array, values: Array) -> tuple[list[Pos
     return found, None
 
 
-def _next(linkage: Linkage, at: Position, direction: Array, now: float, ahead: float) -> Position:
+def _next(linkage: Linkage, start: Position, at: Position, direction: Array, now: float, ahead: float) -> Position:
     """The position at the next value, near the tangent."""
     change = at.tangent @ direction * (ahead - now)
-    there = linkage.solve(at.q + change, ahead * direction[:2], ahead * float(direction[2]))
+    travel, rack = start.travel + ahead * direction[:2], start.rack + ahead * float(direction[2])
+    there = linkage.solve(at.q + change, travel, rack)
     if np.linalg.norm(there.q - at.q - change) > STRAY * np.linalg.norm(change) + ROUND_OFF:
         raise NotReachedError(f"the position at {ahead:g} m is not near the tangent")
     return there

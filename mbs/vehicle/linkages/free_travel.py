@@ -1,4 +1,4 @@
-"""How far the links of an axle without stops let its wheels go."""
+"""How far the links of an axle without stops let its wheels and its steering go."""
 
 from __future__ import annotations
 
@@ -7,20 +7,27 @@ from collections.abc import Iterator
 import numpy as np
 
 from mbs.vehicle.car import Car
-from mbs.vehicle.linkages.continuation import HEAVE, reached
-from mbs.vehicle.linkages.linkage import Linkage
+from mbs.vehicle.linkages.continuation import HEAVE, STEER, reached
+from mbs.vehicle.linkages.linkage import Array, Linkage, Position
+from mbs.vehicle.steering.rack_section import RackSection
+from mbs.vehicle.suspensions.double_wishbone import DoubleWishbone
 
-FARTHEST = 0.5  # m: wheel travel that is looked at
+FARTHEST = 0.5  # m: travel of wheels and rack that is looked at
 
 
 def notes_without_stops(car: Car) -> Iterator[str]:
-    """A sentence for each axle without stops.
+    """A sentence for each axle without stops, and one for a steered knuckle without.
 
     Parameters
     ----------
     car : Car
         At rest near the drawing.
     """
+    yield from _of_the_springs(car)
+    yield from _of_the_steering(car)
+
+
+def _of_the_springs(car: Car) -> Iterator[str]:
     for name, axle in (("front", car.front), ("rear", car.rear)):
         if axle.stops is not None:
             continue
@@ -33,14 +40,40 @@ def notes_without_stops(car: Car) -> Iterator[str]:
             )
             continue
         linkage = Linkage(car, name)
-        ends = [reached(linkage, HEAVE, np.array([far]))[1] for far in (-FARTHEST, FARTHEST)]
-        if ends == [None, None]:
+        ends = _ends(linkage, HEAVE)
+        if ends is None:
             continue
-        low, high = (
-            f"{far if end is None else end:+.3f}" for end, far in zip(ends, (-FARTHEST, FARTHEST), strict=True)
-        )
         yield (
             f"{axle.key('stops')} is left out: nothing but the spring ends the travel of the {name} wheels, and the "
-            f"links follow from {low} to {high} m of wheel travel from the drawing; beyond, a run fails where they "
-            "would part. Stops that bear before that keep it together."
+            f"links follow from {ends[0]:+.3f} to {ends[1]:+.3f} m of wheel travel from the drawing; beyond, a run "
+            "fails where they would part. Stops that bear before that keep it together."
         )
+
+
+def _of_the_steering(car: Car) -> Iterator[str]:
+    suspension, steering = car.front.suspension, car.steering
+    if not isinstance(suspension, DoubleWishbone) or suspension.steering_stop is not None:
+        return
+    linkage = Linkage(car, "front")
+    told = []
+    if isinstance(steering, RackSection) and (ends := _ends(linkage, STEER)):
+        told.append(
+            f"{ends[0]:+.3f} to {ends[1]:+.3f} m of the rack ({steering.key('rack_travel')} is {steering.full:g})"
+        )
+    at_lock, lock = reached(linkage, STEER, np.array([steering.full]))
+    if lock is None and (ends := _ends(linkage, HEAVE, at_lock[0])):
+        told.append(f"{ends[0]:+.3f} to {ends[1]:+.3f} m of wheel travel at full lock")
+    if told:
+        yield (
+            f"{suspension.key('steering_stop')} is left out: nothing keeps a knuckle from turning over, and the links "
+            f"of the front axle follow {' and '.join(told)}; beyond, a run fails where they would part. A stop that "
+            "bears before that keeps it together."
+        )
+
+
+def _ends(linkage: Linkage, direction: Array, start: Position | None = None) -> tuple[float, float] | None:
+    """Where the links end to both sides of a start, m; None where they follow as far as is looked at."""
+    low, high = (reached(linkage, direction, np.array([far]), start)[1] for far in (-FARTHEST, FARTHEST))
+    if low is None and high is None:
+        return None
+    return -FARTHEST if low is None else low, FARTHEST if high is None else high
