@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 
 from ali3.cores import available_cores
 from ali3.errors import FileError
-from ali3.files import whole_file
 from ali3.locks import locked
 from hosts.common.errors import HostError
-from hosts.study.folder import begin_study, check_same, free_space, read_record, write_record
-from hosts.study.parts import PartWriter, forget_failed, part_files, runs_done
+from hosts.study.folder import begin_study, free_space, read_record
+from hosts.study.parts import PartWriter, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
 from hosts.study.study_file import StudyFile, read_study_file
@@ -85,6 +84,8 @@ def run_study(
     if all(job.manoeuvre is not None for job in plan.work.jobs):
         plan = _with_limits(plan, study)  # measures of tests are known after a run only
     if before is not None:
+        from hosts.study.earlier_start import check_same
+
         # columns of tests are known from the runs that there are
         plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
         check_same(folder, before, plan.record)
@@ -92,7 +93,9 @@ def run_study(
     busy = f"Another program runs a study in {folder}; wait for it, or give another --out."
     with nullcontext() if dry else locked(folder, busy):
         if before is not None and not dry and not again and runs_done(folder, plan.runs).all():
-            _keep_limits(plan, folder, before, content)
+            from hosts.study.earlier_start import keep_limits
+
+            keep_limits(folder, before, plan.record["limits"], content)
             print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
             return Ended(folder, True, 0)
         trial = try_out(plan)
@@ -150,17 +153,6 @@ def _with_limits(plan: Plan, study: StudyFile) -> Plan:
     return replace(plan, record={**plan.record, "limits": limits})
 
 
-def _keep_limits(plan: Plan, folder: Path, before: dict[str, Any], content: bytes) -> dict[str, Any]:
-    """The record of an earlier start with the limits of now, on which runs do not depend."""
-    if before.get("limits", {}) == plan.record["limits"]:
-        return before
-    after = {**before, "limits": plan.record["limits"]}
-    with whole_file(folder / "study.toml") as made:
-        made.write_bytes(content)
-    write_record(folder, after)
-    return after
-
-
 def out_folder(out: Path | None, study: StudyFile, file: Path) -> Path:
     """Folder of the results."""
     return out if out is not None else Path("out", study.name or file.stem)
@@ -206,9 +198,13 @@ def _run(
         record = json.loads(json.dumps(plan.record))
         begin_study(folder, record, content, plan.fmu)
     else:
+        from hosts.study.earlier_start import check_same, keep_limits
+
         check_same(folder, record, plan.record)
-        record = _keep_limits(plan, folder, record, content)
+        record = keep_limits(folder, record, plan.record["limits"], content)
     if again:
+        from hosts.study.earlier_start import forget_failed
+
         print(f"{forget_failed(folder)} failed runs are made again")
     done = runs_done(folder, plan.runs)
     before = int(np.count_nonzero(done))

@@ -12,12 +12,9 @@ from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
-from hosts.driving.manoeuvre_file import SUFFIXES
-from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.driving.pilots.pilot import ACTS
 from hosts.driving.run_checks import check_columns, communication_step, steps_of
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.study.job import Job
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
 
@@ -58,7 +55,9 @@ def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: SimulatedFm
         assert entry.stop_time is not None
         manoeuvre = Manoeuvre(entry.name or "run", np.zeros(0), {}, entry.stop_time)
     else:
-        manoeuvre = load_manoeuvre(_place(entry.manoeuvre, file))
+        from hosts.study.named_manoeuvre import named_manoeuvre
+
+        manoeuvre = named_manoeuvre(entry.manoeuvre, file)
         if entry.stop_time is not None:
             manoeuvre = replace(manoeuvre, stop_time=entry.stop_time)
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
@@ -85,17 +84,6 @@ def _test(entry: ManoeuvreEntry, study: StudyFile, fmu: SimulatedFmu, where: str
     start = {**study.start, **_checked(entry.start, fmu, f"{where}.start")}
     step = float("nan") if study.step is None else study.step
     return Job(entry.name or test, None, test, settings, tuple(entry.measures or ()), start, step)
-
-
-def _place(name: str, file: Path) -> str:
-    """A manoeuvre of the package by its name, else a file beside the study."""
-    if name in manoeuvre_names():
-        return name
-    if Path(name).suffix not in SUFFIXES and not (file.parent / name).is_dir():
-        known = manoeuvre_names()
-        hint = did_you_mean(name, known, f"known are {', '.join(known)}, or a TOML or CSV file")
-        raise HostError(f"{file}: there is no manoeuvre '{name}'{hint}")
-    return str(file.parent / name)
 
 
 def _checked(values: Mapping[str, Value], fmu: SimulatedFmu, where: str) -> dict[str, Value]:

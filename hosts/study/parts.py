@@ -16,7 +16,7 @@ from ali3.files import whole_file
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.study.folder import RUNS, sync
-from hosts.study.work import FAILED, MISSING, Chunk, Outcome, seed_of
+from hosts.study.work import MISSING, Chunk, Outcome, seed_of
 
 _TYPES = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.int64(), "Boolean": pa.bool_()}
 _NAME = "part-{:06d}.parquet"
@@ -78,20 +78,6 @@ def runs_done(folder: Path, runs: int) -> NDArray[np.bool_]:
     return done
 
 
-def forget_failed(folder: Path) -> int:
-    """Take the rows of failed runs out of the parts, so that they are made again; how many."""
-    forgotten = 0
-    for file in part_files(folder):
-        table = pq.ParquetFile(file).read()
-        kept = table.filter(pa.compute.not_equal(table["status"], FAILED))
-        forgotten += len(table) - len(kept)
-        if len(kept) == 0:
-            file.unlink()
-        elif len(kept) < len(table):
-            _write(kept, file)
-    return forgotten
-
-
 class PartWriter:
     """Writes rows as parts, each of them at once."""
 
@@ -135,7 +121,7 @@ class PartWriter:
         if not len(self):
             return
         arrays = [pa.array(self._rows[field.name], field.type, from_pandas=False) for field in self._schema]
-        _write(pa.Table.from_arrays(arrays, schema=self._schema), self._folder / RUNS / _NAME.format(self._next))
+        write_part(pa.Table.from_arrays(arrays, schema=self._schema), self._folder / RUNS / _NAME.format(self._next))
         self._next += 1
         for column in self._rows.values():
             column.clear()
@@ -145,7 +131,8 @@ def _texts(values: Sequence[Value], kind: Any) -> Sequence[Value]:
     return [str(value) for value in values] if kind == pa.string() else values
 
 
-def _write(table: Any, file: Path) -> None:
+def write_part(table: Any, file: Path) -> None:
+    """Write a part, whole or not at all."""
     buffer = pa.BufferOutputStream()
     pq.write_table(table, buffer, compression="zstd")
     with whole_file(file) as made:

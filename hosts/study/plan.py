@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
@@ -16,12 +16,14 @@ from hosts.common.program import program_digest, versions
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import Fmu
 from hosts.study.job import Job
-from hosts.study.measures.study_measure import StudyMeasure
 from hosts.study.parameters import Parameter
 from hosts.study.planned_runs import planned_runs
 from hosts.study.points import Points, digest
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
 from hosts.study.work import Chunk, Work
+
+if TYPE_CHECKING:
+    from hosts.study.measures.study_measure import StudyMeasure
 
 OWN_COLUMNS = (
     *("index", "point", "manoeuvre", "seed"),

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hosts.common.errors import HostError
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
 from hosts.study.job import Job
@@ -16,6 +15,9 @@ from hosts.study.jobs import jobs_of
 from hosts.study.parameters import parameter_of
 from hosts.study.points import Points, sampled_points
 from hosts.study.study_file import StudyFile, read_study_file
+
+if TYPE_CHECKING:
+    from hosts.fmu.aliases.alias import Aliases
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
-from hosts.fmu.aliases.alias import Aliases
 from hosts.study.job import Job
 
 if TYPE_CHECKING:
+    from hosts.fmu.aliases.alias import Aliases
     from hosts.study.measures.study_measure import StudyMeasure
 
 DONE, INCOMPLETE, FAILED = "done", "incomplete", "failed"
