@@ -10,6 +10,7 @@ import ctypes
 import os
 import sys
 import time
+import weakref
 from typing import Protocol
 
 # Beyond this a sleep wakes too late; what is left is waited for in a loop, s.
@@ -54,6 +55,8 @@ class LinuxClock:
             self._waits = os.open(_WAITS, os.O_RDONLY)
         except OSError:  # a kernel without CONFIG_SCHED_INFO
             self._waits = -1
+        else:
+            weakref.finalize(self, os.close, self._waits)
 
     def now(self) -> float:
         return time.perf_counter()

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -32,6 +34,18 @@ def test_a_time_that_has_passed_is_no_sleep(kind: type[Clock]) -> None:
     for past in (clock.now() - 100.0, 0.0):
         clock.sleep_until(past)
     assert abs(clock.now() - time.perf_counter()) < 10.0
+
+
+@_LINUX
+def test_a_clock_that_goes_leaves_no_file_open() -> None:
+    clock = LinuxClock()
+    if clock.spent() is None:
+        pytest.skip("a kernel without CONFIG_SCHED_INFO")
+    opened = Path(f"/proc/self/fd/{clock._waits}")
+    assert opened.exists()
+    del clock
+    gc.collect()
+    assert not opened.exists()
 
 
 @pytest.mark.parametrize("other", [True, False])
