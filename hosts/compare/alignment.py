@@ -49,9 +49,6 @@ class Alignment:
     note: str = ""
 
 
-_NONE = Alignment(math.nan, math.nan, math.nan, math.nan, math.nan)
-
-
 def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = True) -> Alignment:
     """The delay and drift that signals have in common; of one signal, its own.
 

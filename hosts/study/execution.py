@@ -7,16 +7,18 @@ import time as clock
 from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import CancelledError
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from distributed import Client, Future, KilledWorker
 
 from hosts.study.missing import ChunkSize
 from hosts.study.parts import PartWriter, Progress
 from hosts.study.plan import Plan
-from hosts.study.signals import SignalWriter
 from hosts.study.work import FAILED, Chunk, Outcome
 from hosts.study.worker import WrongWorkerError, run_chunk
+
+if TYPE_CHECKING:
+    from hosts.study.signals import SignalWriter
 
 _AHEAD = 2  # chunks that are sent to each worker before the first is done
 _FLUSH = (2.0, 60.0)  # s between parts, at least and at most

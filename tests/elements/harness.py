@@ -13,6 +13,7 @@ from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
+import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.affine import Affine, AffineVector
@@ -243,3 +244,21 @@ def drive_signals(left: float, right: float, omega: Array | None = None, R: Arra
     R = np.eye(3) if R is None else R
     omega = np.zeros(3) if omega is None else omega
     return np.r_[0.0, 0.0, R[:, 0], R[:, 1]], np.r_[left, right, np.cross(omega, R[:, 0]), np.cross(omega, R[:, 1])]
+
+
+def check_reaction(drive: Element) -> tuple[Result, float]:
+    """Torques of both wheels of a drive and the reaction on its carrier; the result, and the mean relative speed."""
+    rng = np.random.default_rng(17)
+    R, omega = frame(rng), rng.normal(size=3)
+    axis = R[:, 2]
+    u, ud = drive_signals(20.0, 35.0, omega, R)
+    r = drive(u, ud, inputs=[0.7])
+    torque = r.out["wheel_torque"]
+    assert torque > 0.0
+    assert r.f[0] == r.f[1] == torque
+    for turn in np.eye(3):
+        virtual = np.r_[0.0, 0.0, np.cross(turn, R[:, 0]), np.cross(turn, R[:, 1])]
+        assert r.f @ virtual == pytest.approx(-2.0 * torque * (axis @ turn), abs=1e-9)
+    relative = 0.5 * (20.0 + 35.0) - omega @ axis
+    assert r.f @ ud == pytest.approx(2.0 * torque * relative, rel=1e-12)
+    return r, float(relative)

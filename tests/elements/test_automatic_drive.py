@@ -9,7 +9,15 @@ import numpy as np
 import pytest
 
 from mbs.elements import AutomaticDrive
-from tests.elements.harness import Element, Result, drive_signals, frame, tangent_by_differences, vectors
+from tests.elements.harness import (
+    Element,
+    Result,
+    check_reaction,
+    drive_signals,
+    frame,
+    tangent_by_differences,
+    vectors,
+)
 
 DRIVE = AutomaticDrive(max_torque=110.0, max_power=50e3)
 
@@ -20,19 +28,7 @@ def drive_element(drive: AutomaticDrive = DRIVE, gear: int = 1) -> Element:
 
 
 def test_both_wheels_get_the_same_torque_and_the_frame_its_reaction() -> None:
-    rng = np.random.default_rng(17)
-    R, omega = frame(rng), rng.normal(size=3)
-    axis = R[:, 2]
-    u, ud = drive_signals(20.0, 35.0, omega, R)
-    r = drive_element()(u, ud, inputs=[0.7])
-    torque = r.out["wheel_torque"]
-    assert torque > 0.0
-    assert r.f[0] == r.f[1] == torque
-    for turn in np.eye(3):
-        virtual = np.r_[0.0, 0.0, np.cross(turn, R[:, 0]), np.cross(turn, R[:, 1])]
-        assert r.f @ virtual == pytest.approx(-2.0 * torque * (axis @ turn), abs=1e-9)
-    relative = 0.5 * (20.0 + 35.0) - omega @ axis
-    assert r.f @ ud == pytest.approx(2.0 * torque * relative, rel=1e-12)
+    check_reaction(drive_element())
 
 
 @pytest.mark.parametrize("direction", [1.0, -1.0])

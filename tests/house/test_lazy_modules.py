@@ -5,6 +5,8 @@ from __future__ import annotations
 import subprocess
 import sys
 
+from tests.house.reading import WAYS
+
 PATHS = (
     "vehicle.load",
     "vehicle.json_schema",
@@ -48,3 +50,12 @@ def test_what_is_not_there_is_an_attribute_error() -> None:
 def test_importing_loads_none_of_them() -> None:
     code = "import sys, mbs; print(*(n for n in sys.modules if n in ('mbs.vehicle', 'mbs.scenes')))"
     assert ran(code).stdout.split() == []
+
+
+def test_a_study_does_not_load_what_only_some_studies_ask_for() -> None:
+    rooms = "campaign", "cluster", "command", "execution", "missing", "trial"
+    loaded = ran(
+        f"import sys, {', '.join(f'hosts.study.{room}' for room in rooms)}; print(*sys.modules)"
+    ).stdout.split()
+    assert {f"hosts.study.{room}" for room in rooms} <= set(loaded)
+    assert set(WAYS["study"].values()) & set(loaded) == {"ali3.extras"} & set(loaded)

@@ -21,9 +21,9 @@ MOST = {
     "check": 5994,
     "catalogue": 8516,
     "compare": 9797,
-    "study": 5972,
+    "study": 5974,
     "study --run": 8432,
-    "study, all of it": 15493,
+    "study, all of it": 15495,
     "road": 694,
 }
 """Lines; a command that needs fewer takes its number down with it."""

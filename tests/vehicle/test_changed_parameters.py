@@ -36,7 +36,7 @@ BODY = {
     "front.alignment.": 0.01,
     "rear.alignment.": 0.01,
 }
-"""By the begin of the name: a factor, or what is added; the frame of a car allows no more."""
+"""By the start of the name: a factor, or what is added; the frame of a car allows no more."""
 MANOEUVRES: dict[str, dict[str, Any]] = {
     "bend": {
         "inputs": {

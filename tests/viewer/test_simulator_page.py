@@ -384,8 +384,8 @@ class TestOnePage:
           const { drawGround } = plan;
           plan.drawGround = (...given) => { made++; drawGround.apply(plan, given); };
           const { width, height } = map._canvas;
-          const pictures = (anew) => Array.from({ length: 31 }, (_, k) => {
-            if (anew || k === 0) map._ground.canvas.width = 1; // what another test has drawn
+          const pictures = (cleared) => Array.from({ length: 31 }, (_, k) => {
+            if (cleared || k === 0) map._ground.canvas.width = 1; // what another test has drawn
             map.show({ x: 4 * k, y: 1.4 * k, yaw: 0.3 });
             return map._canvas.getContext("2d").getImageData(0, 0, width, height).data;
           });

@@ -18,7 +18,6 @@ from hosts.driving.pilots.circle_follower import SENSES
 from hosts.measures.gradient import Gradient, gradient
 from hosts.measures.measure import Measure
 
-_GRAVITY = 9.80665
 _SIDES = {"left": 1.0, "right": -1.0}
 _POINTS = 400
 _Signal: TypeAlias = Callable[[CircleRun], NDArray[np.float64]]
