@@ -43,7 +43,8 @@ def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
     rooms = [*(build.HERE / "src").rglob("*.h"), *build.sources(lanes=False)]
     rooms = [f for f in rooms if f.parent.name not in build.LANES]
     files |= {f"kernel/{f.relative_to(build.HERE).as_posix()}": f.read_bytes() for f in rooms}
-    # once for the kernel's own files and once where every compiler of source FMUs looks
     header = (KERNEL_INCLUDE / "ali3.h").read_bytes()
-    files |= {"kernel/include/ali3.h": header, "ali3.h": header, "table.c": table_c.encode()}
+    # every compiler of source FMUs looks beside the shell's files only
+    files |= {"kernel/include/ali3.h": header, "ali3.h": b'#include "kernel/include/ali3.h"\n'}
+    files["table.c"] = table_c.encode()
     return dict(sorted(files.items()))

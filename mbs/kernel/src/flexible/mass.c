@@ -1,6 +1,5 @@
 /* M x: the constant mass matrix and what flexible bodies add to it. */
 #include "mass.h"
-#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../instance.h"
 #include "../tabled/tabled.h"
@@ -20,7 +19,7 @@ double ali3_mass_product(const ali3_instance *in, const double *a, const double 
   return sum;
 }
 
-ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
+void ali3_mass_to_fronts(const ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
@@ -31,5 +30,3 @@ ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
     }
   }
 }
-
-ALI3_BY_PROCESSOR(in->system, void, mass_to_fronts, (const ali3_instance *in, double *F), (in, F))

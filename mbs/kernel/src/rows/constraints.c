@@ -393,8 +393,7 @@ ALI3_INLINED void rows_times(const ali3_system *S, const real *J, const real *x,
 ALI3_BY_PROCESSOR(S, void, rows_times, (const ali3_system *S, const real *J, const real *x, real *out), (S, J, x, out))
 
 /* The same of x and y with entries loaded once. */
-ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const real *x, const real *y, real *out_x,
-                                  real *out_y) {
+void ali3_rows_times_both(const ali3_system *S, const real *J, const real *x, const real *y, real *out_x, real *out_y) {
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
   if (S->n_flexible > 0) {
     ali3_rows_times(S, J, x, out_x);
@@ -415,10 +414,6 @@ ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const rea
     out_x[k] = sum_x, out_y[k] = sum_y;
   }
 }
-
-ALI3_BY_PROCESSOR(S, void, rows_times_both,
-                  (const ali3_system *S, const real *J, const real *x, const real *y, real *out_x, real *out_y),
-                  (S, J, x, y, out_x, out_y))
 
 ALI3_INLINED void transposed(const ali3_system *S, const real *J, const real *w, real *out, bool stretches) {
   const int32_t *ptr = S->row_ptr, *col = S->row_col, *end = ptr + 1, *stretch = stretches ? S->row_stretch : end;

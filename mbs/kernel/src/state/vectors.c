@@ -70,8 +70,11 @@ void ali3_back_up(ali3_instance *in) {
 ALI3_INLINED bool vectors_finite(const ali3_instance *in, const ali3_vectors *v) {
   const int64_t nq = in->system->size.nq, nc = in->system->size.nc;
   const double *behind = v->past_lam + ALI3_PAST * nc;
-  return ali3_finite_inlined(v->q, v->past_a + nq - v->q) && ali3_finite_inlined(v->past_lam, nc) &&
-         ali3_finite_inlined(behind, v->q + in->n_vector - behind);
+  const double *const begin[] = {v->q, v->past_lam, behind};
+  const double *const end[] = {v->past_a + nq, v->past_lam + nc, v->q + in->n_vector};
+  for (int k = 0; k < 3; k++)
+    if (!ali3_finite_inlined(begin[k], end[k] - begin[k])) return false;
+  return true;
 }
 
 ALI3_BY_PROCESSOR(in->system, bool, vectors_finite, (const ali3_instance *in, const ali3_vectors *v), (in, v))
