@@ -41,6 +41,7 @@ def _check_encryption(address: str) -> None:
     else:
         print(
             f"note: The scheduler {shortened(address)} is used without TLS: whoever reaches it or its "
-            "workers can run programs as their user. The page on studies of the documentation says how certificates are set.",
+            "workers can run programs as their user. The page on studies of the documentation says how "
+            "certificates are set.",
             file=sys.stderr,
         )
