@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import mbs
+from ali3.words import shortened
 from fmu_src.build.scene_registry import SceneError
 from fmu_src.geometry.posed import Maker, posed_systems
 from mbs.vehicle import Car, Fidelity, car_names, load
@@ -109,7 +110,7 @@ def car_words(car: str) -> str:
         As for `build_car`.
     """
     if _is_path(car) or car not in car_names():
-        return car
+        return shortened(car)
     own = f" (the folder {car} here would be ./{car})" if (Path(car) / _FILE).is_file() else ""
     return f"{car} of the package{own}"
 

@@ -140,7 +140,8 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
         print(f"\nwritten: {', '.join(map(str, files))}{runs}", flush=True)
         pending = sum(outcome == _PENDING for by_car in outcomes.values() for outcome in by_car.values())
         if pending:
-            print(f"{pending} tests are not done yet; the same command goes on with them.", flush=True)
+            left = "1 test is" if pending == 1 else f"{pending} tests are"
+            print(f"{left} not done yet; the same command goes on from here.", flush=True)
     return _verdict(judged, faults)
 
 

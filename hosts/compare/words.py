@@ -38,7 +38,7 @@ def common_words(comparison: Comparison) -> list[str]:
     """Sentences on delays, drift and what could not be computed."""
     lines = []
     for name, s in comparison.signals.items():
-        for note in dict.fromkeys(filter(None, (s.deviations.note, s.alignment.note))):
+        if note := s.deviations.note or s.alignment.note:  # a constant signal has no delay either
             lines.append(f"note: {name}: {note}.")
     c = comparison.common
     if math.isfinite(c.delay):

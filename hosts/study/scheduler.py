@@ -6,6 +6,7 @@ import sys
 
 from distributed import Client, Security
 
+from ali3.words import shortened
 from hosts.common.errors import HostError
 
 _PATIENCE = 20.0  # s for an answer
@@ -39,7 +40,8 @@ def _check_encryption(address: str) -> None:
         raise HostError(f"The configuration of Dask demands encryption; {address} has none, tls://... has.")
     else:
         print(
-            f"note: The scheduler {address} is used without TLS: whoever reaches it or its workers can run programs as "
-            "their user. The page on studies of the documentation says how certificates are set.",
+            f"note: The scheduler {shortened(address)} is used without TLS: whoever reaches it or its "
+            "workers can run programs as their user. The page on studies of the documentation says how "
+            "certificates are set.",
             file=sys.stderr,
         )

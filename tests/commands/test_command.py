@@ -285,12 +285,12 @@ def test_what_is_long_on_a_command_line_is_not_quoted_whole(
     monkeypatch.setattr(Parser, "parse_args", lambda self, *a: (parsers.append(self), parse(self, *a))[1])
     with suppress(SystemExit):
         main([command.name, f"--{long}"])
-    lines.append(capsys.readouterr().err)
+    lines.append("".join(capsys.readouterr()))
     numbers = [a for a in parsers[0]._actions if a.type in (number, count, int, assignment, name_and_text)]
     for line in ([long], *([a.option_strings[0], long] for a in numbers)):
         with suppress(SystemExit):
             assert main([command.name, *line]) == 2
-        lines.append(capsys.readouterr().err)
+        lines.append("".join(capsys.readouterr()))
     assert all("error:" in line and len(line) < 5000 for line in lines)
 
 

@@ -153,4 +153,4 @@ def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> 
     assert left["note"] == "Not done yet: the command is at work, or was stopped."
     assert "load.peak_FL" in {row["measure"] for row in rows(out) if row["test"] == "drop"}
     assert list(out.rglob("runs/drop/*.csv"))
-    assert "1 tests are not done yet; the same command goes on with them." in told
+    assert "1 test is not done yet; the same command goes on from here." in told

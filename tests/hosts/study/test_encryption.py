@@ -19,6 +19,7 @@ from distributed.core import connect
 from hosts.common.errors import HostError
 from hosts.study.campaign import run_study
 from hosts.study.cluster import connected
+from hosts.study.scheduler import _check_encryption
 from hosts.study.store import read_study
 
 ROLES = ("scheduler", "worker", "nanny")
@@ -157,3 +158,10 @@ def test_certificates_that_are_missing_are_one_sentence(tmp_path: Path) -> None:
     files = {"distributed.comm.tls.ca-file": str(tmp_path / "none"), "distributed.comm.tls.client.cert": "none"}
     with dask.config.set(files), pytest.raises(HostError, match="certificates in .* cannot be used: .*No such file"):
         connected("tls://127.0.0.1:9", None).__enter__()
+
+
+def test_an_address_without_end_is_not_quoted_whole(capsys: pytest.CaptureFixture[str]) -> None:
+    _check_encryption(100_000 * "x")
+    told = capsys.readouterr().err
+    assert "is used without TLS" in told
+    assert len(told) < 1000
