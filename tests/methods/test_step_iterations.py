@@ -171,7 +171,7 @@ def test_other_methods_have_no_such_limit(rough, method):
 def test_a_run_says_it(rough):
     system = mbs.compile(double_four_bar.build())
     run = mbs.simulate(system, 2.0, 0.02, settings=Settings(step_iterations=1), estimate_error=False)
-    text = f"{run.report.capped} of 100 steps ended at the limit of their iterations, or stayed whole for it; they left at most"
+    text = f"{run.report.capped} of 100 steps ended at the limit of their iterations, or stayed whole for it; they left"
     assert run.report.capped > 0
     assert text in repr(run)
     assert text in str(run.report)
