@@ -69,7 +69,8 @@ class Report:
         Of the first one: 1 a loop went through a dead centre, or another position, into a mode that is not its own; 2 a
         step jumped.
     capped : int
-        Steps that ended at `Settings.step_iterations`.
+        Steps that ended at `Settings.step_iterations`, or stayed whole where a force changes abruptly because it has no
+        room for halves.
     capped_residual : float
         The largest that one of them left of `residual` or `violation`, m: about as far its positions may be off.
     """
@@ -138,11 +139,12 @@ class Report:
 
     @property
     def capped_text(self) -> str:
-        """A sentence about the steps that ended at `Settings.step_iterations`; empty where none did."""
+        """A sentence about the steps that `Settings.step_iterations` ended or left whole; empty where none."""
         if self.capped == 0:
             return ""
         left = f"they left at most {1e3 * self.capped_residual:.2g} mm"
-        return f"{self.capped} of {self.steps} steps ended at the limit of their iterations; {left}."
+        ended = f"{self.capped} of {self.steps} steps ended at the limit of their iterations, or stayed whole for it"
+        return f"{ended}; {left}."
 
     @property
     def coarse_text(self) -> str:

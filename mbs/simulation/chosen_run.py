@@ -265,7 +265,7 @@ def _warn(control: Control) -> None:
         return
     forced = f", {control.forced} steps of the least size erred more than their share of it" if control.forced else ""
     warnings.warn(
-        f"The error of this run is estimated as {control.error:.1e} of the model's length, more than {ALLOWED:g} times "
+        f"The error of this run is guessed as {control.error:.1e} of the model's length, more than {ALLOWED:g} times "
         f"the tolerance of {control.tolerance:g}, after {control.runs} runs{forced}. Small errors grow in this motion, "
         f"or round-off is reached: shorten the time, accept a larger tolerance or name another method than "
         f"{control.method!r}.",

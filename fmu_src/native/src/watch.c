@@ -41,7 +41,7 @@ static slave_status watch_limit(slave *s, const ali3_report *report) {
   const int said = report->capped == 0 ? SLAVE_NOT_CAPPED : left > MUCH_LEFT ? SLAVE_CAPPED_BADLY : SLAVE_CAPPED;
   if (said <= s->calls.capped_warned) return SLAVE_OK;
   s->calls.capped_warned = said;
-  char off[SLAVE_TEXT / 4] = "the energy balance is violated";
+  char off[SLAVE_TEXT / 4] = "the balance of energy or an abrupt force is not resolved";
   if (left > 0.0) snprintf(off, sizeof off, "positions are off by about %.2g mm", 1e3 * left);
   return slave_say(s, SLAVE_WARNING,
                    "Up to %.6g s %lld of %lld steps ended at the limit of their iterations, solver.step_iterations = "

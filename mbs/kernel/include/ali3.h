@@ -139,7 +139,7 @@ typedef struct {
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */
-  int64_t capped; /* steps that ended at settings.step_iterations */
+  int64_t capped; /* steps that ended at settings.step_iterations, or were not divided for its sake */
   double capped_residual; /* the largest they left: max |r_i|/m_i or max |Phi|, m */
 } ali3_report;
 

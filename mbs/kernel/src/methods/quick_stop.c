@@ -65,20 +65,23 @@ bool ali3_may_divide(const ali3_instance *in, int32_t depth) {
   return depth > 0 && depth > in->settings.max_halvings - DIVISIONS && in->system->nr > 0;
 }
 
-/* Whether a limit of the step's iterations leaves so many for each half. */
-static bool room_for_halves(const ali3_instance *in, int32_t iterations) {
-  return in->settings.step_iterations == 0 || in->iterations_end - in->report.iterations >= 2 * (int64_t)iterations;
-}
-
-/* Its parts may change less; who judges abrupt steps afterwards is told of the whole. */
-static bool counted(ali3_instance *in, bool divided) {
-  in->report.divisions += divided;
-  in->report.abrupt_steps += divided;
-  return divided;
+/* Whether a part in which a force changes abruptly is made in halves: where a limit of the step's iterations leaves so
+ * many for each. Else the limit ends the step, as one whose iterations it stops. The parts may change less; who judges
+ * abrupt steps afterwards is told of the whole. */
+static bool divided(ali3_instance *in, bool abrupt, int32_t iterations) {
+  if (!(in->may_divide && abrupt)) return false;
+  const int64_t left = in->iterations_end - in->report.iterations;
+  if (in->settings.step_iterations > 0 && left < 2 * (int64_t)iterations) {
+    in->capped = true;
+    return false;
+  }
+  in->report.divisions++;
+  in->report.abrupt_steps++;
+  return true;
 }
 
 bool ali3_divides_ahead(ali3_instance *in, double h) {
-  return counted(in, in->may_divide && in->report.change_rate * h > ABRUPT && room_for_halves(in, ENOUGH));
+  return divided(in, in->report.change_rate * h > ABRUPT, ENOUGH);
 }
 
 /* A load is measured by the largest load there was, other forces by the largest force. */
@@ -95,7 +98,7 @@ bool ali3_divides(ali3_instance *in, double h) {
   largest_force = fmax(largest_force, largest_load);
   const double change = fmax(load > 0.0 ? load / largest_load : 0.0, force > 0.0 ? force / largest_force : 0.0);
   in->report.change_rate = change / h;
-  return counted(in, in->may_divide && change > ABRUPT && room_for_halves(in, in->report.last_iterations));
+  return divided(in, change > ABRUPT, in->report.last_iterations);
 }
 
 /* Largest change of such a force of element e in the step. */
