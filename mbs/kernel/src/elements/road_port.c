@@ -1,6 +1,6 @@
 /* A road that other programs answer for: the plane through the point they were asked for, which they name with the
  * answer, so that it holds whenever it comes. Within a step a wheel goes on over the plane. Of several answers, as for
- * a body between the wheels, the mean over a place, by the inverse squares of the distances to the points asked for. */
+ * a body between the wheels, the mean over a place, by the inverse squares of the distances to the points asked for; see docs/decisions/0201. */
 #include "road_port.h"
 
 #include "../../include/ali3.h"
@@ -8,6 +8,7 @@
 #include "half_space.h"
 
 static const double NEAR = 0.01; /* m: a point asked for that is nearer counts as this near */
+static const double STEEP = 0.2;  /* from this slope against the plane of all answers on, one is its wheel's alone */
 static const double UPRIGHT = 0.02; /* least upward component of a normal */
 static const double OFF_UNIT = 0.1; /* of the length of a unit vector */
 
@@ -29,6 +30,35 @@ static void normal_of(const double *given, double n[3]) {
   for (int i = 0; i < 3; i++) n[i] = good ? given[i] / size : (i == 2);
 }
 
+static void slope_of(const double *given, double by[2]) {
+  double n[3];
+  normal_of(given + PORT_NORMAL, n);
+  for (int i = 0; i < 2; i++) by[i] = -n[i] / n[2];
+}
+
+/* Slope of the plane that fits the heights of all answers best; answers at one point have none. */
+static void slope_of_all(const ali3_road *road, double by[2]) {
+  double mean[3] = {0.0, 0.0, 0.0}, xx = NEAR * NEAR, xy = 0.0, yy = NEAR * NEAR, xz = 0.0, yz = 0.0;
+  for (int32_t k = 0; k < answers(road); k++)
+    for (int i = 0; i < 3; i++) mean[i] += answer(road, k)[PORT_X + i] / answers(road);
+  for (int32_t k = 0; k < answers(road); k++) {
+    const double *a = answer(road, k), x = a[PORT_X] - mean[0], y = a[PORT_Y] - mean[1], z = a[PORT_HEIGHT] - mean[2];
+    xx += x * x, xy += x * y, yy += y * y, xz += x * z, yz += y * z;
+  }
+  const double size = xx * yy - xy * xy;
+  by[0] = (yy * xz - xy * yz) / size;
+  by[1] = (xx * yz - xy * xz) / size;
+}
+
+/* The slope by which an answer goes on to a body beside its wheel: its own, or where that is much steeper than the plane
+ * of all answers, as at an edge, which ends beside the wheel, the slope of that plane. */
+static void slope_beside(const double *given, const double all[2], double by[2]) {
+  slope_of(given, by);
+  const double away[2] = {by[0] - all[0], by[1] - all[1]};
+  const double left = fmax(1.0 - (away[0] * away[0] + away[1] * away[1]) / (STEEP * STEEP), 0.0);
+  for (int i = 0; i < 2; i++) by[i] = all[i] + left * left * away[i];
+}
+
 ali3_surface ali3_port_surface(const ali3_road *road, const double place[3], double foot[3]) {
   ali3_surface s = {0};
   if (answers(road) == 1) {
@@ -39,12 +69,13 @@ ali3_surface ali3_port_surface(const ali3_road *road, const double place[3], dou
     s.friction = a[PORT_FRICTION];
     return s;
   }
-  double sum = 0.0, slope[2] = {0.0, 0.0};
+  double all[2], sum = 0.0, slope[2] = {0.0, 0.0};
+  slope_of_all(road, all);
   for (int32_t k = 0; k < answers(road); k++) {
     const double *a = answer(road, k), dx = place[0] - a[PORT_X], dy = place[1] - a[PORT_Y];
-    double n[3];
-    normal_of(a + PORT_NORMAL, n);
-    const double by[2] = {-n[0] / n[2], -n[1] / n[2]}, weight = 1.0 / (dx * dx + dy * dy + NEAR * NEAR);
+    double by[2];
+    slope_beside(a, all, by);
+    const double weight = 1.0 / (dx * dx + dy * dy + NEAR * NEAR);
     s.height += weight * (a[PORT_HEIGHT] + by[0] * dx + by[1] * dy);
     s.friction += weight * a[PORT_FRICTION];
     slope[0] += weight * by[0], slope[1] += weight * by[1];
@@ -70,12 +101,15 @@ int ali3_port_contact(const ali3_road *road, const double centre[3], const doubl
 
 /* The mean of planes is nowhere above the highest of them. */
 double ali3_port_top(const ali3_road *road, const double place[3], double reach) {
-  double top = -INFINITY;
+  double all[2], top = -INFINITY;
+  slope_of_all(road, all);
   for (int32_t k = 0; k < answers(road); k++) {
     const double *a = answer(road, k);
-    double n[3];
-    normal_of(a + PORT_NORMAL, n);
-    const double by[2] = {-n[0] / n[2], -n[1] / n[2]};
+    double by[2];
+    if (answers(road) == 1)
+      slope_of(a, by);
+    else
+      slope_beside(a, all, by);
     top = fmax(top, a[PORT_HEIGHT] + by[0] * (place[0] - a[PORT_X]) + by[1] * (place[1] - a[PORT_Y]) +
                         ali3_hypot(by[0], by[1]) * reach);
   }
