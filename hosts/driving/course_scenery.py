@@ -5,14 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ali3.cones import cone_places
 from ali3.iso_3888 import Gate
 from hosts.driving.course import Course
 from hosts.driving.ground_marks import Mark, lanes
+from viewer.base64_numbers import decoded
 
 _WIDTH = 0.15  # m, of lines
 _FEWEST, _MOST = 72, 3600  # sections of a circle; between them one a metre
@@ -31,8 +34,7 @@ def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
     Returns
     -------
     dict
-        The scene with cones in its scenery; where the height of its road is not known in closed form they stand in
-        `missing` instead.
+        The scene with cones in its scenery; where the height of its road is not known they stand in `missing` instead.
     """
     return with_marks(
         scene, [lanes([astuple(gate) for gate in course.gates], (0.0, 0.0, 0.0))], f"cones of {course.name}"
@@ -51,7 +53,7 @@ def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> di
     ]
     places = [place for thing in things for place in ([thing["at"]] if "at" in thing else thing["points"])]
     if not np.all(np.isfinite(places)):
-        why = "they are put onto level roads, planes and kerbs only"
+        why = "they are put onto level roads, planes, kerbs and within grids of heights only"
         return dict(scene) | {"missing": [*scene.get("missing", []), {"name": name, "why": why}]}
     return dict(scene) | ({"scenery": [*scene.get("scenery", []), *things]} if things else {})
 
@@ -98,6 +100,25 @@ def _height(roads: Sequence[Mapping[str, Any]], x: float, y: float) -> float:
             (ox, oy, oz), (dx, dy, _) = road.get("origin", (0.0, 0.0, 0.0)), road.get("direction", (1.0, 0.0, 0.0))
             along = ((x - ox) * dx + (y - oy) * dy) / math.hypot(dx, dy)
             found = oz + float(np.interp(along, road["stations"], road["heights"]))
+        elif road["kind"] == "grid" and road.get("axes") is None:
+            found = _height_of_grid(road, x, y)
         else:
             return math.nan
     return found
+
+
+def _height_of_grid(road: Mapping[str, Any], x: float, y: float) -> float:
+    """Linear along both axes between four points of the grid, m; NaN beside it."""
+    nx, ny = road["shape"]
+    i, j = ((value - start) / step for value, start, step in zip((x, y), road["origin"], road["spacing"], strict=True))
+    if not (0.0 <= i <= nx - 1 and 0.0 <= j <= ny - 1):
+        return math.nan
+    heights = _heights_of_grid(road["heights"]).reshape(nx, ny)
+    a, b = min(int(i), nx - 2), min(int(j), ny - 2)
+    along = heights[a : a + 2, b : b + 2] @ [1.0 - (j - b), j - b]
+    return float(along @ [1.0 - (i - a), i - a])
+
+
+@lru_cache(maxsize=4)
+def _heights_of_grid(text: str) -> NDArray[Any]:
+    return decoded(text, "f")

@@ -52,9 +52,9 @@ def test_cones_stand_on_the_road(road, height) -> None:
         assert z == pytest.approx(height(x, y), abs=1e-12)
 
 
-def test_on_a_road_of_heights_they_are_left_out_with_a_word() -> None:
+def test_on_a_terrain_they_are_left_out_with_a_word() -> None:
     made = with_course(
-        {"roads": [{"kind": "grid"}], "missing": [{"name": "a", "why": "b"}]}, course_of("iso_3888_1", WIDTH)
+        {"roads": [{"kind": "terrain"}], "missing": [{"name": "a", "why": "b"}]}, course_of("iso_3888_1", WIDTH)
     )
     assert "scenery" not in made
     assert [item["name"] for item in made["missing"]] == ["a", "cones of ISO 3888-1"]

@@ -311,8 +311,16 @@ def test_asphalt_lies_on_the_earth_and_not_under_the_camera(drawn):
 
 
 @pytest.mark.slow
-def test_lines_are_painted_every_ten_metres(drawn):
-    shown = scene(shapes=[ball()], focus="body", extent=12.0, roads=[{"kind": "flat", "height": -0.3}])
+@pytest.mark.parametrize(
+    "road",
+    [
+        {"kind": "flat", "height": -0.3},
+        {"kind": "profile", "stations": [-0.0005, 0.0005], "heights": [-0.3, -0.4], "origin": [1e6, 0, 0]},
+    ],
+    ids=["plane", "kerb that a car has far away"],
+)
+def test_lines_are_painted_every_ten_metres(drawn, road):
+    shown = scene(shapes=[ball()], focus="body", extent=12.0, roads=[road])
     drawn.show(shown, at(4.0, 3.0, 0), camera="top")
     picture = drawn.picture().sum(axis=2)
 

@@ -76,7 +76,7 @@ function plane(road, { up, asphalt }) {
 }
 
 /** Levels along a direction of travel; before the first and after the last the road goes on level, under the eye too. */
-function profile(road, { up, road: material }) {
+function profile(road, { up, asphalt: material }) {
   const forward = unit(road.direction ?? [1, 0, 0]);
   const side = cross(up, forward);
   const base = road.origin ?? [0, 0, 0];
