@@ -46,7 +46,13 @@ _SOLVER = (
         *("solver.energy_balance", 7, "1", False),
         "solver.energy_error over the largest kinetic energy and the work so far; above 0.04 results are wrong",
     ),
-    ("solver.capped_steps", 8, "1", True, f"Inner steps since the start that ended at {STEP_ITERATIONS}"),
+    (
+        "solver.capped_steps",
+        8,
+        "1",
+        True,
+        f"Inner steps since the start that ended at {STEP_ITERATIONS}, or stayed whole for it",
+    ),
 )
 FIDELITY = "fidelity"
 

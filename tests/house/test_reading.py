@@ -16,14 +16,14 @@ MOST = {
     "run": 4000,
     "run, all of it": 8591,
     "view": 791,
-    "simulator": 9020,
-    "simulator, all of it": 16200,
+    "simulator": 9023,
+    "simulator, all of it": 16203,
     "check": 5994,
-    "catalogue": 8516,
+    "catalogue": 8517,
     "compare": 9797,
     "study": 5974,
     "study --run": 8432,
-    "study, all of it": 15495,
+    "study, all of it": 15497,
     "road": 694,
 }
 """Lines; a command that needs fewer takes its number down with it."""

@@ -139,7 +139,7 @@ typedef struct {
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */
-  int64_t capped; /* steps that ended at settings.step_iterations, or were not divided for its sake */
+  int64_t capped; /* steps that ended at settings.step_iterations, or stayed whole for it */
   double capped_residual; /* the largest they left: max |r_i|/m_i or max |Phi|, m */
 } ali3_report;
 
@@ -354,7 +354,7 @@ enum { /* report of the solver; the integer of sensors of type 13 */
        ALI3_SOLVER_STATUS, /* as ali3_run_status */
        ALI3_SOLVER_ENERGY_ERROR, /* J, since the start */
        ALI3_SOLVER_ENERGY_BALANCE, /* the same as a share of the motion, see ali3_energy_balance */
-       ALI3_SOLVER_CAPPED, /* steps since the start that ended at settings.step_iterations */
+       ALI3_SOLVER_CAPPED, /* steps since the start that ended at settings.step_iterations, or stayed whole for it */
        ALI3_SOLVER_COUNT
 };
 ALI3_API double ali3_solver_value(const ali3_instance *in, int32_t kind);
