@@ -252,5 +252,5 @@ class StepTimes:
                 )
         if self.capped:
             left = f"the largest residual left was {1e3 * self.capped_residual:.3g} mm"
-            rows.append(f"inner steps that ended at the limit of iterations, or stayed whole for it: {self.capped}; {left}")
+            rows.append(f"inner steps stopped, or left whole, at the limit of iterations: {self.capped}; {left}")
         return "\n".join([*rows, "histogram of the costs:", *self.cost.lines()])
