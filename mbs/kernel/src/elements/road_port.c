@@ -1,6 +1,7 @@
 /* A road that other programs answer for: the plane through the point they were asked for, which they name with the
  * answer, so that it holds whenever it comes. Within a step a wheel goes on over the plane. Of several answers, as for
- * a body between the wheels, the mean over a place, by the inverse squares of the distances to the points asked for; see docs/decisions/0201. */
+ * a body between the wheels, the mean over a place, by the inverse squares of the distances to the points asked for;
+ * see docs/decisions/0201. */
 #include "road_port.h"
 
 #include "../../include/ali3.h"
@@ -50,8 +51,8 @@ static void slope_of_all(const ali3_road *road, double by[2]) {
   by[1] = (xx * yz - xy * xz) / size;
 }
 
-/* The slope by which an answer goes on to a body beside its wheel: its own, or where that is much steeper than the plane
- * of all answers, as at an edge, which ends beside the wheel, the slope of that plane. */
+/* The slope by which an answer goes on to a body beside its wheel: its own, or where that is much steeper than the
+ * plane of all answers, as at an edge, which ends beside the wheel, the slope of that plane. */
 static void slope_beside(const double *given, const double all[2], double by[2]) {
   slope_of(given, by);
   const double away[2] = {by[0] - all[0], by[1] - all[1]};
