@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,8 @@ _LEAST_CORRELATION = 0.5
 _AMBIGUOUS = 0.01
 _MOST_POINTS = 20_000
 _LARGEST_DRIFT = 0.05
+# A clock moves all that a log holds; a drift that explains less of what is left is one of the model, and not told.
+_LEAST_EXPLAINED = 0.25
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,8 @@ class Alignment:
         By how much the log's clock of this signal runs fast.
     correlation : float
         When aligned.
+    explained : float
+        Part of the squared residuals without a drift that the drift takes away.
     """
 
     delay: float
@@ -47,6 +51,12 @@ class Alignment:
     drift_error: float
     correlation: float
     note: str = ""
+    explained: float = 0.0
+
+    @property
+    def has_drift(self) -> bool:
+        """Whether the drift is beyond two of its errors and explains a quarter of what is left without it."""
+        return abs(self.drift) > 2.0 * self.drift_error and self.explained >= _LEAST_EXPLAINED
 
 
 def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = True) -> Alignment:
@@ -72,7 +82,7 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     if abs(fine.delay) > longest:
         words = f"no delay up to {longest:g} s, which was looked for (--longest-delay), fits best"
         return Alignment(*4 * (math.nan,), fine.correlation, words)
-    return Alignment(fine.delay, fine.delay_error, fine.drift, fine.drift_error, fine.correlation, note)
+    return replace(fine, note=note)
 
 
 def _coarse(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tuple[float, float, float | None]:
@@ -148,7 +158,12 @@ def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> A
     correlation = math.sqrt(max(0.0, 1.0 - left))
     if not drift:
         return Alignment(float(found.x[0]), float(errors[0]), 0.0, 0.0, correlation)
-    return Alignment(float(found.x[0]), float(errors[0]), float(found.x[1]), float(errors[1]), correlation)
+    # To first order: the delay takes the best part of the drift's place when the drift is left out.
+    late, fast = np.asarray(found.jac).T
+    taken = float(found.x[1] ** 2 * (fast @ fast - (late @ fast) ** 2 / (late @ late)))
+    explained = taken / (taken + float(found.fun @ found.fun)) if taken > 0.0 else 0.0
+    drifts = float(found.x[1]), float(errors[1])
+    return Alignment(float(found.x[0]), float(errors[0]), *drifts, correlation, explained=explained)
 
 
 def _overlap(signal: Signal, curve: Curve, delay: float) -> Signal:

@@ -40,7 +40,7 @@ class Comparison:
     Parameters
     ----------
     common : Alignment
-        Of all signals together.
+        Of all signals together that tell a delay alone; of all where none does.
     """
 
     signals: dict[str, ComparedSignal]
@@ -63,7 +63,8 @@ def compare(
     """
     pairs = {n: (s.between(skip, curves[n].end), curves[n]) for n, s in outputs.items()}
     signals = {n: _compared(s, c, longest_delay) for n, (s, c) in pairs.items()}
-    return Comparison(signals, align(list(pairs.values()), longest_delay))
+    telling = [pairs[n] for n, s in signals.items() if math.isfinite(s.alignment.delay)]
+    return Comparison(signals, align(telling or list(pairs.values()), longest_delay))
 
 
 def _compared(measured: Signal, curve: Curve, longest_delay: float) -> ComparedSignal:

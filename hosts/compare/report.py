@@ -13,7 +13,7 @@ from hosts.compare.comparison import Comparison
 from hosts.compare.fit_result import Fit
 from hosts.compare.fit_words import FIT_COLUMNS, fit_rows, left_out_words, start_words
 from hosts.compare.windows import Bin
-from hosts.compare.words import unit_shown
+from hosts.compare.words import common_sentence, unit_shown
 
 _COLUMNS = ("signal", "unit", "rms", "normalised", "mean", "largest", "at, s", "correlation", "rating",
             "corridor", "phase", "magnitude", "slope", "delay, ms")  # fmt: skip
@@ -67,15 +67,8 @@ def write_report(
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
         parts.append(table("", ("", *names), rows, "numbers"))
-    c = before.common
-    if math.isfinite(c.delay):
-        parts.append(
-            element(
-                "p",
-                f"All signals together: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late, its clock "
-                f"{1e6 * c.drift:.3g} ± {1e6 * c.drift_error:.2g} ppm fast.",
-            )
-        )
+    if common := common_sentence(before):
+        parts.append(element("p", common))
     if told:
         parts.append(element("h2", "By speed and lateral acceleration"))
         parts.append(table("", _BIN_COLUMNS, bin_rows(told, before), "numbers"))

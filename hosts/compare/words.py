@@ -40,15 +40,23 @@ def common_words(comparison: Comparison) -> list[str]:
     for name, s in comparison.signals.items():
         if note := s.deviations.note or s.alignment.note:  # a constant signal has no delay either
             lines.append(f"note: {name}: {note}.")
+    common = common_sentence(comparison)
+    return [*lines, common] if common else lines
+
+
+def common_sentence(comparison: Comparison) -> str:
+    """How late the log is, and its drift where a difference of the model is none; empty where no delay is known."""
     c = comparison.common
-    if math.isfinite(c.delay):
-        drift = (
-            f"; its clock runs {1e6 * c.drift:.3g} ± {1e6 * c.drift_error:.2g} ppm {'fast' if c.drift > 0 else 'slow'}"
-            if abs(c.drift) > 2.0 * c.drift_error
-            else ""
-        )
-        lines.append(f"all signals: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late{drift}")
-    return lines
+    if not math.isfinite(c.delay):
+        return ""
+    late = f"All signals together: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late"
+    if not c.has_drift:
+        return f"{late}."
+    rate = f"{1e6 * abs(c.drift):.3g} ± {1e6 * c.drift_error:.2g} ppm {'fast' if c.drift > 0.0 else 'slow'}"
+    return (
+        f"{late}; the clock of its outputs runs {rate} against that of its inputs, which explains "
+        f"{100.0 * c.explained:.0f} % of what a delay leaves."
+    )
 
 
 def unit_shown(unit: str) -> str:

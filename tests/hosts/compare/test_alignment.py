@@ -75,3 +75,15 @@ def test_of_a_periodic_signal_the_smallest_delay_is_taken_and_the_other_named() 
     found = align([(signal, wave)], 1.0, drift=False)
     assert found.delay == pytest.approx(0.1, abs=1e-4)
     assert "-0.4" in found.note or "0.6" in found.note
+
+
+@pytest.mark.parametrize(("drift", "told"), [(0.0, False), (3e-4, True), (-1e-3, True)])
+def test_a_difference_of_the_model_in_many_signals_is_no_drift(curve: Curve, drift: float, told: bool) -> None:
+    """Signals that differ alike count as many: the interval is far too short, and only what is explained tells."""
+    t = np.arange(0.0, 19.5, 0.013)
+    at = t / (1.0 + drift)
+    values = motion(at - 2e-3 * np.sin(3.0 * at))
+    found = align(20 * [(Signal("y", "y", "1", t, values), curve)], 0.6)
+    assert abs(found.drift - drift) < 1e-4
+    assert abs(found.drift) > 2.0 * found.drift_error
+    assert found.has_drift is told

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from hosts.compare.log import Signal
 from hosts.compare.page import comparison_figure, write_picture, write_summary
 from hosts.compare.report import bin_rows
 from hosts.compare.windows import bins
-from hosts.compare.words import table, with_unit
+from hosts.compare.words import common_sentence, common_words, table, with_unit
 from hosts.driving.result import Result
 
 pytestmark = pytest.mark.drawn
@@ -38,6 +39,31 @@ def test_deviations_are_in_degrees(comparison: Comparison) -> None:
     assert head.split()[:3] == ["signal", "unit", "rms"]
     assert yaw.split()[:3] == ["chassis.wz", "deg/s", "0.573"]
     assert gear.split()[:2] == ["gear", "0.2"]
+
+
+def test_a_drift_is_told_where_it_is_one(comparison: Comparison) -> None:
+    """In the terminal and on the page by the same sentence."""
+    clock = replace(comparison.common, delay=0.01, delay_error=1e-4, drift=-3e-4, drift_error=1e-5, explained=0.9)
+    words = common_sentence(Comparison(comparison.signals, clock))
+    assert words == (
+        "All signals together: the log is 10 ± 0.1 ms late; the clock of its outputs runs 300 ± 10 ppm slow against "
+        "that of its inputs, which explains 90 % of what a delay leaves."
+    )
+    assert common_words(Comparison(comparison.signals, clock))[-1] == words
+    model = Comparison(comparison.signals, replace(clock, explained=0.05))
+    assert common_sentence(model) == "All signals together: the log is 10 ± 0.1 ms late."
+
+
+def test_a_signal_that_tells_no_delay_has_no_say_in_the_common_one() -> None:
+    """Noise beside a turn that is 30 ms late."""
+    noise, other = np.random.default_rng(3).normal(size=(2, 201))
+    turn = np.sin(3.0 * TIME) + np.sin(7.0 * TIME)
+    result = Result(["turn", "noise"], {}, TIME, np.column_stack([turn, other]), 1.0, 2.0, 0, [])
+    late = np.sin(3.0 * (TIME - 0.03)) + np.sin(7.0 * (TIME - 0.03))
+    signals = {n: Signal(n, n, "1", TIME, y) for n, y in {"turn": late, "noise": noise}.items()}
+    found = compare(signals, {n: Curve(result, n) for n in signals}, 0.1).common
+    assert found.delay == pytest.approx(0.03, abs=1e-5)
+    assert found.correlation == pytest.approx(1.0, abs=1e-6)
 
 
 def test_deviations_by_speed_are_in_the_same_units(comparison: Comparison) -> None:
