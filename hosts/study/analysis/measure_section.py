@@ -58,7 +58,7 @@ def measure_section(
     lost = bool(data.failed.any())
     name, label = f"{number + 1:02d}_{response.label}", response.label
     body = [element("h2", response.title)]
-    body.append(pictures.add(plot_overview(response, indices), f"{name}_overview", f"Distribution of {label}"))
+    body.append(pictures.add(plot_overview(data, response, indices), f"{name}_overview", f"Distribution of {label}"))
     body.append(paragraph(indices if isinstance(indices, str) else indices.how, "faint"))
     if data.parameters:
         body.append(element("h3", "Main effects"))
@@ -101,6 +101,8 @@ def indices_of(data: StudyData, response: Response) -> Indices | str:
     names = [p.name for p in data.parameters]
     if not names:
         return "The study has no parameters."
+    if len(names) == 1:
+        return f"No indices: {names[0]} alone is varied and makes all of the variance."
     if data.method == "saltelli":
         return saltelli_indices(
             names, data.points(response), response.values, bool(data.about["sampling"].get("second_order"))

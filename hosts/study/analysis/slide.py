@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from ali3.chart_style import BLUE
 from hosts.run.slide import Draw, write_slide
 from hosts.study.analysis.data import Response, StudyData
 from hosts.study.analysis.indices import Indices
-from hosts.study.analysis.summary_plots import plot_histogram, plot_indices, rank_correlations
+from hosts.study.analysis.summary_plots import no_distribution, plot_distribution, plot_indices, rank_correlations
 from hosts.study.analysis.tables import statistics
 from hosts.study.limits import Share, share_rows, shares
 
@@ -30,11 +31,13 @@ def write_study_slide(data: StudyData, indices: Indices | str | None, folder: Pa
         head = ["measure", "limit", "within", "share", "95 %"]
         rows = limit_rows(found, data)
     else:
-        head = ["measure", "unit", "5 %", "median", "95 %"]
-        rows = [_percentiles(response) for response in data.responses]
+        known = not any(no_distribution(data, response) for response in data.responses)
+        names = ("5 %", "median", "95 %") if known else ("lowest", "median", "highest")
+        head = ["measure", "unit", *names]
+        rows = [_statistics(response, names) for response in data.responses]
     main, draws = main_response(data), list[Draw]()
     if main is not None:
-        draws.append(lambda axes: plot_histogram(axes, main))
+        draws.append(lambda axes: plot_distribution(axes, data, main))
         if isinstance(indices, Indices):
             draws.append(lambda axes: plot_indices(axes, indices))
         if data.parameters:
@@ -59,10 +62,10 @@ def main_response(data: StudyData) -> Response | None:
     return next(iter([*limited, *varied]), None)
 
 
-def _percentiles(response: Response) -> list[str]:
+def _statistics(response: Response, names: Sequence[str]) -> list[str]:
     found = statistics(response)
     unit = "" if response.unit == "1" else response.unit
-    return [response.label, unit, *(f"{found[name]:.4g}" for name in ("5 %", "median", "95 %"))]
+    return [response.label, unit, *(f"{found[name]:.4g}" for name in names)]
 
 
 def _strongest(axes: Axes, data: StudyData, response: Response) -> None:

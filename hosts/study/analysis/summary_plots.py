@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
@@ -19,24 +20,52 @@ from hosts.study.analysis.panels import WIDTH
 
 PERCENTILES = (5.0, 50.0, 95.0)
 _MOST_BINS = 60
+# Of fewer values the 5 % and the 95 % are between the two outermost ones.
+_FEWEST_FOR_DISTRIBUTION = 20
 
 
-def plot_overview(response: Response, indices: Indices | str) -> Figure:
-    """Histogram with percentiles; beside it the indices, where there are some."""
+def plot_overview(data: StudyData, response: Response, indices: Indices | str) -> Figure:
+    """The distribution; beside it the indices, where there are some."""
     if isinstance(indices, str):
         figure, axes = plt.subplots(figsize=(0.55 * WIDTH, 2.9), layout="constrained")
-        plot_histogram(axes, response)
+        plot_distribution(axes, data, response)
         return figure
     height = max(2.9, 0.9 + 0.42 * len(indices.names))
     figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, height), layout="constrained")
-    plot_histogram(left, response)
+    plot_distribution(left, data, response)
     plot_indices(right, indices)
     return figure
 
 
-def plot_histogram(axes: Axes, response: Response) -> None:
-    """Distribution with percentiles and the limits of the study."""
-    y = response.values
+def no_distribution(data: StudyData, response: Response) -> str:
+    """Why the values of a measure are no random sample from which a distribution can be told; "" if they are."""
+    count = len(response.values)
+    if data.method in ("grid", "table"):
+        return f"{count} runs of a {data.method}, no random sample"
+    few = count < _FEWEST_FOR_DISTRIBUTION
+    return f"{count} runs, from {_FEWEST_FOR_DISTRIBUTION} on a distribution" if few else ""
+
+
+def plot_distribution(axes: Axes, data: StudyData, response: Response) -> None:
+    """Histogram with percentiles and the limits of the study; the values in their order where it cannot be told."""
+    if why := no_distribution(data, response):
+        axes.plot(np.sort(response.values), np.arange(1, len(response.values) + 1), "o", color=BLUE, markersize=4)
+        axes.yaxis.set_major_locator(MaxNLocator(integer=True))
+        axes.set_ylabel("runs, lowest first")
+        axes.set_title(f"Values ({why})")
+    else:
+        _histogram(axes, response.values)
+    for end in filter(math.isfinite, response.limits):
+        axes.axvline(end, color=BLACK, linewidth=2.0, label=f"limit: {end:.4g}")
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(
+            loc="lower right", bbox_to_anchor=(1.0, 0.985), ncols=3, handlelength=1.4, columnspacing=1.0, fontsize=8
+        )
+    axes.set_xlabel(response.title)
+    axes.set_axisbelow(True)
+
+
+def _histogram(axes: Axes, y: NDArray[np.float64]) -> None:
     edges = np.histogram_bin_edges(y, "auto")
     if len(edges) > _MOST_BINS + 1:
         edges = np.linspace(y.min(), y.max(), _MOST_BINS + 1)
@@ -44,13 +73,6 @@ def plot_histogram(axes: Axes, response: Response) -> None:
     for percent, value in zip(PERCENTILES, np.percentile(y, PERCENTILES), strict=True):
         dashes = "-" if percent == 50.0 else "--"
         axes.axvline(float(value), color=RED, linewidth=1.2, linestyle=dashes, label=f"{percent:g} %: {value:.4g}")
-    for end in filter(math.isfinite, response.limits):
-        axes.axvline(end, color=BLACK, linewidth=2.0, label=f"limit: {end:.4g}")
-    axes.legend(
-        loc="lower right", bbox_to_anchor=(1.0, 0.985), ncols=3, handlelength=1.4, columnspacing=1.0, fontsize=8
-    )
-    axes.set_xlabel(response.title)
-    axes.set_axisbelow(True)
     axes.set_ylabel("runs")
     axes.set_title("Distribution")
 

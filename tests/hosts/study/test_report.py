@@ -18,8 +18,8 @@ from hosts.study.analysis.effect_plots import failed_share
 from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.measure_section import indices_of
 from hosts.study.analysis.report import report_of
-from hosts.study.analysis.slide import limit_rows, main_response
-from hosts.study.analysis.summary_plots import plot_indices, rank_correlations
+from hosts.study.analysis.slide import limit_rows, main_response, write_study_slide
+from hosts.study.analysis.summary_plots import plot_distribution, plot_indices, rank_correlations
 from hosts.study.analysis.tables import extremes, reasons, said, statistics
 from hosts.study.limits import ALL, shares
 from tests.hosts.study.frames import frame_of
@@ -136,6 +136,39 @@ def test_the_slide_shows_the_measure_with_a_limit() -> None:
     made.attrs["limits"] = {name: {"min": 0.0, "max": None, "unit": "1"} for name in ("flat", "roll")}
     assert getattr(main_response(study_data(made)), "measure", "") == "roll"
     assert main_response(study_data(frame_of({"mass": x}, {"flat": np.ones(20)}, UNITS))) is None
+
+
+@pytest.mark.parametrize(
+    ("method", "count", "title"),
+    [
+        ("grid", 2, "Values (2 runs of a grid, no random sample)"),
+        ("table", 40, "Values (40 runs of a table, no random sample)"),
+        ("sobol", 19, "Values (19 runs, from 20 on a distribution)"),
+        ("sobol", 20, "Distribution"),
+    ],
+)
+def test_a_distribution_is_drawn_of_a_random_sample_only(method: str, count: int, title: str) -> None:
+    x = np.linspace(1.0, 2.0, count)
+    data = study_data(frame_of({"mass": x}, {"peak": x[::-1]}, UNITS, method=method))
+    figure, axes = plt.subplots()
+    plot_distribution(axes, data, data.responses[0])
+    assert axes.get_title() == title
+    assert bool(axes.patches) == (title == "Distribution")
+    if not axes.patches:
+        assert axes.lines[0].get_xdata() == pytest.approx(x)
+    plt.close(figure)
+
+
+def test_one_parameter_has_no_indices_and_a_grid_no_percentiles(tmp_path: Path) -> None:
+    """Of one parameter an index is 1 whatever the model does."""
+    data = study_data(frame_of({"mass": [1.0, 2.0]}, {"peak": np.array([3.0, 4.0])}, UNITS, method="grid"))
+    indices = indices_of(data, data.responses[0])
+    assert indices == "No indices: mass alone is varied and makes all of the variance."
+    write_study_slide(data, indices, tmp_path)
+    text = (tmp_path / "summary.svg").read_text(encoding="utf-8")
+    assert "lowest" in text
+    assert "Distribution" not in text
+    assert "Sobol" not in text
 
 
 def test_the_slide_begins_with_all_limits_together() -> None:
