@@ -128,6 +128,7 @@ class Server:
                     await page.connection.close(_CAR_ENDED, str(error)[:_LONGEST_REASON])
                 raise
             finally:
+                self._web.end_strangers()
                 for task in tasks:
                     task.cancel()
 

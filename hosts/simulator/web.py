@@ -135,6 +135,11 @@ class Web:
 
         return Known
 
+    def end_strangers(self) -> None:
+        """End the connections that have not shown the token, for which a server that closes would wait."""
+        for connection in self._strangers:
+            connection.transport.abort()
+
 
 def _packed(text: str) -> bytes:
     return gzip.compress(text.encode("utf-8"), 5, mtime=0)

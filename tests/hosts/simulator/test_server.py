@@ -438,6 +438,18 @@ def test_connections_that_say_nothing_are_bounded_and_keep_nobody_away(served, s
             pass
 
 
+def test_connections_that_say_nothing_do_not_hold_the_end(car):
+    """A server that closes would wait for their handshakes as long as one may take, 10 s."""
+    with ExitStack() as opened:
+        with serving(car) as served:
+            for _ in range(70):
+                line = opened.enter_context(RawClient.silent(served.port))
+                line.sendall(b"GET / HTTP/1.1\r\n")
+            assert request(served.port, f"/{served.key}", {})[0] == 200  # the last ones are connected too
+            begin = time.monotonic()
+        assert time.monotonic() - begin < 5.0
+
+
 def test_a_car_that_has_ended_ends_the_server(car):
     def ended():
         raise HostError("The process of the car has ended.")
