@@ -253,6 +253,21 @@ def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(o
     assert page("() => window.player.view.floor") < -0.6
     assert page("() => { window.player.set({ deformation: 60 }); return window.player.view.floor }") < -1.2
     assert page("() => { window.player.set({ deformation: 1 }); return window.player.view.floor }") > -0.2
+    ghost = Recording(scene, t, {"q": 0.04 * np.sin(np.pi * t)})
+    page = opened(Recording(scene, t, {"q": 0.0 * t}), ghost, deformation=30)
+    assert page("() => window.player.view.floor") < -1.2
+
+
+def test_the_floor_lies_below_short_peaks_and_below_ghosts(opened: Callable[..., Opened]) -> None:
+    """One time of 501 at which a ball is 3 m down, and another at which its ghost is 5 m down."""
+    t = np.linspace(0.0, 1.0, 501)
+    scene = {"format": "ALi3 scene", "version": 1, "name": "ball", "up": [0, 0, 1], "planar": False, "extent": 2.0}
+    scene |= {"focus": "body", "frames": {"body": moving("body")}}
+    scene |= {"shapes": [{"kind": "sphere", "frame": "body", "radius": 0.1}]}
+    still = {f"body.{name}": np.full_like(t, name == "qw") for name in ("x", "y", "qw", "qx", "qy", "qz")}
+    runs = [Recording(scene, t, still | {"body.z": np.where(t == t[k], -d, 0.0)}) for k, d in ((333, 3.0), (111, 5.0))]
+    assert -3.3 < opened(runs[0])("() => window.player.view.floor") < -3.1
+    assert -5.3 < opened(*runs)("() => window.player.view.floor") < -5.1
 
 
 def test_a_body_that_falls_stays_above_the_floor(opened: Callable[..., Opened], tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ import { Clock } from "./clock.js";
 import { playerActs } from "./keys.js";
 import { fromHash, toHash } from "./link.js";
 import { Plots } from "./plots.js";
+import { extremesOf } from "./extremes.js";
 import { Sampler } from "./sampler.js";
 import { Settings } from "./settings.js";
 import { Traces } from "./traces.js";
@@ -249,6 +250,7 @@ export class Player {
       if (k === this.solid || !run.scene || this.problem) continue;
       const options = { name: run.name, tint: looks.ghosts[this.ghosts.length % looks.ghosts.length] };
       this.ghosts.push({ name: run.name, run, options, sampler: this.samplers[k], drawn: this.view.addGhost(run.scene, options) });
+      this.#lower(run, this.ghosts.at(-1).drawn);
       this.#trace(k, { tint: options.tint, under: this.ghosts.length });
     }
     const { way } = this.drawnRuns[0].traces;
@@ -275,6 +277,15 @@ export class Player {
     const times = Math.min(t.length, SCANNED);
     const sample = (i) => (times > 1 ? Math.round((i * (t.length - 1)) / (times - 1)) : 0);
     this.view.scan?.((i) => (name) => columns[name]?.data[sample(i)], times);
+    this.#lower(this.runs[this.solid], this.view);
+    for (const { run, drawn } of this.ghosts) this.#lower(run, drawn);
+  }
+
+  /** Puts the floor below a run where its columns are largest and smallest. @param {import("./decode.js").Run} run @param {Data} drawn */
+  #lower(run, drawn) {
+    if (this.problem || (this.runs[this.solid].scene.roads ?? []).length > 0) return; // roads are the floor
+    const instants = extremesOf(run);
+    drawn?.lower((i) => (name) => run.columns[name]?.data[instants[i]], instants.length);
   }
 
   #controls() {
