@@ -53,6 +53,13 @@ def run(name: str, t: np.ndarray = T, **parts: Any) -> Recording:
     )
 
 
+def straight(speed: float) -> Recording:
+    """4 s along x without a turn."""
+    made = run("straight")
+    made.columns |= {"body.x": speed * T, "body.y": 0.0 * T, "body.qw": 1.0 + 0.0 * T, "body.qz": 0.0 * T}
+    return made
+
+
 @pytest.fixture(scope="module")
 def seen(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
     from viewer.page_file import write_page
@@ -65,10 +72,17 @@ def seen(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ope
     opened.page.close()
 
 
+def is_yellow(red: Any, green: Any, blue: Any) -> Any:
+    return (red > 150) & (green > 120) & (blue < 0.7 * green)
+
+
+def is_magenta(red: Any, green: Any, blue: Any) -> Any:
+    return (red > 100) & (red > blue) & (green < 0.7 * blue)
+
+
 def yellow(opened: Opened, point: list[float]) -> bool:
     x, y = opened.place(point)
-    red, green, blue = opened.picture()[y, x]
-    return bool(red > 150 and green > 120 and blue < 0.7 * green)
+    return bool(is_yellow(*opened.picture()[y, x]))
 
 
 def test_the_path_lies_on_the_ground_where_the_run_has_been(seen: Opened) -> None:
@@ -87,12 +101,12 @@ FAR_KERB = {"kind": "profile", "stations": [-0.0005, 0.0005], "heights": [0.0, -
 @pytest.mark.parametrize("road", [{"kind": "flat"}, FAR_KERB])
 def test_the_path_is_seen_at_every_instant(opened: Callable[..., Opened], road: dict[str, Any]) -> None:
     """Near the eye, where the depth of large triangles is off by more than the path lies above them."""
-    straight = run("straight", roads=[road], extent=3.8)
+    made = run("straight", roads=[road], extent=3.8)
     yaw = 0.03 * np.sin(5.0 * T)  # another camera at each instant
     values = {"x": 20.0 * T, "y": 0.0 * T, "z": 0.5 + 0.03 * np.sin(11.0 * T)}
     values |= {"qw": np.cos(0.5 * yaw), "qz": np.sin(0.5 * yaw)}
-    straight.columns |= {f"body.{name}": column for name, column in values.items()}
-    page = opened(straight, camera="chase")
+    made.columns |= {f"body.{name}": column for name, column in values.items()}
+    page = opened(made, camera="chase")
     seen = []
     for t in np.arange(1.0, 3.0, 1.0 / 15.0):
         page.seek(float(t))
@@ -126,26 +140,54 @@ def test_a_cone_of_the_scene_stands_beside_the_path(seen: Opened) -> None:
     assert ((red > 120) & (red > 2.0 * blue)).sum() > 20
 
 
-def test_the_fixed_camera_sees_the_whole_way_and_does_not_move(seen: Opened) -> None:
+def test_the_fixed_camera_sees_the_whole_of_a_short_way_and_does_not_move(opened: Callable[..., Opened]) -> None:
+    short = run("short", T / 5.0)
+    page = opened(short, camera="fixed")
     places = []
-    for t in (0.5, 3.5):
-        seen("() => window.player.camera('fixed')")
-        seen.seek(t)
-        places.append([seen.place(way(s)) for s in (0.0, 2.0, 4.0)])
+    for t in (0.1, 0.7):
+        page.seek(t)
+        places.append([page.place(way(s)) for s in (0.0, 0.4, 0.8)])
     assert np.abs(np.subtract(*places)).max() <= 1
     assert all(0 <= x < 640 and 0 <= y < 360 for x, y in places[0])
 
 
+def test_the_fixed_camera_stays_where_it_is_and_shows_the_body_on_a_tenth_of_the_width(
+    opened: Callable[..., Opened],
+) -> None:
+    """300 m along x: shown whole, the box of 1 m would be 2 pixels of 640; beside the wheel the size is 2 m."""
+    page = opened(straight(75.0), camera="fixed")
+    eyes = []
+    for t in (0.5, 2.0, 3.9):
+        page.seek(t)
+        tail, head = (page.place([75.0 * t + side, 0.0, 0.5]) for side in (-1.0, 1.0))
+        assert 64 * 0.8 <= head[0] - tail[0] <= 128, (t, tail, head)  # seen aslant it is narrower
+        assert all(0 <= x < 640 and 0 <= y < 300 for x, y in (tail, head)), (t, tail, head)
+        eyes.append(page(_EYE))
+    assert np.allclose(eyes[0], eyes[1:], atol=1e-6)
+
+
+def test_a_way_that_no_place_sees_has_cameras_beside_it_only(opened: Callable[..., Opened]) -> None:
+    """From where it saw all of 3 km, nothing of what is followed was drawn."""
+    cameras = opened(straight(750.0))("() => window.player.cameras")
+    assert "trackside" in cameras
+    assert "fixed" not in cameras
+
+
 def test_the_path_has_no_gaps_however_far_the_eye_is(opened: Callable[..., Opened]) -> None:
     """300 m in a picture of 640 pixels: 4.5 cm are a tenth of a pixel."""
-    far = run("far", 10.0 * T)
-    values = {"x": 75.0 * T, "y": 4.0 * np.sin(0.7 * T), "z": np.full_like(T, 0.5)}
-    far.columns |= {f"body.{name}": column for name, column in values.items()}
-    page = opened(far, camera="fixed")
-    page.seek(40.0)
+    far = straight(75.0)
+    far.columns["body.y"] = 4.0 * np.sin(7.0 * T)
+    page = opened(far, camera="orbit")
+    page("""() => {
+      const { cameras } = window.player.view;
+      cameras.moved = true;
+      cameras.free.position.set(-150, -240, 87);
+      cameras.free.lookAt(-150, 0, 0);
+    }""")
+    page.seek(4.0)
     picture = page.picture().astype(float)
     for k in range(5, len(T) - 5, 3):
-        x, y = page.place([values["x"][k], values["y"][k], 0.0])
+        x, y = page.place([float(far.columns[f"body.{axis}"][k]) for axis in "xy"] + [0.0])
         red, _, blue = np.moveaxis(picture[y - 1 : y + 2, x - 1 : x + 2], 2, 0)
         assert (red - blue).max() > 60, (k, x, y)
     below = picture[y + 4 : y + 9, x - 1 : x + 2]
@@ -173,14 +215,28 @@ def test_what_stays_where_it_is_has_no_path_and_no_camera_beside_it(opened: Call
     assert found == [False, False]
 
 
-def test_a_ghost_has_a_path_of_its_colour(opened: Callable[..., Opened]) -> None:
-    page = opened(run("one"), run("two"), camera="top")
-    colours = page(
-        "() => window.player.player.drawnRuns.map(({ traces }) => traces.paths[0].mesh.material.color.getHex())"
-    )
-    assert len(set(colours)) == 2
+def test_a_ghost_is_told_apart_by_its_colour_even_where_both_ran(opened: Callable[..., Opened]) -> None:
+    """The blue box has a ghost at its own place for 3 s; its path is the rim of the first one's."""
+    ghost = run("two")
+    ghost.columns["body.y"] += np.where(T > 3.0, 1.5, 0.0)
+    page = opened(run("one"), ghost, camera="top")
+    assert page("() => [...document.querySelectorAll('.ali3-name')].map(name => name.textContent)") == [
+        "one",
+        "two (ghost)",
+    ]
+    swatches = page("""() => [...document.querySelectorAll('.ali3-name .ali3-swatch')]
+      .map(part => getComputedStyle(part).backgroundColor.match(/[0-9]+/g).map(Number))""")
+    assert is_yellow(*swatches[0])
+    assert is_magenta(*swatches[1])
     page.seek(2.0)
-    assert page("() => window.player.player.drawnRuns[1].traces.paths[0].geometry.drawRange.count") > 0
+    x, y = page.place(way(1.87))
+    rows = page.picture()[y - 12 : y + 13, x]
+    first, second = np.flatnonzero(is_yellow(*rows.T)), np.flatnonzero(is_magenta(*rows.T))
+    assert first.size >= 2, rows
+    assert second.min() < first.min() <= first.max() < second.max(), rows
+    page.seek(3.5)
+    x, y = page.place(np.add(way(3.5, 0.6), [0.0, 1.5, 0.0]).tolist())
+    assert is_magenta(*page.picture()[y, x])
 
 
 def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(opened: Callable[..., Opened]) -> None:
@@ -197,6 +253,21 @@ def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(o
     assert page("() => window.player.view.floor") < -0.6
     assert page("() => { window.player.set({ deformation: 60 }); return window.player.view.floor }") < -1.2
     assert page("() => { window.player.set({ deformation: 1 }); return window.player.view.floor }") > -0.2
+    ghost = Recording(scene, t, {"q": 0.04 * np.sin(np.pi * t)})
+    page = opened(Recording(scene, t, {"q": 0.0 * t}), ghost, deformation=30)
+    assert page("() => window.player.view.floor") < -1.2
+
+
+def test_the_floor_lies_below_short_peaks_and_below_ghosts(opened: Callable[..., Opened]) -> None:
+    """One time of 501 at which a ball is 3 m down, and another at which its ghost is 5 m down."""
+    t = np.linspace(0.0, 1.0, 501)
+    scene = {"format": "ALi3 scene", "version": 1, "name": "ball", "up": [0, 0, 1], "planar": False, "extent": 2.0}
+    scene |= {"focus": "body", "frames": {"body": moving("body")}}
+    scene |= {"shapes": [{"kind": "sphere", "frame": "body", "radius": 0.1}]}
+    still = {f"body.{name}": np.full_like(t, name == "qw") for name in ("x", "y", "qw", "qx", "qy", "qz")}
+    runs = [Recording(scene, t, still | {"body.z": np.where(t == t[k], -d, 0.0)}) for k, d in ((333, 3.0), (111, 5.0))]
+    assert -3.3 < opened(runs[0])("() => window.player.view.floor") < -3.1
+    assert -5.3 < opened(*runs)("() => window.player.view.floor") < -5.1
 
 
 def test_a_body_that_falls_stays_above_the_floor(opened: Callable[..., Opened], tmp_path: Path) -> None:

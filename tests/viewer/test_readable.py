@@ -133,6 +133,21 @@ def test_the_bar_is_one_line(shown: Any, kind: str) -> None:
         check_bar(shown, BARS[kind], width)
 
 
+@pytest.mark.slow
+def test_figures_in_a_low_page_leave_the_middle_of_the_picture_free(live: Path, chromium: Any) -> None:
+    with dark_page(chromium) as page:
+        page.set_viewport_size({"width": 800, "height": 450})
+        open_file(page, live)
+        words = "This machine does not keep up: 0.82 s of the run a second, 1 asked for."
+        page.evaluate("words => { document.querySelector('[data-a3=behind]').textContent = words; }", words)
+        figures, picture = (
+            page.evaluate("part => document.querySelector(part).getBoundingClientRect().toJSON()", part)
+            for part in (".a3-hud", "canvas")
+        )
+    assert figures["right"] <= picture["left"] + 0.4 * picture["width"]
+    assert figures["height"] <= 0.5 * picture["height"]
+
+
 @with_axe
 @pytest.mark.slow
 @pytest.mark.parametrize("colours", ["light", "dark"])

@@ -256,6 +256,31 @@ def test_everything_fits_on_the_screen_and_nothing_lies_on_another(chromium: Any
     context.close()
 
 
+@pytest.mark.slow
+def test_long_sentences_beside_open_panels_end_above_the_cluster(chromium: Any, lane_change: Recording) -> None:
+    context = chromium.new_context(viewport={"width": 800, "height": 450})
+    program = Program(context.new_page(), lane_change, world=WORLD)
+    program.open()
+    shown(program, 2.0)
+    program.page.keyboard.press("g")
+    for text in ("first", "second", "newest"):
+        program.say(
+            {"type": "event", "kind": "told", "time": 2.0, "text": f"The {text} sentence" + 20 * " is long" + "."}
+        )
+    wait_until(program.page, "document.querySelector('.a3-events').textContent.includes('newest')")
+    boxes = program.page.evaluate(_BOXES, ["cluster", "controls", "tyres"])
+    notices = program.page.evaluate("() => document.querySelector('.a3-notices').getBoundingClientRect().toJSON()")
+    newest = program.page.evaluate(
+        "() => document.querySelector('.a3-events > div:last-child').getBoundingClientRect().toJSON()"
+    )
+    assert notices["bottom"] <= boxes["cluster"][1]
+    assert notices["left"] >= boxes["tyres"][2]
+    assert boxes["controls"][3] <= notices["top"] <= boxes["controls"][3] + 20
+    assert notices["top"] <= newest["top"] < newest["top"] + 40 <= notices["bottom"]
+    assert program.errors == []
+    context.close()
+
+
 @pytest.fixture(scope="class")
 def _open_page(chromium: Any, lane_change: Recording) -> Iterator[Program]:
     context = chromium.new_context(viewport={"width": 640, "height": 360})

@@ -30,10 +30,10 @@ export class Path {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
    * @param {{times: ArrayLike<number>, points: number[][]}} way not decreasing times, and earth positions
-   * @param {{colour: string, width: number, opacity: number, least?: number}} look width: m; least: pixels that it is wide,
-   *   however far it is; without it, it becomes fainter there
+   * @param {{colour: string, width: number, opacity: number, least?: number, under?: number}} look width: m; least: pixels that it is
+   *   wide, however far it is; without it, it becomes fainter there; under: how many paths are drawn over it
    */
-  constructor(view, { times, points }, { colour, width, opacity, least }) {
+  constructor(view, { times, points }, { colour, width, opacity, least, under = 0 }) {
     this.times = times;
     this.start = points[0];
     this.geometry = new THREE.BufferGeometry();
@@ -51,7 +51,7 @@ export class Path {
     this.mesh = new THREE.Mesh(this.geometry, material);
     this.mesh.onBeforeRender = (renderer) => renderer.getDrawingBufferSize(viewport.value);
     this.mesh.frustumCulled = false; // its box would be that of the whole path
-    this.mesh.renderOrder = 1;
+    this.mesh.renderOrder = 1 - 0.01 * under;
     view.world.add(this.mesh);
   }
 

@@ -34,9 +34,9 @@ export class Materials {
     const key = [kind, color, opacity, double, cover].join("|");
     if (!this.#made.has(key)) {
       const { opacity: own = 1, clearcoat, clearcoatRoughness, ...look } = KINDS[kind];
-      if (ghost) Object.assign(look, { color: tint ?? "#3f7fd0", metalness: 0, roughness: 0.9 });
+      if (ghost) Object.assign(look, { color: tint ?? looks.ghosts[0], metalness: 0, roughness: 0.9 });
       else if (color) look.color = color;
-      const solid = ghost ? (this.options.opacity ?? 0.32) * (opacity ?? own) : (opacity ?? own);
+      const solid = ghost ? (this.options.opacity ?? 0.5) * (opacity ?? own) : (opacity ?? own);
       const coated = clearcoat && !ghost;
       const material = coated ? new THREE.MeshPhysicalMaterial({ ...look, clearcoat, clearcoatRoughness }) : new THREE.MeshStandardMaterial(look);
       material.side = double ? THREE.DoubleSide : THREE.FrontSide;

@@ -1,4 +1,5 @@
 // Plays recordings: the picture, the bar below it and the diagrams beside it, all at one time.
+import looks from "../../../looks.json" with { type: "json" };
 import { el } from "../common/dom.js";
 import { fullScreen } from "../common/full_screen.js";
 import { Help } from "../common/help.js";
@@ -10,12 +11,12 @@ import { Clock } from "./clock.js";
 import { playerActs } from "./keys.js";
 import { fromHash, toHash } from "./link.js";
 import { Plots } from "./plots.js";
+import { extremesOf } from "./extremes.js";
 import { Sampler } from "./sampler.js";
 import { Settings } from "./settings.js";
 import { Traces } from "./traces.js";
 import style from "./style.css";
 
-const TINTS = ["#3f7fd0", "#d08a2f", "#3f9f6c", "#b0569b"];
 const WIDE = 1.15; // width over height from which the diagrams stand beside the picture
 const SHOWN_NOTES = 3;
 const SCANNED = 200; // times that ranges are looked for at
@@ -247,9 +248,10 @@ export class Player {
     this.#trace(this.solid);
     for (const [k, run] of this.runs.entries()) {
       if (k === this.solid || !run.scene || this.problem) continue;
-      const options = { name: run.name, tint: TINTS[this.ghosts.length % TINTS.length] };
+      const options = { name: run.name, tint: looks.ghosts[this.ghosts.length % looks.ghosts.length] };
       this.ghosts.push({ name: run.name, run, options, sampler: this.samplers[k], drawn: this.view.addGhost(run.scene, options) });
-      this.#trace(k, options.tint);
+      this.#lower(run, this.ghosts.at(-1).drawn);
+      this.#trace(k, { tint: options.tint, under: this.ghosts.length });
     }
     const { way } = this.drawnRuns[0].traces;
     if (way.length > 0) this.view.stand(way);
@@ -262,9 +264,9 @@ export class Player {
     }
   }
 
-  /** What a run leaves on the ground. @param {number} k of the run @param {string} [tint] of a ghost */
-  #trace(k, tint) {
-    const traces = new Traces(this.view, this.runs[k], tint);
+  /** What a run leaves on the ground. @param {number} k of the run @param {{tint: string, under: number}} [ghost] */
+  #trace(k, ghost) {
+    const traces = new Traces(this.view, this.runs[k], ghost);
     traces.show(this.look.path);
     this.drawnRuns.push({ traces, sampler: this.samplers[k] });
   }
@@ -272,9 +274,18 @@ export class Player {
   /** Lets the view look through the run, so that floor, arrows and colours keep one scale. */
   #scan() {
     const { t, columns } = this.runs[this.solid];
-    const looks = Math.min(t.length, SCANNED);
-    const sample = (i) => (looks > 1 ? Math.round((i * (t.length - 1)) / (looks - 1)) : 0);
-    this.view.scan?.((i) => (name) => columns[name]?.data[sample(i)], looks);
+    const times = Math.min(t.length, SCANNED);
+    const sample = (i) => (times > 1 ? Math.round((i * (t.length - 1)) / (times - 1)) : 0);
+    this.view.scan?.((i) => (name) => columns[name]?.data[sample(i)], times);
+    this.#lower(this.runs[this.solid], this.view);
+    for (const { run, drawn } of this.ghosts) this.#lower(run, drawn);
+  }
+
+  /** Puts the floor below a run where its columns are largest and smallest. @param {import("./decode.js").Run} run @param {Data} drawn */
+  #lower(run, drawn) {
+    if (this.problem || (this.runs[this.solid].scene.roads ?? []).length > 0) return; // roads are the floor
+    const instants = extremesOf(run);
+    drawn?.lower((i) => (name) => run.columns[name]?.data[instants[i]], instants.length);
   }
 
   #controls() {
@@ -295,10 +306,11 @@ export class Player {
 
   /** Names of the runs and what there is to say of them, over the picture. */
   #head() {
-    const rows = this.runs.map(({ name }) => {
-      const ghost = this.ghosts.find((other) => other.name === name);
-      const swatch = ghost && el("span.ali3-swatch", { style: `background:${ghost.options.tint}` });
-      return el("div.ali3-name", {}, ...(swatch ? [swatch] : []), name, ...(ghost ? [" (ghost)"] : []));
+    const rows = this.runs.map((run, k) => {
+      const ghost = this.ghosts.find((other) => other.run === run);
+      const colour = ghost?.options.tint ?? (k === this.solid && this.ghosts.length > 0 ? looks.paths.body : undefined);
+      const swatch = colour ? [el("span.ali3-swatch", { style: `background:${colour}` })] : [];
+      return el("div.ali3-name", {}, ...swatch, run.name, ...(ghost ? [" (ghost)"] : []));
     });
     const said = [...this.notes, ...this.#spans(), ...(this.wrong ? [this.wrong] : [])];
     if (this.solid < 0) said.push("There are no poses in this result: signals can be plotted, and nothing is drawn.");

@@ -12,14 +12,14 @@ const MOST = 4000; // points of a path
 const LEAST = 1.5; // pixels: the path of the reference point is found however far it is
 const { body: BODY, wheel: WHEEL, shares: SHARES, opacities: OPACITIES } = looks.paths;
 
-/** The traces of one run in a view; those of a ghost have its colour, and neither marks nor dust. */
+/** The traces of one run in a view; those of a ghost have its colour, lie wider below others, and have neither marks nor dust. */
 export class Traces {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
    * @param {import("./decode.js").Run} run
-   * @param {string} [tint] of a ghost
+   * @param {{tint: string, under: number}} [ghost] its colour, and how many paths lie over its own
    */
-  constructor(view, run, tint) {
+  constructor(view, run, ghost) {
     this.view = view;
     this.run = run;
     /** @type {Path[]} */
@@ -30,15 +30,15 @@ export class Traces {
     this.lookups = (i) => (name) => run.columns[name]?.data[i];
     this.taken = -1;
     if (!scene.focus || scene.planar || view.problem) return;
-    this.#paths(scene, tint);
-    if (tint !== undefined || (scene.roads ?? []).length === 0) return;
+    this.#paths(scene, ghost);
+    if (ghost !== undefined || (scene.roads ?? []).length === 0) return;
     const columns = Object.keys(run.columns);
     this.marks = new TyreMarks(view, { columns });
     this.dust = new Dust(view, { columns });
   }
 
-  /** @param {Data} scene @param {string | undefined} tint */
-  #paths(scene, tint) {
+  /** @param {Data} scene @param {{tint: string, under: number}} [ghost] */
+  #paths(scene, { tint, under } = { tint: "", under: 0 }) {
     const { view, run } = this;
     const count = Math.min(run.t.length, MOST);
     const instants = Array.from({ length: count }, (_, k) => (count > 1 ? Math.round((k * (run.t.length - 1)) / (count - 1)) : 0));
@@ -51,7 +51,7 @@ export class Traces {
     ways.forEach(({ points, at }, k) => {
       if (points.length < 2) return;
       const which = k === 0 ? 0 : 1;
-      const look = { colour: tint ?? [BODY, WHEEL][which], width: SHARES[which] * view.extent, opacity: OPACITIES[which], least: k === 0 ? LEAST : undefined };
+      const look = { colour: tint || [BODY, WHEEL][which], width: (1 + under) * SHARES[which] * view.extent, opacity: OPACITIES[which], least: k === 0 ? (1 + under) * LEAST : undefined, under };
       this.paths.push(new Path(view, { times: at.map((i) => run.t[i]), points }, look));
     });
   }

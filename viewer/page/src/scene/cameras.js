@@ -9,6 +9,12 @@ const EYES = [0.48, 0.24];
 /** Least height of the camera behind above the ground, beside the size of the drawing. */
 const CLEARANCE = 0.14;
 const VIEW_ANGLES = { orbit: 34, chase: 42, driver: 66, wheel: 40, side: 30, top: 40, fixed: 40, trackside: 30 };
+/** The camera that stands still shows what is followed on at least this share of the picture's width. */
+const LEAST_SHARE = 0.1;
+/** It turns so that what is followed stays within this share of the angle from the middle to the upper edge. */
+const TURNS = 0.5;
+/** Half the size of the longest way that is watched from one place, beside the distance that is drawn. */
+const WATCHED = 0.3;
 /** Cameras beside the track stand so far apart and aside, beside the size of what is followed. */
 const [POSTS, ASIDE] = [10, 3];
 
@@ -61,7 +67,7 @@ export class Cameras {
     const right = rightOf(way[0], way[way.length - 1]);
     const centre = scale(add(low, high), 0.5);
     const reach = Math.hypot(...subtract(high, low)) / 2 + extent;
-    this.fixed = { centre, reach, from: add(scale(right, 0.94), scale(up, 0.34)) };
+    this.fixed = { centre, reach, way, extent, from: unit(add(scale(right, 0.94), scale(up, 0.34))) };
     this.posts = [];
     let last = null;
     for (const point of way) {
@@ -70,15 +76,31 @@ export class Cameras {
       this.posts.push(add(point, add(scale(last === null ? right : rightOf(last, point), aside), scale(up, 0.5 * extent))));
       last = point;
     }
-    this.names = [...this.names, ...["fixed", "trackside"].filter((name) => !this.names.includes(name))];
+    const watched = reach <= WATCHED * this.rig.far ? ["fixed"] : [];
+    this.names = [...this.names, ...[...watched, "trackside"].filter((name) => !this.names.includes(name))];
   }
 
-  /** The whole way, from one place. */
+  /** The whole way, from one place; where what is followed would be small, the part of the way on which it is. */
   #watchAll() {
-    const { centre, reach, from } = this.fixed;
-    const at = subtract(centre, this.view.origin);
-    const far = reach / (Math.tan((VIEW_ANGLES.fixed / 2) * (Math.PI / 180)) * Math.max(1, this.aspect));
-    this.#look(add(at, scale(from, far)), at, this.view.up);
+    const { up, origin } = this.view;
+    if (this.fixed.aspect !== this.aspect) this.#place();
+    const { eye, half, whole, centre } = this.fixed;
+    const from = subtract(eye, origin);
+    this.#angle((2 * half * 180) / Math.PI);
+    const [ahead, there] = [unit(subtract(centre, eye)), unit(scale(from, -1))];
+    const off = Math.acos(Math.min(1, dot(ahead, there)));
+    const share = whole || off < TURNS * half ? 1 : (TURNS * half) / off;
+    this.#look(from, add(from, add(scale(ahead, share), scale(there, 1 - share))), up);
+  }
+
+  /** Where the camera that stands still is, and half its angle of view, for the form of the picture. */
+  #place() {
+    const { centre, reach, from, way, extent } = this.fixed;
+    const widest = Math.tan((VIEW_ANGLES.fixed / 2) * (Math.PI / 180));
+    const eye = add(centre, scale(from, Math.min(reach / (widest * this.aspect), 0.7 * this.rig.far)));
+    const farthest = way.reduce((most, point) => Math.max(most, Math.hypot(...subtract(point, eye))), 0);
+    const narrow = extent / (2 * LEAST_SHARE * farthest * this.aspect);
+    Object.assign(this.fixed, { aspect: this.aspect, eye, half: Math.atan(Math.min(widest, narrow)), whole: narrow >= widest });
   }
 
   /** From the nearest place beside the way. */

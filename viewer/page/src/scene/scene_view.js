@@ -117,6 +117,18 @@ export class SceneView {
     this.update(count > 0 ? lookupAt(0) : null);
   }
 
+  /**
+   * Puts the floor below what is drawn at some instants; to be followed by an update.
+   * @param {(i: number) => (name: string) => number | undefined} lookupAt numbers of the instants @param {number} count how many there are
+   */
+  lower(lookupAt, count, parts = this.parts) {
+    for (let i = 0; i < count; i++) {
+      parts.update(lookupAt(i));
+      const box = parts.bounds();
+      if (box !== null) this.floor = Math.min(this.floor, this.#lowest(box));
+    }
+  }
+
   /** Adds cameras that stand still beside a way. @param {number[][]} way earth positions of what is followed */
   stand(way) {
     this.cameras?.stand(way);
@@ -186,17 +198,19 @@ export class SceneView {
    * Another run beside this one, see-through; its `update` takes numbers as that of the view.
    * @param {Data} scene
    * @param {{tint?: string, opacity?: number, name?: string}} [options]
-   * @returns {{update: Function, remove: Function}}
+   * @returns {{update: Function, remove: Function, lower: Function}} `lower` as that of the view
    */
   addGhost(scene, options = {}) {
     const parts = new Parts(scene, { ...options, ghost: true, tell: (sentence) => this.notes.tell(sentence) });
+    parts.bending.factor = this.parts.bending.factor;
+    if (this.parts.closed !== undefined) parts.close(this.parts.closed);
     this.ghosts.push(parts);
     this.world?.add(parts.group);
     const remove = () => {
       this.ghosts = this.ghosts.filter((ghost) => ghost !== parts);
       parts.dispose();
     };
-    return { update: (lookup) => parts.update(lookup), remove };
+    return { update: (lookup) => parts.update(lookup), remove, lower: (lookupAt, count) => this.lower(lookupAt, count, parts) };
   }
 
   /** Draw the picture now. */
