@@ -37,8 +37,12 @@ static void slope_of(const double *given, double by[2]) {
   for (int i = 0; i < 2; i++) by[i] = -n[i] / n[2];
 }
 
-/* Slope of the plane that fits the heights of all answers best; answers at one point have none. */
+/* Slope of the plane that fits the heights of all answers best: a single one's own, of several at one point none. */
 static void slope_of_all(const ali3_road *road, double by[2]) {
+  if (answers(road) == 1) {
+    slope_of(answer(road, 0), by);
+    return;
+  }
   double mean[3] = {0.0, 0.0, 0.0}, xx = NEAR * NEAR, xy = 0.0, yy = NEAR * NEAR, xz = 0.0, yz = 0.0;
   for (int32_t k = 0; k < answers(road); k++)
     for (int i = 0; i < 3; i++) mean[i] += answer(road, k)[PORT_X + i] / answers(road);
@@ -107,10 +111,7 @@ double ali3_port_top(const ali3_road *road, const double place[3], double reach)
   for (int32_t k = 0; k < answers(road); k++) {
     const double *a = answer(road, k);
     double by[2];
-    if (answers(road) == 1)
-      slope_of(a, by);
-    else
-      slope_beside(a, all, by);
+    slope_beside(a, all, by);
     top = fmax(top, a[PORT_HEIGHT] + by[0] * (place[0] - a[PORT_X]) + by[1] * (place[1] - a[PORT_Y]) +
                         ali3_hypot(by[0], by[1]) * reach);
   }
