@@ -108,6 +108,10 @@ class Instance:
             if any("enough memory" in text or "out of memory" in text.lower() for text in said):
                 raise MemoryError from None
             raise
+        # PythonFMU 0.7 frees its own record of Python twice when the library is closed; the instance keeps its share.
+        release = getattr(self.slave.dll, "finalizePythonInterpreter", None)
+        if release is not None:
+            release()
 
     def initialise(self, start: Mapping[Place, Value], start_time: float = 0.0, stop_time: float | None = None) -> None:
         """Set start values and leave initialisation mode."""

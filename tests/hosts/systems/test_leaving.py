@@ -1,0 +1,35 @@
+"""A process that drove an FMU of PythonFMU ends without reading memory that was freed."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PROGRAM = """
+import sys
+from pathlib import Path
+from hosts.fmu.fmu import Fmu
+fmu = Fmu(Path(sys.argv[1]))
+fmu.initialise({})
+fmu.step(0.0, 0.1)
+if sys.argv[2] == "closed":
+    fmu.close()
+print("stepped")
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("valgrind") is None, reason="valgrind is not installed; .ci/run installs it")
+@pytest.mark.parametrize("end", ["closed", "left open"])
+def test_the_record_of_python_is_freed_once(partners: dict[str, Path], end: str) -> None:
+    """Seen by valgrind: with PythonFMU 0.7 alone one run of about 40 ends with a damaged heap."""
+    command = ["valgrind", "--num-callers=8", sys.executable, "-c", PROGRAM, str(partners["half_mass"]), end]
+    environment = os.environ | {"PYTHONMALLOC": "malloc", "PYTHONPATH": str(Path(__file__).parents[3])}
+    told = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert told.returncode == 0 and told.stdout.strip() == "stepped", told.stderr[-2000:]
+    assert "finalizePythonInterpreter" not in told.stderr
