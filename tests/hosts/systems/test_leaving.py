@@ -31,5 +31,6 @@ def test_the_record_of_python_is_freed_once(partners: dict[str, Path], end: str)
     command = ["valgrind", "--num-callers=8", sys.executable, "-c", PROGRAM, str(partners["half_mass"]), end]
     environment = os.environ | {"PYTHONMALLOC": "malloc", "PYTHONPATH": str(Path(__file__).parents[3])}
     told = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    assert told.returncode == 0 and told.stdout.strip() == "stepped", told.stderr[-2000:]
+    assert told.returncode == 0, told.stderr[-2000:]
+    assert told.stdout.strip() == "stepped"
     assert "finalizePythonInterpreter" not in told.stderr
