@@ -33,6 +33,9 @@ FLAGS = [
 ]
 """No fused or reordered arithmetic: the same bits on every platform."""
 
+NO_UNWIND_TABLES = ["-fno-asynchronous-unwind-tables", "-fno-unwind-tables"]
+"""Nothing is thrown through the kernel; Windows walks its stacks by these tables and keeps them."""
+
 WASM_FLAGS = [
     "-mexec-model=reactor",
     "-DALI3_ALONE",  # files and messages in memory: the module imports nothing
@@ -210,7 +213,7 @@ def compiler_command(
     exports: Sequence[str] = (),
 ) -> list[str]:
     """Command line that compiles C files into `path`; the arguments are those of `compile_c`."""
-    command = [compiler(), "cc", "-target", target, *FLAGS]
+    command = [compiler(), "cc", "-target", target, *FLAGS, *([] if "windows" in target else NO_UNWIND_TABLES)]
     module = "wasm" in target
     if module or not shared:
         command = [part for part in command if part not in ("-shared", "-fPIC")]
