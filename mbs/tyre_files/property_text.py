@@ -17,7 +17,8 @@ LARGEST = 1_000_000
 _LONGEST = 1000  # characters of a line
 _SECTION = re.compile(r"\[\s*([A-Za-z0-9_]+)\s*\]")
 _ENTRY = re.compile(r"([A-Za-z][A-Za-z0-9_]*)\s*=\s*(.*)")
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?", re.ASCII)
+_WITH_COMMA = re.compile(r"[+-]?\d+,\d+([eEdD][+-]?\d+)?", re.ASCII)
 
 
 class TyreFileError(ModelError):
@@ -152,6 +153,10 @@ def _value(text: str, what: str) -> str | float:
         if len(text) < 2 or text[-1] != text[0]:
             raise TyreFileError(f"{what} is {brief(text)}; its quotation mark is not closed.")
         return text[1:-1].strip()
+    if _WITH_COMMA.fullmatch(text):
+        raise TyreFileError(
+            f"{what} is {brief(text)}; its decimal mark must be a point, as in {text.replace(',', '.')}."
+        )
     if not _NUMBER.fullmatch(text):
         raise TyreFileError(
             f"{what} is {brief(text) if text else 'empty'}; it must be a number, or a word in quotation marks."

@@ -137,6 +137,13 @@ def test_the_vertical_stiffness_of_a_file_is_that_at_the_nominal_load(tmp_path: 
     assert note.startswith("VERTICAL_STIFFNESS is 1.9e+05 N/m and Q_FZ1 and Q_FZ2 give 1.624e+05 N/m at FNOMIN")
 
 
+def test_another_format_is_named_before_the_sections_it_lacks(tmp_path: Path) -> None:
+    """A file of FTire has neither [DIMENSION] nor coefficients: that is no cut."""
+    text = "[UNITS]\nLENGTH = 'mm'\n[MODEL]\nPROPERTY_FILE_FORMAT = 'FTIRE'\n[FTIRE_DATA]\nbelt_mass = 5\n"
+    with pytest.raises(TyreFileError, match="PROPERTY_FILE_FORMAT in .MODEL. is 'FTIRE'; read are PAC2002"):
+        read_tyre(written(tmp_path, text))
+
+
 def test_signs_that_do_not_fit_are_refused(tmp_path: Path) -> None:
     with pytest.raises(TyreFileError, match=r"PKY1 is -17\.5; with the signs 'adapted_sae' it must be positive"):
         read_tyre(OWN).tyre(signs="adapted_sae")
@@ -178,7 +185,16 @@ def test_signs_that_do_not_fit_are_refused(tmp_path: Path) -> None:
         (("KPUMIN", "KPUMIN = 0.5"), "0 must lie between them"),
         (("LKY", "LKY = -1"), "LKY is -1; it must be positive"),
         (("UNLOADED_RADIUS", "UNLOADED_RADIUS = 310.75"), "between 0.05 and 3 m"),
-        (("VERTICAL_DAMPING", "VERTICAL_DAMPING = -1"), "must not be negative"),
+        (("VERTICAL_DAMPING", "VERTICAL_DAMPING = -1"), "VERTICAL_DAMPING is -1 N s/m; it must lie between 0 and"),
+        (("FZMAX", "FZMAX = -1"), "FZMAX is -1 N; it must lie between 10 and 1e+06 N"),
+        (("LATERAL_STIFFNESS", "LATERAL_STIFFNESS = -5"), "LATERAL_STIFFNESS is -5 N/m; it must lie"),
+        (("NOMPRES", "NOMPRES = -1"), "NOMPRES is -1 Pa; it must lie"),
+        (("LFZO", "LFZO = 1e308"), "LFZO is 1e+308; it must lie between -10000 and 10000"),
+        (("PKY2", "PKY2 = 1e308"), "PKY2 is 1e+308; it must lie"),
+        (("LONGVL", "LONGVL = 1e308"), "LONGVL is 1e+308 m/s; it must lie"),
+        (("Q_FZ2", "Q_FZ2 = 1\nQ_FZ1 = 1e308"), "Q_FZ1 is 1e+308; it must lie"),
+        (("PKY1", "PKY1 = -17,5"), "PKY1 is '-17,5'; its decimal mark must be a point, as in -17.5"),
+        (("PKY1", "PKY1 = -\u0661\u0667"), "it must be a number"),
         (("VERTICAL_STIFFNESS", "VERTICAL_STIFFNESS = -1"), "VERTICAL_STIFFNESS is -1 N/m; it must lie"),
         (("VERTICAL_STIFFNESS", "VERTICAL_STIFFNESS = 1e200"), "VERTICAL_STIFFNESS is 1e+200 N/m; it must lie"),
         (("Q_FZ2", "Q_FZ2 = -200"), "becomes soft before the rim bears"),

@@ -209,6 +209,7 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
         r"heading 'toe_angle \[N\]'; it must be 'toe_angle \[UNIT\]' with rad or deg",
         [name.replace("toe_angle [rad]", "toe_angle [N]") for name in heading],
     )
+    refused(r"holds no values; it needs a heading and at least one row", values=rows[:0])
     refused(r"has 3 values of wheel_travel; there must be 4 or more", values=rows[:3])
     refused(r"has a wheel_travel of .* after .*; it must rise", values=rows[::-1])
     refused(r"0, the drawing, must lie between them", values=rows[-5:])

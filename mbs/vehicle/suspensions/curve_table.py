@@ -113,7 +113,7 @@ def read_curves(folder: Path, name: str, key: str) -> CurveTable:
     """
     what = f"{key} ({name})"
     table = TextTable(beside(folder, name, key), CarFileError, what, units=True)
-    given = dict(zip(table.names, table.values(finite=False, least=0).T, strict=True))
+    given = dict(zip(table.names, table.values(finite=False).T, strict=True))
     used = [n for n in given if n in COLUMNS or (_base(n) in COLUMNS and _base(n) not in (RACK, OTHER))]
     columns = {n: _in_si(what, n, table.units.get(n, ""), given[n]) for n in used}
     travel = _travel(what, given, columns)

@@ -1,0 +1,46 @@
+"""Bounds of the numbers of a tyre property file, in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
+from mbs.tyre_files.property_text import PropertyText
+
+_STIFFNESS = (1e3, 1e8, "N/m")
+_PRESSURE = (1e3, 1e7, "Pa")
+_LENGTH = (0.01, 3.0, "m")
+_BOUNDS = {
+    "UNLOADED_RADIUS": (0.05, 3.0, "m"),
+    **dict.fromkeys(("WIDTH", "RIM_RADIUS", "RIM_WIDTH", "BOTTOMING_RADIUS"), _LENGTH),
+    **dict.fromkeys(("FNOMIN", "FZMAX"), (10.0, 1e6, "N")),
+    **dict.fromkeys(("VERTICAL_STIFFNESS", "LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS"), _STIFFNESS),
+    "BOTTOM_STIFF": (1e3, 1e10, "N/m"),
+    "VERTICAL_DAMPING": (0.0, 1e6, "N s/m"),
+    "LONGVL": (0.1, 200.0, "m/s"),
+    **dict.fromkeys(("NOMPRES", "INFLPRES"), _PRESSURE),
+}
+_COEFFICIENT = 1e4  # the largest of public files is 760, a PEY4
+_PLAIN = (*MAGIC_COEFFICIENTS, "LCZ", "Q_FZ1", "Q_FZ2")
+
+
+def check_bounds(text: PropertyText, numbers: Mapping[str, float]) -> None:
+    """Refuse what no tyre has; 0 counts as not given.
+
+    Parameters
+    ----------
+    numbers : mapping of str to float
+        By their keys, in SI units.
+
+    Raises
+    ------
+    TyreFileError
+        One sentence with the key, its value and its bounds.
+    """
+    for key, value in numbers.items():
+        if key not in _BOUNDS and key not in _PLAIN:
+            continue
+        least, most, unit = _BOUNDS.get(key, (-_COEFFICIENT, _COEFFICIENT, ""))
+        if value and not least <= value <= most:
+            of_unit = f" {unit}" if unit else ""
+            raise text.fault(f"{key} is {value:g}{of_unit}; it must lie between {least:g} and {most:g}{of_unit}.")
