@@ -20,6 +20,7 @@ EDGES = [
 ]  # m
 HEIGHT, DEEPER, SUM = "height below", "deeper of both", "sum of both"
 COLUMNS = {"car": "", "edge, m": "g", "kerb, kN": ".2f"} | dict.fromkeys((HEIGHT, DEEPER, SUM), ".2f")
+COLUMNS |= {f"turn, {name}": ".2f" for name in (DEEPER, SUM)}
 WHEELS = ("FL", "FR", "RL", "RR")
 
 
@@ -53,31 +54,46 @@ def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x:
     return (*(centre - normal * (radius - deep)), *normal)
 
 
-def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[float, mbs.Simulation]:
-    """Largest load of the left front wheel of a car that coasts up an edge, N, and the car then.
+def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[float, float, mbs.Simulation]:
+    """A car that coasts up an edge: on a kerb, or with answers of a kind every `STEP`.
 
-    On a kerb, or with answers of a kind every `STEP`.
+    Returns
+    -------
+    (float, float, Simulation)
+        Largest load of the left front wheel, N; by how much the normal of a wheel turned between two answers, as the
+        length of the difference of both unit vectors; the car at the end.
     """
     made = load(car)
     model = made.changed({"ports.road": "planes"}).model() if kind else made.model(KerbRoad(EDGE, edge, upper="after"))
     s = mbs.Simulation(mbs.compile(model), pose=mbs.Pose(speed=SPEED), inputs={"selector": 0.0})
-    radius, largest = {"F": made.front.tyre.radius, "R": made.rear.tyre.radius}, 0.0
+    radius, largest, turn = {"F": made.front.tyre.radius, "R": made.rear.tyre.radius}, 0.0, 0.0
+    last = dict.fromkeys(WHEELS, UP)
     for _ in range(round(time / STEP)):
         now = s.sensors
         largest = max(largest, now["wheel_FL.Fz"])
         for w in WHEELS if kind else ():
             centre = np.array([now[f"wheel_{w}.{a}"] for a in "xyz"])
             given = answer(kind, edge, centre, radius[w[0]], now[f"wheel_{w}.contact_x"])
+            turn, last[w] = max(turn, float(np.linalg.norm(last[w] - given[3:]))), np.array(given[3:])
             for name, value in zip(ANSWER, (*given, made.road.friction), strict=True):
                 s.set_input(f"wheel_{w}.road_{name}", float(value))
         s.step(STEP)
-    return largest, s
+    return largest, turn, s
 
 
 def measure(car: str, edge: float) -> Row:
     """A row of the table, kN."""
-    row = {name: climb(car, edge, name)[0] / 1e3 for name in (HEIGHT, DEEPER, SUM)}
-    return {"car": car, "edge, m": edge, "kerb, kN": climb(car, edge)[0] / 1e3, **row}
+    loads, turns = {}, {}
+    for name in (HEIGHT, DEEPER, SUM):
+        loads[name], turns[f"turn, {name}"], _ = climb(car, edge, name)
+    del turns[f"turn, {HEIGHT}"]
+    return {
+        "car": car,
+        "edge, m": edge,
+        "kerb, kN": climb(car, edge)[0] / 1e3,
+        **{name: most / 1e3 for name, most in loads.items()},
+        **turns,
+    }
 
 
 def edge_table(rows: Sequence[Row]) -> str:
