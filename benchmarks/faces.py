@@ -1,6 +1,7 @@
-"""Wheel loads at a kerb and at faces of grids: ``python -m benchmarks.faces [--car CAR]``.
+"""Wheel loads at a kerb, at faces of grids and at edges that a road port answers: ``python -m benchmarks.faces``.
 
-The car coasts in neutral up a step, which is the edge of a kerb or a face between two points of a grid.
+The car coasts in neutral up a step: the edge of a kerb, a face between two points of a grid, or with ``--answers`` what
+a partner at the road port may answer.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ import sys
 from collections.abc import Sequence
 
 from ali3.running import run_command
+from benchmarks.car import edge_answers
 from benchmarks.car.road_faces import COLUMNS, HEIGHTS, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
@@ -19,9 +21,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, print, and write what was asked for."""
     parser = parser_of("faces", __doc__)
     parser.add_argument("--car", default="hatchback", help="default: hatchback")
+    parser.add_argument("--answers", action="store_true", help="edges at the road port of two cars")
     options = parser.parse_args(arguments)
-    rows = [measure(options.car, height) for height in watched(HEIGHTS)]
-    print_table(rows, COLUMNS)
+    if options.answers:
+        rows = [edge_answers.measure(car, edge) for car, edge in watched(edge_answers.EDGES)]
+    else:
+        rows = [measure(options.car, height) for height in watched(HEIGHTS)]
+    print_table(rows, edge_answers.COLUMNS if options.answers else COLUMNS)
     save_rows(options.json, describe("faces"), rows)
     return 0
 

@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 
 import mbs
 from ali3.running import run_command
-from benchmarks.car import accuracy, road_faces, tabled_cars, trust, tyre_formulas
+from benchmarks.car import accuracy, edge_answers, road_faces, tabled_cars, trust, tyre_formulas
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
 from benchmarks.methods import honesty, pages, stability, stability_margins
 from benchmarks.paper import double_four_bar, flexible_tables, puma
@@ -110,11 +110,13 @@ def flexible() -> list[Again]:
 
 
 def roads_and_tyres() -> list[Again]:
-    """Loads of a wheel at steps of a road, and errors of fits of tyres."""
+    """Loads of a wheel at steps of a road and of answers on it, and errors of fits of tyres."""
     loads = road_faces.face_table([road_faces.measure("hatchback", height) for height in road_faces.HEIGHTS])
+    answers = edge_answers.edge_table([edge_answers.measure(car, edge) for car, edge in edge_answers.EDGES])
     fits = "docs/decisions/0096-tyres-from-one-formula-to-the-other.md"
     return [
         Again("docs/roads.md", loads, "faces", ("height, m",)),
+        Again("docs/fmu.md", answers, "edges", ("car", "edge, m")),
         Again(fits, tyre_formulas.fit_table(), "tyre fits", ("tyre",)),
     ]
 

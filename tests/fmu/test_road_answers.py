@@ -117,6 +117,23 @@ def test_an_edge_whose_plane_turns_about_what_touches_it_is_no_jump(host, sledge
         assert sum("the plane of the last one" in text for text in h.messages) == k
 
 
+@pytest.mark.parametrize(("turn", "told"), [(0.28, 0), (0.32, 1)])
+def test_a_normal_that_turns_at_once_is_told_once(host, sledge, turn, told) -> None:
+    """About the centre of the wheel, as from ground to an edge: the plane is as far away as the last one."""
+    h = host(sledge).start(LEVEL)
+    centre, far, angle = (h.get("x"), h.get("z")), h.get("z"), 2.0 * math.asin(0.5 * turn)
+    for k in range(4):
+        normal = (-math.sin(angle), math.cos(angle)) if k % 2 else (0.0, 1.0)
+        for name, c, n in zip(("x", "height"), centre, normal, strict=True):
+            h.set(f"road_{name}", c - far * n)
+        for name, n in zip("xz", normal, strict=True):
+            h.set(f"road_normal_{name}", n)
+        h.step(1e-6 * k, 1e-6)
+        assert sum("turned at once" in text for text in h.messages) == told * (k > 0)
+    if told:
+        assert "answer 'road_normal_x' turned at once from (0, 0, 1) to (-0.316, 0, 0.949)" in h.messages[-1]
+
+
 def test_a_step_that_is_refused_for_a_jump_asks_for_another_answer(host, sledge) -> None:
     """No step_size helps, the answer of before does."""
     h = host(sledge).start(LEVEL)

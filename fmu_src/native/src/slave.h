@@ -95,7 +95,7 @@ enum {
   SLAVE_HELD_NORMAL = 16,
   SLAVE_FAR = 32, /* also of a hub: that it is slow for the step */
   SLAVE_JUMPED = 64,
-  SLAVE_SAID = 127
+  SLAVE_TURNED = 128
 }; /* bits of an input: set by the host, said once */
 enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* what was said of limited iterations */
 enum { SLAVE_SHORTER_STEPS = 1, SLAVE_LONGER_STEPS }; /* and of inner steps that are not step_size */

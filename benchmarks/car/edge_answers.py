@@ -1,0 +1,101 @@
+"""Wheel loads of a car that climbs an edge in neutral: a kerb, and what partners at its road port may answer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+import mbs
+from benchmarks.car.road_faces import SPEED
+from benchmarks.shared.pages import Row, table
+from mbs.elements import KerbRoad
+from mbs.elements.road import ANSWER
+from mbs.vehicle import load
+
+EDGE, STEP, TIME, UP = 0.9, 0.002, 1.0, np.array([0.0, 0.0, 1.0])  # m, s, s
+EDGES = [
+    *(("hatchback", h) for h in (0.01, 0.02, 0.05, 0.08, 0.12)),
+    *(("prototype", h) for h in (0.02, 0.05, 0.08)),
+]  # m
+HEIGHT, DEEPER, SUM = "height below", "deeper of both", "sum of both"
+COLUMNS = {"car": "", "edge, m": "g", "kerb, kN": ".2f"} | dict.fromkeys((HEIGHT, DEEPER, SUM), ".2f")
+COLUMNS |= {f"turn, {name}": ".2f" for name in (DEEPER, SUM)}
+WHEELS = ("FL", "FR", "RL", "RR")
+
+
+def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x: float) -> tuple[float, ...]:
+    """Point and normal that answer for a wheel near an edge, which is `edge` high.
+
+    Parameters
+    ----------
+    kind : str
+        `HEIGHT`: level, as high as the road below the contact; `DEEPER`: the edge, with the normal towards the centre
+        of the wheel, or level ground, whichever the wheel is deeper in; `SUM`: the plane whose depth along its normal
+        is the sum of both depths along theirs.
+    edge, radius, contact_x : float
+        m.
+    centre : (3,) ndarray
+        Of the wheel, earth axes, m.
+    """
+    if kind == HEIGHT:
+        return (contact_x, float(centre[1]), edge if contact_x >= EDGE else 0.0, *UP)
+    away = np.array([min(centre[0] - EDGE, 0.0), 0.0, centre[2] - edge])
+    far, ground = float(np.linalg.norm(away)), radius - centre[2] if centre[0] < EDGE else -np.inf
+    depth = UP * ground if centre[0] < EDGE else UP * (radius - far)
+    if far < radius:
+        at_edge = (radius - far) / far * away
+        if kind == SUM:
+            depth = at_edge + UP * max(ground, 0.0)
+        elif radius - far > ground:
+            depth = at_edge
+    deep = float(np.linalg.norm(depth)) * (1.0 if depth[2] > 0.0 else -1.0)
+    normal = depth / deep if deep else UP
+    return (*(centre - normal * (radius - deep)), *normal)
+
+
+def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[float, float, mbs.Simulation]:
+    """A car that coasts up an edge: on a kerb, or with answers of a kind every `STEP`.
+
+    Returns
+    -------
+    (float, float, Simulation)
+        Largest load of the left front wheel, N; by how much the normal of a wheel turned between two answers, as the
+        length of the difference of both unit vectors; the car at the end.
+    """
+    made = load(car)
+    model = made.changed({"ports.road": "planes"}).model() if kind else made.model(KerbRoad(EDGE, edge, upper="after"))
+    s = mbs.Simulation(mbs.compile(model), pose=mbs.Pose(speed=SPEED), inputs={"selector": 0.0})
+    radius, largest, turn = {"F": made.front.tyre.radius, "R": made.rear.tyre.radius}, 0.0, 0.0
+    last = dict.fromkeys(WHEELS, UP)
+    for _ in range(round(time / STEP)):
+        now = s.sensors
+        largest = max(largest, now["wheel_FL.Fz"])
+        for w in WHEELS if kind else ():
+            centre = np.array([now[f"wheel_{w}.{a}"] for a in "xyz"])
+            given = answer(kind, edge, centre, radius[w[0]], now[f"wheel_{w}.contact_x"])
+            turn, last[w] = max(turn, float(np.linalg.norm(last[w] - given[3:]))), np.array(given[3:])
+            for name, value in zip(ANSWER, (*given, made.road.friction), strict=True):
+                s.set_input(f"wheel_{w}.road_{name}", float(value))
+        s.step(STEP)
+    return largest, turn, s
+
+
+def measure(car: str, edge: float) -> Row:
+    """A row of the table, kN."""
+    loads, turns = {}, {}
+    for name in (HEIGHT, DEEPER, SUM):
+        loads[name], turns[f"turn, {name}"], _ = climb(car, edge, name)
+    del turns[f"turn, {HEIGHT}"]
+    return {
+        "car": car,
+        "edge, m": edge,
+        "kerb, kN": climb(car, edge)[0] / 1e3,
+        **{name: most / 1e3 for name, most in loads.items()},
+        **turns,
+    }
+
+
+def edge_table(rows: Sequence[Row]) -> str:
+    """The table of the page of FMUs."""
+    return table(rows, COLUMNS)
