@@ -148,8 +148,8 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
     A run that is not plainly smooth is compared with ones of eight times and twice the step. Where they differ it is
-    repeated with half the step, and where that leaves the verdict near its limit, with a quarter. With
-    `Repeats.extents` only half the step is tried.
+    repeated with half the step, and where that leaves the verdict near its limit, with a quarter, of forces then with
+    an eighth. With `Repeats.extents` only half the step is tried.
 
     Parameters
     ----------
@@ -185,6 +185,8 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
         ):
             ratio = parts / (1.0 + known.halvings_per_step)
             known = by_two_repeats(known, repeats.finer(2 * parts), ratio)
+            if accuracy.UNSURE[0] < known.units.get("N", 0.0) < accuracy.UNSURE[1]:
+                known = repeats.finer(4 * parts)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps

@@ -106,29 +106,22 @@ def test_a_changed_assembly_mode_is_reported_once(
     assert driven.get("solver.status") == Status.BRANCH_CHANGED
 
 
-@pytest.mark.parametrize(("h", "told"), [(0.02, True), (0.01, False), (0.002, False)])
-def test_an_edge_at_speed_is_told_once(prototype_fmu: Path, host: HostMaker, h: float, told: bool) -> None:
-    """Down 12 cm at 30 m/s loads are 11 % off with steps of 20 ms, 4.3 and less with 10 and 2 ms; in lanes too."""
-    edge = {"road.kerb_x": 10.0, "road.kerb_height": 0.12}
-    driven = host(prototype_fmu).start({"initial.speed": 30.0, "step_size": h} | edge)
-    slave = driven.slave
-    statuses = [slave.dll.fmi2DoStep(slave.component, 0.02 * k, 0.02, 1) for k in range(50)]
-    words = "a wheel swings on its tyre too quickly for the step"
-    lines = [m for m in driven.messages if words in m]
-    assert statuses.count(WARNING) == len(lines) == int(told)
-    variant = mbs.Variant(edge, pose=mbs.Pose(speed=30.0))
+@pytest.mark.parametrize(("h", "told"), [(0.04, True), (0.02, False), (0.002, False)])
+def test_an_edge_at_speed_is_told_by_the_steps_alone(h: float, told: bool) -> None:
+    """Down 12 cm at 30 m/s; an FMU, which takes no step of 40 ms, has its second motion."""
+    variant = mbs.Variant({"road.kerb_x": 10.0, "road.kerb_height": 0.12}, pose=mbs.Pose(speed=30.0))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         runs = mbs.simulate_many(
             mbs.compile(prototype_car.build()), [variant], 1.0, h, progress=False, estimate_error=False
         )
     report = runs.trajectories[0].report
+    words = f"At {report.load_time:.4g} s a wheel swings on its tyre too quickly for the step"
     assert [words in str(w.message) for w in said if w.category is mbs.AccuracyWarning] == [True] * told
     if told:
         assert 6e-4 < report.quick_load < 6e-3
         assert report.load_time == pytest.approx(10.0 / 30.0, abs=0.3)  # the front wheels, or the rear ones
-        assert f"At {report.load_time:.4g} s" in lines[0]
-        assert f"a step_size of {report.load_step:.2g} s" in lines[0]
+        assert f"a step of {report.load_step:.2g} s" in report.coarse_text
         assert report.load_step < 0.6 * h
 
 
@@ -143,14 +136,15 @@ def test_no_other_driving_is_told_so(prototype_fmu: Path, host: HostMaker) -> No
     assert driven.messages == []
 
 
-@pytest.mark.parametrize(("h", "told"), [(0.01, True), (0.001, False)])
+@pytest.mark.parametrize(("h", "told"), [(0.02, True), (0.001, False)])
 def test_a_wheel_that_drops_onto_its_rebound_stop_is_told_once(
     prototype_fmu: Path, host: HostMaker, h: float, told: bool
 ) -> None:
-    """Let go 0.27 m above the ground: at 10 ms forces of stops are 15 % off, at 1 ms they are right; in lanes too."""
+    """Let go 0.27 m above the ground: at 20 ms forces are 14 % off, at 1 ms they are right; in lanes too."""
     driven = host(prototype_fmu).start({"initial.speed": 3.0, "initial.z": 0.27, "step_size": h})
     slave = driven.slave
-    statuses = [slave.dll.fmi2DoStep(slave.component, 0.01 * k, 0.01, 1) for k in range(80)]
+    length = max(h, 0.01)
+    statuses = [slave.dll.fmi2DoStep(slave.component, length * k, length, 1) for k in range(round(0.8 / length))]
     words = "a wheel dropped onto the metal of its rebound stop too hard for the step"
     lines = [m for m in driven.messages if words in m]
     assert statuses.count(WARNING) == len(lines) == int(told)

@@ -57,16 +57,30 @@ def test_an_edge_at_10_ms_is_found(edge, method):
 
 
 def test_the_step_that_it_names_is_enough(edge):
-    """Loads that are off by more than 5 % at 20 ms are right with the named step, of which nothing is said."""
+    """Loads that whole steps of 20 ms have wrong are right with the named step, of which nothing is said."""
     h, speed = 0.02, 35.0
-    coarse, fine = drive(edge, h, speed=speed), drive(edge, 1e-4, every=200, speed=speed)
+    coarse, fine = drive(edge, h, speed=speed, settings=WHOLE), drive(edge, 1e-4, every=200, speed=speed)
     every = int(np.ceil(h / coarse.report.load_step))
-    again = drive(edge, h / every, every, speed)
+    again = drive(edge, h / every, every, speed, settings=WHOLE)
     size = loads(fine).max()
     assert np.abs(loads(coarse) - loads(fine)).max() > 0.05 * size
     assert np.abs(loads(again) - loads(fine)).max() < 0.05 * size
     assert again.report.quick_load == 0.0
     assert again.report.coarse_text == ""
+
+
+def test_parts_of_a_divided_step_are_weighed_by_their_own_size(edge):
+    """At 20 ms they are less than half as far off as whole steps, and only these are told."""
+    fine, divided, whole = (
+        drive(edge, h, round(0.02 / h), 35.0, **chosen)
+        for h, chosen in ((1e-4, {}), (0.02, {}), (0.02, {"settings": WHOLE}))
+    )
+    off = [np.abs(loads(run) - loads(fine)).max() / loads(fine).max() for run in (divided, whole)]
+    assert off[1] > 0.05
+    assert off[0] < 0.5 * off[1]
+    assert divided.report.divisions > 10
+    assert divided.report.quick_load == 0.0
+    assert whole.report.quick_load > LIMIT
 
 
 def test_small_falls_and_jumps_of_pedals_say_nothing():

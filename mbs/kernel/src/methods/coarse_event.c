@@ -8,7 +8,7 @@
 #include "coarse_event.h"
 
 static const double SPAN = 0.2; /* s, of an event: a wheel on its tyre swings about twice */
-static const double COARSE = 0.12; /* of the path; calibrated on random drives of two cars over kerbs and drops */
+static const double COARSE = 0.15; /* of the path; calibrated on random drives of two cars over kerbs and drops */
 static const double LEAST = 0.2; /* of what gravity does to the velocities in the span: a smaller change is no event */
 
 static const double UNEVEN = 0.005; /* m: a change of the road's height under a wheel in a step */

@@ -37,10 +37,9 @@ void ali3_quick_load(ali3_instance *in, double h) {
     worst = fmax(worst, fabs(to - from));
     r->largest_load = fmax(r->largest_load, fmax(from, to)); /* the start has no step before it */
   }
-  r->load_sum = r->load_sum / (1.0 + h / MEMORY) + worst * worst;
-  const double squares = h * h * h * r->load_sum;
-  if (squares > r->load_squares) {
-    r->load_squares = squares;
+  r->load_sum = r->load_sum / (1.0 + h / MEMORY) + h * h * h * worst * worst;
+  if (r->load_sum > r->load_squares) {
+    r->load_squares = r->load_sum;
     r->load_begin = ali3_time(in);
     r->load_h = h;
     r->load_left = SPAN;

@@ -7,7 +7,7 @@
 #include "../elements/element.h"
 #include "../elements/tyre_contact.h"
 
-static const double QUICK = 0.0315; /* sqrt(s); calibrated on random drives of two cars over kerbs and drops */
+static const double QUICK = 0.047;  /* sqrt(s); calibrated on random drives of two cars over kerbs and drops */
 static const double SAFE = 0.3;     /* of the limit: what a step would do with */
 static const double ABRUPT = 0.1;   /* of the largest force: a change in a step */
 static const double SPAN = 0.5;     /* s after a hit in which its wheel lands: the largest force there counts too */
