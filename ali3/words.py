@@ -46,10 +46,10 @@ def shortened(sentence: str) -> str:
     return sentence if len(sentence) <= _MESSAGE else f"{sentence[: _MESSAGE // 2]} ... {sentence[-_MESSAGE // 2 :]}"
 
 
-def one_line(sentence: str) -> str:
+def one_line(sentence: str, most: int = SENTENCE) -> str:
     """A sentence whose names and values, which may be any text, neither break the line nor make it endless."""
-    if len(sentence) > SENTENCE:
-        sentence = f"{sentence[: SENTENCE // 2]} ... {sentence[-SENTENCE // 2 :]}"
+    if len(sentence) > most:
+        sentence = f"{sentence[: most // 2]} ... {sentence[-most // 2 :]}"
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in sentence)
 
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from ali3.errors import UserError
 
+REMEDY = 'pip install "ali3[viewer]"'
+"""Where the page that draws is missing."""
+
 
 class ViewerError(UserError, ValueError):
     """Something cannot be drawn or shown; the message says what, and what would be right."""

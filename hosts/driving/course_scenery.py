@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,8 @@ from ali3.iso_3888 import Gate
 from hosts.driving.course import Course
 from hosts.driving.ground_marks import Mark, lanes
 from viewer.base64_numbers import decoded
+
+Array = NDArray[np.float64]
 
 _WIDTH = 0.15  # m, of lines
 _FEWEST, _MOST = 72, 3600  # sections of a circle; between them one a metre
@@ -43,18 +44,17 @@ def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
 
 def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> dict[str, Any]:
     """A scene with marks on its roads; `name` is that of `missing` where they cannot be put there."""
-
-    def placed(x: float, y: float) -> list[float]:
-        return [x, y, _height(scene.get("roads", []), x, y)]
-
-    things = [
-        thing | ({"at": placed(*thing["at"])} if "at" in thing else {"points": [placed(*p) for p in thing["points"]]})
-        for thing in things_of(marks)
-    ]
-    places = [place for thing in things for place in ([thing["at"]] if "at" in thing else thing["points"])]
+    things = things_of(marks)
+    flat = np.array([p for thing in things for p in thing.get("points", [thing.get("at")])], float).reshape(-1, 2)
+    places = np.column_stack([flat, _heights(scene.get("roads", []), *flat.T)])
     if not np.all(np.isfinite(places)):
         why = "they are put onto level roads, planes, kerbs and within grids of heights only"
         return dict(scene) | {"missing": [*scene.get("missing", []), {"name": name, "why": why}]}
+    rest = iter(places.tolist())
+    things = [
+        thing | ({"at": next(rest)} if "at" in thing else {"points": [next(rest) for _ in thing["points"]]})
+        for thing in things
+    ]
     return dict(scene) | ({"scenery": [*scene.get("scenery", []), *things]} if things else {})
 
 
@@ -87,38 +87,34 @@ def things_of(marks: Sequence[Mark]) -> list[Mark]:
     return things
 
 
-def _height(roads: Sequence[Mapping[str, Any]], x: float, y: float) -> float:
-    """Height of the roads at a place, m; NaN where that takes more than a formula."""
-    found = 0.0
+def _heights(roads: Sequence[Mapping[str, Any]], x: Array, y: Array) -> Array:
+    """Heights of the roads at n places, m; NaN where that takes more than a formula."""
+    found = np.zeros(len(x))
     for road in roads:
         if road["kind"] == "flat":
-            found = float(road.get("height", 0.0))
+            found = np.full(len(x), float(road.get("height", 0.0)))
         elif road["kind"] == "plane":
             (px, py, pz), (nx, ny, nz) = road["point"], road["normal"]
             found = pz - (nx * (x - px) + ny * (y - py)) / nz
         elif road["kind"] == "profile":
             (ox, oy, oz), (dx, dy, _) = road.get("origin", (0.0, 0.0, 0.0)), road.get("direction", (1.0, 0.0, 0.0))
             along = ((x - ox) * dx + (y - oy) * dy) / math.hypot(dx, dy)
-            found = oz + float(np.interp(along, road["stations"], road["heights"]))
+            found = oz + np.interp(along, road["stations"], road["heights"])
         elif road["kind"] == "grid" and road.get("axes") is None:
-            found = _height_of_grid(road, x, y)
+            found = _heights_of_grid(road, x, y)
         else:
-            return math.nan
+            return np.full(len(x), math.nan)
     return found
 
 
-def _height_of_grid(road: Mapping[str, Any], x: float, y: float) -> float:
+def _heights_of_grid(road: Mapping[str, Any], x: Array, y: Array) -> Array:
     """Linear along both axes between four points of the grid, m; NaN beside it."""
     nx, ny = road["shape"]
     i, j = ((value - start) / step for value, start, step in zip((x, y), road["origin"], road["spacing"], strict=True))
-    if not (0.0 <= i <= nx - 1 and 0.0 <= j <= ny - 1):
-        return math.nan
-    heights = _heights_of_grid(road["heights"]).reshape(nx, ny)
-    a, b = min(int(i), nx - 2), min(int(j), ny - 2)
-    along = heights[a : a + 2, b : b + 2] @ [1.0 - (j - b), j - b]
-    return float(along @ [1.0 - (i - a), i - a])
-
-
-@lru_cache(maxsize=4)
-def _heights_of_grid(text: str) -> NDArray[Any]:
-    return decoded(text, "f")
+    inside = (i >= 0.0) & (i <= nx - 1) & (j >= 0.0) & (j <= ny - 1)
+    i, j = np.where(inside, i, 0.0), np.where(inside, j, 0.0)
+    heights = decoded(road["heights"], "f").reshape(nx, ny)
+    a, b = np.minimum(i.astype(int), nx - 2), np.minimum(j.astype(int), ny - 2)
+    u, v = i - a, j - b
+    near, far = (heights[k, b] * (1.0 - v) + heights[k, b + 1] * v for k in (a, a + 1))
+    return np.where(inside, near * (1.0 - u) + far * u, math.nan)

@@ -11,6 +11,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from ali3.files import whole_file
+from ali3.words import VALUE, one_line
 from hosts.common.errors import HostError
 from hosts.study.folder import write_record
 from hosts.study.parts import part_files, write_part
@@ -70,12 +71,10 @@ def _difference(key: str, before: Any, now: Any) -> str:
         return _difference(f"{key}[{number + 1}]", before[number], now[number])
     if key.rpartition(".")[2] in ("sha256", "fmu_sha256", "points_sha256", "program", "aliases"):
         return f"{_WORDS.get(key, key)} changed"
-    return f"{_WORDS.get(key, key)} was {_short(before)} and is {_short(now)}"
-
-
-def _short(value: Any) -> str:
-    text = "not given" if value is None else json.dumps(value, ensure_ascii=False)
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    was, is_now = (
+        "not given" if v is None else one_line(json.dumps(v, ensure_ascii=False), VALUE) for v in (before, now)
+    )
+    return f"{_WORDS.get(key, key)} was {was} and is {is_now}"
 
 
 def keep_limits(folder: Path, before: dict[str, Any], limits: Mapping[str, Any], content: bytes) -> dict[str, Any]:

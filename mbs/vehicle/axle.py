@@ -21,6 +21,7 @@ from mbs.vehicle.suspensions import Suspension
 from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar
 from mbs.vehicle.suspensions.curve_poses import Hub
 from mbs.vehicle.suspensions.curves import Curves
+from mbs.vehicle.suspensions.double_wishbone import DoubleWishbone
 from mbs.vehicle.tyre import TMeasy
 from mbs.vehicle.tyre_by_file import MagicFormula
 
@@ -70,6 +71,12 @@ class Axle(Section):
     def by_curves(self) -> Curves | None:
         """The table of its suspension, in place of links."""
         return self.suspension if isinstance(self.suspension, Curves) else None
+
+    @property
+    def without_steering_stop(self) -> DoubleWishbone | None:
+        """Its suspension, where that has a place for a stop of the knuckles and none is there."""
+        suspension = self.suspension
+        return suspension if isinstance(suspension, DoubleWishbone) and suspension.steering_stop is None else None
 
     def needs_links(self) -> None:
         """Refuse an axle whose suspension is a table.

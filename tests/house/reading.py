@@ -24,6 +24,7 @@ DRIVER = {"a manoeuvre's driver": "hosts.driving.driver"}
 NEW_ROAD = {"--road": "hosts.common.road"}
 ALIASES = {"--aliases": "hosts.fmu.aliases.file", "from = FORMULA": "hosts.fmu.aliases.formulas"}
 EVERY = {"a package is missing": "ali3.extras"}
+CLONE = {"the page of a clone": "viewer.page_build"}
 TYPED = {"a fault in a file": "ali3.typed_sentences"}
 WAYS = {
     "build": {**EVERY, "--kernel": "mbs.kernel.build"},
@@ -62,6 +63,7 @@ WAYS = {
     "view": {**EVERY, "RESULT": "hosts.view.show", "--live": "hosts.view.live", **PARAMETERS},
     "simulator": {
         **EVERY,
+        **CLONE,
         **CAR,
         **RECORDING,
         **ALIASES,

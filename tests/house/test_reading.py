@@ -16,7 +16,7 @@ MOST = {
     "run": 4000,
     "run, all of it": 8591,
     "view": 791,
-    "simulator": 9029,
+    "simulator": 8890,
     "simulator, all of it": 16209,
     "check": 5994,
     "catalogue": 8517,

@@ -153,12 +153,12 @@ def build_and_test(root: Path, batches: Sequence[Batch], changed: Path | None, w
 
 
 def _run_in_node(root: Path, test: str, notes: _Notes) -> int:
-    from viewer import bundle
+    from viewer import page_build
 
     page = root / "viewer" / "page"
-    bundle.packages(page)
+    page_build.packages(page)
     notes.write("at", test)
-    code = subprocess.run([bundle.node()[0], "--test", str(root / test)], cwd=page, check=False).returncode
+    code = subprocess.run([page_build.node()[0], "--test", str(root / test)], cwd=page, check=False).returncode
     if code:
         notes.write("failed", test)
     return code

@@ -11,16 +11,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from viewer import bundle
+from viewer import page_build
 
-PAGE = Path(bundle.__file__).parent / "page"
+PAGE = Path(page_build.__file__).parent / "page"
 TO_EARTH = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])  # from glTF's axes, y up
 
 
 def run_node(script, *arguments):
     try:
-        bundle.packages(PAGE)
-        node = bundle.node()[0]
+        page_build.packages(PAGE)
+        node = page_build.node()[0]
     except RuntimeError as error:
         pytest.skip(str(error))
     command = [node, str(PAGE / "test" / script), *map(str, arguments)]

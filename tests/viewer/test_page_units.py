@@ -5,19 +5,24 @@ from pathlib import Path
 
 import pytest
 
-from viewer import bundle
+from viewer import page_build
 
-PAGE = Path(bundle.__file__).parent / "page"
+PAGE = Path(page_build.__file__).parent / "page"
 
 
 @pytest.mark.parametrize("file", sorted((PAGE / "test").glob("*.test.js")), ids=lambda path: path.name)
 def test_units_of_the_page(file):
     try:
-        bundle.packages(PAGE)
+        page_build.packages(PAGE)
     except RuntimeError as error:
         pytest.skip(str(error))
     result = subprocess.run(
-        [bundle.node()[0], "--test", str(file)], cwd=PAGE, capture_output=True, text=True, encoding="utf-8", check=False
+        [page_build.node()[0], "--test", str(file)],
+        cwd=PAGE,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
     )
     assert result.returncode == 0, result.stdout + result.stderr
     assert "# pass 0" not in result.stdout

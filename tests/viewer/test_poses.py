@@ -11,10 +11,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from tests.viewer import moving_car
-from viewer import bundle
+from viewer import page_build
 from viewer.poses import FramePoses, from_matrices, shortest_turns
 
-PAGE = Path(bundle.__file__).parent / "page"
+PAGE = Path(page_build.__file__).parent / "page"
 FRAMES = ("chassis", "carrier", "wheel", "arm")
 SLIDING = {"parent": "chassis", "at": [0.1, 0.2, 0.3], "direction": [0.0, 0.6, 0.8], "way": "rack"}
 T = np.linspace(0.0, 3.0, 61)
@@ -40,7 +40,7 @@ def test_the_page_has_the_same_poses():
     found = poses(recording)
     rows = [{name: values[k] for name, values in recording.columns.items()} for k in range(len(T))]
     try:
-        node = bundle.node()[0]
+        node = page_build.node()[0]
     except RuntimeError as error:
         pytest.skip(str(error))
     result = subprocess.run(

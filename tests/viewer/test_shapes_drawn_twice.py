@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from viewer import bundle
+from viewer import page_build
 from viewer.gltf.parts import Parts
 from viewer.poses import FramePoses, rotated
 
-PAGE = Path(bundle.__file__).parent / "page"
+PAGE = Path(page_build.__file__).parent / "page"
 TURNED = [0.9, 0.1, -0.3, 0.2]
 PLACES = {"car": (0.1, 0.2, 0.3), "left": (0.0, 0.9, 0.3), "right": (0.2, -0.9, 0.3), "above": (0.1, 0.2, 1.0)}
 SHAPE = [
@@ -54,8 +54,8 @@ def row() -> dict[str, float]:
 @pytest.fixture(scope="module")
 def of_page() -> list[dict[str, Any]]:
     try:
-        bundle.packages(PAGE)
-        node = bundle.node()[0]
+        page_build.packages(PAGE)
+        node = page_build.node()[0]
     except RuntimeError as error:
         pytest.skip(str(error))
     command, given = [node, str(PAGE / "test" / "shapes.mjs")], json.dumps([scene(), row()])

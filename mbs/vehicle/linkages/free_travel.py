@@ -10,7 +10,6 @@ from mbs.vehicle.car import Car
 from mbs.vehicle.linkages.continuation import HEAVE, STEER, reached
 from mbs.vehicle.linkages.linkage import Array, Linkage, Position
 from mbs.vehicle.steering.rack_section import RackSection
-from mbs.vehicle.suspensions.double_wishbone import DoubleWishbone
 
 FARTHEST = 0.5  # m: travel of wheels and rack that is looked at
 
@@ -51,8 +50,8 @@ def _of_the_springs(car: Car) -> Iterator[str]:
 
 
 def _of_the_steering(car: Car) -> Iterator[str]:
-    suspension, steering = car.front.suspension, car.steering
-    if not isinstance(suspension, DoubleWishbone) or suspension.steering_stop is not None:
+    suspension, steering = car.front.without_steering_stop, car.steering
+    if suspension is None:
         return
     linkage = Linkage(car, "front")
     told = []
