@@ -6,9 +6,11 @@ import tempfile
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from ali3.reading import LARGEST_JSON, read_json
+from ali3.running import command_name
 from hosts.common.commands import run_module
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -107,7 +109,9 @@ def _part(name: str, fmu: zipfile.ZipFile) -> dict[str, Any]:
             file = Path(folder, Path(inside).name)
             file.write_bytes(fmu.read(inside))
         elif not file.is_file():
-            raise HostError("its file is not there")
+            line = f"{command_name('road')} --world {quote(file.stem)} --out {quote(str(file.parent))}"
+            remedy = f"; that of a world is made again by: {line}" if file.is_absolute() else ""
+            raise HostError(f"its file is not there{remedy}")
         out = Path(folder, "part.json")
         run_module("ali3", "road", str(file), "--part", str(out))
         part: dict[str, Any] = read_json(out, HostError)

@@ -236,7 +236,7 @@ class Recorder(Closing):
         self._table.write(rows)
         self._written += len(rows)
 
-    def close(self, progress: Callable[[float], None] = lambda share: None) -> None:
+    def close(self, progress: Callable[[float], object] = lambda share: None) -> None:
         """Write the rest and finish the files; `progress` hears the share of them that is done."""
         if self._closed:
             return

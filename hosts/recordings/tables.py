@@ -94,10 +94,25 @@ def blocks_of(folder: Path) -> Iterator[Rows]:
     elif text.is_file():
         yield from _csv_blocks(text)
     elif (folder / PARTS).is_dir():
+        read = 0
         for part in sorted((folder / PARTS).glob("*.parquet")):
-            yield from parquet_blocks(part)
+            if whole.is_file() and not part.is_file():  # joined meanwhile
+                yield from _after(parquet_blocks(whole), read)
+                return
+            for rows in parquet_blocks(part):
+                read += len(rows)
+                yield rows
     else:
         raise HostError(f"{folder} has neither {whole.name} nor {text.name}, the table of a recording.")
+
+
+def _after(blocks: Iterator[Rows], count: int) -> Iterator[Rows]:
+    """All but so many first rows."""
+    for rows in blocks:
+        left = max(0, count - len(rows))
+        if count < len(rows):
+            yield rows.chosen(slice(count, None))
+        count = left
 
 
 def parquet_blocks(file: Path) -> Iterator[Rows]:

@@ -25,7 +25,7 @@ class Table(Protocol):
     def write(self, rows: Rows) -> None:
         """Add rows, which are then safe from the end of the program."""
 
-    def close(self, progress: Callable[[float], None]) -> None:
+    def close(self, progress: Callable[[float], object]) -> None:
         """Finish the table; `progress` hears the share that is done."""
 
 
@@ -58,7 +58,7 @@ class ParquetTable:
         with whole_file(self._parts / f"{self._count:06d}{self.suffix}") as made:
             self._write([rows], made, write_statistics=False, store_schema=False)  # of a part the larger half
 
-    def close(self, progress: Callable[[float], None]) -> None:
+    def close(self, progress: Callable[[float], object]) -> None:
         def blocks() -> Iterator[Rows]:
             """The rows of several parts at a time: groups of rows that are read at once should not be small."""
             held: list[Rows] = []
@@ -108,5 +108,5 @@ class CsvTable:
             self._file.write(f"{time!r},{count},{epoch}," + ",".join(cells) + "\n")
         self._file.flush()
 
-    def close(self, progress: Callable[[float], None]) -> None:
+    def close(self, progress: Callable[[float], object]) -> None:
         self._file.close()

@@ -6,7 +6,7 @@ import math
 import shutil
 import tempfile
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -219,8 +219,8 @@ class Car(Closing):
                 self._last_times = StepTimes.of(self._shared.times, self.step, self._settings.paced)
         return self._last_times
 
-    def close(self) -> None:
-        """End the process, within 2 s whatever it does."""
+    def close(self, progress: Callable[[float], object] = lambda share: None) -> None:
+        """End the process, within 2 s whatever it does; `progress` hears the share of a recording that is finished."""
         self.step_times()
         with self._lock:
             if self._closed:
@@ -231,7 +231,7 @@ class Car(Closing):
             if self._process is not None:
                 self._process.close()
             if self._mail is not None:
-                self._mail.close()
+                self._mail.close(progress)
         finally:  # also where Ctrl-C cuts the end of a recording short
             shutil.rmtree(self._folder, ignore_errors=True)
             self._shared.close()

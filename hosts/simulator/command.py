@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 _LOCAL = "127.0.0.1"
 _LONGEST = 1e6
 _TITLE = "ALi3: take the wheel"
+_BAR = "{desc}: {percentage:3.0f} % |{bar}| {elapsed}<{remaining}"
 _OF_RECORDINGS = ("recording", "replay", "save_manoeuvre", "begin", "end", "fmu")
 
 
@@ -161,13 +162,16 @@ def _started(options: argparse.Namespace, prepared: Prepared) -> Car:
 @contextmanager
 def _reported(car: Car, options: argparse.Namespace, report: RunReport) -> Iterator[None]:
     """At the end the car is closed, and what is then still to be said of its recording and the report are shown."""
+    from ali3.bars import bar
+
     try:
         yield
     finally:
         if options.record is not None:
             report.tell(f"The recording {options.record} is put together ...")
         try:
-            car.close()
+            with bar(total=1.0, desc="recording", bar_format=_BAR) as shown:
+                car.close(lambda share: shown.update(share - shown.n))
         finally:
             with suppress(HostError):  # a car that has ended by itself has been told of
                 for event in car.events():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import threading
 from collections import deque
+from collections.abc import Callable
 from typing import Any, Protocol
 
 from numpy.typing import ArrayLike
@@ -28,7 +29,7 @@ class Records(Protocol):
     def row(self, count: int, time: float, epoch: int, values: ArrayLike) -> None: ...
     def event(self, time: float, kind: str, text: str, *, epoch: int, **details: Any) -> None: ...
     def state(self, content: bytes, count: int | None = None, epoch: int = 0) -> None: ...
-    def close(self) -> None: ...
+    def close(self, progress: Callable[[float], object] = ...) -> None: ...
 
 
 class Mail:
@@ -55,8 +56,14 @@ class Mail:
             self._events.clear()
         return events
 
-    def close(self) -> None:
-        """Bring what still waits, once the process writes no more, and finish the recording."""
+    def close(self, progress: Callable[[float], object]) -> None:
+        """Bring what still waits, once the process writes no more, and finish the recording.
+
+        Parameters
+        ----------
+        progress : callable
+            Hears the share of its table that is done.
+        """
         with self._lock:
             self._collect()
             self._end.set()
@@ -64,7 +71,7 @@ class Mail:
             self._thread.join()
             whole = self._write()
             try:
-                self._recorder.close()
+                self._recorder.close(progress)
             except (OSError, UserError) as error:
                 if whole:
                     self._say(f"The recording could not be finished: {error} {_REMEDY}", kind=RECORDING_CUT)

@@ -15,7 +15,9 @@ from typing import Any
 import pytest
 
 from hosts.common import commands
+from hosts.common.options import Wishes
 from hosts.view.command import main
+from hosts.view.view_sources import RunWishes, recordings_of
 
 SCENE = "resources/geometry.json"
 SCENES = Path(__file__).parent / "scenes.py"
@@ -132,6 +134,22 @@ def test_a_road_that_is_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
     text = tmp_path / "words"
     text.write_text("no road")
     assert f"The road {text} cannot be used: {text} is of a kind" in refusal(fmu, capsys, "--road", str(text))
+
+
+def test_a_result_whose_world_was_deleted_says_how_to_make_it_again(tuned: Path, tmp_path: Path) -> None:
+    """On the terminal, and to the page; a world that is made again there is drawn."""
+    fmu = changed(tuned, tmp_path, same, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})
+    road, result = tmp_path / "my worlds" / "skidpad.road", tmp_path / "drive.csv"
+    result.write_text("time,height\n0,1\n1,2\n")
+    record = {"fmu": str(fmu), "set": [{"name": "road.file", "new": str(road)}]}
+    result.with_suffix(".json").write_text(json.dumps(record))
+    (recording,), told = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
+    (sentence,) = [line for line in told if "is not drawn" in line]
+    remedy = f" road --world skidpad --out '{road.parent}'"
+    assert sentence.startswith(f"The road {road} is not drawn: its file is not there; that of a world is made again by")
+    assert sentence.endswith(f"{remedy}.")
+    assert recording.scene is not None
+    assert remedy in next(item["why"] for item in recording.scene["missing"] if item["name"] == f"the road {road}")
 
 
 def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -239,6 +239,36 @@ def test_a_ghost_is_told_apart_by_its_colour_even_where_both_ran(opened: Callabl
     assert is_magenta(*page.picture()[y, x])
 
 
+def test_a_ghost_where_the_run_is_leaves_its_picture_as_it_is(opened: Callable[..., Opened]) -> None:
+    """The body's pixels are those of a run without a ghost, until the ghost is elsewhere."""
+    ghost = run("two")
+    ghost.columns["body.y"] += np.where(T > 3.0, 1.5, 0.0)
+    alone, both = opened(run("one"), camera="top"), opened(run("one"), ghost, camera="top")
+    seen = []
+    for page in (alone, both):
+        page.seek(2.0)
+        x, y = page.place(way(2.0, 0.6))
+        seen.append(page.picture()[y - 4 : y + 5, x - 4 : x + 5].astype(int))
+        page.seek(3.5)
+    assert abs(seen[0] - seen[1]).max() <= 2
+    shown = "() => player.player.view.ghosts.map(ghost => [...ghost.carriers.values()].map(part => part.visible))"
+    assert both(shown) == [[True, True]]
+    both.seek(2.0)
+    assert both(shown) == [[False, False]]
+
+
+def test_a_picture_of_two_runs_tells_whose_colour_is_whose(opened: Callable[..., Opened]) -> None:
+    """As pictures and films are made, without controls; a picture of one run has no names."""
+    ghost = run("two")
+    ghost.columns["body.y"] += 1.5
+    for runs, told in (([run("one"), ghost], True), ([run("one")], False)):
+        page = opened(*runs, camera="top", controls=False)
+        page.seek(2.0)
+        corner = page.picture()[:60, :30]
+        for colour in (is_yellow, is_magenta):
+            assert np.count_nonzero(colour(*np.moveaxis(corner, 2, 0))) > 50 if told else not colour(*corner.T).any()
+
+
 def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(opened: Callable[..., Opened]) -> None:
     """A beam along y whose middle sinks by 2 cm, drawn thirtyfold: 0.6 m."""
     nodes = [[0.0, -1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]

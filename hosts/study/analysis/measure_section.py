@@ -19,7 +19,7 @@ from hosts.study.analysis.parallel_plots import MOST_LINES, plot_parallel
 from hosts.study.analysis.pictures import Pictures
 from hosts.study.analysis.study_section import Commands
 from hosts.study.analysis.summary_plots import plot_overview
-from hosts.study.analysis.tables import Row, extremes
+from hosts.study.analysis.tables import Row, extremes, no_distribution
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -58,7 +58,13 @@ def measure_section(
     lost = bool(data.failed.any())
     name, label = f"{number + 1:02d}_{response.label}", response.label
     body = [element("h2", response.title)]
-    body.append(pictures.add(plot_overview(data, response, indices), f"{name}_overview", f"Distribution of {label}"))
+    body.append(
+        pictures.add(
+            plot_overview(data, response, indices),
+            f"{name}_overview",
+            f"{'Values' if no_distribution(data, response) else 'Distribution'} of {label}",
+        )
+    )
     body.append(paragraph(indices if isinstance(indices, str) else indices.how, "faint"))
     if data.parameters:
         body.append(element("h3", "Main effects"))

@@ -13,8 +13,8 @@ from ali3.chart_style import BLUE
 from hosts.run.slide import Draw, write_slide
 from hosts.study.analysis.data import Response, StudyData
 from hosts.study.analysis.indices import Indices
-from hosts.study.analysis.summary_plots import no_distribution, plot_distribution, plot_indices, rank_correlations
-from hosts.study.analysis.tables import statistics
+from hosts.study.analysis.summary_plots import plot_distribution, plot_indices, rank_correlations
+from hosts.study.analysis.tables import statistics, told_statistics
 from hosts.study.limits import Share, share_rows, shares
 
 
@@ -31,8 +31,8 @@ def write_study_slide(data: StudyData, indices: Indices | str | None, folder: Pa
         head = ["measure", "limit", "within", "share", "95 %"]
         rows = limit_rows(found, data)
     else:
-        known = not any(no_distribution(data, response) for response in data.responses)
-        names = ("5 %", "median", "95 %") if known else ("lowest", "median", "highest")
+        told = told_statistics(data)[0] if data.responses else []
+        names = ("5 %", "median", "95 %") if "5 %" in told else ("lowest", "median", "highest")
         head = ["measure", "unit", *names]
         rows = [_statistics(response, names) for response in data.responses]
     main, draws = main_response(data), list[Draw]()

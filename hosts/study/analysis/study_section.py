@@ -13,7 +13,7 @@ from hosts.study.analysis.data import FAILED, StudyData
 from hosts.study.analysis.effect_plots import plot_failed
 from hosts.study.analysis.page import commands_cell, paragraph
 from hosts.study.analysis.pictures import Pictures
-from hosts.study.analysis.tables import reasons, said, statistics
+from hosts.study.analysis.tables import reasons, said, statistics, told_statistics
 from hosts.study.limits import share_notes, share_rows, shares
 
 MOST_RESPONSES = 40
@@ -56,15 +56,19 @@ def head_section(data: StudyData) -> list[HtmlElement]:
 
 
 def measures_section(data: StudyData) -> list[HtmlElement]:
-    """A table of all measures with their percentiles."""
+    """A table of all measures with their percentiles; those of no random sample have their range only."""
     if not data.responses:
         return [element("h2", "Measures"), paragraph("No run yields a measure.", "note")]
+    names, why = told_statistics(data)
     found = [(r, statistics(r)) for r in data.responses]
-    head = ("measure", "unit", *found[0][1])
     rows = [
-        (r.label, r.unit, f"{len(r.rows)} of {r.asked}", *(f"{v:.5g}" for v in list(s.values())[1:])) for r, s in found
+        (r.label, r.unit, f"{len(r.rows)} of {r.asked}", *(f"{s[n]:.5g}" for n in names if n != "runs"))
+        for r, s in found
     ]
-    return [element("h2", "Measures"), table("Of all runs", head, rows)]
+    body = [element("h2", "Measures"), table("Of all runs", ("measure", "unit", *names), rows)]
+    if why:
+        body.append(paragraph(f"There are no percentiles: {why}.", "faint"))
+    return body
 
 
 def limits_section(data: StudyData) -> list[HtmlElement]:

@@ -17,11 +17,10 @@ from ali3.chart_style import BLACK, BLUE, ORANGE, RED
 from hosts.study.analysis.data import Response, StudyData
 from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.panels import WIDTH
+from hosts.study.analysis.tables import no_distribution
 
 PERCENTILES = (5.0, 50.0, 95.0)
 _MOST_BINS = 60
-# Of fewer values the 5 % and the 95 % are between the two outermost ones.
-_FEWEST_FOR_DISTRIBUTION = 20
 
 
 def plot_overview(data: StudyData, response: Response, indices: Indices | str) -> Figure:
@@ -35,15 +34,6 @@ def plot_overview(data: StudyData, response: Response, indices: Indices | str) -
     plot_distribution(left, data, response)
     plot_indices(right, indices)
     return figure
-
-
-def no_distribution(data: StudyData, response: Response) -> str:
-    """Why the values of a measure are no random sample from which a distribution can be told; "" if they are."""
-    count = len(response.values)
-    if data.method in ("grid", "table"):
-        return f"{count} runs of a {data.method}, no random sample"
-    few = count < _FEWEST_FOR_DISTRIBUTION
-    return f"{count} runs, from {_FEWEST_FOR_DISTRIBUTION} on a distribution" if few else ""
 
 
 def plot_distribution(axes: Axes, data: StudyData, response: Response) -> None:

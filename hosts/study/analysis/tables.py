@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
 _PERCENTILES = (0.0, 5.0, 50.0, 95.0, 100.0)
+_OF_SAMPLES = ("mean", "std", "5 %", "95 %")
+# Of fewer values the 5 % and the 95 % are between the two outermost ones.
+_FEWEST_FOR_DISTRIBUTION = 20
 _NUMBER = re.compile(r"(?<![A-Za-z_\d.\[])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w\]])")
 
 
@@ -26,6 +29,15 @@ class Row:
     value: float
 
 
+def no_distribution(data: StudyData, response: Response) -> str:
+    """Why the values of a measure are no random sample from which a distribution can be told; "" if they are."""
+    count = len(response.values)
+    if data.method in ("grid", "table"):
+        return f"{count} runs of a {data.method}, no random sample"
+    few = count < _FEWEST_FOR_DISTRIBUTION
+    return f"{count} runs, from {_FEWEST_FOR_DISTRIBUTION} on a distribution" if few else ""
+
+
 def statistics(response: Response) -> dict[str, float]:
     """Count, mean, standard deviation and percentiles, in the unit of the measure."""
     y = response.values
@@ -36,6 +48,13 @@ def statistics(response: Response) -> dict[str, float]:
     }
     names = ("lowest", "5 %", "median", "95 %", "highest")
     return found | {n: float(v) for n, v in zip(names, np.percentile(y, _PERCENTILES), strict=True)}
+
+
+def told_statistics(data: StudyData) -> tuple[list[str], str]:
+    """Names of the `statistics` that can be told of all measures, and why not the others; "" for all of them."""
+    names = list(statistics(data.responses[0]))
+    why = next(filter(None, (no_distribution(data, response) for response in data.responses)), "")
+    return ([name for name in names if name not in _OF_SAMPLES] if why else names), why
 
 
 def extremes(data: StudyData, response: Response, count: int) -> tuple[list[Row], list[Row]]:

@@ -18,6 +18,7 @@ from pathlib import Path
 
 import pytest
 
+from ali3 import bars
 from hosts.common import commands
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
@@ -115,6 +116,19 @@ def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
     assert program.wait(timeout=60) == 0
     assert json.loads((tmp_path / "report.json").read_text())["steps"]["steps"] > 20
     assert sum(len(rows) for rows in read_recording(tmp_path / "drive").blocks()) > 20
+
+
+def test_a_recording_of_many_parts_is_joined_with_a_bar(fmus, capsys, tmp_path, monkeypatch):
+    """A bar is shown after two seconds; here at once, and each part is one."""
+    monkeypatch.setattr(bars, "_DELAY", 0.0)
+    monkeypatch.setattr(bars._Lines, "_apart", 0.0)
+    monkeypatch.setattr("hosts.recordings.recording._MOST_ROWS", 5)
+    arguments = ("--headless", "--stop-time", 0.5, "--step", 0.005, "--record", tmp_path / "r")
+    assert main([str(a) for a in (fmus["sledge"], *arguments)]) == 0
+    shares = [int(share) for share in re.findall(r"recording: +(\d+) %", capsys.readouterr().err)]
+    assert shares == sorted(shares)
+    assert shares[-1] == 100
+    assert len(shares) > 2
 
 
 def test_a_recording_that_cannot_be_finished_is_said_in_the_report(fmus, told, tmp_path, monkeypatch):

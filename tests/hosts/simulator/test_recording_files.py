@@ -117,6 +117,26 @@ def test_a_table_that_grows_is_mostly_numbers(tmp_path: Path) -> None:
     assert pq.read_schema(tmp_path / "inputs_outputs.parquet").field("signal 7").metadata == {b"unit": b"m"}
 
 
+def test_a_recording_is_read_while_its_parts_are_joined(tmp_path: Path) -> None:
+    """A reader that has begun with the parts ends with the whole table."""
+    meta = {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.01, "start": {}}
+    recorder = Recorder(tmp_path / "drive", ["u"], {}, meta)
+    for k in range(12_000):
+        recorder.row(k, 0.01 * k, 0, [float(k)])
+    recorder.flush()
+    blocks = read_recording(tmp_path / "drive").blocks()
+    begun = [next(blocks)]
+    shares: list[float] = []
+    recorder.close(shares.append)
+    assert not (tmp_path / "drive/parts").exists()
+    read = joined([*begun, *blocks], 1)
+    assert read.values[:, 0].tolist() == list(range(12_000))
+    assert read.steps.tolist() == list(range(12_000))
+    assert shares == sorted(shares)
+    assert len(shares) == 6
+    assert shares[-1] == 1.0
+
+
 def test_without_pyarrow_the_table_is_text_and_that_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("hosts.recordings.recording.find_spec", lambda name: None)
     meta = {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.01, "start": {}}

@@ -19,6 +19,7 @@ from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.measure_section import indices_of
 from hosts.study.analysis.report import report_of
 from hosts.study.analysis.slide import limit_rows, main_response, write_study_slide
+from hosts.study.analysis.study_section import measures_section
 from hosts.study.analysis.summary_plots import plot_distribution, plot_indices, rank_correlations
 from hosts.study.analysis.tables import extremes, reasons, said, statistics
 from hosts.study.limits import ALL, shares
@@ -169,6 +170,18 @@ def test_one_parameter_has_no_indices_and_a_grid_no_percentiles(tmp_path: Path) 
     assert "lowest" in text
     assert "Distribution" not in text
     assert "Sobol" not in text
+
+
+@pytest.mark.parametrize("method", ["grid", "latin_hypercube"])
+def test_the_table_of_measures_has_percentiles_of_random_samples_alone(method: str) -> None:
+    """A grid has no probabilities: its quarters lie where somebody put its values."""
+    x = np.linspace(0.0, 1.0, 20)
+    heading, *rest = measures_section(study_data(frame_of({"mass": x}, {"peak": x}, UNITS, method=method)))
+    text = " ".join(" ".join(part.itertext()) for part in rest)
+    assert heading.text == "Measures"
+    assert [name in text for name in ("5 %", "95 %", "mean", "std")] == 4 * [method != "grid"]
+    assert ("There are no percentiles: 20 runs of a grid, no random sample." in text) == (method == "grid")
+    assert all(name in text for name in ("lowest", "median", "highest"))
 
 
 def test_the_slide_begins_with_all_limits_together() -> None:

@@ -63,6 +63,7 @@ export class Player {
     this.#build(container);
     this.#draw();
     if (this.options.controls !== false) this.#controls();
+    else if (this.ghosts.length > 0) this.viewBox.append(el("div.ali3-head", {}, ...this.#names())); // pictures and films
     this.theme(this.themeName);
     this.observer = new ResizeObserver(() => this.#shape());
     this.observer.observe(this.root);
@@ -304,14 +305,19 @@ export class Player {
     keys({ acts, signal: this.listeners.signal });
   }
 
-  /** Names of the runs and what there is to say of them, over the picture. */
-  #head() {
-    const rows = this.runs.map((run, k) => {
+  /** Names of the runs with the colours of their paths. */
+  #names() {
+    return this.runs.map((run, k) => {
       const ghost = this.ghosts.find((other) => other.run === run);
       const colour = ghost?.options.tint ?? (k === this.solid && this.ghosts.length > 0 ? looks.paths.body : undefined);
       const swatch = colour ? [el("span.ali3-swatch", { style: `background:${colour}` })] : [];
       return el("div.ali3-name", {}, ...swatch, run.name, ...(ghost ? [" (ghost)"] : []));
     });
+  }
+
+  /** Names of the runs and what there is to say of them, over the picture. */
+  #head() {
+    const rows = this.#names();
     const said = [...this.notes, ...this.#spans(), ...(this.wrong ? [this.wrong] : [])];
     if (this.solid < 0) said.push("There are no poses in this result: signals can be plotted, and nothing is drawn.");
     const more = said.length > SHOWN_NOTES ? [`${said.length - SHOWN_NOTES} more notes stand in the settings.`] : [];

@@ -8,22 +8,26 @@ import { join } from "../shapes/joined.js";
 import { turn, shaded } from "../shapes/place.js";
 import { niceAbove } from "./forces.js";
 import { Frames } from "./frames.js";
-import { subtract } from "./math.js";
+import { length, rotate, subtract } from "./math.js";
 import { roadUnder, tyresOf } from "./tyres.js";
 
 /** Radius of the thinnest tube of a flexible body that is seen, beside the size of the drawing. */
 const THINNEST = 0.003;
 /** Shapes of this name are hidden by covers, as mbs/vehicle/shapes/tube_frame.py names them. */
 const WITHIN = "frame tube";
+/** A part of a ghost that is nearer to its like than this, beside the size of the drawing, would be drawn into it. */
+const SAME = 0.01;
 
 /** The moving things of a scene: the run itself, or a ghost of another run. */
 export class Parts {
   /**
    * @param {Data} scene
-   * @param {{ghost?: boolean, tint?: string, opacity?: number, tell: (sentence: string) => void}} options
+   * @param {{ghost?: boolean, tint?: string, opacity?: number, over?: Parts, size?: number, tell: (sentence: string) => void}} options
+   *   parts of a ghost are hidden where those that it is drawn `over` stand, of a drawing of this `size`, m
    */
   constructor(scene, options) {
     this.scene = scene;
+    this.options = options;
     this.tell = options.tell;
     this.group = new THREE.Group();
     this.frames = new Frames(scene);
@@ -121,19 +125,27 @@ export class Parts {
     for (const [name, carrier] of this.inner) carrier.visible = this.frames.pose(name).shown && !this.closed;
   }
 
+  /** Whether frames stand where those of the same names do that are drawn already. @param {string[]} names */
+  #covers(names) {
+    const { over, size = 0 } = this.options;
+    if (over === undefined || over.closed !== this.closed) return false;
+    const bends = (name) => this.flexible.some(({ frame }) => frame === name);
+    return names.every((name) => !bends(name) && apart(this.frames.pose(name), over.frames.pose(name), size / 4) < SAME * size);
+  }
+
   /** Puts everything in its place relative to the origin of the picture. @param {number[]} origin earth position */
   place(origin) {
     for (const body of this.flexible) body.paint(this.bending.coloured, this.bending.most || 1);
     this.arrows.place(origin);
     for (const [name, carrier] of this.moving) {
       const { position, rotation, shown } = this.frames.pose(name);
-      carrier.visible = shown && !(this.closed && this.inner.get(name) === carrier);
+      carrier.visible = shown && !(this.closed && this.inner.get(name) === carrier) && !this.#covers([name]);
       carrier.position.set(...subtract(position, origin));
       turn(carrier, rotation);
     }
     for (const made of this.shapes) {
       if (made.update === undefined) continue;
-      made.object.visible = made.frames.every((name) => this.frames.pose(name).shown);
+      made.object.visible = made.frames.every((name) => this.frames.pose(name).shown) && !this.#covers(made.frames);
       if (made.object.visible) made.update(([frame, local]) => subtract(this.frames.point(frame, local), origin));
     }
   }
@@ -165,4 +177,16 @@ export class Parts {
     this.materials.dispose();
     this.group.removeFromParent();
   }
+}
+
+/**
+ * How far apart points are that lie so far from two frames along their axes, m.
+ * @param {import("./frames.js").Pose} one @param {import("./frames.js").Pose} other @param {number} reach m
+ */
+function apart(one, other, reach) {
+  if (!other.shown) return Infinity;
+  const axes = [[reach, 0, 0], [0, reach, 0], [0, 0, reach]]; // prettier-ignore
+  const between = subtract(one.position, other.position);
+  const turned = axes.map((axis) => length(subtract(rotate(one.rotation, axis), rotate(other.rotation, axis))));
+  return length(between) + Math.max(...turned);
 }

@@ -201,7 +201,7 @@ export class SceneView {
    * @returns {{update: Function, remove: Function, lower: Function}} `lower` as that of the view
    */
   addGhost(scene, options = {}) {
-    const parts = new Parts(scene, { ...options, ghost: true, tell: (sentence) => this.notes.tell(sentence) });
+    const parts = new Parts(scene, { ...options, ghost: true, over: this.parts, size: this.extent, tell: (sentence) => this.notes.tell(sentence) });
     parts.bending.factor = this.parts.bending.factor;
     if (this.parts.closed !== undefined) parts.close(this.parts.closed);
     this.ghosts.push(parts);
