@@ -35,6 +35,8 @@ WAYS = {
         "--kinematics": "mbs.vehicle.kinematics.report",
         "--cheapest": "mbs.vehicle.levels.report",
         "tyre.kind magic_formula": "mbs.tyre_files",
+        "modes of a flexible frame": "mbs.flexible.component_modes",
+        "modes by its load paths": "mbs.flexible.load_paths",
         "frame.kind nastran": "mbs.flexible.nastran",
         "frame.kind calculix": "mbs.flexible.calculix",
         "frame.kind matrices": "mbs.flexible.matrix_files",
