@@ -155,9 +155,8 @@ class Fmu(Closing):
                 f"'{name}' is one of {place.size} elements of an array of type {place.type}; such arrays keep the "
                 "values of the FMU: FMI sets all elements at once, and the start values of the others are not known."
             )
-        if isinstance(value, str) or self.variables[name].type not in ("Integer", "Enumeration"):
-            return value
-        return self._whole(name, value)
+        whole = not isinstance(value, str) and self.variables[name].type in ("Integer", "Enumeration")
+        return self._whole(name, value) if whole else value
 
     @staticmethod
     def _whole(name: str, value: float) -> int:
@@ -285,8 +284,7 @@ class Fmu(Closing):
 
     def constants(self) -> dict[str, float]:
         """Values of the constants, by name."""
-        constants = {n: v for n, v in self.variables.items() if v.variability == "constant" and v.type == "Real"}
-        return {n: float(v.start) for n, v in constants.items()}
+        return {n: float(v.start) for n, v in self.variables.items() if (v.variability, v.type) == ("constant", "Real")}
 
     def _last_message(self) -> str:
         return self.messages[-1] if self.messages else ""

@@ -109,9 +109,7 @@ class Instance:
                 raise MemoryError from None
             raise
         # PythonFMU 0.7 frees its own record of Python twice when the library is closed; the instance keeps its share.
-        release = getattr(self.slave.dll, "finalizePythonInterpreter", None)
-        if release is not None:
-            release()
+        getattr(self.slave.dll, "finalizePythonInterpreter", int)()
 
     def initialise(self, start: Mapping[Place, Value], start_time: float = 0.0, stop_time: float | None = None) -> None:
         """Set start values and leave initialisation mode."""

@@ -10,20 +10,20 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 45676,
-    "build --kernel": 413,
+    "build": 45720,
+    "build --kernel": 416,
     "car": 29397,
     "run": 4000,
-    "run, all of it": 8591,
+    "run, all of it": 8606,
     "view": 791,
-    "simulator": 8890,
-    "simulator, all of it": 16226,
+    "simulator": 8958,
+    "simulator, all of it": 16256,
     "check": 5994,
     "catalogue": 8517,
     "compare": 9811,
     "study": 5974,
-    "study --run": 8432,
-    "study, all of it": 15524,
+    "study --run": 8447,
+    "study, all of it": 15557,
     "road": 694,
 }
 """Lines; a command that needs fewer takes its number down with it."""
