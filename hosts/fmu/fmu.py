@@ -155,8 +155,9 @@ class Fmu(Closing):
                 f"'{name}' is one of {place.size} elements of an array of type {place.type}; such arrays keep the "
                 "values of the FMU: FMI sets all elements at once, and the start values of the others are not known."
             )
-        whole = not isinstance(value, str) and self.variables[name].type in ("Integer", "Enumeration")
-        return self._whole(name, value) if whole else value
+        if isinstance(value, str) or self.variables[name].type not in ("Integer", "Enumeration"):
+            return value
+        return self._whole(name, value)
 
     @staticmethod
     def _whole(name: str, value: float) -> int:
