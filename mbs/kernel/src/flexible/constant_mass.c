@@ -51,6 +51,7 @@ ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, real *out, 
       sum += ali3_product_from_far(val + first, x + col[first], last - first);
       k = last;
     }
+    ALI3_SHORT
     for (; k < ptr[i + 1]; k++) sum += val[k] * x[col[k]];
     out[i] = sum;
   }
@@ -66,8 +67,8 @@ ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, re
 ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *in, const real *x, real *out),
                   (in, x, out))
 
-/* M x and M y, entries loaded once, of a System whose M is constant. */
-void ali3_constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y) {
+ALI3_INLINED void constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x,
+                                           real *out_y) {
   const ali3_system *S = in->system;
   const real *val = in->mass_val;
   const int32_t *ptr = S->mass_ptr, *col = S->mass_col;
@@ -85,6 +86,7 @@ void ali3_constant_mass_times_both(const ali3_instance *in, const real *x, const
       continue;
     }
     real sum_x = {0}, sum_y = {0};
+    ALI3_SHORT
     for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
       sum_x += val[k] * x[col[k]];
       sum_y += val[k] * y[col[k]];
@@ -92,3 +94,8 @@ void ali3_constant_mass_times_both(const ali3_instance *in, const real *x, const
     out_x[i] = sum_x, out_y[i] = sum_y;
   }
 }
+
+/* M x and M y, entries loaded once, of a System whose M is constant. */
+ALI3_BY_PROCESSOR(in->system, void, constant_mass_times_both,
+                  (const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y),
+                  (in, x, y, out_x, out_y))

@@ -3,6 +3,7 @@
  * direction. The last two corrections show that direction. Where Newton converges quadratically the corrections
  * shrink faster than SLOW and nothing is mixed. */
 #include "../algebra/real.h"
+#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "newton.h"
 
@@ -27,6 +28,13 @@ void ali3_accelerate(ali3_instance *in, int32_t iteration) {
     theta = ali3_where((theta >= LEAST) & (theta <= MOST), theta, ali3_same(0.0));
   }
   const truth mixed = theta != 0.0;
+  if (!ali3_any(mixed)) {
+    ali3_copy(in->correction_q, in->x, nq);
+    ali3_copy(in->step_q, in->x, nq);
+    ali3_copy(in->correction_lam, in->lam, nc);
+    ali3_copy(in->step_lam, in->lam, nc);
+    return;
+  }
   for (int32_t i = 0; i < nq; i++) {
     const real correction = in->x[i];
     const real other = correction - theta * (in->step_q[i] + correction - in->correction_q[i]);

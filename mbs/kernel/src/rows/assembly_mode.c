@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../elements/signal.h"
 #include "../instance.h"
@@ -22,16 +23,16 @@ int64_t ali3_loop_count(const ali3_system *S) { return S->n_mode_triad_ptr > 0 ?
 
 int64_t ali3_triad_count(const ali3_system *S) { return S->n_mode_triad / ITEMS; }
 
-static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+ALI3_INLINED double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* Signed squares of sine and cosine from numbers proportional to both; 0 where these are nothing beside `lengths`. */
-static void put(int32_t kind, double ss, double cc, double lengths, double *sine, double *cosine) {
+ALI3_INLINED void put(int32_t kind, double ss, double cc, double lengths, double *sine, double *cosine) {
   const double size = fabs(ss) + fabs(cc), scale = size > NOTHING * lengths ? 1.0 / size : 0.0;
   *sine = scale * (kind & TURNED ? cc : ss);
   *cosine = scale * (kind & TURNED ? -ss : cc);
 }
 
-static void vector(const ali3_system *S, const int32_t *signal, const double *q, double *v) {
+ALI3_INLINED void vector(const ali3_system *S, const int32_t *signal, const double *q, double *v) {
   if (!S->triad_triple[signal - S->mode_triad]) {
     for (int d = 0; d < 3; d++) v[d] = ali3_signal_at(S, signal[d], q, false);
     return;
@@ -44,7 +45,7 @@ static void vector(const ali3_system *S, const int32_t *signal, const double *q,
 }
 
 /* Of the angle from arm a to arm b seen along n. */
-static void angle(const ali3_system *S, const double *q, const int32_t *t, double *sine, double *cosine) {
+ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t, double *sine, double *cosine) {
   double v[SIGNALS];
   const double *n = v, *a = v + 3, *b = v + 6;
   if (t[KIND] & PLANAR) {
@@ -62,10 +63,12 @@ static void angle(const ali3_system *S, const double *q, const int32_t *t, doubl
 }
 
 /* Of all triads, signed squares of sines in in->mode_sine and of cosines in in->mode_cosine. */
-void ali3_mode_angles(ali3_instance *in, const double *q) {
+ALI3_INLINED void mode_angles(ali3_instance *in, const double *q) {
   for (int64_t k = 0; k < ali3_triad_count(in->system); k++)
     angle(in->system, q, triad(in->system, k), in->mode_sine + k, in->mode_cosine + k);
 }
+
+ALI3_BY_PROCESSOR(in->system, void, mode_angles, (ali3_instance * in, const double *q), (in, q))
 
 static uint32_t bit(double v, int k, uint32_t *definite) {
   if (fabs(v) >= DEFINITE) *definite |= (uint32_t)1 << k;

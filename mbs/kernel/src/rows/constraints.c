@@ -37,6 +37,11 @@ static inline real rate_of(const real *qd, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
 }
 
+/* Behind the entries of row k that are triples; asked once a row, as a byte might be any number that is written. */
+static inline int32_t triples_end(const ali3_system *S, int32_t k) {
+  return S->row_ptr[S->row_triples[k] ? k + 1 : k];
+}
+
 /* Adds the terms of three neighbouring entries of Phi_q to them; of points: with three neighbours each. */
 static inline void add_terms(const ali3_system *S, int32_t i, const real *q, bool points, real entry[3]) {
   const int32_t *col = S->hess_col + S->hess_ptr[i], *end = S->hess_col + S->hess_ptr[i + 3];
@@ -72,6 +77,7 @@ static inline void add_stretch(const ali3_system *S, int32_t i, int32_t n, const
 /* A sum with the terms of entry i, of which many may lie side by side. */
 ALI3_INLINED real add_run(const ali3_system *S, int32_t i, const real *q, real sum) {
   const int32_t run = S->hess_run[i], end = S->hess_ptr[i + 1];
+  ALI3_SHORT
   for (int32_t t = S->hess_ptr[i]; t < run; t++) sum += S->hess_val[t] * q[S->hess_col[t]];
   return run < end ? sum + ali3_numbers_from_far(S->hess_val + run, q + S->hess_col[run], end - run) : sum;
 }
@@ -109,7 +115,8 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
-    for (; S->row_triples[k] && i < ptr[k + 1]; i += 3) {
+    const int32_t triples = triples_end(S, k);
+    for (; i < triples; i += 3) {
       const double *lin = row_lin + i;
       const real *v = q + col[i];
       real entry[3] = {ali3_same(lin[0]), ali3_same(lin[1]), ali3_same(lin[2])};
@@ -183,7 +190,8 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
-    for (; S->row_triples[k] && i < ptr[k + 1]; i += 3) {
+    const int32_t triples = triples_end(S, k);
+    for (; i < triples; i += 3) {
       real entry[3] = {ali3_same(0.0), ali3_same(0.0), ali3_same(0.0)};
       add_terms(S, i, qd, S->row_triples[k] == ALI3_POINTS, entry);
       value = ali3_triple_sum(value, entry, qd + col[i]);
@@ -234,7 +242,7 @@ static inline void stretch_geometric(const ali3_system *S, int32_t k, real facto
 }
 
 /* F += weight * sum_k lam_k d2(Phi_k)/dq2, lower triangles. */
-void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight, real *F) {
+ALI3_INLINED void geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight, real *F) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->quad_ptr, *pos = S->quad_pos;
   const double *second = S->quad_second;
@@ -266,8 +274,12 @@ void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real 
   }
 }
 
+ALI3_BY_PROCESSOR(in->system, void, geometric,
+                  (ali3_instance * in, const real *q, const real *s, const real *lam, double weight, real *F),
+                  (in, q, s, lam, weight, F))
+
 /* Three columns of weight J' J, of entries j to j + 2 of a row of triples that ends before `end`. */
-static inline void add_triple(real *block, int64_t n, const real *J, int32_t j, int32_t end, const int32_t *loc,
+ALI3_INLINED void add_triple(real *block, int64_t n, const real *J, int32_t j, int32_t end, const int32_t *loc,
                               double weight) {
   const real x = weight * J[j], y = weight * J[j + 1], z = weight * J[j + 2];
   real *restrict a = block + loc[j] * n, *restrict b = a + n, *restrict c = b + n;
@@ -348,6 +360,7 @@ ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, r
     for (int32_t j = ptr[k]; j < end; j++) {
       real *column = block + (int64_t)loc[j] * n;
       const real factor = weight * J[j];
+      ALI3_SHORT
       for (int32_t i = j; i < end; i++) column[loc[i]] += factor * J[i];
     }
   }
@@ -376,7 +389,10 @@ ALI3_INLINED void times(const ali3_system *S, const real *J, const real *x, real
   for (int32_t k = 0; k < S->size.nc; k++) {
     real sum = {0};
     int32_t i = ptr[k];
-    for (; S->row_triples[k] && i < end[k]; i += 3) sum = ali3_triple_sum(sum, J + i, x + col[i]);
+    const int32_t triples = triples_end(S, k);
+    ALI3_SHORT
+    for (; i < triples; i += 3) sum = ali3_triple_sum(sum, J + i, x + col[i]);
+    ALI3_SHORT
     for (; i < stretch[k]; i++) sum += J[i] * x[col[i]];
     if (stretches && i < end[k]) sum += ali3_product_from_far(J + i, x + col[i], end[k] - i);
     out[k] = sum;
@@ -392,8 +408,8 @@ ALI3_INLINED void rows_times(const ali3_system *S, const real *J, const real *x,
 
 ALI3_BY_PROCESSOR(S, void, rows_times, (const ali3_system *S, const real *J, const real *x, real *out), (S, J, x, out))
 
-/* The same of x and y with entries loaded once. */
-void ali3_rows_times_both(const ali3_system *S, const real *J, const real *x, const real *y, real *out_x, real *out_y) {
+ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const real *x, const real *y, real *out_x,
+                                  real *out_y) {
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
   if (S->n_flexible > 0) {
     ali3_rows_times(S, J, x, out_x);
@@ -403,10 +419,13 @@ void ali3_rows_times_both(const ali3_system *S, const real *J, const real *x, co
   for (int32_t k = 0; k < S->size.nc; k++) {
     real sum_x = {0}, sum_y = {0};
     int32_t i = ptr[k];
-    for (; S->row_triples[k] && i < ptr[k + 1]; i += 3) {
+    const int32_t triples = triples_end(S, k);
+    ALI3_SHORT
+    for (; i < triples; i += 3) {
       sum_x = ali3_triple_sum(sum_x, J + i, x + col[i]);
       sum_y = ali3_triple_sum(sum_y, J + i, y + col[i]);
     }
+    ALI3_SHORT
     for (; i < ptr[k + 1]; i++) {
       sum_x += J[i] * x[col[i]];
       sum_y += J[i] * y[col[i]];
@@ -415,13 +434,21 @@ void ali3_rows_times_both(const ali3_system *S, const real *J, const real *x, co
   }
 }
 
+/* The same of x and y with entries loaded once. */
+ALI3_BY_PROCESSOR(S, void, rows_times_both,
+                  (const ali3_system *S, const real *J, const real *x, const real *y, real *out_x, real *out_y),
+                  (S, J, x, y, out_x, out_y))
+
 ALI3_INLINED void transposed(const ali3_system *S, const real *J, const real *w, real *out, bool stretches) {
   const int32_t *ptr = S->row_ptr, *col = S->row_col, *end = ptr + 1, *stretch = stretches ? S->row_stretch : end;
   memset(out, 0, (size_t)S->size.nq * sizeof *out);
   for (int32_t k = 0; k < S->size.nc; k++) {
     const real weight = w[k];
     int32_t i = ptr[k];
-    for (; S->row_triples[k] && i < end[k]; i += 3) ali3_triple_add(out + col[i], J + i, weight);
+    const int32_t triples = triples_end(S, k);
+    ALI3_SHORT
+    for (; i < triples; i += 3) ali3_triple_add(out + col[i], J + i, weight);
+    ALI3_SHORT
     for (; i < stretch[k]; i++) out[col[i]] += J[i] * weight;
     if (stretches && i < end[k]) ali3_add_multiple(out + col[i], J + i, weight, end[k] - i);
   }

@@ -1,9 +1,10 @@
 /* Ways of the signals whose elements' work a sensor asks for. */
+#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../tabled/tabled.h"
 #include "work.h"
 
-void ali3_work_ways(const ali3_instance *in, real *ways) {
+ALI3_INLINED void work_ways(const ali3_instance *in, real *ways) {
   const ali3_system *S = in->system;
   const real *D = in->D;
   if (S->n_tabled > 0) {
@@ -21,8 +22,11 @@ void ali3_work_ways(const ali3_instance *in, real *ways) {
         i += 2, signal += 2;
         continue;
       }
+      ALI3_SHORT
       for (int32_t t = S->sig_ptr[*signal]; t < S->sig_ptr[*signal + 1]; t++) sum += S->sig_val[t] * D[S->sig_col[t]];
       ways[i] = sum;
     }
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, work_ways, (const ali3_instance *in, real *ways), (in, ways))
