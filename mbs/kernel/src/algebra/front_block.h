@@ -42,8 +42,9 @@ ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_
     const real third = x[p + 2] - (a[p + 2] * first + b[p + 2] * second);
     const real fourth = (x[p + 3] - (a[p + 3] * first + b[p + 3] * second)) - c[p + 3] * third;
     x[p + 1] = second, x[p + 2] = third, x[p + 3] = fourth;
-    ALI3_BY_FOURS
-    for (int64_t i = p + 4; i < n; i++) x[i] = (x[i] - (a[i] * first + b[i] * second)) - (c[i] * third + d[i] * fourth);
+    ALI3_EACH(p + 4, n,
+              ALI3_AT(x) = (ALI3_AT(x) - (ALI3_AT(a) * first + ALI3_AT(b) * second)) -
+                           (ALI3_AT(c) * third + ALI3_AT(d) * fourth))
   }
   for (; p + 1 < n_pivot; p += 2) {
     const real *a = block + p * n;

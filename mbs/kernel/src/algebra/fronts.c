@@ -49,16 +49,13 @@ ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_
                            int64_t from) {
   ALI3_OPAQUE(n);
   const real *restrict c1 = c + n, *restrict c2 = c1 + n;
-  if (count == 3) {
-    ALI3_BY_FOURS
-    for (int64_t i = from; i < n; i++) target[i] = ((target[i] - f[0] * c[i]) - f[1] * c1[i]) - f[2] * c2[i];
-  } else if (count == 2) {
-    ALI3_BY_FOURS
-    for (int64_t i = from; i < n; i++) target[i] = (target[i] - f[0] * c[i]) - f[1] * c1[i];
-  } else if (count == 1) {
-    ALI3_BY_FOURS
-    for (int64_t i = from; i < n; i++) target[i] -= f[0] * c[i];
-  }
+  const real x = f[0], y = count > 1 ? f[1] : x, z = count > 2 ? f[2] : x;
+  if (count == 3)
+    ALI3_EACH(from, n, ALI3_AT(target) = ((ALI3_AT(target) - x * ALI3_AT(c)) - y * ALI3_AT(c1)) - z * ALI3_AT(c2))
+  else if (count == 2)
+    ALI3_EACH(from, n, ALI3_AT(target) = (ALI3_AT(target) - x * ALI3_AT(c)) - y * ALI3_AT(c1))
+  else if (count == 1)
+    ALI3_EACH(from, n, ALI3_AT(target) -= x * ALI3_AT(c))
 }
 
 /* L_jp of the pivots of panels from their unscaled columns. */
@@ -86,9 +83,9 @@ ALI3_INLINED ali3_status inside_panel(ali3_instance *in, real *block, int32_t fi
 ALI3_INLINED void scale(real *block, int32_t start, int32_t count, int32_t n, const real *inverse) {
   for (int32_t p = 0; p < count; p++) {
     real *column = block + (int64_t)(start + p) * n;
-    ALI3_BY_FOURS
-    for (int32_t i = ali3_by_fours(start + p + 1, n); i < n; i++) column[i] *= inverse[p];
-    column[start + p] = inverse[p];
+    const real factor = inverse[p];
+    ALI3_EACH(ali3_by_fours(start + p + 1, n), n, ALI3_AT(column) *= factor)
+    column[start + p] = factor;
   }
 }
 
@@ -192,9 +189,9 @@ ALI3_INLINED real *unknowns(ali3_instance *in, int32_t f, real *b) {
   const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
   real *restrict x = in->local;
   if (n == n_pivot) return b + first;
-  ali3_copy(x, b + first, n_pivot);
+  ali3_copy_few(x, b + first, n_pivot);
   for (int32_t i = n_pivot; i < side; i++) x[i] = b[idx[i]];
-  ali3_copy(x + side, b + idx[side], n - side);
+  ali3_copy_few(x + side, b + idx[side], n - side);
   return x;
 }
 
@@ -204,9 +201,9 @@ ALI3_INLINED void put_back(const ali3_instance *in, int32_t f, const real *x, bo
   const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
   const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
   if (n == n_pivot) return;
-  ali3_copy(b + first, x, n_pivot);
+  ali3_copy_few(b + first, x, n_pivot);
   for (int32_t i = n_pivot; all && i < side; i++) b[idx[i]] = x[i];
-  if (all) ali3_copy(b + idx[side], x + side, n - side);
+  if (all) ali3_copy_few(b + idx[side], x + side, n - side);
 }
 
 /* The pivots of a front with sums from the far end, of one instance four columns at a time where the fours begin at one

@@ -48,28 +48,59 @@ static inline int64_t ali3_by_fours_below(int64_t from, int64_t n) {
 #endif
 }
 
+#ifndef ALI3_WIDTH
+typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias));
+#endif
+
+/* statement for each i from a number on to n, where ALI3_AT(x) is entry i of x, or the four from i on while there are so
+ * many: without what compilers put around a loop that they make vectors of. */
+#define ALI3_AT(x) (*(entry *)((x) + i))
+#ifdef ALI3_WIDTH
+#define ALI3_EACH(from, n, statement)                                                                                  \
+  for (int64_t i = from; i < (n); i++) {                                                                               \
+    typedef real entry;                                                                                          \
+    statement;                                                                                                         \
+  }
+#else
+#define ALI3_EACH(from, n, statement)                                                                                  \
+  {                                                                                                                    \
+    int64_t i = from;                                                                                                  \
+    ALI3_SHORT                                                                                                         \
+    for (; i + 3 < (n); i += 4) {                                                                                      \
+      typedef ali3_four entry;                                                                                         \
+      statement;                                                                                                       \
+    }                                                                                                                  \
+    ALI3_SHORT                                                                                                         \
+    for (; i < (n); i++) {                                                                                             \
+      typedef double entry;                                                                                            \
+      statement;                                                                                                       \
+    }                                                                                                                  \
+  }
+#endif
+
 /* y += a x */
 static inline void ali3_add_multiple(real *restrict y, const real *restrict x, real a, int64_t n) {
-  ALI3_BY_FOURS
-  for (int64_t i = 0; i < n; i++) y[i] += a * x[i];
+  ALI3_EACH(0, n, ALI3_AT(y) += a * ALI3_AT(x))
 }
 
 /* y += x */
 static inline void ali3_add(real *restrict y, const real *restrict x, int64_t n) {
-  ALI3_BY_FOURS
-  for (int64_t i = 0; i < n; i++) y[i] += x[i];
+  ALI3_EACH(0, n, ALI3_AT(y) += ALI3_AT(x))
 }
 
 static inline void ali3_copy(real *restrict y, const real *restrict x, int64_t n) {
-  ALI3_BY_FOURS
   for (int64_t i = 0; i < n; i++) y[i] = x[i];
+}
+
+/* The same of few numbers, for which a call of memcpy is long. */
+static inline void ali3_copy_few(real *restrict y, const real *restrict x, int64_t n) {
+  ALI3_EACH(0, n, ALI3_OPAQUE(i); ALI3_AT(y) = ALI3_AT(x))
 }
 
 /* y -= a x + b z */
 static inline void ali3_take_two(real *restrict y, const real *restrict x, real a, const real *restrict z, real b,
                                  int64_t n) {
-  ALI3_BY_FOURS
-  for (int64_t i = 0; i < n; i++) y[i] -= x[i] * a + z[i] * b;
+  ALI3_EACH(0, n, ALI3_AT(y) -= ALI3_AT(x) * a + ALI3_AT(z) * b)
 }
 
 /* x y in two sums, by turns, so that additions need not wait for each other */
@@ -86,7 +117,6 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 }
 
 #ifndef ALI3_WIDTH
-typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias));
 typedef int64_t ali3_four_bits __attribute__((vector_size(32), aligned(8)));
 
 /* The larger ones of the sizes of x and of `most` go to *most. */

@@ -1,5 +1,6 @@
 /* M x: the constant mass matrix and what flexible bodies add to it. */
 #include "mass.h"
+#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../instance.h"
 #include "../tabled/tabled.h"
@@ -19,14 +20,16 @@ double ali3_mass_product(const ali3_instance *in, const double *a, const double 
   return sum;
 }
 
-void ali3_mass_to_fronts(const ali3_instance *in, double *F) {
+ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
     for (int32_t j = 0; j < n; j++) {
       const int32_t from = ali3_by_fours(j, n);
       const int64_t first = S->front_off[f] + (int64_t)j * n + from;
-      ali3_copy(F + first, in->front_mass + first, n - from);
+      ali3_copy_few(F + first, in->front_mass + first, n - from);
     }
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, mass_to_fronts, (const ali3_instance *in, double *F), (in, F))

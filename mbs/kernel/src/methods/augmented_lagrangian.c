@@ -5,6 +5,7 @@
 
 #include "../algebra/finite.h"
 #include "../algebra/fronts.h"
+#include "../algebra/stretch.h"
 #include "../elements/forces.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
@@ -48,25 +49,25 @@ static void forces(ali3_instance *in, double h, bool tangent) {
 static void evaluate(ali3_instance *in, double h, bool tangent) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double c = in->rule.c, rate = in->rule.rate;
+  const double c = in->rule.c, rate = in->rule.rate, *from = in->now.q, *D = in->D, *d0 = in->d0, *hat = in->hat;
   ali3_vectors *to = &in->next;
-  for (int32_t i = 0; i < nq; i++) {
-    to->q[i] = in->now.q[i] + in->D[i];
-    to->qd[i] = rate * in->D[i] + in->hat[i];
-    in->w[i] = in->D[i] - in->d0[i];
-  }
+  double *q = to->q, *qd = to->qd, *w = in->w, *r = in->r, *Q = in->Q;
+  ALI3_EACH(0, nq, ALI3_AT(q) = ALI3_AT(from) + ALI3_AT(D); ALI3_AT(qd) = rate * ALI3_AT(D) + ALI3_AT(hat);
+            ALI3_AT(w) = ALI3_AT(D) - ALI3_AT(d0))
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_velocity_values(in, in->J, to->qd, rate, in->Phi);
   forces(in, h, tangent);
-  ali3_mass_times(in, in->w, in->r);
-  for (int32_t i = 0; i < nq; i++) in->r[i] -= c * in->Q[i];
+  ali3_mass_times(in, w, r);
+  ALI3_EACH(0, nq, ALI3_AT(r) -= c * ALI3_AT(Q))
 }
 
 /* Judges the residual with the multipliers. */
 static bool judge(ali3_instance *in) {
-  ali3_rows_transposed(in->system, in->J, in->next.lam, in->x);
-  for (int32_t i = 0; i < in->system->size.nq; i++) in->x[i] = in->r[i] + in->rule.c * in->x[i];
-  return ali3_judge(in, in->x);
+  const double c = in->rule.c, *r = in->r;
+  double *x = in->x;
+  ali3_rows_transposed(in->system, in->J, in->next.lam, x);
+  ALI3_EACH(0, in->system->size.nq, ALI3_AT(x) = ALI3_AT(r) + c * ALI3_AT(x))
+  return ali3_judge(in, x);
 }
 
 /* The tangent (23) of the present iterate, factorised. */
@@ -94,21 +95,24 @@ static ali3_status correct(ali3_instance *in, double h, double alpha, int32_t it
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c;
-  double *lam = in->next.lam;
-  const double *balance = kept ? in->x : in->r;
-  for (int32_t k = 0; k < nc; k++) in->mu[k] = (kept ? 0.0 : lam[k]) + alpha * in->Phi[k];
-  ali3_rows_transposed(S, in->J_tangent, in->mu, in->w);
-  for (int32_t i = 0; i < nq; i++) in->x[i] = -(balance[i] + c * in->w[i]);
-  ali3_solve(in, in->F, in->x);
-  if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+  double *lam = in->next.lam, *mu = in->mu, *x = in->x, *D = in->D, *change = in->lam;
+  const double *balance = kept ? x : in->r, *Phi = in->Phi, *w = in->w, *opening = in->gamma;
+  if (kept)
+    ALI3_EACH(0, nc, ALI3_AT(mu) = 0.0 + alpha * ALI3_AT(Phi))
+  else
+    ALI3_EACH(0, nc, ALI3_AT(mu) = ALI3_AT(lam) + alpha * ALI3_AT(Phi))
+  ali3_rows_transposed(S, in->J_tangent, mu, in->w);
+  ALI3_EACH(0, nq, ALI3_AT(x) = -(ALI3_AT(balance) + c * ALI3_AT(w)))
+  ali3_solve(in, in->F, x);
+  if (!ali3_finite(x, nq)) return ALI3_NOT_FINITE;
   if (ali3_defect_corrected(S)) ali3_defect_correction(in, h, iteration, true);
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
-    ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
-    for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
+    ali3_rows_times(S, in->J_tangent, x, in->gamma);
+    ALI3_EACH(0, nc, ALI3_AT(change) = alpha * (ALI3_AT(Phi) + ALI3_AT(opening)))
     ali3_accelerate(in, iteration);
-    for (int32_t k = 0; k < nc; k++) lam[k] += in->lam[k];
+    ali3_add(lam, change, nc);
   }
-  for (int32_t i = 0; i < nq; i++) in->D[i] += in->x[i];
+  ali3_add(D, x, nq);
   return ALI3_OK;
 }
 

@@ -52,7 +52,7 @@ void ali3_extrapolate(const ali3_instance *in, double when, int32_t n, real *a, 
   ali3_lagrange(v->history + ALI3_HISTORY_TIME, n, ali3_same(when), weight);
   for (int32_t k = 0; k < n; k++) {
     const real *past_a = v->past_a + (int64_t)k * nq, *past_lam = v->past_lam + (int64_t)k * nc;
-    for (int32_t i = 0; i < nq; i++) a[i] += weight[k] * past_a[i];
-    for (int32_t i = 0; i < nc; i++) lam[i] += weight[k] * past_lam[i];
+    ali3_add_multiple(a, past_a, weight[k], nq);
+    ali3_add_multiple(lam, past_lam, weight[k], nc);
   }
 }

@@ -37,11 +37,6 @@ static inline real rate_of(const real *qd, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
 }
 
-/* Behind the entries of row k that are triples; asked once a row, as a byte might be any number that is written. */
-static inline int32_t triples_end(const ali3_system *S, int32_t k) {
-  return S->row_ptr[S->row_triples[k] ? k + 1 : k];
-}
-
 /* Adds the terms of three neighbouring entries of Phi_q to them; of points: with three neighbours each. */
 static inline void add_terms(const ali3_system *S, int32_t i, const real *q, bool points, real entry[3]) {
   const int32_t *col = S->hess_col + S->hess_ptr[i], *end = S->hess_col + S->hess_ptr[i + 3];
@@ -115,7 +110,7 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
-    const int32_t triples = triples_end(S, k);
+    const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
     for (; i < triples; i += 3) {
       const double *lin = row_lin + i;
       const real *v = q + col[i];
@@ -190,7 +185,7 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
-    const int32_t triples = triples_end(S, k);
+    const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
     for (; i < triples; i += 3) {
       real entry[3] = {ali3_same(0.0), ali3_same(0.0), ali3_same(0.0)};
       add_terms(S, i, qd, S->row_triples[k] == ALI3_POINTS, entry);
@@ -389,7 +384,7 @@ ALI3_INLINED void times(const ali3_system *S, const real *J, const real *x, real
   for (int32_t k = 0; k < S->size.nc; k++) {
     real sum = {0};
     int32_t i = ptr[k];
-    const int32_t triples = triples_end(S, k);
+    const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
     ALI3_SHORT
     for (; i < triples; i += 3) sum = ali3_triple_sum(sum, J + i, x + col[i]);
     ALI3_SHORT
@@ -419,7 +414,7 @@ ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const rea
   for (int32_t k = 0; k < S->size.nc; k++) {
     real sum_x = {0}, sum_y = {0};
     int32_t i = ptr[k];
-    const int32_t triples = triples_end(S, k);
+    const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
     ALI3_SHORT
     for (; i < triples; i += 3) {
       sum_x = ali3_triple_sum(sum_x, J + i, x + col[i]);
@@ -445,7 +440,7 @@ ALI3_INLINED void transposed(const ali3_system *S, const real *J, const real *w,
   for (int32_t k = 0; k < S->size.nc; k++) {
     const real weight = w[k];
     int32_t i = ptr[k];
-    const int32_t triples = triples_end(S, k);
+    const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
     ALI3_SHORT
     for (; i < triples; i += 3) ali3_triple_add(out + col[i], J + i, weight);
     ALI3_SHORT
