@@ -47,6 +47,7 @@ static inline real ali3_floor(real x) {
 /* Lanes are not asked for the pieces of laws. */
 #define ALI3_PIECE(piece, c, bits) ((void)(piece), (void)(c), (void)(bits))
 #define ALI3_AT_WORK(in, lanes) (*(in)->at_work = (lanes))
+#define ALI3_OF_LANES(lanes, a, b) ali3_where(lanes, a, b)
 #define ALI3_AT_WORK_OF(in, lanes) (*(in)->at_work & (lanes))
 #define ALI3_COUNT(in, counter) (*(in)->report.counter -= *(in)->at_work)
 #define ALI3_COUNT_ANEW(in, counter) (*(in)->report.counter &= ~*(in)->at_work)
@@ -67,6 +68,7 @@ static inline real ali3_floor(real x) { return floor(x); }
 /* Adds bits to those that tell the smooth pieces of a law apart, where c holds. */
 #define ALI3_PIECE(piece, c, bits) (*(piece) |= (c) ? (uint32_t)(bits) : 0u)
 #define ALI3_AT_WORK(in, lanes) ((void)(in))
+#define ALI3_OF_LANES(lanes, a, b) (a) /* where one instance would not be here otherwise */
 #define ALI3_AT_WORK_OF(in, lanes) (lanes)
 #define ALI3_COUNT(in, counter) ((in)->report.counter++)
 #define ALI3_COUNT_ANEW(in, counter) ((in)->report.counter = 0)

@@ -1,11 +1,13 @@
 /* Signals: affine functions of the coordinates. */
 #ifndef ALI3_SIGNAL_H
 #define ALI3_SIGNAL_H
+#include "../algebra/stretch.h"
 #include "../instance.h"
 
 /* Of coordinates x, or the rate of the signal where x are rates (or accelerations). */
 static inline double ali3_signal_at(const ali3_system *S, int32_t i, const double *x, bool rate) {
   double sum = rate ? 0.0 : S->sig_const[i];
+  ALI3_SHORT
   for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * x[S->sig_col[k]];
   return sum;
 }

@@ -161,10 +161,9 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
 static void trapezoidal(ali3_instance *in, double h) {
   const ali3_rule rule = {.c = 0.25 * h * h, .rate = 2.0 / h, .wC = 0.5 * h};
   in->rule = rule;
-  for (int32_t i = 0; i < in->system->size.nq; i++) {
-    in->d0[i] = h * in->now.qd[i] + rule.c * in->now.qdd[i];
-    in->hat[i] = -in->now.qd[i];
-  }
+  const double *qd = in->now.qd, *qdd = in->now.qdd;
+  double *d0 = in->d0, *hat = in->hat;
+  ALI3_EACH(0, in->system->size.nq, ALI3_AT(d0) = h * ALI3_AT(qd) + rule.c * ALI3_AT(qdd); ALI3_AT(hat) = -ALI3_AT(qd))
 }
 
 /* Also of generalised-alpha. */
@@ -193,7 +192,9 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
     status = newton(in, h, alpha);
   }
   if (status != ALI3_OK) return status;
-  for (int32_t i = 0; i < nq; i++) to->qdd[i] = (in->D[i] - in->d0[i]) / c;
+  const double *D = in->D, *d0 = in->d0;
+  double *qdd = to->qdd;
+  ALI3_EACH(0, nq, ALI3_AT(qdd) = (ALI3_AT(D) - ALI3_AT(d0)) / c)
   if (is_alpha)
     ali3_alpha_accept(in, h);
   else

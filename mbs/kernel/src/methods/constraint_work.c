@@ -71,10 +71,10 @@ real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *ope
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   real *w = in->w, *x = in->x, *change = in->r, *left = in->d0;
-  for (int32_t i = 0; i < nq; i++) {
-    w[i] = 0.5 * (in->rule.rate * in->D[i] + in->hat[i] + v->qd[i]);
-    change[i] = 2.0 * (v->qd[i] - w[i]);
-  }
+  const real *D = in->D, *hat = in->hat, *qd = v->qd, *Q = in->Q;
+  const double rate = in->rule.rate;
+  ALI3_EACH(0, nq, ALI3_AT(w) = 0.5 * (rate * ALI3_AT(D) + ALI3_AT(hat) + ALI3_AT(qd));
+            ALI3_AT(change) = 2.0 * (ALI3_AT(qd) - ALI3_AT(w)))
   if (S->n_flexible + S->n_tabled > 0) {
     ali3_mass_times(in, w, x);
     ali3_mass_times(in, v->qdd, left);
@@ -82,8 +82,8 @@ real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *ope
     ali3_constant_mass_times_both(in, w, v->qdd, x, left);
   }
   const real given = ali3_product_from_far(change, x, nq), twice = ali3_product_from_far(w, x, nq);
-  for (int32_t i = 0; i < nq; i++) left[i] -= in->Q[i];
-  real power = ali3_product_from_far(v->qd, left, nq), drive = {0};
+  ALI3_EACH(0, nq, ALI3_AT(left) -= ALI3_AT(Q))
+  real power = ali3_product_from_far(qd, left, nq), drive = {0};
   for (int32_t i = 0; i < S->n_driven; i++) {
     const int32_t k = S->driven_row[i];
     power -= v->lam[k] * in->Phit[k];

@@ -5,6 +5,7 @@
  * rates of the last two steps go on. */
 #include <string.h>
 
+#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "extrapolation.h"
 #include "history.h"
@@ -24,16 +25,20 @@ bool ali3_predict(ali3_instance *in, double h, bool from_past) {
   const bool goes_on =
       from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA && ali3_history_smooth(in, ALI3_PARABOLA, h);
   ali3_history_predict(in, 0.5 * h, goes_on ? ALI3_PARABOLA : 0, in->x, lam);
-  for (int32_t k = 0; k < S->size.nc; k++) lam[k] = from->lam[k] + ALI3_SHARE * (lam[k] - from->lam[k]);
-  for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = h * from->qd[i] + 0.5 * h * h * in->x[i];
+  const double *last = from->lam, *qd = from->qd, *x = in->x, half = 0.5 * h * h;
+  double *D = in->D;
+  ALI3_EACH(0, S->size.nc, ALI3_AT(lam) = ALI3_AT(last) + ALI3_SHARE * (ALI3_AT(lam) - ALI3_AT(last)))
+  ALI3_EACH(0, S->size.nq, ALI3_AT(D) = h * ALI3_AT(qd) + half * ALI3_AT(x))
   return goes_on;
 }
 
 /* Stores the mean acceleration and the multipliers of the step from in->now to in->next. */
 void ali3_predict_accept(ali3_instance *in, double h) {
   if (in->system->n_flexible > 0) return;
-  for (int32_t i = 0; i < in->system->size.nq; i++) in->x[i] = 2.0 * (in->D[i] - h * in->now.qd[i]) / (h * h);
-  ali3_history_append(in, h, in->x);
+  const double *D = in->D, *qd = in->now.qd, square = h * h;
+  double *x = in->x;
+  ALI3_EACH(0, in->system->size.nq, ALI3_AT(x) = 2.0 * (ALI3_AT(D) - h * ALI3_AT(qd)) / square)
+  ali3_history_append(in, h, x);
 }
 
 /* Stores the mean rate of the step from in->now to in->next, of systems with flexible bodies. */

@@ -28,18 +28,19 @@ real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real
                   bool begun) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  real violation = {0};
-  if (!begun) ali3_rows_times(S, in->J, v, in->mu);
+  real violation = {0}, *mu = in->mu, *x = in->x, *along = in->lam;
+  if (!begun) ali3_rows_times(S, in->J, v, mu);
   truth open = ALI3_AT_WORK_OF(in, ali3_not(rates_below(in, b, v, tolerance, &violation)));
   for (int32_t sweep = 0; sweep < sweeps && ali3_any(open); sweep++) {
     ALI3_AT_WORK(in, open);
-    for (int32_t k = 0; k < nc; k++) in->mu[k] *= factor;
-    ali3_rows_transposed(S, in->J_tangent, in->mu, in->x);
-    ali3_solve(in, in->F, in->x);
-    for (int32_t i = 0; i < nq; i++) v[i] = ali3_where(open, v[i] - in->x[i], v[i]);
+    ALI3_EACH(0, nc, ALI3_AT(mu) *= factor)
+    ali3_rows_transposed(S, in->J_tangent, mu, x);
+    ali3_solve(in, in->F, x);
+    ALI3_EACH(0, nq, ALI3_AT(v) = ALI3_OF_LANES(open, ALI3_AT(v) - ALI3_AT(x), ALI3_AT(v)))
     if (lam != NULL) {
-      ali3_rows_times(S, in->J_tangent, in->x, in->lam);
-      for (int32_t k = 0; k < nc; k++) lam[k] = ali3_where(open, lam[k] + (in->mu[k] - factor * in->lam[k]), lam[k]);
+      ali3_rows_times(S, in->J_tangent, x, along);
+      ALI3_EACH(0, nc, ALI3_AT(lam) = ALI3_OF_LANES(open, ALI3_AT(lam) + (ALI3_AT(mu) - factor * ALI3_AT(along)),
+                                                    ALI3_AT(lam)))
     }
     open &= ali3_not(ali3_rates_closed(in, b, v, tolerance, &violation));
   }
