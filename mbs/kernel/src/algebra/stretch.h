@@ -58,7 +58,7 @@ typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias))
 #ifdef ALI3_WIDTH
 #define ALI3_EACH(from, n, statement)                                                                                  \
   for (int64_t i = from; i < (n); i++) {                                                                               \
-    typedef real entry;                                                                                          \
+    typedef real entry;                                                                                                \
     statement;                                                                                                         \
   }
 #else

@@ -39,8 +39,9 @@ real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real
     ALI3_EACH(0, nq, ALI3_AT(v) = ALI3_OF_LANES(open, ALI3_AT(v) - ALI3_AT(x), ALI3_AT(v)))
     if (lam != NULL) {
       ali3_rows_times(S, in->J_tangent, x, along);
-      ALI3_EACH(0, nc, ALI3_AT(lam) = ALI3_OF_LANES(open, ALI3_AT(lam) + (ALI3_AT(mu) - factor * ALI3_AT(along)),
-                                                    ALI3_AT(lam)))
+      ALI3_EACH(0, nc,
+                ALI3_AT(lam) =
+                    ALI3_OF_LANES(open, ALI3_AT(lam) + (ALI3_AT(mu) - factor * ALI3_AT(along)), ALI3_AT(lam)))
     }
     open &= ali3_not(ali3_rates_closed(in, b, v, tolerance, &violation));
   }

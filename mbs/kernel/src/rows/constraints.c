@@ -275,7 +275,7 @@ ALI3_BY_PROCESSOR(in->system, void, geometric,
 
 /* Three columns of weight J' J, of entries j to j + 2 of a row of triples that ends before `end`. */
 ALI3_INLINED void add_triple(real *block, int64_t n, const real *J, int32_t j, int32_t end, const int32_t *loc,
-                              double weight) {
+                             double weight) {
   const real x = weight * J[j], y = weight * J[j + 1], z = weight * J[j + 2];
   real *restrict a = block + loc[j] * n, *restrict b = a + n, *restrict c = b + n;
   const int32_t own = loc[j];
