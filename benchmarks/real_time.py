@@ -1,9 +1,10 @@
 """Worst steps of wild driving: ``python -m benchmarks.real_time [--json FILE] [--chart FILE]``.
 
 A car is driven without sense over kerbs, rough ground and ramps at each fidelity and step, once without a limit of the
-iterations of a step and once with `LIMITS`. Measured is processor time of the thread, which leaves out what others do
-in between; the worst steps are repeated from their saved states by a C program, and their instructions are counted
-where valgrind is installed. An hour each (``--seconds 3600``) takes a day; the default is made for two minutes.
+iterations of a step and once with `LIMITS`; the prototype with all modes of its frame makes the paper's kerb test too.
+Measured is processor time of the thread, which leaves out what others do in between; the worst steps are repeated from
+their saved states by a C program, and their instructions are counted where valgrind is installed. An hour each
+(``--seconds 3600``) takes a day; the default is made for two minutes.
 """
 
 from __future__ import annotations
@@ -29,14 +30,19 @@ from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
+from mbs import compile
 from mbs.common.progress import progress_for
+from mbs.scenes import kerb_test
+from mbs.vehicle.fidelity import Fidelity
 
 FIDELITIES, STEPS = (0, 1, 2, 3), (1.0, 2.0, 5.0, 10.0)
 LIMITS = {0: (6, 8, 12, 12), 1: (4, 6, 12, 12), 2: (3, 3, 8, 12), 3: (3, 3, 8, 12)}
 """Limits of the iterations of a step by fidelity, for each of `STEPS`: what a quarter of the deadline has time for."""
 LEFT = {0: (2, 3, 6), 2: (2, 3, 5)}
 """Limits that are compared after a fall, by fidelity."""
+WILD, KERB = "wild", "kerb test"
 COLUMNS = {
+    "drive": "",
     "fidelity": "d",
     "step_ms": "g",
     "limit": "d",
@@ -77,25 +83,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.error("the time of a drive is at least 1 s")
     fidelities, steps = options.fidelity or FIDELITIES, options.step or STEPS
     cases = [
-        (fidelity, step, limit)
+        (WILD, fidelity, step, limit)
         for fidelity in fidelities
         for step in steps
         for limit in options.limit or (0, LIMITS[fidelity][STEPS.index(step)])
     ]
+    if options.fmu is None and Fidelity.DYNAMIC in fidelities:
+        cases += [(KERB, int(Fidelity.DYNAMIC), step, 0) for step in steps]
     rows = []
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         fmu = options.fmu or _built(Path(folder))
         with progress_for(None) as bar:
             road = options.road or Path(folder, "wild.road")
             targets = write_ground(road) if options.road is None else []
-            replay = Replay(fmu, Path(folder, "unpacked"))
-            for k, (fidelity, ms, limit) in enumerate(cases):
+            cars = {WILD: fmu} | ({KERB: _kerb(Path(folder))} if cases[-1][0] == KERB else {})
+            replays = {name: Replay(car, Path(folder, f"unpacked {name}")) for name, car in cars.items()}
+            for k, (name, fidelity, ms, limit) in enumerate(cases):
                 start = {"fidelity": fidelity, "solver.step_iterations": limit, "road.file": str(road.resolve())}
+                how = (start, options.seconds, targets) if name == WILD else ({}, kerb_test.DURATION, None)
+                replay = replays[name]
                 costs = drive(
-                    *(fmu, start, 1e-3 * ms, options.seconds, options.seed, targets),
+                    *(cars[name], *how, 1e-3 * ms, options.seed),
                     lambda share, k=k: bar.update((k + share) / len(cases)),
                 )
-                row: dict[str, Any] = {"fidelity": fidelity, "step_ms": ms, "limit": limit}
+                row: dict[str, Any] = {"drive": name, "fidelity": fidelity, "step_ms": ms, "limit": limit}
                 rows.append(row | summary(costs, 1e-3 * ms) | replay.measure(costs, 1e-3 * ms))
         if options.fall is not None:
             save_chart(limited_fall.chart(_falls(fmu)), options.fall)
@@ -105,7 +116,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("valgrind is not installed: instructions were not counted")
     save_rows(options.json, describe("real_time", seconds=options.seconds, seed=options.seed), rows)
     if options.chart is not None:
-        save_chart(chart(rows), options.chart)
+        save_chart(chart([row for row in rows if row["drive"] == WILD]), options.chart)
     return 0
 
 
@@ -120,6 +131,10 @@ def _falls(fmu: Path) -> dict[int, list[limited_fall.Fall]]:
                 f"{run.residual.max():.2g} mm left, {apart:.2g} mm off, energy balance {run.balance:.3g}"
             )
     return found
+
+
+def _kerb(folder: Path) -> Path:
+    return build_fmu(compile(kerb_test.build(Fidelity.DYNAMIC)), "kerb_test", folder, [fmpy.platform])
 
 
 def _built(folder: Path) -> Path:

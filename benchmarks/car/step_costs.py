@@ -101,10 +101,10 @@ def _switches() -> int:
 def drive(
     fmu: Path,
     start: Mapping[str, Value],
-    step: float,
     seconds: float,
+    targets: Sequence[Target] | None,
+    step: float,
     seed: int,
-    targets: Sequence[Target],
     progress: Callable[[float], None],
 ) -> Costs:
     """Drive wildly and measure.
@@ -113,12 +113,12 @@ def drive(
     ----------
     start : mapping
         Start values beside the place.
-    step : float
-        Communication and inner step, s.
     seconds : float
         Simulated.
-    targets : sequence of Target
-        What is driven at.
+    targets : sequence of Target, optional
+        What is driven at; None where nobody drives, as the FMU's own guide does.
+    step : float
+        Communication and inner step, s.
     progress : callable
         Gets the share done.
     """
@@ -127,10 +127,12 @@ def drive(
 
 
 class _Drive:
-    def __init__(self, car: Fmu, start: dict[str, Value], step: float, seed: int, targets: Sequence[Target]) -> None:
+    def __init__(
+        self, car: Fmu, start: dict[str, Value], step: float, seed: int, targets: Sequence[Target] | None
+    ) -> None:
         self.car, self.values, self.h, self.seed, self.targets = car, start, step, seed, targets
         self.inputs = car.names("input")
-        self.driver = WildDriver(seed, self.inputs, targets)
+        self.driver = None if targets is None else WildDriver(seed, self.inputs, targets)
         self.read, self.set = car.getter((*SENSES, *_READ)), car.setter(self.inputs)
         self.held = dict(zip(self.inputs, car.start_values(self.inputs).tolist(), strict=True))
         self.starts = self.steps = 0
@@ -145,7 +147,9 @@ class _Drive:
             try:
                 if self.starts > 1:
                     self.car.reset()
-                self.car.initialise(self.values | wild_start(1000 * self.seed + self.starts, self.targets))
+                chance = 1000 * self.seed + self.starts
+                place = {} if self.targets is None else wild_start(chance, self.targets)
+                self.car.initialise(self.values | place)
                 break
             except HostError:
                 if self.starts >= 50:
@@ -181,7 +185,8 @@ class _Drive:
                     _keep(by_iterations, one, lambda w: w.iterations)
                 if refusal or self.lying > LYING or self.steps * self.h >= RUN:
                     self.begin()
-                    self.driver.restart(k * self.h)
+                    if self.driver is not None:
+                        self.driver.restart(k * self.h)
                 elif self.steps % STRETCH == 0:
                     self.stretch = Stretch(self.steps * self.h, self.car.state_bytes())
         finally:
@@ -196,7 +201,8 @@ class _Drive:
         """One step: microseconds, whether it was interrupted, why it was refused."""
         if self.steps == 0:
             self.last = 0.0, 0.0
-        self.held |= self.driver.act(k * self.h, dict(zip(SENSES, self.seen, strict=False)))
+        if self.driver is not None:
+            self.held |= self.driver.act(k * self.h, dict(zip(SENSES, self.seen, strict=False)))
         row = [self.held[name] for name in self.inputs]
         self.stretch.inputs.append(row)
         self.set(row)

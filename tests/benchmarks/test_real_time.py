@@ -29,6 +29,7 @@ def test_the_rows_say_what_steps_cost_and_the_pictures_are_drawn(prototype_fmu, 
     monkeypatch.setattr(real_time, "drive", _without_fidelity)
     assert real_time.main([*chosen, "--json", str(names[0]), "--chart", str(names[1])]) == 0
     rows = json.loads(names[0].read_text(encoding="utf-8"))["rows"]
+    assert {row["drive"] for row in rows} == {real_time.WILD}
     assert [(r["step_ms"], r["steps"], r["quarter_us"]) for r in rows] == [(2.0, 1000, 500.0), (10.0, 200, 2500.0)]
     for row in rows:
         assert row["most_iterations"] == 2
@@ -51,7 +52,7 @@ def test_a_drive_is_the_same_again_and_its_worst_steps_are_repeated(prototype_fm
     targets = write_ground(tmp_path / "wild.road")
     start = {"road.file": str(tmp_path / "wild.road")}
     shares: list[float] = []
-    one, two = (drive(prototype_fmu, start, H, 1.2, 2, targets, shares.append) for _ in range(2))
+    one, two = (drive(prototype_fmu, start, 1.2, targets, H, 2, shares.append) for _ in range(2))
     assert np.array_equal(one.iterations, two.iterations)
     assert one.iterations.min() >= 1
     assert shares[0] == 0.0
@@ -66,7 +67,7 @@ def test_a_drive_is_the_same_again_and_its_worst_steps_are_repeated(prototype_fm
 @pytest.mark.skipif(counter() is None, reason="valgrind, which counts instructions, is not installed; .ci/run does it")
 def test_the_instructions_of_the_worst_steps_are_counted(prototype_fmu, tmp_path):
     targets = write_ground(tmp_path / "wild.road")
-    run = drive(prototype_fmu, {"road.file": str(tmp_path / "wild.road")}, H, 0.4, 2, targets, lambda share: None)
+    run = drive(prototype_fmu, {"road.file": str(tmp_path / "wild.road")}, 0.4, targets, H, 2, lambda share: None)
     replay = Replay(prototype_fmu, tmp_path / "unpacked")
     ends = [f(run.worst, key=lambda worst: worst.iterations) for f in (min, max)]
     assert all(100_000 < replay.instructions(worst, run.kinds, H) < 20_000_000 for worst in ends)
