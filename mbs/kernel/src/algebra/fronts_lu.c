@@ -16,13 +16,13 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
       double *restrict column = block + (int64_t)p * n;
       for (int32_t k = start; k < p; k++) {
         const double *restrict left = block + (int64_t)k * n, factor = column[k];
-        for (int32_t i = k + 1; i < n; i++) column[i] -= factor * left[i];
+        ALI3_EACH(k + 1, n, ALI3_AT(column) -= factor * ALI3_AT(left))
       }
       const ali3_status status = ali3_check_pivot(in, first + p / width, column[p]);
       if (status != ALI3_OK) return status;
       const double inverse = 1.0 / column[p];
       column[p] = inverse;
-      for (int32_t i = p + 1; i < n; i++) column[i] *= inverse;
+      ALI3_EACH(p + 1, n, ALI3_AT(column) *= inverse)
     }
     for (int32_t j = end; j < n; j++) {
       double *restrict column = block + (int64_t)j * n;
@@ -35,11 +35,11 @@ static ali3_status eliminate(ali3_instance *in, double *block, int32_t first, in
         column[start + 1] = u1;
         column[start + 2] = u2;
         column[start + 3] = u3;
-        for (int32_t i = end; i < n; i++) column[i] -= (u0 * a[i] + u1 * b[i]) + (u2 * c[i] + u3 * d[i]);
+        ALI3_EACH(end, n, ALI3_AT(column) -= (u0 * ALI3_AT(a) + u1 * ALI3_AT(b)) + (u2 * ALI3_AT(c) + u3 * ALI3_AT(d)))
       } else {
         for (int32_t p = start; p < end; p++) {
           const double *restrict left = block + (int64_t)p * n, factor = column[p];
-          for (int32_t i = p + 1; i < n; i++) column[i] -= factor * left[i];
+          ALI3_EACH(p + 1, n, ALI3_AT(column) -= factor * ALI3_AT(left))
         }
       }
     }
@@ -53,8 +53,8 @@ void ali3_mirror(const ali3_instance *in, double *F) {
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
     double *block = F + S->front_off[f];
-    for (int32_t j = 0; j < n; j++)
-      for (int32_t i = j + 1; i < n; i++) block[(int64_t)i * n + j] = block[(int64_t)j * n + i];
+    for (int32_t j = 0; j < n; j++) ALI3_SHORT
+    for (int32_t i = j + 1; i < n; i++) block[(int64_t)i * n + j] = block[(int64_t)j * n + i];
   }
 }
 
@@ -102,16 +102,16 @@ static void backward(const double *block, double *restrict x, int32_t n_pivot, i
   for (; j > n_pivot; j -= 2) {
     const double *restrict b = block + (int64_t)j * n, *restrict a = b - n;
     const double first = x[j - 1], second = x[j];
-    for (int32_t i = 0; i < n_pivot; i++) x[i] -= a[i] * first + b[i] * second;
+    ALI3_EACH(0, n_pivot, ALI3_AT(x) -= ALI3_AT(a) * first + ALI3_AT(b) * second)
   }
   if (j == n_pivot) {
     const double *restrict a = block + (int64_t)j * n, first = x[j];
-    for (int32_t i = 0; i < n_pivot; i++) x[i] -= a[i] * first;
+    ALI3_EACH(0, n_pivot, ALI3_AT(x) -= ALI3_AT(a) * first)
   }
   for (int32_t p = n_pivot - 1; p >= 0; p--) {
     const double *restrict column = block + (int64_t)p * n, factor = x[p] * column[p];
     x[p] = factor;
-    for (int32_t i = 0; i < p; i++) x[i] -= factor * column[i];
+    ALI3_EACH(0, p, ALI3_AT(x) -= factor * ALI3_AT(column))
   }
 }
 

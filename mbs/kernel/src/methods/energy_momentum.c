@@ -9,6 +9,7 @@
 
 #include "../algebra/finite.h"
 #include "../algebra/fronts.h"
+#include "../algebra/stretch.h"
 #include "../elements/forces.h"
 #include "../flexible/discrete_inertia.h"
 #include "../flexible/mass.h"
@@ -72,13 +73,10 @@ static void evaluate(ali3_instance *in, double h) {
   const int32_t nq = S->size.nq;
   const double c = 0.5 * h * h, inverse = 1.0 / h;
   ali3_vectors *to = &in->next;
-  for (int32_t i = 0; i < nq; i++) {
-    const double D = in->D[i];
-    to->q[i] = in->now.q[i] + D;
-    in->middle[i] = in->now.q[i] + 0.5 * D;
-    in->rate[i] = inverse * D;
-    in->w[i] = D - h * in->now.own[i];
-  }
+  const double *from = in->now.q, *own = in->now.own, *D = in->D, *Q = in->Q;
+  double *q = to->q, *middle = in->middle, *rate = in->rate, *w = in->w, *r = in->r, *x = in->x;
+  ALI3_EACH(0, nq, ALI3_AT(q) = ALI3_AT(from) + ALI3_AT(D); ALI3_AT(middle) = ALI3_AT(from) + 0.5 * ALI3_AT(D);
+            ALI3_AT(rate) = inverse * ALI3_AT(D); ALI3_AT(w) = ALI3_AT(D) - h * ALI3_AT(own))
   if (S->n_flexible > 0) {
     for (int32_t i = 0; i < nq; i++) in->x[i] = 2.0 * in->rate[i] - in->now.own[i];
     ali3_flexible_momentum(in, to->q, in->x, in->d0);
@@ -102,13 +100,13 @@ static void evaluate(ali3_instance *in, double h) {
   ali3_forces(in, &call);
   in->discrete = false;
   in->force_input = in->input;
-  ali3_constant_mass_times(in, in->w, in->r);
+  ali3_constant_mass_times(in, w, r);
   if (S->n_flexible > 0) {
     for (int32_t i = 0; i < nq; i++) in->w[i] *= inverse;
     ali3_discrete_inertia(in, h, in->hat, in->d0, in->rate, in->w, in->r);
   }
-  ali3_rows_transposed(S, in->A, to->lam, in->x);
-  for (int32_t i = 0; i < nq; i++) in->r[i] += c * (in->x[i] - in->Q[i]);
+  ali3_rows_transposed(S, in->A, to->lam, x);
+  ALI3_EACH(0, nq, ALI3_AT(r) += c * (ALI3_AT(x) - ALI3_AT(Q)))
 }
 
 /* Whether in->J0 is Phi_q of v, bit for bit; remembers v. */
@@ -145,16 +143,18 @@ static ali3_status factorise(ali3_instance *in, double h, double weight) {
 static ali3_status correct(ali3_instance *in, double weight, double alpha, int32_t iteration) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  for (int32_t k = 0; k < nc; k++) in->mu[k] = weight * in->Phi[k];
-  ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
-  for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->x[i]);
-  ali3_solve_lu(in, 1, in->F, in->x);
-  if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
-  ali3_rows_times(S, in->J_tangent, in->x, in->gamma);
-  for (int32_t k = 0; k < nc; k++) in->lam[k] = alpha * (in->Phi[k] + in->gamma[k]);
+  const double *Phi = in->Phi, *r = in->r, *opening = in->gamma;
+  double *mu = in->mu, *x = in->x, *change = in->lam;
+  ALI3_EACH(0, nc, ALI3_AT(mu) = weight * ALI3_AT(Phi))
+  ali3_rows_transposed(S, in->A_tangent, mu, x);
+  ALI3_EACH(0, nq, ALI3_AT(x) = -(ALI3_AT(r) + ALI3_AT(x)))
+  ali3_solve_lu(in, 1, in->F, x);
+  if (!ali3_finite(x, nq)) return ALI3_NOT_FINITE;
+  ali3_rows_times(S, in->J_tangent, x, in->gamma);
+  ALI3_EACH(0, nc, ALI3_AT(change) = alpha * (ALI3_AT(Phi) + ALI3_AT(opening)))
   ali3_accelerate(in, iteration);
-  for (int32_t k = 0; k < nc; k++) in->next.lam[k] += in->lam[k];
-  for (int32_t i = 0; i < nq; i++) in->D[i] += in->x[i];
+  ali3_add(in->next.lam, change, nc);
+  ali3_add(in->D, x, nq);
   return ALI3_OK;
 }
 
@@ -292,10 +292,10 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   in->report.iterations += iterations;
   ali3_iterations_since(in, in->report.iterations - iterations);
   if (status != ALI3_OK) return status;
-  for (int32_t i = 0; i < nq; i++) {
-    to->own[i] = 2.0 / h * in->D[i] - from->own[i];
-    in->d0[i] = 2.0 * (in->D[i] - h * from->own[i]) / (h * h);
-  }
+  const double twice = 2.0 / h, square = h * h, *D = in->D, *before = from->own;
+  double *own = to->own, *d0 = in->d0;
+  ALI3_EACH(0, nq, ALI3_AT(own) = twice * ALI3_AT(D) - ALI3_AT(before);
+            ALI3_AT(d0) = 2.0 * (ALI3_AT(D) - h * ALI3_AT(before)) / square)
   ali3_work_step(in, 1.0);
   ali3_predict_rates(in, h);
   clean(in, weight, to->lam);

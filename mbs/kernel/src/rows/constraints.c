@@ -373,6 +373,7 @@ void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double w
     for (int32_t j = S->row_ptr[k]; j < end; j++) {
       real *column = block + (int64_t)S->row_loc[j] * n;
       const real factor = weight * J[j];
+      ALI3_SHORT
       for (int32_t i = S->row_ptr[k]; i < end; i++) column[S->row_loc[i]] += factor * A[i];
     }
   }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../algebra/elementary.h"
+#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "discrete_rows.h"
 #include "switch_rows.h"
@@ -53,7 +54,9 @@ static void correct_angle(const ali3_instance *in, const double *D, const double
 void ali3_discrete_rows(ali3_instance *in, const double *D, const double *q1, const ali3_vectors *from,
                         const ali3_vectors *to) {
   const ali3_system *S = in->system;
-  for (int32_t i = 0; i < S->size.nnz_rows; i++) in->A[i] = 0.5 * (in->J0[i] + in->J[i]);
+  const double *at_start = in->J0, *at_end = in->J;
+  double *A = in->A;
+  ALI3_EACH(0, S->size.nnz_rows, ALI3_AT(A) = 0.5 * (ALI3_AT(at_start) + ALI3_AT(at_end)))
   correct_guided(in, D, from->s, to->s);
   for (int64_t i = 0; i < S->n_angle_row; i++) correct_angle(in, D, q1, i);
 }
