@@ -2,8 +2,8 @@
  *
  * Left: a loop is in none of its modes, as after a dead centre that it was not meant to reach.
  * Jump: where all arms of a ring lie nearly in line branches cross, or nearly. A step there in which a triad changes
- * its sign is repeated in 4 and in 8 parts: where these agree with each other and not with it, the step has jumped.
- * On the smooth branch all three agree. The state and what the step left behind are those of the whole step. */
+ * its sign is repeated in 4 parts and, where these do not change it, in 8: where these agree with each other and not with
+ * it, the step has jumped. On the smooth branch all three agree. The state and what the step left behind are those of the whole step. */
 #include <math.h>
 #include <string.h>
 
@@ -98,17 +98,24 @@ static bool crossed(const ali3_instance *in, int32_t k, int32_t first, int32_t e
          in_line(in, in->sine_after, k, first, end);
 }
 
+/* Whether parts of the step, with these sines at their end, keep the sign of triad k that the whole changed. */
+static bool keeps(const ali3_instance *in, const double *sine, int32_t k, int32_t first, int32_t end) {
+  return crossed(in, k, first, end) && root(sine[k]) * root(in->sine_after[k]) < 0.0;
+}
+
 /* The first triad, counted in its loop, whose sign the step changed otherwise than its parts do, or -1. */
 static int32_t jumped(ali3_instance *in, double t, double h, int32_t first, int32_t end) {
   const size_t all = (size_t)ali3_triad_count(in->system) * sizeof(double);
   if (!in_parts(in, t, h, FEW)) return -1;
   memcpy(in->sine_few, in->mode_sine, all);
-  if (!in_parts(in, t, h, MANY)) return -1;
-  for (int32_t k = first; k < end; k++) {
+  int32_t k = first;
+  while (k < end && !keeps(in, in->sine_few, k, first, end)) k++;
+  if (k == end || !in_parts(in, t, h, MANY)) return -1;
+  for (; k < end; k++) {
     const double before = root(in->sine_before[k]), after = root(in->sine_after[k]), few = root(in->sine_few[k]),
                  many = root(in->mode_sine[k]), apart = fabs(many - after);
-    if (crossed(in, k, first, end) && many * after < 0.0 && few * after < 0.0 && apart > APART * fabs(after - before) &&
-        fabs(many - few) < APART * apart)
+    if (keeps(in, in->sine_few, k, first, end) && keeps(in, in->mode_sine, k, first, end) &&
+        apart > APART * fabs(after - before) && fabs(many - few) < APART * apart)
       return k - first;
   }
   return -1;
