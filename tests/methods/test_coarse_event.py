@@ -50,4 +50,4 @@ def test_a_landing_is_told_by_what_its_steps_miss(mass: float, h: float, told: b
         assert run.report.coarse_event == 0.0
         return
     assert run.report.coarse_event == pytest.approx(share, rel=1e-6)
-    assert run.report.coarse_time == pytest.approx(when, abs=1e-9)
+    assert run.report.coarse_time == pytest.approx(when, abs=0.5 * h)  # the span is counted in whole steps
