@@ -70,8 +70,8 @@ def _apart(comparison: Comparison) -> str:
     if not beyond:
         return ""
     name = max(beyond, key=lambda n: beyond[n])
-    which = f"Signals differ in it: of {len(beyond)} that lie beyond their intervals the farthest"
-    return f" {which}, '{name}', is {1e3 * comparison.signals[name].alignment.delay:.3g} ms late."
+    alone = 1e3 * comparison.signals[name].alignment.delay
+    return f" {len(beyond)} of {len(comparison.signals)} signals have another delay, '{name}' farthest, {alone:.3g} ms."
 
 
 def unit_shown(unit: str) -> str:

@@ -159,7 +159,9 @@ def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
     except ValidationError as error:
         from ali3.typed_sentences import Sentences
 
-        raise HostError(f"{file}: {Sentences(StudyFile, record, names=NAME_WORDS, place=_place).of(error)[0]}") from None
+        raise HostError(
+            f"{file}: {Sentences(StudyFile, record, names=NAME_WORDS, place=_place).of(error)[0]}"
+        ) from None
 
 
 def _place(path: Sequence[str]) -> str:
