@@ -145,7 +145,8 @@ def doubt(report: Report, steps: int, halvings: int, method: str) -> str:
     # what a vehicle has at constant speed is no motion that steps could miss
     speed = min(report.speed_peak, report.velocity_path) or math.inf
     miss = report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
-    smooth = miss <= METHOD_TABLE[method].smooth_miss and drift(report) <= SMOOTH_DRIFT and halvings == 0
+    whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
+    smooth = miss <= METHOD_TABLE[method].smooth_miss and drift(report) <= SMOOTH_DRIFT and whole
     return "" if smooth else SCREEN
 
 
